@@ -1,0 +1,58 @@
+//! What a caller holds over a running solve: cancellation and progress. No clock, no terminal.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A flag that any thread may raise; solvers look at it in their inner loops.
+#[derive(Clone, Debug, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// A flag that is down.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Raises the flag.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the flag is up.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// A solve's progress after one round of its outer iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Which grid is being solved, from 0.
+    pub level: usize,
+    /// How many grids there are.
+    pub levels: usize,
+    /// Round (or cycle) on this grid.
+    pub iteration: usize,
+    /// Change in this round, relative.
+    pub residual: f64,
+    /// What the change has to fall below.
+    pub tolerance: f64,
+    /// Film load on this grid so far \[N\].
+    pub film_load: f64,
+}
+
+/// Listens to a solve. The unit type listens to nothing.
+pub trait Observer {
+    /// Called after each round.
+    fn progress(&mut self, progress: &Progress);
+}
+
+impl Observer for () {
+    fn progress(&mut self, _: &Progress) {}
+}
+
+impl<F: FnMut(&Progress)> Observer for F {
+    fn progress(&mut self, progress: &Progress) {
+        self(progress);
+    }
+}

@@ -1,0 +1,6 @@
+//! Squeezed air films in ultrasonic motors.
+pub mod control;
+pub mod problem;
+pub mod recording;
+pub mod rotor;
+pub mod solution;

@@ -1,0 +1,3 @@
+//! The `squeezefilm` program: arguments to command.
+
+fn main() {}

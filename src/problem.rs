@@ -1,0 +1,180 @@
+//! The checked, SI form of a scene: the only thing a solver accepts.
+//!
+//! A [`crate::scene::Scene`] is what a person edits, in the units of the field; a [`Problem`] is what it means.
+//! Every number in here is finite and inside its documented range, so no solver re-checks it.
+//! Symbols follow `docs/theory.md`.
+
+/// How gas slips at the walls: the factor Q by which the Poiseuille flow exceeds the continuum one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slip {
+    /// Q = 1: no slip.
+    None,
+    /// Q = 1 + 6 Kn (Burgdorfer 1959), the paper's.
+    FirstOrder,
+    /// Q = 1 + 6 Kn + 6 Kn² (Hsia and Domoto 1983).
+    SecondOrder,
+    /// The flow-rate fit to the linearised Boltzmann equation by Fukui and Kaneko (1988, 1990).
+    FukuiKaneko,
+}
+
+/// The gas between the faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gas {
+    /// Ambient pressure p_a \[Pa\].
+    pub ambient_pressure: f64,
+    /// Dynamic viscosity μ \[Pa s\].
+    pub viscosity: f64,
+    /// Mean free path λ_a at the ambient pressure \[m\].
+    pub mean_free_path: f64,
+    /// Slip law.
+    pub slip: Slip,
+}
+
+/// The rotor's normal compliance, harmonic by harmonic: displacement amplitude = C(k) × line-load amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RotorCompliance {
+    /// A beam on an elastic foundation in series with a local (Winkler) compliance,
+    /// C(k) = 1/(EI k⁴ + K) + c with K = 1/(2 ℓ C_p), EI = K ℓ⁴/4.
+    Beam {
+        /// Decay length ℓ \[m\].
+        decay_length: f64,
+        /// Point compliance C_p of the infinite beam \[m/N\].
+        point_compliance: f64,
+        /// Local compliance c \[m²/N\].
+        local_compliance: f64,
+    },
+    /// Measured or computed elsewhere: `(wavenumber [rad/m], compliance [m²/N])`, wavenumbers ascending, at least
+    /// one row, compliances positive. Linear between rows in (ln k, ln C); constant beyond either end.
+    Table(Vec<(f64, f64)>),
+}
+
+/// A ring-type travelling-wave motor; every quantity is for one wavelength unless said otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motor {
+    /// Contact radius r \[m\].
+    pub contact_radius: f64,
+    /// Wavelengths round the ring.
+    pub waves: u32,
+    /// Axial load L on one wavelength \[N\].
+    pub load: f64,
+    /// Dry friction coefficient μ_d.
+    pub dry_friction: f64,
+    /// Surface speed of the rotor V_R at the contact radius, towards +x \[m/s\].
+    pub rotor_speed: f64,
+    /// Frequency f \[Hz\].
+    pub frequency: f64,
+    /// Normal amplitude of the stator A_S \[m\].
+    pub normal_amplitude: f64,
+    /// Tangential amplitude of the stator B_S \[m\].
+    pub tangential_amplitude: f64,
+    /// Teeth in one wavelength n_t.
+    pub teeth: usize,
+    /// Tooth width b along x \[m\], at most the pitch.
+    pub tooth_width: f64,
+    /// Radius of a crowned tooth top \[m\]; `None` is flat.
+    pub tooth_radius: Option<f64>,
+    /// Radial contact width w \[m\].
+    pub contact_width: f64,
+    /// The rotor's compliance.
+    pub rotor: RotorCompliance,
+    /// Minimum spacing H_m left by roughness \[m\]; the film thickness is gap + H_m.
+    pub min_spacing: f64,
+    /// The gas.
+    pub gas: Gas,
+    /// Whether the scene asks for the wedge (sliding) term.
+    pub shear: bool,
+}
+
+impl Motor {
+    /// Wavelength λ = 2πr/waves \[m\].
+    pub fn wavelength(&self) -> f64 {
+        std::f64::consts::TAU * self.contact_radius / f64::from(self.waves)
+    }
+
+    /// Tooth pitch λ/n_t \[m\].
+    pub fn pitch(&self) -> f64 {
+        self.wavelength() / self.teeth as f64
+    }
+
+    /// Period of the vibration T = 1/f \[s\].
+    pub fn period(&self) -> f64 {
+        1.0 / self.frequency
+    }
+
+    /// Normal displacement of the stator W_S \[m\] at `x` \[m\] along the wave, on a tooth whose middle is `xi` \[m\]
+    /// away, at phase `t_over_period` of the cycle: A_S cos 2π(t/T + x/λ) − ξ²/(2R).
+    pub fn stator_displacement(&self, x: f64, xi: f64, t_over_period: f64) -> f64 {
+        let wave = self.normal_amplitude * (std::f64::consts::TAU * (t_over_period + x / self.wavelength())).cos();
+        wave - self.tooth_radius.map_or(0.0, |r| xi * xi / (2.0 * r))
+    }
+
+    /// Sliding speed U = V_R − V_St of the rotor seen from the tooth \[m/s\] (model.md §3), at `x` \[m\] and phase
+    /// `t_over_period`; V_St = 2πf B_S cos 2π(t/T + x/λ).
+    pub fn sliding_speed(&self, x: f64, t_over_period: f64) -> f64 {
+        let tau = std::f64::consts::TAU;
+        self.rotor_speed
+            - tau * self.frequency * self.tangential_amplitude * (tau * (t_over_period + x / self.wavelength())).cos()
+    }
+}
+
+/// A flat plate vibrating rigidly above a flat wall: the gap is h = mean_gap + amplitude·cos ωt everywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plate {
+    /// Length along x \[m\].
+    pub length: f64,
+    /// Width along y \[m\]; `None` is an infinitely wide strip, whose forces are per metre of width.
+    pub width: Option<f64>,
+    /// Mean gap \[m\].
+    pub mean_gap: f64,
+    /// Amplitude \[m\], smaller than the mean gap.
+    pub amplitude: f64,
+    /// Frequency f \[Hz\].
+    pub frequency: f64,
+    /// The gas.
+    pub gas: Gas,
+}
+
+impl Plate {
+    /// Area \[m²\] of the plate; of a strip, its length \[m\] (area per metre of width).
+    pub fn area(&self) -> f64 {
+        self.length * self.width.unwrap_or(1.0)
+    }
+
+    /// Film thickness h \[m\] at phase `t_over_period` of the cycle.
+    pub fn gap(&self, t_over_period: f64) -> f64 {
+        self.mean_gap + self.amplitude * (std::f64::consts::TAU * t_over_period).cos()
+    }
+}
+
+/// Explicit numerics of a preset's optional `[numerics]` table; each `None` is left to the fidelity or the method.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Numerics {
+    /// Film nodes along a tooth (or plate), both ends counted.
+    pub film_nodes_along: Option<usize>,
+    /// Film nodes across the full width, both ends counted.
+    pub film_nodes_across: Option<usize>,
+    /// Nodes of one wavelength for the contact problem of `--method paper`, both ends counted (181 means λ/180).
+    pub contact_nodes: Option<usize>,
+    /// Time steps in a cycle.
+    pub steps_per_cycle: Option<usize>,
+}
+
+/// What is to be solved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Scenario {
+    /// The travelling-wave motor.
+    Motor(Motor),
+    /// The vibrating plate.
+    Plate(Plate),
+}
+
+/// A scene, checked and in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// The preset's name, carried into every result.
+    pub name: String,
+    /// What is to be solved.
+    pub scenario: Scenario,
+    /// Explicit numerics, if the preset gives any.
+    pub numerics: Numerics,
+}

@@ -1,0 +1,131 @@
+//! What a solve returns: plain data, in SI units, that the command line, the window and the exports read.
+
+use crate::recording::Recording;
+
+/// How a solve ended. None of these is an error: what was reached is always reported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Status {
+    /// The cycle repeats to the tolerance.
+    Converged,
+    /// The iteration limit was reached first.
+    NotConverged {
+        /// The change of the last iteration, relative.
+        residual: f64,
+        /// What it had to fall below.
+        tolerance: f64,
+    },
+    /// The caller cancelled.
+    Cancelled,
+}
+
+/// Results of a motor scene: cycle means for one wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorResult {
+    /// α: the film's share of the load.
+    pub alpha: f64,
+    /// Estimated numerical error of `alpha`, absolute.
+    pub alpha_error: f64,
+    /// Cycle mean of the film's net gauge force \[N\].
+    pub film_load: f64,
+    /// Least film force in the cycle \[N\].
+    pub film_load_min: f64,
+    /// Greatest film force in the cycle \[N\].
+    pub film_load_max: f64,
+    /// Cycle mean of the contact force \[N\].
+    pub contact_load: f64,
+    /// Greatest torque of the whole ring, μ_d (1−α) waves L r \[N m\].
+    pub max_torque: f64,
+    /// Cycle mean of the number of teeth that touch the rotor.
+    pub teeth_in_contact: f64,
+    /// No tooth touches at any instant: the rotor floats.
+    pub levitated: bool,
+    /// Least film thickness \[m\], H_m included.
+    pub min_gap: f64,
+    /// Greatest absolute pressure \[Pa\].
+    pub max_pressure: f64,
+}
+
+/// Results of a plate scene. Forces of a strip are per metre of width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlateResult {
+    /// Cycle mean of the net gauge force \[N or N/m\].
+    pub film_load: f64,
+    /// Estimated numerical error of `film_load`, absolute.
+    pub film_load_error: f64,
+    /// Least gauge force in the cycle.
+    pub film_load_min: f64,
+    /// Greatest gauge force in the cycle.
+    pub film_load_max: f64,
+    /// Least film thickness \[m\].
+    pub min_gap: f64,
+    /// Greatest absolute pressure \[Pa\].
+    pub max_pressure: f64,
+}
+
+/// The result of either scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// Of a motor.
+    Motor(MotorResult),
+    /// Of a plate.
+    Plate(PlateResult),
+}
+
+/// What the solve cost, counted; no clock in here.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// Time steps of one tooth's film.
+    pub film_steps: u64,
+    /// Linear solves of those steps (Newton iterations, or factored sweeps).
+    pub film_solves: u64,
+    /// Steps in which positivity needed a locally first-order step.
+    pub limited_steps: u64,
+    /// Cycles of the vibration marched.
+    pub cycles: u64,
+    /// Rounds of the film–contact coupling.
+    pub coupling_iterations: u64,
+    /// Contact problems solved.
+    pub contact_solves: u64,
+    /// Newton iterations (or active-set changes) in them.
+    pub contact_iterations: u64,
+    /// Film nodes of one tooth as stored.
+    pub film_nodes: usize,
+    /// Contact nodes in one wavelength.
+    pub contact_nodes: usize,
+    /// Time steps in a cycle.
+    pub steps_per_cycle: usize,
+}
+
+/// What was modelled, in words for the user.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Model {
+    /// `draft`, `standard`, … or `paper mesh`.
+    pub fidelity: String,
+    /// `auto` or `paper`.
+    pub method: String,
+    /// Teeth whose film was solved.
+    pub teeth_solved: usize,
+    /// Whether the mirror symmetry across the width was used.
+    pub half_width: bool,
+    /// Whether the wedge term was solved.
+    pub shear: bool,
+    /// A sentence for each decision.
+    pub why: Vec<String>,
+}
+
+/// Everything a solve returns.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// How it ended.
+    pub status: Status,
+    /// The numbers.
+    pub outcome: Outcome,
+    /// What it cost.
+    pub stats: Stats,
+    /// What was modelled.
+    pub model: Model,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Fields of one cycle.
+    pub recording: Recording,
+}
