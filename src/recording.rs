@@ -64,6 +64,30 @@ impl Recording {
         (tooth * self.frames + frame) * self.x.len()
     }
 
+    /// Fills the series of each frame from the lines. `greatest`: greatest pressure \[Pa\] of each stored line.
+    pub fn fill_series(&mut self, greatest: &[f64]) {
+        let nodes = self.x.len();
+        for frame in 0..self.frames {
+            let (mut film, mut contact, mut touching) = (0.0, 0.0, 0);
+            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+            for tooth in 0..self.teeth {
+                let line = self.line_offset(tooth, frame);
+                for (i, length) in self.node_length.iter().enumerate() {
+                    film += self.film[line + i] * length;
+                    contact += self.contact[line + i] * length;
+                    least = least.min(self.film_thickness[line + i]);
+                }
+                touching += usize::from(self.contact[line..line + nodes].iter().any(|c| *c > 0.0));
+                most = most.max(greatest[line / nodes]);
+            }
+            self.film_load.push(film);
+            self.contact_load.push(contact);
+            self.teeth_in_contact.push(touching);
+            self.min_film_thickness.push(least);
+            self.max_pressure.push(most);
+        }
+    }
+
     /// Time of a frame \[s\].
     pub fn time(&self, frame: usize) -> f64 {
         self.period * frame as f64 / self.frames as f64

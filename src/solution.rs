@@ -19,7 +19,7 @@ pub enum Status {
 }
 
 /// Results of a motor scene: cycle means for one wavelength.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotorResult {
     /// α: the film's share of the load.
     pub alpha: f64,
@@ -46,7 +46,7 @@ pub struct MotorResult {
 }
 
 /// Results of a plate scene. Forces of a strip are per metre of width.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlateResult {
     /// Cycle mean of the net gauge force \[N or N/m\].
     pub film_load: f64,

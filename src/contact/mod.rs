@@ -1,0 +1,315 @@
+//! Unilateral contact between the teeth and the elastic rotor at one instant, with the film's trapped gas in between.
+//!
+//! Unknown at every node: gap g_i ≥ 0 and contact line load c_i ≥ 0 with c_i g_i = 0, and the rigid offset z₀ from the
+//! load balance Σ Δx_i q_i = L. The line load is q = c + film, the film's is that of a fixed amount of trapped gas ζ
+//! (Z integrated across the width), p_a (ζ/h − w), h = g + H_m: it stiffens as the gap closes, so that the load
+//! balance always has a solution.
+//!
+//! The rotor's compliance is split into a local part C_∞, the compliance of the last harmonic N kept, and a smooth part
+//! C(k_n) − C_∞ for n < N. The local part couples a node with itself only, so that everything at a node follows from
+//! s = z₀ + smooth deflection − W_S:
+//!
+//! ```text
+//! g = s + C_∞ q,   c ≥ 0, g ≥ 0, c g = 0   ⟹   q = φ(s), decreasing, piecewise smooth, in closed form
+//! ```
+//!
+//! What is left are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function. Newton's method (semi-smooth,
+//! since φ has a corner where contact begins) with a line search on the slope converges from anywhere; once no node
+//! changes sides the remaining error is round-off. Complementarity holds exactly by construction.
+
+mod modes;
+
+pub use modes::{Modes, cutoff};
+
+use crate::numerics::dot;
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+/// What does not change from one instant to the next.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    modes: Modes,
+    /// Δx_i \[m\].
+    lengths: Vec<f64>,
+    /// p_a × width on which the film acts at the node \[N/m\]; 0 on a tooth's edges, where the film is at p_a.
+    ambient: Vec<f64>,
+    ambient_pressure: f64,
+    min_spacing: f64,
+    load: f64,
+    // Workspace, one value a node:
+    s: Vec<f64>,
+    force: Vec<f64>,
+    stiffness: Vec<f64>,
+}
+
+/// The unknowns of one instant, kept as the start of the next solve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// z₀ \[m\], then the scaled cosine and sine amplitudes; empty before the first solve.
+    amplitudes: Vec<f64>,
+}
+
+impl Shape {
+    /// Nothing known yet.
+    pub fn unknown() -> Self {
+        Self { amplitudes: Vec::new() }
+    }
+
+    /// The same shape with another number of modes.
+    pub fn resized(&self, modes: &Modes) -> Self {
+        if self.amplitudes.is_empty() {
+            return Self::unknown();
+        }
+        modes.resize(&self.amplitudes)
+    }
+}
+
+/// Fields of one instant at the nodes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Instant {
+    /// Film thickness h = g + H_m \[m\].
+    pub film_thickness: Vec<f64>,
+    /// Contact line load c \[N/m\].
+    pub contact: Vec<f64>,
+}
+
+/// Why a contact problem failed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// Newton's iteration did not settle.
+    #[error(
+        "the contact problem did not converge: after {iterations} iterations the balance is off by {imbalance:.1e} of the load"
+    )]
+    Newton {
+        /// Iterations made.
+        iterations: u32,
+        /// Largest imbalance, relative to the load.
+        imbalance: f64,
+    },
+}
+
+const ITERATION_LIMIT: u32 = 200;
+/// Imbalance, relative to the sum of all forces, that counts as round-off.
+const ROUND_OFF: f64 = 2e-14;
+
+impl Contact {
+    /// Nodes at `lengths` \[m\], film acting on `film_widths` \[m\] at each, on a rotor with `modes`.
+    pub fn new(
+        modes: Modes,
+        lengths: Vec<f64>,
+        film_widths: &[f64],
+        ambient_pressure: f64,
+        min_spacing: f64,
+        load: f64,
+    ) -> Self {
+        let nodes = lengths.len();
+        Self {
+            modes,
+            ambient: film_widths.iter().map(|w| ambient_pressure * w).collect(),
+            lengths,
+            ambient_pressure,
+            min_spacing,
+            load,
+            s: vec![0.0; nodes],
+            force: vec![0.0; nodes],
+            stiffness: vec![0.0; nodes],
+        }
+    }
+
+    /// Nodes in all.
+    pub fn nodes(&self) -> usize {
+        self.lengths.len()
+    }
+
+    /// The rotor's modes.
+    pub fn modes(&self) -> &Modes {
+        &self.modes
+    }
+
+    /// Solves one instant: `stator` is W_S \[m\] and `trapped` is ζ \[m²\] at the nodes. Returns the Newton iterations.
+    ///
+    /// # Errors
+    /// [`ContactError`] if Newton's iteration does not settle.
+    pub fn solve(
+        &mut self,
+        stator: &[f64],
+        trapped: &[f64],
+        shape: &mut Shape,
+        out: &mut Instant,
+    ) -> Result<u32, ContactError> {
+        let unknowns = self.modes.unknowns();
+        if shape.amplitudes.len() != unknowns {
+            shape.amplitudes = vec![0.0; unknowns];
+            shape.amplitudes[0] = self.rigid_offset(stator, trapped);
+        }
+        let mut amplitudes = std::mem::take(&mut shape.amplitudes);
+        let mut gradient = vec![0.0; unknowns];
+        let mut trial = vec![0.0; unknowns];
+        let mut total = self.gradient(stator, trapped, &amplitudes, &mut gradient);
+        let mut iterations = 0;
+        let mut best = f64::INFINITY;
+        let mut stalled = 0;
+        let result = loop {
+            let imbalance = self.modes.imbalance(&gradient) / total;
+            if imbalance < ROUND_OFF {
+                break Ok(iterations);
+            }
+            // At round-off Newton stops improving: a few orders above it, that is the answer too.
+            stalled = if imbalance < 0.5 * best { 0 } else { stalled + 1 };
+            best = best.min(imbalance);
+            if stalled >= 3 && imbalance < 1e3 * ROUND_OFF {
+                break Ok(iterations);
+            }
+            if iterations == ITERATION_LIMIT {
+                break Err(ContactError::Newton { iterations, imbalance });
+            }
+            iterations += 1;
+            let Some(step) = self.newton_step(&gradient) else {
+                // No node pushes back: only the rigid offset can restore contact.
+                amplitudes[0] = self.rigid_offset_with(stator, trapped, &amplitudes);
+                total = self.gradient(stator, trapped, &amplitudes, &mut gradient);
+                continue;
+            };
+            // Line search: along the step the slope rises from slope0 < 0; stop where it is not far above zero.
+            let slope0 = dot(&gradient, step.as_slice());
+            let (mut low, mut high, mut fraction) = (0.0, f64::INFINITY, 1.0);
+            for _ in 0..40 {
+                for ((t, a), s) in trial.iter_mut().zip(&amplitudes).zip(step.iter()) {
+                    *t = a + fraction * s;
+                }
+                total = self.gradient(stator, trapped, &trial, &mut gradient);
+                let slope = dot(&gradient, step.as_slice());
+                if slope.abs() <= 0.9 * slope0.abs() || self.modes.imbalance(&gradient) <= 1e3 * ROUND_OFF * total {
+                    break;
+                }
+                if slope > 0.0 {
+                    high = fraction;
+                } else {
+                    low = fraction;
+                }
+                fraction = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * fraction };
+            }
+            std::mem::swap(&mut amplitudes, &mut trial);
+        };
+        self.fields(trapped, out);
+        shape.amplitudes = amplitudes;
+        result
+    }
+
+    /// Line load, its stiffness −dq/ds and whether the node is in contact, at a node with s \[m\] and trapped gas p_aζ.
+    #[inline]
+    fn node(&self, s: f64, gas: f64, ambient: f64) -> (f64, f64, bool) {
+        let local = self.modes.local_compliance();
+        let closed = self.min_spacing;
+        let film_closed = gas / closed - ambient;
+        if s + local * film_closed < 0.0 {
+            return (-s / local, 1.0 / local, true);
+        }
+        let h = free_height(s + closed - local * ambient, local * gas);
+        let spring = gas / (h * h);
+        (gas / h - ambient, spring / (1.0 + local * spring), false)
+    }
+
+    /// Gradient of the energy (balance of every mode and of the load) at `amplitudes`; leaves s, force and stiffness of
+    /// the nodes behind. Returns the sum of all forces' magnitudes, the scale of round-off.
+    fn gradient(&mut self, stator: &[f64], trapped: &[f64], amplitudes: &[f64], gradient: &mut [f64]) -> f64 {
+        self.modes.deflection(amplitudes, &mut self.s);
+        let mut total = self.load;
+        for i in 0..self.s.len() {
+            self.s[i] -= stator[i];
+            let (q, stiffness, _) = self.node(self.s[i], self.ambient_pressure * trapped[i], self.ambient[i]);
+            self.force[i] = q * self.lengths[i];
+            self.stiffness[i] = stiffness * self.lengths[i];
+            total += self.force[i].abs();
+        }
+        self.modes.project(&self.force, gradient);
+        gradient[0] = self.load - gradient[0];
+        for (g, a) in gradient.iter_mut().zip(amplitudes).skip(1) {
+            *g = a - *g;
+        }
+        total
+    }
+
+    fn newton_step(&self, gradient: &[f64]) -> Option<DVector<f64>> {
+        let mut hessian: DMatrix<f64> = self.modes.stiffness(&self.stiffness);
+        for k in 1..hessian.nrows() {
+            hessian[(k, k)] += 1.0;
+        }
+        if hessian[(0, 0)] <= 0.0 {
+            return None;
+        }
+        let factors = Cholesky::new(hessian)?;
+        let mut step = DVector::from_column_slice(gradient);
+        factors.solve_mut(&mut step);
+        step.neg_mut();
+        step.iter().all(|v| v.is_finite()).then_some(step)
+    }
+
+    /// z₀ of a rotor that is rigid but for its local compliance.
+    fn rigid_offset(&mut self, stator: &[f64], trapped: &[f64]) -> f64 {
+        let flat = vec![0.0; self.modes.unknowns()];
+        self.rigid_offset_with(stator, trapped, &flat)
+    }
+
+    /// z₀ that balances the load with the other amplitudes as they are, by bisection: the total force falls with z₀.
+    fn rigid_offset_with(&mut self, stator: &[f64], trapped: &[f64], amplitudes: &[f64]) -> f64 {
+        let mut shape = amplitudes.to_vec();
+        shape[0] = 0.0;
+        self.modes.deflection(&shape, &mut self.s);
+        let base: Vec<f64> = self.s.iter().zip(stator).map(|(u, w)| u - w).collect();
+        let force = |z0: f64| -> f64 {
+            (0..base.len())
+                .map(|i| {
+                    self.lengths[i] * self.node(base[i] + z0, self.ambient_pressure * trapped[i], self.ambient[i]).0
+                })
+                .sum()
+        };
+        // Where the rotor would just touch, and a step to either side that is doubled until it brackets.
+        let touch = base.iter().fold(f64::NEG_INFINITY, |top, b| top.max(-b));
+        let mut reach = self.min_spacing;
+        let mut low = touch - reach;
+        while force(low) < self.load && reach < 1e3 {
+            reach *= 2.0;
+            low = touch - reach;
+        }
+        reach = self.min_spacing;
+        let mut high = touch + reach;
+        while force(high) > self.load && reach < 1e3 {
+            reach *= 2.0;
+            high = touch + reach;
+        }
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if middle == low || middle == high {
+                break;
+            }
+            if force(middle) > self.load { low = middle } else { high = middle }
+        }
+        low
+    }
+
+    fn fields(&self, trapped: &[f64], out: &mut Instant) {
+        let nodes = self.nodes();
+        out.film_thickness.resize(nodes, 0.0);
+        out.contact.resize(nodes, 0.0);
+        let local = self.modes.local_compliance();
+        for i in 0..nodes {
+            let (gas, ambient) = (self.ambient_pressure * trapped[i], self.ambient[i]);
+            let (q, _, touching) = self.node(self.s[i], gas, ambient);
+            if touching {
+                out.film_thickness[i] = self.min_spacing;
+                out.contact[i] = q - (gas / self.min_spacing - ambient);
+            } else {
+                let h = free_height(self.s[i] + self.min_spacing - local * ambient, local * gas);
+                out.film_thickness[i] = h.max(self.min_spacing);
+                out.contact[i] = 0.0;
+            }
+        }
+    }
+}
+
+/// Positive root h of h² − b h − g = 0, g ≥ 0, without cancellation.
+#[inline]
+fn free_height(b: f64, g: f64) -> f64 {
+    let root = (b * b + 4.0 * g).sqrt();
+    if b >= 0.0 { 0.5 * (b + root) } else { 2.0 * g / (root - b) }
+}

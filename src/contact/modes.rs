@@ -1,0 +1,135 @@
+//! The smooth part of the rotor's deflection as a few harmonics of the wavelength.
+//!
+//! Amplitudes are scaled by √(2(C_n − C_∞)/λ), so that every mode's own stiffness is 1 and the matrices are well
+//! conditioned. Order of unknowns: z₀, cos₁ … cos_{N−1}, sin₁ … sin_{N−1}.
+
+use super::Shape;
+use crate::numerics::dot;
+use crate::problem::RotorCompliance;
+use nalgebra::DMatrix;
+
+/// Cosines and sines of the harmonics at the contact nodes, and the compliance of each.
+#[derive(Clone, Debug)]
+pub struct Modes {
+    nodes: usize,
+    /// Harmonics with a smooth part, N − 1.
+    count: usize,
+    local: f64,
+    /// √(2(C_n − C_∞)/λ) for n = 1 … N−1.
+    scale: Vec<f64>,
+    /// cos(k_n x_i), `[n][i]`, n = 0 … 2(N−1).
+    cosines: Vec<f64>,
+    /// sin(k_n x_i), `[n][i]`.
+    sines: Vec<f64>,
+}
+
+/// How many harmonics N a rotor needs: the first whose smooth part is below `fraction` of the local compliance it would
+/// leave behind, at least 4 and at most `most`.
+///
+/// Harmonics from N on are given the compliance C(k_N): too soft by at most `fraction`, or, at the limit `most`, by
+/// what the error estimate of the finer grid shows.
+pub fn cutoff(rotor: &RotorCompliance, wavelength: f64, fraction: f64, most: usize) -> usize {
+    let k = |n: usize| std::f64::consts::TAU * n as f64 / wavelength;
+    let last = rotor.at(1e3 * k(most));
+    (4..most).find(|&n| rotor.at(k(n)) - last <= fraction * last).unwrap_or(most)
+}
+
+impl Modes {
+    /// `harmonics` = N at nodes `x` \[m\] on a `wavelength` \[m\].
+    pub fn new(rotor: &RotorCompliance, wavelength: f64, harmonics: usize, x: &[f64]) -> Self {
+        let k = |n: usize| std::f64::consts::TAU * n as f64 / wavelength;
+        let local = rotor.at(k(harmonics));
+        let count = harmonics - 1;
+        let scale = (1..=count).map(|n| (2.0 * (rotor.at(k(n)) - local).max(0.0) / wavelength).sqrt()).collect();
+        let (mut cosines, mut sines) = (Vec::new(), Vec::new());
+        for n in 0..=2 * count {
+            for &x in x {
+                let (sin, cos) = (k(n) * x).sin_cos();
+                cosines.push(cos);
+                sines.push(sin);
+            }
+        }
+        Self { nodes: x.len(), count, local, scale, cosines, sines }
+    }
+
+    /// C_∞ \[m²/N\].
+    pub fn local_compliance(&self) -> f64 {
+        self.local
+    }
+
+    /// Unknowns: z₀ and two for each harmonic.
+    pub fn unknowns(&self) -> usize {
+        1 + 2 * self.count
+    }
+
+    /// Amplitudes of another set of modes, in physical size, cut or padded to this one.
+    pub(super) fn resize(&self, other: &[f64]) -> Shape {
+        let old = (other.len() - 1) / 2;
+        let mut amplitudes = vec![0.0; self.unknowns()];
+        amplitudes[0] = other[0];
+        for n in 0..old.min(self.count) {
+            amplitudes[1 + n] = other[1 + n];
+            amplitudes[1 + self.count + n] = other[1 + old + n];
+        }
+        Shape { amplitudes }
+    }
+
+    fn cosine(&self, n: usize) -> &[f64] {
+        &self.cosines[n * self.nodes..(n + 1) * self.nodes]
+    }
+
+    fn sine(&self, n: usize) -> &[f64] {
+        &self.sines[n * self.nodes..(n + 1) * self.nodes]
+    }
+
+    /// z₀ + smooth deflection \[m\] at the nodes.
+    pub fn deflection(&self, amplitudes: &[f64], out: &mut [f64]) {
+        out.fill(amplitudes[0]);
+        for n in 1..=self.count {
+            let (a, b) = (amplitudes[n] * self.scale[n - 1], amplitudes[self.count + n] * self.scale[n - 1]);
+            for ((u, c), s) in out.iter_mut().zip(self.cosine(n)).zip(self.sine(n)) {
+                *u += a * c + b * s;
+            }
+        }
+    }
+
+    /// The total of nodal forces \[N\], then their projection on each scaled mode.
+    pub fn project(&self, force: &[f64], out: &mut [f64]) {
+        out[0] = force.iter().sum();
+        for n in 1..=self.count {
+            out[n] = self.scale[n - 1] * dot(force, self.cosine(n));
+            out[self.count + n] = self.scale[n - 1] * dot(force, self.sine(n));
+        }
+    }
+
+    /// Largest force \[N\] by which the load or a mode is out of balance, from the gradient of the energy.
+    pub fn imbalance(&self, gradient: &[f64]) -> f64 {
+        let modal = gradient[1..].iter().zip(self.scale.iter().cycle()).filter(|(_, scale)| **scale > 0.0);
+        let newtons = modal.map(|(g, scale)| (g / scale).abs());
+        newtons.fold(gradient[0].abs(), |top, f| if f.is_nan() { f64::INFINITY } else { top.max(f) })
+    }
+
+    /// Σ_i κ_i ψ_a(x_i) ψ_b(x_i) for nodal stiffness κ \[N/m\]: products of harmonics are sums of harmonics, so that the
+    /// matrix is made of the first 2(N−1) Fourier coefficients of κ (a Toeplitz and a Hankel part).
+    pub fn stiffness(&self, nodal: &[f64]) -> DMatrix<f64> {
+        let m = self.count;
+        let c: Vec<f64> = (0..=2 * m).map(|n| dot(nodal, self.cosine(n))).collect();
+        let s: Vec<f64> = (0..=2 * m).map(|n| dot(nodal, self.sine(n))).collect();
+        let mut matrix = DMatrix::zeros(1 + 2 * m, 1 + 2 * m);
+        matrix[(0, 0)] = c[0];
+        for a in 1..=m {
+            matrix[(a, 0)] = self.scale[a - 1] * c[a];
+            matrix[(m + a, 0)] = self.scale[a - 1] * s[a];
+            for b in 1..=a {
+                let scale = 0.5 * self.scale[a - 1] * self.scale[b - 1];
+                matrix[(a, b)] = scale * (c[a - b] + c[a + b]);
+                matrix[(m + a, m + b)] = scale * (c[a - b] - c[a + b]);
+                // sin_a cos_b and, mirrored, sin_b cos_a.
+                matrix[(m + a, b)] = scale * (s[a + b] + s[a - b]);
+                matrix[(m + b, a)] = scale * (s[a + b] - s[a - b]);
+            }
+        }
+        matrix.fill_upper_triangle_with_lower_triangle();
+        matrix
+    }
+}

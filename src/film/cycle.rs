@@ -1,0 +1,180 @@
+//! A whole cycle of the film under a given periodic gap, and the shortcut to its periodic state.
+//!
+//! Marching from rest takes the film as many cycles as the gas needs to leak out: tens at 30 kHz, thousands at high
+//! squeeze numbers. After one cycle with defect d = W(T) − W(0), the slow part of the error obeys the cycle-averaged
+//! film operator Ā = ⟨∂ div flux/∂Z⟩: the periodic state is about
+//!
+//! ```text
+//! W(0) + d + s,     (T Ā) s = d
+//! ```
+//!
+//! for modes that leak slowly ((I − monodromy) ≈ T Ā), and W(0) + d = W(T) for modes that forget within a cycle (s ≈ 0).
+//! One banded solve makes the number of cycles independent of the squeeze number. Whatever remains is left to
+//! Anderson acceleration by the caller.
+
+use super::grid::FilmGrid;
+use super::stepper::{Film, FilmError, FilmState, FiveDiagonals};
+use crate::control::Cancel;
+use crate::numerics::banded::Banded;
+use crate::problem::Gas;
+
+/// Why a cycle ended early.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Interrupted {
+    /// The caller cancelled.
+    #[error("cancelled")]
+    Cancelled,
+    /// A step failed.
+    #[error("step {step}: {source}")]
+    Failed {
+        /// Which step of the cycle.
+        step: usize,
+        /// Why.
+        source: FilmError,
+    },
+}
+
+/// What a cycle took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CycleCost {
+    /// Time steps.
+    pub steps: u64,
+    /// Linear solves.
+    pub solves: u64,
+    /// Steps that were locally first-order.
+    pub limited: u64,
+}
+
+/// Film of one tooth over a cycle of `steps` equal time steps.
+#[derive(Clone, Debug)]
+pub struct FilmCycle {
+    film: Film,
+    steps: usize,
+    /// P at unknown nodes, `[step][unknown]`; step m is t = mT/steps, step 0 is also the end of the cycle.
+    pressure: Vec<f64>,
+    marched: bool,
+    before: Vec<f64>,
+    leak: FiveDiagonals,
+    matrix: Banded,
+    shift: Vec<f64>,
+}
+
+impl FilmCycle {
+    /// A cycle of `steps` on `grid`.
+    pub fn new(grid: FilmGrid, gas: &Gas, steps: usize) -> Self {
+        let (unknowns, columns) = (grid.unknowns(), grid.y.unknown().len());
+        Self {
+            film: Film::new(grid, gas),
+            steps,
+            pressure: vec![1.0; steps * unknowns],
+            marched: false,
+            before: vec![0.0; unknowns],
+            leak: FiveDiagonals::new(unknowns),
+            matrix: Banded::new(unknowns, columns),
+            shift: vec![0.0; unknowns],
+        }
+    }
+
+    /// The nodes.
+    pub fn grid(&self) -> &FilmGrid {
+        self.film.grid()
+    }
+
+    /// Unknown P of step `m`.
+    pub fn pressure(&self, m: usize) -> &[f64] {
+        let unknowns = self.before.len();
+        &self.pressure[m * unknowns..(m + 1) * unknowns]
+    }
+
+    /// Where to write a first guess of step `m`'s unknown P; all steps must be given one before the first march.
+    pub fn guess_mut(&mut self, m: usize) -> &mut [f64] {
+        let unknowns = self.before.len();
+        self.marched = true;
+        &mut self.pressure[m * unknowns..(m + 1) * unknowns]
+    }
+
+    /// P at unknown nodes for all steps, `[step][unknown]`.
+    pub fn pressures(&self) -> &[f64] {
+        &self.pressure
+    }
+
+    /// Marches one cycle from `state` through the gaps `h[step][ix]` \[m\], with sliding speeds `speed[step][ix]` \[m/s\]
+    /// (or without the wedge term). Writes the trapped height integrated across the width, `line[step][ix]` \[m²\].
+    ///
+    /// # Errors
+    /// When cancelled, or when a step fails.
+    pub fn march(
+        &mut self,
+        h: &[f64],
+        speed: Option<&[f64]>,
+        dt: f64,
+        state: &mut FilmState,
+        line: &mut [f64],
+        cancel: &Cancel,
+    ) -> Result<CycleCost, Interrupted> {
+        let (nx, unknowns) = (self.grid().x.len(), self.before.len());
+        let mut cost = CycleCost::default();
+        self.before.copy_from_slice(&state.carried);
+        self.leak.clear();
+        for step in 1..=self.steps {
+            if cancel.is_cancelled() {
+                return Err(Interrupted::Cancelled);
+            }
+            let m = step % self.steps;
+            let gap = &h[m * nx..(m + 1) * nx];
+            let slide = speed.map(|u| &u[m * nx..(m + 1) * nx]);
+            // The last cycle's pressure is the guess: as cycles converge, one linear solve a step is left.
+            let guess = self.marched.then(|| &self.pressure[m * unknowns..(m + 1) * unknowns]);
+            let taken =
+                self.film.step(gap, slide, dt, state, guess).map_err(|source| Interrupted::Failed { step, source })?;
+            cost.steps += 1;
+            cost.solves += u64::from(taken.solves);
+            cost.limited += u64::from(taken.limited);
+            self.film.gather_pressure(&mut self.pressure[m * unknowns..(m + 1) * unknowns]);
+            self.film.grid().line_integral(&state.trapped, &mut line[m * nx..(m + 1) * nx]);
+            self.accumulate_leak(gap);
+        }
+        self.marched = true;
+        Ok(cost)
+    }
+
+    /// Adds this step's ∂(Δt div flux)/∂Z to T Ā.
+    fn accumulate_leak(&mut self, h: &[f64]) {
+        let columns = self.grid().y.unknown().len();
+        let x = self.grid().x.unknown();
+        let jacobian = self.film.last_jacobian();
+        let leak = &mut self.leak;
+        for (row, ix) in x.clone().enumerate() {
+            let here = 1.0 / h[ix];
+            let west = if ix > x.start { 1.0 / h[ix - 1] } else { 0.0 };
+            let east = if ix + 1 < x.end { 1.0 / h[ix + 1] } else { 0.0 };
+            for k in row * columns..(row + 1) * columns {
+                leak.centre[k] += jacobian.centre[k] * here;
+                leak.south[k] += jacobian.south[k] * here;
+                leak.north[k] += jacobian.north[k] * here;
+                leak.west[k] += jacobian.west[k] * west;
+                leak.east[k] += jacobian.east[k] * east;
+            }
+        }
+    }
+
+    /// The slow shift s \[m\] of the last cycle, (T Ā) s = W(T) − W(0), at unknown nodes.
+    pub fn slow_shift(&mut self, state: &FilmState) -> &[f64] {
+        for k in 0..self.shift.len() {
+            self.shift[k] = state.carried[k] - self.before[k];
+        }
+        self.leak.fill(self.film.grid().y.unknown().len(), &mut self.matrix);
+        self.matrix.solve_in_place(&mut self.shift);
+        &self.shift
+    }
+
+    /// Largest |W(T) − W(0)|/W of the last cycle: how far the mass at a node is from repeating.
+    pub fn defect(&self, state: &FilmState) -> f64 {
+        state
+            .carried
+            .iter()
+            .zip(&self.before)
+            .map(|(after, before)| ((after - before) / after).abs())
+            .fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,95 @@
+//! Exact and asymptotic solutions of the film, read by tests, lessons and the window alike.
+//!
+//! All are for a plate with a gap that is uniform in space, H = h/h₀ = 1 + ε cos τ, in the dimensionless form
+//! σ ∂(PH)/∂τ = ∇·[(P H³ + 6 m H²) ∇P], σ = 12μωb²/(p_a h₀²), m = λ_a/h₀.
+
+use nalgebra::Complex;
+use std::f64::consts::{PI, TAU};
+
+/// ⟨f(H)⟩ over a cycle of H = 1 + ε cos τ, by the trapezoid rule (spectrally accurate for |ε| < 1).
+fn cycle_mean(excursion: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const SAMPLES: usize = 4096;
+    (0..SAMPLES).map(|i| f(1.0 + excursion * (TAU * i as f64 / SAMPLES as f64).cos())).sum::<f64>() / SAMPLES as f64
+}
+
+/// The invariant of every periodic state: ⟨H (Z²/2 + 6mZ)⟩ at any point, Z = PH; equals ⟨H³/2 + 6mH²⟩ for all σ.
+pub fn invariant(excursion: f64, knudsen: f64) -> f64 {
+    cycle_mean(excursion, |h| 0.5 * h * h * h + 6.0 * knudsen * h * h)
+}
+
+/// Z of the trapped-gas limit σ → ∞ away from the edges: ψ²/2 + 6mψ = ⟨H³/2 + 6mH²⟩/⟨H⟩, constant in time and space.
+/// `invariant_mean` is ⟨H³/2 + 6mH²⟩, `gap_mean` ⟨H⟩; any consistent unit of length (6m then stands for 6λ_a).
+pub fn trapped_height(invariant_mean: f64, gap_mean: f64, slip: f64) -> f64 {
+    let right = invariant_mean / gap_mean;
+    // (−6m + √(36m² + 2·right)), written without cancellation.
+    2.0 * right / (slip + (slip * slip + 2.0 * right).sqrt())
+}
+
+/// Cycle-mean pressure ratio ⟨P⟩ of the trapped-gas limit (Langlois 1962, Salbu 1964; with first-order slip):
+/// ψ⟨1/H⟩. For m = 0 it is √((1 + 3ε²/2)/(1 − ε²)).
+pub fn trapped_mean_pressure(excursion: f64, knudsen: f64) -> f64 {
+    let psi = trapped_height(invariant(excursion, knudsen), 1.0, 6.0 * knudsen);
+    psi / (1.0 - excursion * excursion).sqrt()
+}
+
+/// Amplitude of the net load of a strip of width 1 for ε → 0, divided by p_a·area·ε: tanh(κ/2)/(κ/2) − 1,
+/// κ² = iσ/(1+6m). Real part: spring (in phase with the gap, negative for a restoring force); imaginary: damping.
+pub fn linear_strip(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
+    let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
+    let half = kappa * 0.5;
+    let load = half.tanh() / half - Complex::new(1.0, 0.0);
+    (load.re, load.im)
+}
+
+/// The same for a rectangle of length 1 along x (σ is based on it) and width `aspect` along y, by Blech's double series
+/// (ASME J. Lubrication Technology 105, 1983), summed over the index across in closed form.
+pub fn linear_rectangle(squeeze_number: f64, knudsen: f64, aspect: f64) -> (f64, f64) {
+    // Linearised: iσ'(P₁ + 1) = ∇²P₁, P₁ = 0 on the edge, σ' = σ/(1+6m). Expand in sin nπx, n odd:
+    // P₁ = Σ (4/nπ) f_n(y) sin nπx, f_n'' − (n²π² + iσ') f_n = iσ'. Mean of f_n over y ∈ (−a/2, a/2):
+    // −iσ'/q² [1 − tanh(qa/2)/(qa/2)], q² = n²π² + iσ'. Load = Σ 8/(n²π²) ⟨f_n⟩.
+    let sigma = squeeze_number / (1.0 + 6.0 * knudsen);
+    let mut load = Complex::new(0.0, 0.0);
+    for n in (1..20_001).step_by(2) {
+        let k = f64::from(n) * PI;
+        let square = Complex::new(k * k, sigma);
+        let half = square.sqrt() * (0.5 * aspect);
+        let tanh = if half.re > 20.0 { Complex::new(1.0, 0.0) } else { half.tanh() };
+        let profile = Complex::new(1.0, 0.0) - tanh / half;
+        load += -Complex::new(0.0, sigma) / square * profile * (8.0 / (k * k));
+    }
+    (load.re, load.im)
+}
+
+/// Force per metre of an incompressible strip film (σ → 0), −μ b³ ḣ/h³/(1 + 6 λ_a/h) \[N/m\], from viscosity \[Pa s\], length
+/// b \[m\], gap h \[m\], its rate ḣ \[m/s\] and the mean free path \[m\].
+pub fn viscous_strip_force(viscosity: f64, length: f64, gap: f64, rate: f64, mean_free_path: f64) -> f64 {
+    -viscosity * length.powi(3) * rate / gap.powi(3) / (1.0 + 6.0 * mean_free_path / gap)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trapped_mean_pressure_without_slip_is_langlois() {
+        let epsilon: f64 = 0.5;
+        let exact = ((1.0 + 1.5 * epsilon * epsilon) / (1.0 - epsilon * epsilon)).sqrt();
+        assert!((trapped_mean_pressure(epsilon, 0.0) - exact).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_very_wide_rectangle_is_a_strip() {
+        for sigma in [0.1, 10.0, 1000.0] {
+            let strip = linear_strip(sigma, 0.0);
+            let wide = linear_rectangle(sigma, 0.0, 1e7);
+            assert!((strip.0 - wide.0).abs() < 1e-6 && (strip.1 - wide.1).abs() < 1e-6, "{strip:?} {wide:?}");
+        }
+    }
+
+    #[test]
+    fn a_rectangle_looks_the_same_from_both_sides() {
+        // Swapping length and width rescales σ by aspect².
+        let (a, b) = (linear_rectangle(20.0, 0.1, 0.4), linear_rectangle(20.0 * 0.16, 0.1, 2.5));
+        assert!((a.0 - b.0).abs() < 1e-6 && (a.1 - b.1).abs() < 1e-6, "{a:?} {b:?}");
+    }
+}

@@ -1,0 +1,478 @@
+//! The coupled problem on one grid.
+
+use super::{MotorError, Stop};
+use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
+use crate::control::Cancel;
+use crate::film::cycle::FilmCycle;
+use crate::film::exact::trapped_height;
+use crate::film::grid::{Axis, FilmGrid, Start};
+use crate::film::stepper::FilmState;
+use crate::numerics::anderson::Anderson;
+use crate::plan::{Grid, Plan};
+use crate::problem::Motor;
+use crate::recording::Recording;
+use crate::solution::{Stats, Status};
+
+/// Earlier rounds that the acceleration remembers.
+const DEPTH: usize = 8;
+/// Longest step of the acceleration in ln ζ.
+const LONGEST_STEP: f64 = 1.5;
+/// Largest factor by which the slow shift may change the trapped gas in one round.
+const LARGEST_SHIFT: f64 = 3.0;
+
+/// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
+pub(super) struct Level {
+    teeth: usize,
+    stored: usize,
+    steps: usize,
+    nx: usize,
+    /// Vibration period over steps \[s\].
+    dt: f64,
+    ambient_pressure: f64,
+    interior_width: f64,
+    load: f64,
+    contact: Contact,
+    films: Vec<FilmCycle>,
+    states: Vec<FilmState>,
+    shapes: Vec<Shape>,
+    /// W_S, `[instant][tooth][ix]`.
+    stator: Vec<f64>,
+    /// U, lines, if the wedge term is modelled.
+    speed: Option<Vec<f64>>,
+    /// ζ, lines: what the contact problems use.
+    trapped: Vec<f64>,
+    /// h, lines.
+    film_thickness: Vec<f64>,
+    /// c, lines.
+    contact_load: Vec<f64>,
+    /// ζ from the film's last cycle, lines.
+    line: Vec<f64>,
+}
+
+impl Level {
+    pub(super) fn new(motor: &Motor, plan: &Plan, grid: &Grid) -> Self {
+        let x = Axis::clustered(0.5 * motor.tooth_width, Start::Ambient, grid.along, plan.clustering_along);
+        let y = if plan.half_width {
+            Axis::clustered(0.5 * motor.contact_width, Start::Mirror, grid.across, plan.clustering_across)
+        } else {
+            Axis::clustered(0.5 * motor.contact_width, Start::Ambient, 2 * grid.across, plan.clustering_across)
+        };
+        let film_grid = FilmGrid { x, y };
+        let (nx, steps, teeth) = (film_grid.x.len(), grid.steps, motor.teeth);
+        let stored = if plan.every_tooth { teeth } else { 1 };
+        let instants = if plan.every_tooth { steps } else { steps / teeth };
+
+        let mut positions = Vec::with_capacity(teeth * nx);
+        let mut lengths = Vec::with_capacity(teeth * nx);
+        let mut widths = Vec::with_capacity(teeth * nx);
+        let interior_width = film_grid.interior_width();
+        for tooth in 0..teeth {
+            for ix in 0..nx {
+                positions.push(tooth as f64 * motor.pitch() + film_grid.x.nodes[ix]);
+                lengths.push(film_grid.x.lengths[ix]);
+                widths.push(if film_grid.x.unknown().contains(&ix) { interior_width } else { 0.0 });
+            }
+        }
+        let stator = (0..instants)
+            .flat_map(|s| {
+                let (positions, nodes) = (&positions, &film_grid.x.nodes);
+                (0..teeth * nx)
+                    .map(move |i| motor.stator_displacement(positions[i], nodes[i % nx], s as f64 / steps as f64))
+            })
+            .collect();
+        let speed = plan.shear.then(|| {
+            (0..stored * steps * nx)
+                .map(|i| {
+                    let (tooth, step, ix) = (i / (steps * nx), i / nx % steps, i % nx);
+                    motor.sliding_speed(positions[tooth * nx + ix], step as f64 / steps as f64)
+                })
+                .collect()
+        });
+        let harmonics = cutoff(&motor.rotor, motor.wavelength(), plan.harmonic_fraction, grid.most_harmonics);
+        let modes = Modes::new(&motor.rotor, motor.wavelength(), harmonics, &positions);
+        let gas = &motor.gas;
+        let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load);
+        let unknowns = film_grid.unknowns();
+        Self {
+            teeth,
+            stored,
+            steps,
+            nx,
+            dt: motor.period() / steps as f64,
+            ambient_pressure: gas.ambient_pressure,
+            interior_width,
+            load: motor.load,
+            contact,
+            films: vec![FilmCycle::new(film_grid, gas, steps); stored],
+            states: vec![FilmState::at_rest(vec![motor.min_spacing; unknowns]); stored],
+            shapes: vec![Shape::unknown(); instants],
+            stator,
+            speed,
+            trapped: vec![0.0; stored * steps * nx],
+            film_thickness: vec![motor.min_spacing; stored * steps * nx],
+            contact_load: vec![0.0; stored * steps * nx],
+            line: vec![0.0; stored * steps * nx],
+        }
+    }
+
+    pub(super) fn steps(&self) -> usize {
+        self.steps
+    }
+
+    pub(super) fn film_nodes(&self) -> usize {
+        self.grid().len()
+    }
+
+    pub(super) fn contact_nodes(&self) -> usize {
+        self.contact.nodes()
+    }
+
+    fn grid(&self) -> &FilmGrid {
+        self.films[0].grid()
+    }
+
+    fn instants(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// Offset of the line of `tooth` at instant `s` in line arrays.
+    fn line_of(&self, tooth: usize, s: usize) -> usize {
+        let (tooth, step) = if self.stored == self.teeth && self.instants() == self.steps {
+            (tooth, s)
+        } else {
+            (0, (s + tooth * self.instants()) % self.steps)
+        };
+        (tooth * self.steps + step) * self.nx
+    }
+
+    /// A first state: the wave under a rigid rotor that just touches its crest, gas trapped as at high frequency.
+    pub(super) fn start(&mut self, motor: &Motor) {
+        let slip = 6.0 * motor.gas.mean_free_path;
+        for s in 0..self.instants() {
+            for tooth in 0..self.teeth {
+                let to = self.line_of(tooth, s);
+                for ix in 0..self.nx {
+                    let stator = self.stator[(s * self.teeth + tooth) * self.nx + ix];
+                    self.film_thickness[to + ix] = motor.min_spacing + (motor.normal_amplitude - stator).max(0.0);
+                }
+            }
+        }
+        for tooth in 0..self.stored {
+            let x = self.grid().x.unknown();
+            let columns = self.grid().y.unknown().len();
+            for (row, ix) in x.enumerate() {
+                let (mut gap, mut invariant) = (0.0, 0.0);
+                for step in 0..self.steps {
+                    let h = self.film_thickness[(tooth * self.steps + step) * self.nx + ix];
+                    gap += h;
+                    invariant += h * h * (0.5 * h + slip);
+                }
+                let trapped = trapped_height(invariant / self.steps as f64, gap / self.steps as f64, slip);
+                self.states[tooth].trapped[row * columns..(row + 1) * columns].fill(trapped);
+            }
+            self.states[tooth].carried = self.states[tooth].trapped.clone();
+        }
+    }
+
+    /// Starts from the state on another grid, interpolated linearly between its nodes and steps.
+    pub(super) fn start_from(&mut self, coarse: &Self) {
+        for (s, shape) in self.shapes.iter_mut().enumerate() {
+            *shape = coarse.shapes[s * coarse.instants() / (self.stator.len() / (self.teeth * self.nx))]
+                .resized(self.contact.modes());
+        }
+        let (nx, ny) = (self.nx, self.grid().y.len());
+        let (cnx, cny) = (coarse.nx, coarse.grid().y.len());
+        let (ux, uy) = (self.grid().x.unknown(), self.grid().y.unknown());
+        let along: Vec<_> = (0..nx).map(|ix| Between::of(ix, nx - 1, cnx - 1)).collect();
+        let across: Vec<_> = (0..ny).map(|iy| Between::of(iy, (ny - 1).max(1), (cny - 1).max(1))).collect();
+        let widths = coarse.interior_width;
+        for tooth in 0..self.stored {
+            let mut pressure = vec![1.0; cnx * cny];
+            let mut later = vec![1.0; cnx * cny];
+            let mut carried = vec![1.0; cnx * cny];
+            coarse.with_edges(&mut carried, |k| coarse.states[tooth].carried[k] / coarse.states[tooth].trapped[k]);
+            for step in 0..self.steps {
+                let when = Between::of(step, self.steps, coarse.steps);
+                let lines = [when.low, (when.low + 1) % coarse.steps].map(|m| (tooth * coarse.steps + m) * cnx);
+                let sources = [when.low, (when.low + 1) % coarse.steps].map(|m| coarse.films[tooth].pressure(m));
+                coarse.with_edges(&mut pressure, |k| sources[0][k]);
+                coarse.with_edges(&mut later, |k| sources[1][k]);
+                for (p, q) in pressure.iter_mut().zip(&later) {
+                    *p = when.mix(*p, *q);
+                }
+                let gap = |i: usize| when.mix(coarse.film_thickness[lines[0] + i], coarse.film_thickness[lines[1] + i]);
+                let mean_pressure = |i: usize| {
+                    let ratio = |line: usize| coarse.trapped[line + i] / (widths * coarse.film_thickness[line + i]);
+                    if i == 0 || i == cnx - 1 { 1.0 } else { when.mix(ratio(lines[0]), ratio(lines[1])) }
+                };
+                let to = (tooth * self.steps + step) * nx;
+                for ix in 0..nx {
+                    let at = &along[ix];
+                    self.film_thickness[to + ix] = at.mix(gap(at.low), gap(at.high()));
+                }
+                for (row, ix) in ux.clone().enumerate() {
+                    let at = &along[ix];
+                    let h = self.film_thickness[to + ix];
+                    self.trapped[to + ix] =
+                        self.interior_width * h * at.mix(mean_pressure(at.low), mean_pressure(at.high()));
+                    for (column, iy) in uy.clone().enumerate() {
+                        let there = &across[iy];
+                        let at_node = |field: &[f64]| {
+                            let row_mix = |i: usize| {
+                                there.mix(field[i * cny + there.low], field[i * cny + there.high().min(cny - 1)])
+                            };
+                            at.mix(row_mix(at.low), row_mix(at.high()))
+                        };
+                        let k = row * uy.len() + column;
+                        let p = at_node(&pressure);
+                        self.films[tooth].guess_mut(step)[k] = p;
+                        if step == 0 {
+                            self.states[tooth].trapped[k] = h * p;
+                            self.states[tooth].carried[k] = h * p * at_node(&carried);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Writes a field of unknown nodes into one with edges, `[ix][iy]`; edges keep their values.
+    fn with_edges(&self, out: &mut [f64], value: impl Fn(usize) -> f64) {
+        let (ux, uy, ny) = (self.grid().x.unknown(), self.grid().y.unknown(), self.grid().y.len());
+        for (row, ix) in ux.enumerate() {
+            for (column, iy) in uy.clone().enumerate() {
+                out[ix * ny + iy] = value(row * uy.len() + column);
+            }
+        }
+    }
+
+    /// Solves the contact problems of all instants with the present ζ.
+    fn solve_contacts(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<(), Stop> {
+        let nodes = self.contact.nodes();
+        let (teeth, nx) = (self.teeth, self.nx);
+        let mut gathered = vec![0.0; nodes];
+        let mut fields = Instant::default();
+        for s in 0..self.instants() {
+            if cancel.is_cancelled() {
+                return Err(Stop::Cancelled);
+            }
+            for tooth in 0..teeth {
+                let from = self.line_of(tooth, s);
+                gathered[tooth * nx..(tooth + 1) * nx].copy_from_slice(&self.trapped[from..from + nx]);
+            }
+            let stator = &self.stator[s * nodes..(s + 1) * nodes];
+            let iterations = self
+                .contact
+                .solve(stator, &gathered, &mut self.shapes[s], &mut fields)
+                .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
+            stats.contact_solves += 1;
+            stats.contact_iterations += u64::from(iterations);
+            for tooth in 0..teeth {
+                let to = self.line_of(tooth, s);
+                self.film_thickness[to..to + nx].copy_from_slice(&fields.film_thickness[tooth * nx..(tooth + 1) * nx]);
+                self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Marches one cycle of every stored tooth through the present h; `line` and the states move on.
+    fn march(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<(), Stop> {
+        let size = self.steps * self.nx;
+        for tooth in 0..self.stored {
+            let range = tooth * size..(tooth + 1) * size;
+            let cost = self.films[tooth].march(
+                &self.film_thickness[range.clone()],
+                self.speed.as_ref().map(|u| &u[range.clone()]),
+                self.dt,
+                &mut self.states[tooth],
+                &mut self.line[range],
+                cancel,
+            )?;
+            stats.film_steps += cost.steps;
+            stats.film_solves += cost.solves;
+            stats.limited_steps += cost.limited;
+        }
+        stats.cycles += 1;
+        Ok(())
+    }
+
+    /// ln of (ζ, Z(0), W(0)) at unknown nodes of all stored teeth: what the acceleration works on.
+    fn pack(&self, lines: &[f64], out: &mut Vec<f64>) {
+        out.clear();
+        let ux = self.grid().x.unknown();
+        for line in lines.chunks_exact(self.nx) {
+            out.extend(line[ux.clone()].iter().map(|v| v.ln()));
+        }
+        for state in &self.states {
+            out.extend(state.trapped.iter().chain(&state.carried).map(|v| v.ln()));
+        }
+    }
+
+    fn unpack(&mut self, packed: &[f64]) {
+        let ux = self.grid().x.unknown();
+        let (lines, states) = packed.split_at(self.trapped.len() / self.nx * ux.len());
+        for (line, values) in self.trapped.chunks_exact_mut(self.nx).zip(lines.chunks_exact(ux.len())) {
+            for (target, value) in line[ux.clone()].iter_mut().zip(values) {
+                *target = value.exp();
+            }
+        }
+        let unknowns = self.states[0].trapped.len();
+        for (state, values) in self.states.iter_mut().zip(states.chunks_exact(2 * unknowns)) {
+            let (trapped, carried) = values.split_at(unknowns);
+            for k in 0..unknowns {
+                state.trapped[k] = trapped[k].exp();
+                state.carried[k] = carried[k].exp();
+            }
+        }
+    }
+
+    /// Moves the film's lines and states by the slow shift of the last cycle.
+    fn shift(&mut self) {
+        let (nx, steps) = (self.nx, self.steps);
+        let mut shifted = vec![0.0; nx];
+        for tooth in 0..self.stored {
+            let state = &mut self.states[tooth];
+            let shift = self.films[tooth].slow_shift(state).to_vec();
+            self.films[tooth].grid().line_integral(&shift, &mut shifted);
+            let limit = |value: f64, by: f64| value * (1.0 + by / value).clamp(1.0 / LARGEST_SHIFT, LARGEST_SHIFT);
+            for k in 0..shift.len() {
+                state.trapped[k] = limit(state.trapped[k], shift[k]);
+                state.carried[k] = limit(state.carried[k], shift[k]);
+            }
+            for line in self.line[tooth * steps * nx..(tooth + 1) * steps * nx].chunks_exact_mut(nx) {
+                for ix in 1..nx - 1 {
+                    line[ix] = limit(line[ix], shifted[ix]);
+                }
+            }
+        }
+    }
+
+    /// Rounds until the trapped gas repeats to the plan's tolerance.
+    pub(super) fn converge(
+        &mut self,
+        plan: &Plan,
+        stats: &mut Stats,
+        report: &mut dyn FnMut(usize, f64, f64),
+        cancel: &Cancel,
+    ) -> Result<Status, Stop> {
+        if self.trapped.iter().all(|&t| t == 0.0) {
+            self.march(stats, cancel)?;
+            self.shift();
+            self.trapped.copy_from_slice(&self.line);
+        }
+        let mut anderson = Anderson::new(DEPTH, LONGEST_STEP);
+        let (mut present, mut image) = (Vec::new(), Vec::new());
+        let mut residual = f64::INFINITY;
+        self.pack(&self.trapped, &mut present);
+        for round in 1..=plan.round_limit {
+            self.solve_contacts(stats, cancel)?;
+            self.march(stats, cancel)?;
+            stats.coupling_iterations += 1;
+            self.shift();
+            self.pack(&self.line, &mut image);
+            residual = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            report(round, residual, self.mean_film_load());
+            if residual < plan.tolerance {
+                return Ok(Status::Converged);
+            }
+            anderson.advance(&mut present, &image);
+            self.unpack(&present);
+        }
+        Ok(Status::NotConverged { residual, tolerance: plan.tolerance })
+    }
+
+    /// Film line load \[N/m\] at a node of the lines, from the film's own pressure.
+    fn film_line_load(&self, index: usize) -> f64 {
+        let ix = index % self.nx;
+        if ix == 0 || ix + 1 == self.nx {
+            return 0.0;
+        }
+        self.ambient_pressure * (self.line[index] / self.film_thickness[index] - self.interior_width)
+    }
+
+    /// Cycle mean of the film load on one wavelength \[N\].
+    fn mean_film_load(&self) -> f64 {
+        let lengths = &self.grid().x.lengths;
+        let sum: f64 = (0..self.line.len()).map(|i| self.film_line_load(i) * lengths[i % self.nx]).sum();
+        sum * self.teeth as f64 / (self.stored * self.steps) as f64
+    }
+
+    pub(super) fn alpha(&self, motor: &Motor) -> f64 {
+        self.mean_film_load() / motor.load
+    }
+
+    /// |Film load + contact load − L|/L: how far film and contact still disagree.
+    pub(super) fn imbalance(&self, motor: &Motor) -> f64 {
+        let lengths = &self.grid().x.lengths;
+        let sum: f64 = (0..self.line.len()).map(|i| self.contact_load[i] * lengths[i % self.nx]).sum();
+        let contact = sum * self.teeth as f64 / (self.stored * self.steps) as f64;
+        ((self.mean_film_load() + contact - motor.load) / motor.load).abs()
+    }
+
+    pub(super) fn recording(&self, motor: &Motor) -> Recording {
+        let grid = self.grid();
+        let (nx, ny, steps) = (self.nx, grid.y.len(), self.steps);
+        let mut pressure = vec![1.0; steps * nx * ny];
+        for (step, map) in pressure.chunks_exact_mut(nx * ny).enumerate() {
+            let source = self.films[0].pressure(step);
+            self.with_edges(map, |k| source[k]);
+        }
+        let mut stator = vec![0.0; self.line.len()];
+        for s in 0..self.instants() {
+            for tooth in 0..self.teeth {
+                let (to, from) = (self.line_of(tooth, s), (s * self.teeth + tooth) * nx);
+                stator[to..to + nx].copy_from_slice(&self.stator[from..from + nx]);
+            }
+        }
+        let mut recording = Recording {
+            period: motor.period(),
+            frames: steps,
+            length: motor.wavelength(),
+            teeth: self.teeth,
+            stored_teeth: self.stored,
+            pitch: motor.pitch(),
+            x: grid.x.nodes.clone(),
+            node_length: grid.x.lengths.clone(),
+            film_thickness: self.film_thickness.clone(),
+            stator,
+            contact: self.contact_load.clone(),
+            film: (0..self.line.len()).map(|i| self.film_line_load(i)).collect(),
+            map_x: grid.x.nodes.clone(),
+            map_y: grid.y.nodes.clone(),
+            half_width: grid.y.start == Start::Mirror,
+            half_length: false,
+            pressure: pressure.iter().map(|p| p * self.ambient_pressure).collect(),
+            ..Recording::default()
+        };
+        let greatest: Vec<f64> = (0..self.stored * steps)
+            .map(|line| {
+                let (tooth, step) = (line / steps, line % steps);
+                self.films[tooth].pressure(step).iter().fold(1.0, |top: f64, p| top.max(*p)) * self.ambient_pressure
+            })
+            .collect();
+        recording.fill_series(&greatest);
+        recording
+    }
+}
+
+/// Where node `i` of `fine` intervals lies between the nodes of `coarse` intervals.
+struct Between {
+    low: usize,
+    fraction: f64,
+}
+
+impl Between {
+    fn of(i: usize, fine: usize, coarse: usize) -> Self {
+        let (low, rest) = (i * coarse / fine, i * coarse % fine);
+        Self { low, fraction: rest as f64 / fine as f64 }
+    }
+
+    fn high(&self) -> usize {
+        if self.fraction > 0.0 { self.low + 1 } else { self.low }
+    }
+
+    fn mix(&self, low: f64, high: f64) -> f64 {
+        if self.fraction > 0.0 { low + self.fraction * (high - low) } else { low }
+    }
+}

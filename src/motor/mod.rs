@@ -1,0 +1,148 @@
+//! Film, contact and rotor together: the periodic steady state of a motor.
+//!
+//! Unknown is the trapped gas ζ on every tooth at every step of the cycle. Given ζ, one contact problem an instant gives
+//! the film thickness h (`contact`: the film is a spring of trapped gas, so that stiff films and a floating rotor are
+//! ordinary cases). Given h, one cycle of the film gives a new ζ, shifted towards the periodic state by the slow shift of
+//! `film::cycle`. Anderson acceleration of ln ζ drives both to the common periodic state at once.
+//!
+//! In the steady state tooth k at time t is tooth 0 at t + kT/n_t, because the wave travels towards −x and the rotor looks
+//! the same everywhere. One tooth, and the contact problems of the first T/n_t, then stand for all. Solving every tooth
+//! gives the same (tested).
+
+mod level;
+
+use crate::contact::ContactError;
+use crate::control::{Cancel, Observer, Progress};
+use crate::film::cycle::Interrupted;
+use crate::film::stepper::FilmError;
+use crate::plan::Plan;
+use crate::problem::Motor;
+use crate::recording::Recording;
+use crate::solution::{MotorResult, Stats, Status};
+use level::Level;
+
+/// Why a motor could not be solved. No input is known to lead here.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum MotorError {
+    /// A film step failed.
+    #[error("film, step {step} of the cycle: {source}")]
+    Film {
+        /// Which step.
+        step: usize,
+        /// Why.
+        source: FilmError,
+    },
+    /// A contact problem failed.
+    #[error("contact, instant {instant} of the cycle: {source}")]
+    Contact {
+        /// Which instant.
+        instant: usize,
+        /// Why.
+        source: ContactError,
+    },
+}
+
+/// Interrupted or failed: what ends a round early.
+enum Stop {
+    Cancelled,
+    Failed(MotorError),
+}
+
+impl From<Interrupted> for Stop {
+    fn from(interrupted: Interrupted) -> Self {
+        match interrupted {
+            Interrupted::Cancelled => Self::Cancelled,
+            Interrupted::Failed { step, source } => Self::Failed(MotorError::Film { step, source }),
+        }
+    }
+}
+
+/// A motor's periodic state: the numbers, how they were reached, and the fields.
+#[derive(Clone, Debug)]
+pub struct Periodic {
+    /// How the finest grid ended.
+    pub status: Status,
+    /// The numbers, with the error estimate.
+    pub result: MotorResult,
+    /// α of each grid, coarse to fine.
+    pub alphas: Vec<f64>,
+    /// What it cost, all grids.
+    pub stats: Stats,
+    /// Fields of one cycle on the finest grid.
+    pub recording: Recording,
+}
+
+/// Solves for the periodic state on each of the plan's grids, each started from the one before.
+///
+/// # Errors
+/// [`MotorError`] if a film step or a contact problem has no solution to working precision.
+pub fn periodic(
+    motor: &Motor,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Periodic, MotorError> {
+    let mut stats = Stats::default();
+    let mut alphas = Vec::new();
+    let mut coarse: Option<Level> = None;
+    let mut status = Status::Cancelled;
+    for (number, grid) in plan.grids.iter().enumerate() {
+        let mut level = Level::new(motor, plan, grid);
+        match &coarse {
+            None => level.start(motor),
+            Some(coarse) => level.start_from(coarse),
+        }
+        let mut report = |iteration: usize, residual: f64, film_load: f64| {
+            observer.progress(&Progress {
+                level: number,
+                levels: plan.grids.len(),
+                iteration,
+                residual,
+                tolerance: plan.tolerance,
+                film_load,
+            });
+        };
+        status = match level.converge(plan, &mut stats, &mut report, cancel) {
+            Ok(status) => status,
+            Err(Stop::Cancelled) => Status::Cancelled,
+            Err(Stop::Failed(error)) => return Err(error),
+        };
+        alphas.push(level.alpha(motor));
+        coarse = Some(level);
+        if status == Status::Cancelled {
+            break;
+        }
+    }
+    let Some(level) = coarse else {
+        return Ok(Periodic { status, result: MotorResult::default(), alphas, stats, recording: Recording::default() });
+    };
+    let recording = level.recording(motor);
+    let mut result = summarise(motor, &recording);
+    result.alpha_error = plan.error_estimate(&alphas) + level.imbalance(motor);
+    stats.film_nodes = level.film_nodes();
+    stats.contact_nodes = level.contact_nodes();
+    stats.steps_per_cycle = level.steps();
+    Ok(Periodic { status, result, alphas, stats, recording })
+}
+
+/// Cycle means and extremes of a recording.
+pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
+    let mean = |series: &[f64]| series.iter().sum::<f64>() / series.len() as f64;
+    let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let film_load = mean(&recording.film_load);
+    let alpha = film_load / motor.load;
+    MotorResult {
+        alpha,
+        alpha_error: 0.0,
+        film_load,
+        film_load_min: least(&recording.film_load),
+        film_load_max: most(&recording.film_load),
+        contact_load: mean(&recording.contact_load),
+        max_torque: motor.dry_friction * (1.0 - alpha) * f64::from(motor.waves) * motor.load * motor.contact_radius,
+        teeth_in_contact: recording.teeth_in_contact.iter().sum::<usize>() as f64 / recording.frames as f64,
+        levitated: recording.teeth_in_contact.iter().all(|&teeth| teeth == 0),
+        min_gap: least(&recording.min_film_thickness),
+        max_pressure: most(&recording.max_pressure),
+    }
+}

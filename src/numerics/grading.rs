@@ -1,0 +1,69 @@
+//! Graded node positions that cluster at the ends of an interval, by a smooth map.
+//!
+//! η ∈ [−1, 1] ↦ tanh(βη)/tanh β. The spacing at the ends is 2β/sinh 2β times the uniform one. The map is smooth and
+//! does not depend on the number of nodes, so central differences on it keep their second order, and a grid of half as
+//! many intervals consists of every other node.
+
+/// β of the map whose end spacing is `ratio` times the uniform one; 0 (no grading) for `ratio` ≥ 1.
+pub fn clustering(ratio: f64) -> f64 {
+    if ratio >= 1.0 {
+        return 0.0;
+    }
+    // 2β/sinh 2β falls monotonically from 1; 700 keeps sinh finite.
+    let (mut low, mut high) = (0.0_f64, 350.0_f64);
+    for _ in 0..200 {
+        let beta = 0.5 * (low + high);
+        if 2.0 * beta / (2.0 * beta).sinh() > ratio { low = beta } else { high = beta }
+    }
+    0.5 * (low + high)
+}
+
+fn map(beta: f64, eta: f64) -> f64 {
+    if beta < 1e-9 { eta } else { (beta * eta).tanh() / beta.tanh() }
+}
+
+/// `intervals + 1` nodes from −half to half \[m\], clustered at both ends, symmetric to the last bit.
+pub fn two_sided(half: f64, intervals: usize, beta: f64) -> Vec<f64> {
+    (0..=intervals)
+        .map(|i| {
+            let eta = (2.0 * i as f64 - intervals as f64) / intervals as f64;
+            half * map(beta, eta)
+        })
+        .collect()
+}
+
+/// `intervals + 1` nodes from 0 to half \[m\], clustered at `half`.
+pub fn one_sided(half: f64, intervals: usize, beta: f64) -> Vec<f64> {
+    (0..=intervals).map(|i| half * map(beta, i as f64 / intervals as f64)).collect()
+}
+
+/// Length that each node stands for: half of the intervals on either side (trapezoid weights), same unit as `nodes`.
+pub fn node_lengths(nodes: &[f64]) -> Vec<f64> {
+    let last = nodes.len() - 1;
+    (0..=last).map(|i| 0.5 * (nodes[(i + 1).min(last)] - nodes[i.saturating_sub(1)])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn end_spacing_is_the_one_asked_for() {
+        let intervals = 4000;
+        let nodes = one_sided(1.0, intervals, clustering(0.1));
+        let end = (nodes[intervals] - nodes[intervals - 1]) * intervals as f64;
+        assert!((end - 0.1).abs() < 1e-3, "{end}");
+    }
+
+    #[test]
+    fn a_grid_of_half_the_intervals_is_every_other_node() {
+        let beta = clustering(0.03);
+        let (fine, coarse) = (two_sided(2.0, 16, beta), two_sided(2.0, 8, beta));
+        for (i, x) in coarse.iter().enumerate() {
+            assert_eq!(*x, fine[2 * i]);
+        }
+        assert_eq!(clustering(1.5), 0.0);
+        let total: f64 = node_lengths(&fine).iter().sum();
+        assert!((total - 4.0).abs() < 1e-14);
+    }
+}
