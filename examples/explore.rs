@@ -33,7 +33,7 @@ fn main() {
     let verbose = std::env::var("V").is_ok();
     let r = motor::periodic(&m, &plan, &mut |p: &Progress| { if verbose { eprintln!("  {p:?}") } }, &Cancel::new());
     match r {
-        Ok(r) => println!("{:?} alphas {:?} teeth {:.2} min h {:.1} nm pmax {:.0} kPa err {:.1e} {:?} {:.1} ms", r.status, r.alphas, r.result.teeth_in_contact, r.result.min_gap * 1e9, r.result.max_pressure / 1e3, r.result.alpha_error, r.stats, t.elapsed().as_secs_f64() * 1e3),
+        Ok(r) => let al=&r.alphas; let n=al.len(); if n>1 {let e2=al[n-1]+(al[n-1]-al[n-2])/3.0; let e1= if n>2 {al[n-2]+(al[n-2]-al[n-3])/3.0} else {f64::NAN}; print!("EXT {e2:.7} prev {e1:.7} ");} println!("{:?} alphas {:?} teeth {:.2} min h {:.1} nm pmax {:.0} kPa err {:.1e} {:?} {:.1} ms", r.status, r.alphas, r.result.teeth_in_contact, r.result.min_gap * 1e9, r.result.max_pressure / 1e3, r.result.alpha_error, r.stats, t.elapsed().as_secs_f64() * 1e3),
         Err(e) => println!("ERR {e}"),
     }
 }

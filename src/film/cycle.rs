@@ -80,6 +80,11 @@ impl FilmCycle {
         self.film.grid()
     }
 
+    /// Accepts steps whose last Newton change is below `tolerance` ([`Film::accept`]).
+    pub fn accept(&mut self, tolerance: f64) {
+        self.film.accept(tolerance);
+    }
+
     /// Unknown P of step `m`.
     pub fn pressure(&self, m: usize) -> &[f64] {
         let unknowns = self.before.len();

@@ -62,8 +62,9 @@ pub enum FilmError {
     },
 }
 
-/// Newton's change below which the step is accepted; convergence is quadratic, so the error is about its square.
-const NEWTON_TOLERANCE: f64 = 1e-7;
+/// Newton's relative change below which a step is accepted, unless `Film::accept` loosens it. Convergence is quadratic:
+/// the error left is about the square.
+pub const NEWTON_TOLERANCE: f64 = 1e-7;
 const NEWTON_LIMIT: u32 = 60;
 /// W is kept above this fraction of Z.
 const CARRIED_FLOOR: f64 = 0.1;
@@ -131,6 +132,7 @@ pub struct Film {
     /// M = p_a/(12μ) \[1/s\].
     mobility: f64,
     columns: usize,
+    tolerance: f64,
     /// P at every node, edges included, `[ix][iy]`.
     pressure: Vec<f64>,
     theta: Vec<f64>,
@@ -160,6 +162,7 @@ impl Film {
             law: SlipLaw::of(gas),
             mobility: gas.ambient_pressure / (12.0 * gas.viscosity),
             columns,
+            tolerance: NEWTON_TOLERANCE,
             pressure: vec![1.0; grid.len()],
             theta: vec![1.0; unknowns],
             fitting: vec![0.0; grid.len()],
@@ -175,6 +178,11 @@ impl Film {
     /// The nodes.
     pub fn grid(&self) -> &FilmGrid {
         &self.grid
+    }
+
+    /// Accepts steps whose last Newton change is below `tolerance`, for rounds whose gap is not final yet.
+    pub fn accept(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
     }
 
     /// P = p/p_a at every node, edges included, `[ix][iy]`, after the last step.
@@ -429,7 +437,7 @@ impl Film {
                     *p = (*p + step).clamp(0.1 * *p, 10.0 * *p);
                 }
             }
-            if change < NEWTON_TOLERANCE {
+            if change < self.tolerance {
                 return Ok(());
             }
         }

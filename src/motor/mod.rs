@@ -13,6 +13,7 @@ mod level;
 
 use crate::contact::ContactError;
 use crate::control::{Cancel, Observer, Progress};
+use crate::estimate::extrapolate;
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
 use crate::plan::Plan;
@@ -118,7 +119,9 @@ pub fn periodic(
     };
     let recording = level.recording(motor);
     let mut result = summarise(motor, &recording);
-    result.alpha_error = plan.error_estimate(&alphas) + level.imbalance(motor);
+    let estimate = extrapolate(&alphas);
+    result.set_alpha(motor, estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)));
+    result.alpha_error = estimate.error + level.imbalance() + plan.shear_effect * estimate.value.abs();
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();
@@ -130,19 +133,26 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     let mean = |series: &[f64]| series.iter().sum::<f64>() / series.len() as f64;
     let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
     let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let film_load = mean(&recording.film_load);
-    let alpha = film_load / motor.load;
-    MotorResult {
-        alpha,
-        alpha_error: 0.0,
-        film_load,
+    let mut result = MotorResult {
         film_load_min: least(&recording.film_load),
         film_load_max: most(&recording.film_load),
-        contact_load: mean(&recording.contact_load),
-        max_torque: motor.dry_friction * (1.0 - alpha) * f64::from(motor.waves) * motor.load * motor.contact_radius,
         teeth_in_contact: recording.teeth_in_contact.iter().sum::<usize>() as f64 / recording.frames as f64,
         levitated: recording.teeth_in_contact.iter().all(|&teeth| teeth == 0),
         min_gap: least(&recording.min_film_thickness),
         max_pressure: most(&recording.max_pressure),
+        ..MotorResult::default()
+    };
+    result.set_alpha(motor, mean(&recording.film_load) / motor.load);
+    result
+}
+
+impl MotorResult {
+    /// Sets α and what follows from it: the loads, which share L, and the torque of the ring.
+    pub fn set_alpha(&mut self, motor: &Motor, alpha: f64) {
+        self.alpha = alpha;
+        self.film_load = alpha * motor.load;
+        self.contact_load = (1.0 - alpha) * motor.load;
+        let dry = motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius;
+        self.max_torque = dry * (1.0 - alpha).max(0.0);
     }
 }
