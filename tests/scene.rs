@@ -113,7 +113,7 @@ fn messages_name_file_line_key_value_and_range() {
         ),
         (
             "[stator]\ntooth_width_mm = 3\n",
-            "my.toml:4: stator.tooth_width_mm = 3 is out of range: allowed 0.0289218 to 2.89217 mm, 1 % to 100 % of the \
+            "my.toml:4: stator.tooth_width_mm = 3 is out of range: allowed 0.0289226 to 2.89225 mm, 1 % to 100 % of the \
              tooth pitch 2π × 29 mm / 7 waves / 9 teeth",
         ),
         ("[stator]\nteeth_per_wave = 40\n", "my.toml:4: stator.tooth_width_mm = 1.7353 is out of range"),
@@ -181,6 +181,18 @@ fn a_hostile_key_stays_on_its_line() {
     let message = message("\"a\\nb\\u001b[2J\" = 1\n");
     assert_eq!(message.lines().count(), 1);
     assert!(!message.contains('\u{1b}'), "{message:?}");
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    for (open, middle, close) in
+        [("compliance = ", "[", ""), ("a", ".a", " = 1"), ("a = ", "{a = ", "1"), ("[a", ".a", "]")]
+    {
+        let text = format!("schema = 1\n[rotor]\n{open}{}{close}\n", middle.repeat(100_000));
+        let error = read(&text).unwrap_err().to_string();
+        assert!(error.len() < 1000 && error.starts_with("my.toml:"), "{error}");
+        assert!(Scene::motor().set("rotor.compliance", &"[".repeat(100_000)).is_err());
+    }
 }
 
 #[test]
@@ -400,13 +412,29 @@ fn the_fundamental_case_in_si() {
     let problem = Problem::new(&scene).unwrap();
     let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
     assert_eq!(problem.name, "Fundamental case");
-    assert_eq!((motor.contact_radius, motor.waves, motor.load, motor.dry_friction), (0.029, 7, 2.45, 0.7));
-    assert_eq!((motor.frequency, motor.normal_amplitude, motor.tangential_amplitude), (30e3, 1.3e-6, 1e-6));
-    assert_eq!((motor.teeth, motor.tooth_width, motor.tooth_radius, motor.contact_width), (9, 1.7353e-3, None, 3e-4));
-    assert_eq!((motor.min_spacing, motor.gas.mean_free_path), (200e-9, 64e-9));
-    assert_eq!((motor.gas.ambient_pressure, motor.gas.viscosity), (101_325.0, 18.1e-6));
-    let rotor = RotorCompliance::Beam { decay_length: 4e-3, point_compliance: 0.64e-6, local_compliance: 1.05e-10 };
-    assert_eq!(motor.rotor, rotor);
+    assert_eq!((motor.waves, motor.teeth, motor.tooth_radius), (7, 9, None));
+    let RotorCompliance::Beam { decay_length, point_compliance, local_compliance } = motor.rotor else {
+        panic!("a beam")
+    };
+    // A decimal fraction is not exact, so its thousandth may be the double next to the one written here.
+    for (found, expected) in [
+        (motor.contact_radius, 29e-3),
+        (motor.load, 2.45),
+        (motor.dry_friction, 0.7),
+        (motor.frequency, 30e3),
+        (motor.normal_amplitude, 1.3e-6),
+        (motor.tangential_amplitude, 1e-6),
+        (motor.tooth_width, 1.7353e-3),
+        (motor.contact_width, 0.3e-3),
+        (motor.gas.ambient_pressure, 101_325.0),
+        (motor.gas.viscosity, 18.1e-6),
+        (point_compliance, 0.64e-6),
+        (local_compliance, 1.05e-10),
+    ] {
+        assert!((found / expected - 1.0f64).abs() <= f64::EPSILON, "{found:e} {expected:e}");
+    }
+    // Whole numbers are exact.
+    assert_eq!((motor.min_spacing, motor.gas.mean_free_path, decay_length), (200e-9, 64e-9, 4e-3));
     // One turn a second.
     assert!((motor.rotor_speed - std::f64::consts::TAU * 0.029).abs() < 1e-16);
     assert!((motor.tooth_width / motor.wavelength() - 12.0 / 180.0).abs() < 1e-5);

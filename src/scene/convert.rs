@@ -3,8 +3,8 @@
 use super::{Film, Kind, RotorModel, Scene, SceneError};
 use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
 
-// Dividing by an exact power of ten rounds once, so 200 nm is the double nearest to 2e-7 m; a factor such as 1e-9 is not
-// itself exact.
+// Dividing by an exact power of ten rounds once: 200 nm is the double nearest to 2e-7 m. Multiplying by 1e-9, which is
+// not itself exact, would round twice.
 const PER_MILLI: f64 = 1e3;
 const PER_MICRO: f64 = 1e6;
 const PER_NANO: f64 = 1e9;

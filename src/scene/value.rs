@@ -44,7 +44,7 @@ impl fmt::Display for Value {
 /// distinguishes the value is kept.
 pub(super) fn show_number(value: f64) -> String {
     let size = value.abs();
-    if size == 0.0 || !size.is_finite() || (1e-4..1e7).contains(&size) {
+    if size == 0.0 || !size.is_finite() || (1e-4..1e6).contains(&size) {
         format!("{value}")
     } else {
         format!("{value:e}")
