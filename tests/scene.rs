@@ -172,6 +172,8 @@ fn syntax_errors_have_line_and_column() {
     assert!(error.to_string().starts_with("my.toml:2:"), "{error}");
     assert!(error.to_string().contains("not valid TOML"), "{error}");
     assert!(error.faults()[0].column.is_some());
+    let bare = read("schema = 1\n[film]\nslip = first-order\n").unwrap_err();
+    assert!(bare.to_string().starts_with("my.toml:3:8: not valid TOML: text must be in quotes"), "{bare}");
     let twice = read("schema = 1\n[film]\nshear = true\nshear = true\n").unwrap_err();
     assert!(twice.to_string().starts_with("my.toml:4:1: not valid TOML: duplicate key"), "{twice}");
 }
@@ -302,6 +304,9 @@ fn set_refuses_and_changes_nothing() {
         ("motor.waves", "7.5", "motor.waves = 7.5 is of the wrong type: expected a whole number from 1 to 100"),
         ("film.spacing_nm", "3", "unknown key film.spacing_nm: did you mean film.min_spacing_nm?"),
         ("plate.length_mm", "1", "plate.length_mm belongs to scene = \"plate\", and this is scene = \"motor\""),
+        ("plate.x", "1", "plate.x belongs to scene = \"plate\", and this is scene = \"motor\""),
+        ("qqq.x", "1", "unknown key qqq.x: known are motor, stator, rotor, film, numerics"),
+        ("film", "1", "unknown key film: known are film.min_spacing_nm, film.ambient"),
         ("scene", "plate", "scene cannot be changed: start from another preset"),
         ("rotor.model", "ring", "rotor.model = \"ring\" is reserved"),
         ("rotor.compliance_csv", "no.csv", "rotor.compliance_csv = \"no.csv\": no.csv cannot be read: "),

@@ -3,7 +3,7 @@
 
 use super::error::{SceneError, What};
 use super::nearest::{nearest, nearest_key};
-use super::parameter::{Belongs, PARAMETERS, Parameter, ParameterKind};
+use super::parameter::{Belongs, PARAMETERS, Parameter, ParameterKind, TABLES};
 use super::value::{Value, show_text};
 use super::{Kind, RotorModel, Scene, blank_beam, compliance, parse, slip_name, slip_named};
 use crate::problem::Slip;
@@ -226,14 +226,28 @@ impl Scene {
 
     /// The fault of a key that does not exist.
     pub(super) fn unknown_key(&self, key: &str) -> What {
-        let known: Vec<_> = self.parameters().map(|parameter| parameter.key).collect();
         let table = key.split_once('.').map_or("", |(table, _)| table);
-        let mut siblings: Vec<_> =
-            self.parameters().filter(|p| p.table() == table).map(|parameter| parameter.key).collect();
-        if siblings.is_empty() {
-            siblings = known.clone();
+        let keys_of = |table: &str| self.parameters().filter(|p| p.table() == table).map(|p| p.key).collect::<Vec<_>>();
+        let unknown = |nearest: Option<&str>, siblings| What::UnknownKey {
+            key: show_text(key),
+            nearest: nearest.map(str::to_owned),
+            siblings,
+        };
+        if TABLES.contains(&key) {
+            return unknown(None, keys_of(key));
         }
-        What::UnknownKey { key: show_text(key), nearest: nearest_key(key, &known).map(str::to_owned), siblings }
+        let foreign = PARAMETERS.iter().find(|p| p.table() == table).and_then(|p| self.applies(p).err());
+        if let Some(What::OtherScene { needs, scene, .. }) = foreign {
+            return What::OtherScene { key: show_text(key), needs, scene };
+        }
+        let known: Vec<_> = self.parameters().map(|parameter| parameter.key).collect();
+        let siblings = if keys_of(table).is_empty() { self.tables() } else { keys_of(table) };
+        unknown(nearest_key(key, &known), siblings)
+    }
+
+    /// The tables this scene has.
+    pub(super) fn tables(&self) -> Vec<&'static str> {
+        TABLES.iter().copied().filter(|table| self.parameters().any(|p| p.table() == *table)).collect()
     }
 
     /// The parameter of a key, if it exists and applies. A compliance table may be given to a beam: it replaces it.

@@ -155,7 +155,7 @@ pub enum What {
         key: String,
         /// The nearest known key.
         nearest: Option<String>,
-        /// The keys of the same table, for when nothing is near.
+        /// The keys of the same table, or else the tables of the scene, for when nothing is near.
         siblings: Vec<&'static str>,
     },
     /// A table that no scene has.

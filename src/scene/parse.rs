@@ -4,7 +4,7 @@
 use super::compliance::{self, MOST_ROWS, RowFault, check_row};
 use super::error::{Fault, SceneError, What};
 use super::nearest::nearest;
-use super::parameter::{Belongs, PARAMETERS, Parameter, ParameterKind, SCENES, TABLES};
+use super::parameter::{PARAMETERS, Parameter, ParameterKind, SCENES, TABLES};
 use super::value::{Value, show_text};
 use super::{RotorModel, SCHEMA, Scene};
 use std::collections::HashMap;
@@ -99,7 +99,7 @@ impl Reader<'_> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,
             Err(error) => {
-                let message = show_text_long(error.message());
+                let message = syntax_message(error.message());
                 self.fault(error.span(), What::Syntax { message });
                 return None;
             }
@@ -126,7 +126,7 @@ impl Reader<'_> {
                     self.fault(Some(value.span()), What::NotATable { table, found });
                 }
                 (None, DeValue::Table(_)) => {
-                    let siblings: Vec<_> = tables_of(&scene);
+                    let siblings = scene.tables();
                     let nearest = nearest(name, siblings.iter().copied()).map(|table| format!("[{table}]"));
                     self.fault(Some(key.span()), What::UnknownTable { table: show_text(name), nearest, siblings });
                 }
@@ -378,17 +378,12 @@ fn integer(value: &DeValue<'_>) -> Option<i64> {
     value.as_integer().and_then(|whole| i64::from_str_radix(whole.as_str(), whole.radix()).ok())
 }
 
-/// The tables that a scene of this kind can have.
-fn tables_of(scene: &Scene) -> Vec<&'static str> {
-    let applies = |table: &str| {
-        let mut of_table = PARAMETERS.iter().filter(|p| p.table() == table);
-        of_table.any(|p| p.belongs == Belongs::Any || scene.applies(p).is_ok())
-    };
-    TABLES.iter().copied().filter(|table| applies(table)).collect()
-}
-
 /// A message of the TOML reader on one line.
-fn show_text_long(message: &str) -> String {
+fn syntax_message(message: &str) -> String {
+    // What the reader says of a bare word that starts like true or false, such as first-order.
+    if message.starts_with("invalid boolean") {
+        return "text must be in quotes; the only bare words are true and false".to_owned();
+    }
     message.lines().map(str::trim).collect::<Vec<_>>().join("; ")
 }
 
