@@ -62,13 +62,8 @@ impl Plan {
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let (along, clustering_along) =
             graded(spec.along.max(per_wave), numerics.film_nodes_along.map(|n| n - 1), motor.tooth_width, layer, &spec);
-        let (across, clustering_across) = graded(
-            spec.across,
-            numerics.film_nodes_across.map(|n| n / 2),
-            0.5 * motor.contact_width,
-            layer,
-            &spec,
-        );
+        let (across, clustering_across) =
+            graded(spec.across, numerics.film_nodes_across.map(|n| n / 2), 0.5 * motor.contact_width, layer, &spec);
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;
         why.push(format!(
@@ -85,21 +80,24 @@ impl Plan {
                 motor.teeth, motor.teeth
             )
         });
-        why.push("width: half of it solved; the gap does not depend on y, so the other half is its mirror (exact)".to_owned());
+        why.push(
+            "width: half of it solved; the gap does not depend on y, so the other half is its mirror (exact)"
+                .to_owned(),
+        );
 
-        let shear_effect = WEDGE_EFFECT * numbers.wedge_ratio;
+        let shear_effect = WEDGE_EFFECT * numbers.bearing_to_squeeze;
         let shear = motor.shear && shear_effect > 0.2 * spec.aim;
         why.push(if !motor.shear {
             "wedge term left out: the scene says shear = false".to_owned()
         } else if shear {
             format!(
                 "wedge term solved: Λ/σ = {:.1e} may change α by up to {:.1e} of itself, and {fidelity} aims at {:.0e}",
-                numbers.wedge_ratio, shear_effect, spec.aim
+                numbers.bearing_to_squeeze, shear_effect, spec.aim
             )
         } else {
             format!(
                 "wedge term left out: Λ/σ = {:.1e} changes α by less than {:.1e} of itself, and {fidelity} aims at {:.0e}",
-                numbers.wedge_ratio, shear_effect, spec.aim
+                numbers.bearing_to_squeeze, shear_effect, spec.aim
             )
         });
         Self {

@@ -163,23 +163,37 @@ impl FilmCycle {
         }
     }
 
-    /// The slow shift s \[m\] of the last cycle, (T Ā) s = W(T) − W(0), at unknown nodes.
-    pub fn slow_shift(&mut self, state: &FilmState) -> &[f64] {
+    /// Moves `state`, as the last cycle left it, by the slow shift s of that cycle, (T Ā) s = W(T) − W(0), and returns s
+    /// \[m\] at unknown nodes. No node changes by more than a factor of 3.
+    pub fn shift(&mut self, state: &mut FilmState) -> &[f64] {
         for k in 0..self.shift.len() {
             self.shift[k] = state.carried[k] - self.before[k];
         }
         self.leak.fill(self.film.grid().y.unknown().len(), &mut self.matrix);
         self.matrix.solve_in_place(&mut self.shift);
+        for k in 0..self.shift.len() {
+            state.trapped[k] = shifted(state.trapped[k], self.shift[k]);
+            state.carried[k] = shifted(state.carried[k], self.shift[k]);
+        }
         &self.shift
     }
 
-    /// Largest |W(T) − W(0)|/W of the last cycle: how far the mass at a node is from repeating.
-    pub fn defect(&self, state: &FilmState) -> f64 {
-        state
-            .carried
-            .iter()
-            .zip(&self.before)
-            .map(|(after, before)| ((after - before) / after).abs())
-            .fold(0.0, f64::max)
+    /// P of all steps at every node, edges included, `[step][ix][iy]`.
+    pub fn full_pressure(&self) -> Vec<f64> {
+        let grid = self.film.grid();
+        let (nx, ny, columns) = (grid.x.len(), grid.y.len(), grid.y.unknown().len());
+        let mut full = vec![1.0; self.steps * nx * ny];
+        for (m, map) in full.chunks_exact_mut(nx * ny).enumerate() {
+            for (column, ix) in self.pressure(m).chunks_exact(columns).zip(grid.x.unknown()) {
+                map[ix * ny + grid.y.unknown().start..][..columns].copy_from_slice(column);
+            }
+        }
+        full
     }
+}
+
+/// `value` + `by`, kept within a factor of 3 of `value`.
+pub fn shifted(value: f64, by: f64) -> f64 {
+    const LARGEST: f64 = 3.0;
+    value * (1.0 + by / value).clamp(1.0 / LARGEST, LARGEST)
 }

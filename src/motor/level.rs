@@ -3,7 +3,7 @@
 use super::{MotorError, Stop};
 use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
 use crate::control::Cancel;
-use crate::film::cycle::FilmCycle;
+use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, FilmGrid, Start};
 use crate::film::stepper::{FilmState, NEWTON_TOLERANCE};
@@ -17,8 +17,6 @@ use crate::solution::{Stats, Status};
 const DEPTH: usize = 16;
 /// Longest step of the acceleration in ln ζ.
 const LONGEST_STEP: f64 = 1.5;
-/// Largest factor by which the slow shift may change the trapped gas in one round.
-const LARGEST_SHIFT: f64 = 3.0;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
 pub(super) struct Level {
@@ -330,19 +328,13 @@ impl Level {
     /// Moves the film's lines and states by the slow shift of the last cycle.
     fn shift(&mut self) {
         let (nx, steps) = (self.nx, self.steps);
-        let mut shifted = vec![0.0; nx];
-        for tooth in 0..self.stored {
-            let state = &mut self.states[tooth];
-            let shift = self.films[tooth].slow_shift(state).to_vec();
-            self.films[tooth].grid().line_integral(&shift, &mut shifted);
-            let limit = |value: f64, by: f64| value * (1.0 + by / value).clamp(1.0 / LARGEST_SHIFT, LARGEST_SHIFT);
-            for k in 0..shift.len() {
-                state.trapped[k] = limit(state.trapped[k], shift[k]);
-                state.carried[k] = limit(state.carried[k], shift[k]);
-            }
+        let mut across = vec![0.0; nx];
+        for (tooth, film) in self.films.iter_mut().enumerate() {
+            let shift = film.shift(&mut self.states[tooth]).to_vec();
+            film.grid().line_integral(&shift, &mut across);
             for line in self.line[tooth * steps * nx..(tooth + 1) * steps * nx].chunks_exact_mut(nx) {
                 for ix in 1..nx - 1 {
-                    line[ix] = limit(line[ix], shifted[ix]);
+                    line[ix] = shifted(line[ix], across[ix]);
                 }
             }
         }
@@ -425,12 +417,7 @@ impl Level {
 
     pub(super) fn recording(&self, motor: &Motor) -> Recording {
         let grid = self.grid();
-        let (nx, ny, steps) = (self.nx, grid.y.len(), self.steps);
-        let mut pressure = vec![1.0; steps * nx * ny];
-        for (step, map) in pressure.chunks_exact_mut(nx * ny).enumerate() {
-            let source = self.films[0].pressure(step);
-            self.with_edges(map, |k| source[k]);
-        }
+        let (nx, steps) = (self.nx, self.steps);
         let mut stator = vec![0.0; self.line.len()];
         for s in 0..self.instants() {
             for tooth in 0..self.teeth {
@@ -455,7 +442,7 @@ impl Level {
             map_y: grid.y.nodes.clone(),
             half_width: grid.y.start == Start::Mirror,
             half_length: false,
-            pressure: pressure.iter().map(|p| p * self.ambient_pressure).collect(),
+            pressure: self.films[0].full_pressure().iter().map(|p| p * self.ambient_pressure).collect(),
             ..Recording::default()
         };
         let greatest: Vec<f64> = (0..self.stored * steps)

@@ -1,0 +1,57 @@
+//! The known name nearest to a mistyped one.
+
+/// How alike two names must be (Jaro–Winkler, 0 to 1) for one to be offered in place of the other.
+const ALIKE: f64 = 0.75;
+
+/// The candidate most like `name`, if any is alike.
+pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let scored = candidates.into_iter().map(|candidate| (strsim::jaro_winkler(name, candidate), candidate));
+    // On a tie the first candidate wins, the order of the table.
+    let best = scored.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+    (best.0 >= ALIKE).then_some(best.1)
+}
+
+/// The dotted key nearest to `key`: one with the same last part in another table first, then the most alike in the
+/// same table, then the most alike anywhere.
+pub(super) fn nearest_key<'a>(key: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let leaf = |key: &str| key.rsplit('.').next().unwrap_or_default().to_owned();
+    let table = |key: &str| key.rsplit_once('.').map(|(table, _)| table.to_owned());
+    let own = leaf(key);
+    if let Some(elsewhere) = candidates.iter().find(|candidate| leaf(candidate) == own) {
+        return Some(elsewhere);
+    }
+    let alike = |same_table: bool| {
+        candidates
+            .iter()
+            .filter(|candidate| !same_table || table(candidate) == table(key))
+            .map(|candidate| (strsim::jaro_winkler(&own, &leaf(candidate)), *candidate))
+            .reduce(|best, next| if next.0 > best.0 { next } else { best })
+            .filter(|best| best.0 >= ALIKE)
+            .map(|best| best.1)
+    };
+    alike(true).or_else(|| alike(false))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::PARAMETERS;
+
+    #[test]
+    fn a_mistyped_key_finds_its_neighbour() {
+        let keys: Vec<_> = PARAMETERS.iter().map(|p| p.key).collect();
+        for (mistyped, meant) in [
+            ("film.min_spacing", "film.min_spacing_nm"),
+            ("film.min_spacing_um", "film.min_spacing_nm"),
+            ("motor.wave", "motor.waves"),
+            ("stator.freq_khz", "stator.frequency_khz"),
+            ("motor.tooth_radius_m", "stator.tooth_radius_m"),
+            ("waves", "motor.waves"),
+            ("film.visocsity_upa_s", "film.viscosity_upa_s"),
+            ("nmae", "name"),
+        ] {
+            assert_eq!(nearest_key(mistyped, &keys), Some(meant), "{mistyped}");
+        }
+        assert_eq!(nearest_key("film.qqq", &keys), None);
+    }
+}

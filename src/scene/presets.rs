@@ -1,0 +1,75 @@
+//! The presets built into the program, and how a PRESET argument is resolved.
+
+use super::Scene;
+use super::error::{SceneError, What};
+use super::nearest::nearest;
+use super::value::show_text;
+use std::path::Path;
+
+/// A preset built into the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuiltIn {
+    /// The name to ask for it by.
+    pub name: &'static str,
+    /// The file.
+    pub toml: &'static str,
+}
+
+impl BuiltIn {
+    /// The scene.
+    ///
+    /// # Errors
+    ///
+    /// A fault in the built-in file; a test reads them all.
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        Scene::from_toml(self.toml, self.name)
+    }
+}
+
+macro_rules! built_in {
+    ($($name:literal),* $(,)?) => {
+        &[$(BuiltIn { name: $name, toml: include_str!(concat!("../../presets/", $name, ".toml")) }),*]
+    };
+}
+
+/// All built-in presets: the rows of Table I in the paper's order, then what goes beyond it.
+pub static BUILT_IN: &[BuiltIn] = built_in![
+    "fundamental",
+    "doubled-mesh",
+    "min-spacing-100nm",
+    "rotor-width-0.6mm",
+    "tooth-width-1.16mm",
+    "tooth-width-2.31mm",
+    "frequency-3khz",
+    "frequency-20khz",
+    "frequency-40khz",
+    "frequency-60khz",
+    "frequency-100khz",
+    "tooth-radius-3m",
+    "tooth-radius-6.5m",
+    "tooth-radius-10m",
+    "levitating",
+    "plate-viscous",
+    "plate-crossover",
+    "plate-trapped",
+];
+
+/// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.
+///
+/// # Errors
+///
+/// The faults of the file; or, if there is no such file, [`What::UnknownPreset`] with the nearest built-in name.
+pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
+    if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == name_or_path) {
+        return built_in.scene();
+    }
+    let path = Path::new(name_or_path);
+    // A path that is there but cannot be read says so itself.
+    if path.try_exists().unwrap_or(true) && !name_or_path.is_empty() {
+        return Scene::load(path);
+    }
+    let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_lowercase());
+    let stem = stem.strip_suffix(".toml").unwrap_or(&stem).replace(['_', ' '], "-");
+    let nearest = nearest(&stem, BUILT_IN.iter().map(|built_in| built_in.name)).map(str::to_owned);
+    Err(What::UnknownPreset { name: show_text(name_or_path), nearest }.into())
+}

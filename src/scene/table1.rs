@@ -1,0 +1,65 @@
+//! Table I of Maeno and Bogy (1992): what the paper published, row by row.
+
+use serde::Deserialize;
+
+/// The rows as a CSV file, `row,change,published_load_n,published_alpha`.
+pub const TABLE1_CSV: &str = include_str!("../../assets/table1.csv");
+
+/// One row of the published table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PublishedRow {
+    /// Name of the row: `tooth_width_1.16mm`.
+    pub row: String,
+    /// The built-in preset of the row: `tooth-width-1.16mm`.
+    pub preset: String,
+    /// What differs from the fundamental case: `stator.tooth_width_mm=1.157`, or words, or nothing.
+    pub change: String,
+    /// The film's load on one wavelength \[N\], cycle mean.
+    pub published_load_n: f64,
+    /// Ratio of the film's load to the axial load, α.
+    pub published_alpha: f64,
+}
+
+#[derive(Deserialize)]
+struct Record {
+    row: String,
+    change: String,
+    published_load_n: f64,
+    published_alpha: f64,
+}
+
+/// The 14 rows, in the paper's order.
+pub fn published() -> Vec<PublishedRow> {
+    let mut reader = csv::Reader::from_reader(TABLE1_CSV.as_bytes());
+    // The file is part of the program, and a test counts its rows: none is dropped here.
+    let records = reader.deserialize::<Record>().filter_map(Result::ok);
+    let row = |record: Record| PublishedRow {
+        preset: record.row.replace('_', "-"),
+        row: record.row,
+        change: record.change,
+        published_load_n: record.published_load_n,
+        published_alpha: record.published_alpha,
+    };
+    records.map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_rows_are_read() {
+        let rows = published();
+        assert_eq!(rows.len(), TABLE1_CSV.lines().count() - 1);
+        assert_eq!(rows.len(), 14);
+        assert_eq!((rows[0].published_load_n, rows[0].published_alpha), (0.583, 0.238));
+        assert_eq!(rows[5].preset, "tooth-width-2.31mm");
+    }
+
+    #[test]
+    fn alpha_is_load_over_the_axial_load() {
+        for row in published() {
+            assert!((row.published_load_n / 2.45 - row.published_alpha).abs() < 1e-3, "{}", row.row);
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! A value of one key, whatever its type, and how numbers are shown to people.
+
+use std::fmt;
+
+/// The value of one key of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number, in the unit of its key.
+    Number(f64),
+    /// A whole number.
+    Whole(i64),
+    /// true or false.
+    Flag(bool),
+    /// Text, or the name of a choice.
+    Text(String),
+    /// Rows of a compliance table: (wavenumber \[1/m\], compliance \[m²/N\]).
+    Rows(Vec<(f64, f64)>),
+}
+
+impl Value {
+    /// The value as a number, if it is one.
+    pub fn as_number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Whole(whole) => Some(*whole as f64),
+            Self::Flag(_) | Self::Text(_) | Self::Rows(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => f.write_str(&show_number(*number)),
+            Self::Whole(whole) => write!(f, "{whole}"),
+            Self::Flag(flag) => write!(f, "{flag}"),
+            Self::Text(text) => f.write_str(&show_text(text)),
+            Self::Rows(rows) => write!(f, "{} rows", rows.len()),
+        }
+    }
+}
+
+/// A number as a person would write it: plain digits in the middle of the scale, an exponent far out. Every digit that
+/// distinguishes the value is kept.
+pub(super) fn show_number(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !size.is_finite() || (1e-4..1e6).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// Text safe for one line of a terminal: control characters escaped, the tail of a long text cut.
+pub(super) fn show_text(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut shown = String::new();
+    for (count, c) in text.chars().enumerate() {
+        if count == LONGEST {
+            shown.push('…');
+            break;
+        }
+        if c.is_control() { shown.extend(c.escape_default()) } else { shown.push(c) }
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_shown_as_people_write_them() {
+        for (value, shown) in [
+            (0.0, "0"),
+            (3.0, "3"),
+            (-10000.0, "-10000"),
+            (0.001, "0.001"),
+            (1.05e-10, "1.05e-10"),
+            (1e9, "1e9"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(show_number(value), shown);
+        }
+    }
+
+    #[test]
+    fn text_stays_on_one_line() {
+        assert_eq!(show_text("a\nb\u{1b}[1m"), "a\\nb\\u{1b}[1m");
+        assert_eq!(show_text(&"x".repeat(100)).chars().count(), 61);
+    }
+}

@@ -1,0 +1,121 @@
+//! A scene as TOML text, and to disk. Every key is present, absent optional ones as comments; numbers are written with
+//! the fewest digits that read back to the same bits.
+
+use super::error::{Fault, SceneError, What};
+use super::parameter::Parameter;
+use super::value::Value;
+use super::{SCHEMA, Scene};
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+use std::path::Path;
+
+impl Scene {
+    /// The scene as a TOML file, with the meaning of each key beside it.
+    pub fn to_toml(&self) -> String {
+        let mut text = format!("schema = {SCHEMA}\n");
+        let mut table = "";
+        for parameter in self.parameters() {
+            if parameter.table() != table {
+                if table.is_empty() {
+                    let _ = writeln!(text, "scene = \"{}\"", self.scene());
+                }
+                table = parameter.table();
+                let _ = writeln!(text, "\n[{table}]");
+            }
+            match (self.get(parameter.key), parameter.absent) {
+                (Some(value), _) => write_key(&mut text, parameter, &value),
+                (None, Some(meaning)) => {
+                    let _ = writeln!(text, "# {:<38} # {}; absent: {meaning}", parameter.leaf(), parameter.about);
+                }
+                // A path to a table: its rows are written instead.
+                (None, None) => {}
+            }
+        }
+        text
+    }
+
+    /// Writes the scene to `path` by way of a temporary file in the same folder, so that a reader never sees half of
+    /// it and a failure leaves an older file as it was.
+    ///
+    /// # Errors
+    ///
+    /// The faults of [`Scene::check`], as such a file would not load; [`What::Unwritable`] if the folder or the file
+    /// cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), SceneError> {
+        self.check()?;
+        write_atomically(path, &self.to_toml()).map_err(|error| {
+            let what = What::Unwritable { reason: error.to_string() };
+            Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
+        })
+    }
+}
+
+fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
+    let leaf = parameter.leaf();
+    let assignment = match value {
+        // Debug keeps a point or an exponent, without which TOML would read an integer.
+        Value::Number(number) => format!("{leaf} = {number:?}"),
+        Value::Whole(whole) => format!("{leaf} = {whole}"),
+        Value::Flag(flag) => format!("{leaf} = {flag}"),
+        Value::Text(words) => {
+            let quoted = format!("{leaf} = {}", quote(words));
+            if parameter.table().is_empty() {
+                let _ = writeln!(text, "{quoted}");
+                return;
+            }
+            quoted
+        }
+        Value::Rows(rows) => {
+            let _ = writeln!(text, "{leaf} = [  # [wavenumber_per_m, compliance_m2_per_n]");
+            for (wavenumber, compliance) in rows {
+                let _ = writeln!(text, "  [{wavenumber:?}, {compliance:?}],");
+            }
+            text.push_str("]\n");
+            return;
+        }
+    };
+    let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
+}
+
+/// A TOML basic string.
+fn quote(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => quoted.push_str("\\\""),
+            '\\' => quoted.push_str("\\\\"),
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+fn write_atomically(path: &Path, text: &str) -> io::Result<()> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".squeezefilm-").suffix(".tmp");
+    // A temporary file is private by default; a preset is as readable as the one it replaces, or as the umask says.
+    #[cfg(unix)]
+    let builder = {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666))
+    };
+    let mut file = builder.tempfile_in(folder)?;
+    if let Ok(existing) = std::fs::metadata(path) {
+        if existing.is_dir() {
+            return Err(io::Error::from(io::ErrorKind::IsADirectory));
+        }
+        file.as_file().set_permissions(existing.permissions())?;
+    }
+    file.write_all(text.as_bytes())?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}

@@ -1,0 +1,587 @@
+//! Scenes as a user meets them: files, `--set`, messages, saving.
+
+// clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
+#![allow(clippy::unwrap_used)]
+
+use proptest::prelude::*;
+use squeezefilm::problem::{Problem, RotorCompliance, Scenario};
+use squeezefilm::scene::{
+    Kind, PARAMETERS, ParameterKind, Range, RotorModel, Scene, SceneError, Value, What, presets, table1,
+};
+use std::path::Path;
+
+fn read(text: &str) -> Result<Scene, SceneError> {
+    Scene::from_toml(text, "my.toml")
+}
+
+/// The message for a motor file of these lines after `schema` and `scene`, so that the first is line 3.
+fn message(lines: &str) -> String {
+    read(&format!("schema = 1\nscene = \"motor\"\n{lines}")).unwrap_err().to_string()
+}
+
+fn plate_message(lines: &str) -> String {
+    read(&format!("schema = 1\nscene = \"plate\"\n{lines}")).unwrap_err().to_string()
+}
+
+// ---- reading
+
+#[test]
+fn an_empty_file_of_the_schema_is_the_fundamental_case() {
+    let mut fundamental = presets::find("fundamental").unwrap();
+    let bare = read("schema = 1\n").unwrap();
+    assert_eq!(bare, Scene::motor());
+    fundamental.name = bare.name.clone();
+    fundamental.about = bare.about.clone();
+    assert_eq!(fundamental, bare);
+}
+
+#[test]
+fn a_plate_without_a_width_is_a_strip() {
+    let strip = read("schema = 1\nscene = \"plate\"\n").unwrap();
+    assert_eq!(strip, Scene::plate());
+    assert_eq!(strip.get("plate.width_mm"), None);
+    let plate = read("schema = 1\nscene = \"plate\"\n[plate]\nwidth_mm = 1\n").unwrap();
+    assert_eq!(plate.get("plate.width_mm"), Some(Value::Number(1.0)));
+}
+
+#[test]
+fn whole_numbers_inline_tables_and_dotted_keys_are_read() {
+    let scene = read("schema = 1\nmotor = { waves = 7, load_per_wave_n = 2 }\nfilm.min_spacing_nm = 1_00\n").unwrap();
+    assert_eq!(scene.get("motor.load_per_wave_n"), Some(Value::Number(2.0)));
+    assert_eq!(scene.get("film.min_spacing_nm"), Some(Value::Number(100.0)));
+    assert_eq!(
+        read("\u{feff}schema = 1\r\n[motor]\r\nwaves = 6\r\n").unwrap().get("motor.waves"),
+        Some(Value::Whole(6))
+    );
+}
+
+// ---- messages
+
+#[test]
+fn messages_name_file_line_key_value_and_range() {
+    for (lines, expected) in [
+        ("[film]\nmin_spacing_nm = 3\n", "my.toml:4: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"),
+        ("[film]\n\nmin_spacing = 200\n", "my.toml:5: unknown key film.min_spacing: did you mean film.min_spacing_nm?"),
+        (
+            "[motor]\nfrequency_khz = 30\n",
+            "my.toml:4: unknown key motor.frequency_khz: did you mean stator.frequency_khz?",
+        ),
+        ("waves = 7\n", "my.toml:3: unknown key waves: did you mean motor.waves?"),
+        (
+            "[film]\nqqq = 1\n",
+            "my.toml:4: unknown key film.qqq: known are film.min_spacing_nm, film.ambient_pressure_kpa, \
+             film.viscosity_upa_s, film.mean_free_path_nm, film.slip, film.shear",
+        ),
+        ("[flim]\nslip = \"none\"\n", "my.toml:3: unknown table [flim]: did you mean [film]?"),
+        ("film = 3\n", "my.toml:3: film = 3 is not a table: write [film] with its keys below"),
+        ("[[film]]\nshear = true\n", "is not a table: write [film]"),
+        (
+            "[motor]\nwaves = 7.0\n",
+            "my.toml:4: motor.waves = 7.0 is of the wrong type: expected a whole number from 1 to 100",
+        ),
+        (
+            "[motor]\nload_per_wave_n = \"2\"\n",
+            "my.toml:4: motor.load_per_wave_n = \"2\" is of the wrong type: expected a number from 0.01 to 100 N",
+        ),
+        ("[film]\nshear = 1\n", "my.toml:4: film.shear = 1 is of the wrong type: expected true or false"),
+        (
+            "[film]\nviscosity_upa_s = nan\n",
+            "my.toml:4: film.viscosity_upa_s = NaN is not finite: expected a number from 1 to 1000 µPa s",
+        ),
+        ("[film]\nviscosity_upa_s = -inf\n", "my.toml:4: film.viscosity_upa_s = -inf is not finite"),
+        ("[motor]\nwaves = inf\n", "my.toml:4: motor.waves = inf is not finite: expected a whole number"),
+        ("[motor]\nwaves = 0\n", "my.toml:4: motor.waves = 0 is out of range: allowed 1 to 100"),
+        ("[motor]\nwaves = -1\n", "my.toml:4: motor.waves = -1 is out of range: allowed 1 to 100"),
+        ("[motor]\nwaves = 99999999999999999999\n", "my.toml:4: motor.waves = 1e20 is out of range: allowed 1 to 100"),
+        (
+            "[film]\nslip = \"first order\"\n",
+            "my.toml:4: film.slip = \"first order\" is not available: expected one of \"none\", \"first-order\", \
+             \"second-order\", \"fukui-kaneko\": did you mean first-order?",
+        ),
+        (
+            "[stator]\ntooth_radius_m = 0.001\n",
+            "my.toml:4: stator.tooth_radius_m = 0.001 is out of range: allowed 0.01 to 1e6 m, or none (flat teeth)",
+        ),
+        ("[plate]\nlength_mm = 1\n", "my.toml:3: [plate] belongs to scene = \"plate\", and this is scene = \"motor\""),
+        (
+            "[rotor]\nmodel = \"ring\"\n",
+            "my.toml:4: rotor.model = \"ring\" is reserved and not available: allowed \"beam\" or \"table\"",
+        ),
+        (
+            "[numerics]\ncontact_nodes = 5\n",
+            "my.toml:4: numerics.contact_nodes = 5 is out of range: allowed 19 to 5001, or none (left to the fidelity)",
+        ),
+        (
+            "[stator]\ntooth_width_mm = 3\n",
+            "my.toml:4: stator.tooth_width_mm = 3 is out of range: allowed 0.0289226 to 2.89225 mm, 1 % to 100 % of the \
+             tooth pitch 2π × 29 mm / 7 waves / 9 teeth",
+        ),
+        ("[stator]\nteeth_per_wave = 40\n", "my.toml:4: stator.tooth_width_mm = 1.7353 is out of range"),
+    ] {
+        let message = message(lines);
+        assert!(message.contains(expected), "{message}\nexpected {expected}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+}
+
+#[test]
+fn plate_messages() {
+    assert_eq!(
+        plate_message("[plate]\nmean_gap_um = 2\namplitude_um = 2\n"),
+        "my.toml:5: plate.amplitude_um = 2 is out of range: allowed 0 to below plate.mean_gap_um = 2 µm, or the plate \
+         touches"
+    );
+    assert_eq!(
+        plate_message("[stator]\n[motor]\n"),
+        "my.toml:3: [stator] belongs to scene = \"motor\", and this is scene = \"plate\"\n\
+         my.toml:4: [motor] belongs to scene = \"motor\", and this is scene = \"plate\""
+    );
+}
+
+#[test]
+fn all_faults_are_reported_in_the_order_of_the_file() {
+    let text = "[stator]\ntooth_width_mm = -1\nteeth = 9\n[film]\nshear = 0\n[motor]\nwaves = 101\n";
+    let error = read(&format!("schema = 1\n{text}")).unwrap_err();
+    let found: Vec<_> = error.faults().iter().map(|f| (f.line.unwrap(), f.what.key().unwrap())).collect();
+    assert_eq!(
+        found,
+        [(3, "stator.tooth_width_mm"), (4, "stator.teeth"), (6, "film.shear"), (8, "motor.waves")],
+        "{error}"
+    );
+}
+
+#[test]
+fn the_schema_is_required_and_checked() {
+    let error = |text: &str| read(text).unwrap_err().to_string();
+    assert_eq!(
+        error("scene = \"motor\"\n"),
+        "my.toml: the key schema is missing: write schema = 1 at the top of the file"
+    );
+    let supported = "is not supported: this program reads schema = 1";
+    assert_eq!(error("\nschema = 2\nunknown = 3\n"), format!("my.toml:2: schema = 2 {supported}"));
+    assert_eq!(error("schema = \"1\"\n"), format!("my.toml:1: schema = \"1\" {supported}"));
+    assert_eq!(
+        error("schema = 1\nscene = \"moter\"\n"),
+        "my.toml:2: scene = \"moter\" is not a scene: allowed \"motor\" or \"plate\": did you mean motor?"
+    );
+}
+
+#[test]
+fn syntax_errors_have_line_and_column() {
+    let error = read("schema = 1\n[film\nshear = true\n").unwrap_err();
+    assert!(error.to_string().starts_with("my.toml:2:"), "{error}");
+    assert!(error.to_string().contains("not valid TOML"), "{error}");
+    assert!(error.faults()[0].column.is_some());
+    let bare = read("schema = 1\n[film]\nslip = first-order\n").unwrap_err();
+    assert!(bare.to_string().starts_with("my.toml:3:8: not valid TOML: text must be in quotes"), "{bare}");
+    let twice = read("schema = 1\n[film]\nshear = true\nshear = true\n").unwrap_err();
+    assert!(twice.to_string().starts_with("my.toml:4:1: not valid TOML: duplicate key"), "{twice}");
+}
+
+#[test]
+fn a_hostile_key_stays_on_its_line() {
+    let message = message("\"a\\nb\\u001b[2J\" = 1\n");
+    assert_eq!(message.lines().count(), 1);
+    assert!(!message.contains('\u{1b}'), "{message:?}");
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    for (open, middle, close) in
+        [("compliance = ", "[", ""), ("a", ".a", " = 1"), ("a = ", "{a = ", "1"), ("[a", ".a", "]")]
+    {
+        let text = format!("schema = 1\n[rotor]\n{open}{}{close}\n", middle.repeat(100_000));
+        let error = read(&text).unwrap_err().to_string();
+        assert!(error.len() < 1000 && error.starts_with("my.toml:"), "{error}");
+        assert!(Scene::motor().set("rotor.compliance", &"[".repeat(100_000)).is_err());
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_say_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let load = |name: &str| Scene::load(&folder.path().join(name)).unwrap_err();
+    assert!(load("missing.toml").to_string().contains("missing.toml: cannot be read: "));
+    std::fs::write(folder.path().join("latin1.toml"), b"name = \"\xe9\"\n").unwrap();
+    assert!(load("latin1.toml").to_string().ends_with("latin1.toml: is not UTF-8 text"));
+    std::fs::File::create(folder.path().join("huge.toml")).unwrap().set_len(1 << 30).unwrap();
+    assert!(matches!(load("huge.toml").faults()[0].what, What::TooLarge { .. }));
+    assert!(Scene::load(folder.path()).unwrap_err().to_string().contains("cannot be read"));
+}
+
+// ---- the compliance table
+
+#[test]
+fn a_compliance_table_is_read_inline_and_from_csv() {
+    let inline = read("schema = 1\n[rotor]\nmodel = \"table\"\ncompliance = [[241.5, 2e-9],\n[483, 1e-9]]\n").unwrap();
+    let Scenario::Motor(motor) = Problem::new(&inline).unwrap().scenario else { panic!("a motor") };
+    assert_eq!(motor.rotor, RotorCompliance::Table(vec![(241.5, 2e-9), (483.0, 1e-9)]));
+
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("r.csv"), "harmonic,compliance_m2_per_n\n1,2e-9\n2,1e-9\n").unwrap();
+    let preset = folder.path().join("p.toml");
+    let text = "schema = 1\n[rotor]\ncompliance_csv = \"r.csv\"\nmodel = \"table\"\n[motor]\nwaves = 6\n";
+    std::fs::write(&preset, text).unwrap();
+    let scene = Scene::load(&preset).unwrap();
+    let Scenario::Motor(motor) = Problem::new(&scene).unwrap().scenario else { panic!("a motor") };
+    let RotorCompliance::Table(rows) = &motor.rotor else { panic!("a table") };
+    assert_eq!(rows.len(), 2);
+    assert!((rows[1].0 * motor.wavelength() / std::f64::consts::TAU - 2.0).abs() < 1e-14);
+
+    // What is saved needs the CSV file no more.
+    let saved = folder.path().join("saved.toml");
+    scene.save(&saved).unwrap();
+    std::fs::remove_file(folder.path().join("r.csv")).unwrap();
+    assert_eq!(Scene::load(&saved).unwrap(), scene);
+    assert!(Scene::load(&preset).unwrap_err().to_string().contains("p.toml:3: rotor.compliance_csv = \"r.csv\": "));
+}
+
+#[test]
+fn compliance_faults_are_told_apart() {
+    for (lines, expected) in [
+        ("model = \"table\"\n", "my.toml:4: rotor.model = \"table\" needs rotor.compliance_csv or rotor.compliance"),
+        (
+            "model = \"table\"\ncompliance = [[1, 1e-9]]\ncompliance_csv = \"a.csv\"\n",
+            "my.toml:6: rotor.compliance and rotor.compliance_csv are both given: keep one",
+        ),
+        (
+            "model = \"table\"\ncompliance = [[1, 1e-9],\n[2, 0]]\n",
+            "my.toml:6: rotor.compliance, row 2: compliance_m2_per_n = 0 is out of range: allowed 1e-20 to 1 m²/N",
+        ),
+        (
+            "model = \"table\"\ncompliance = [[2, 1e-9], [1, 1e-9]]\n",
+            "my.toml:5: rotor.compliance, row 2: wavenumber_per_m = 1 is not above 2, the one before: sort the rows",
+        ),
+        ("model = \"table\"\ncompliance = [[2, 1e-9, 3]]\n", "row 1: [2, 1e-9, 3] is not a pair of numbers"),
+        ("model = \"table\"\ncompliance = []\n", "my.toml:5: rotor.compliance has 0 rows: allowed 1 to 100000"),
+        (
+            "model = \"table\"\ncompliance_csv = 3\n",
+            "my.toml:5: rotor.compliance_csv = 3 is of the wrong type: expected the path of a CSV file",
+        ),
+        (
+            "model = \"table\"\ndecay_length_mm = 4.0\ncompliance = [[1, 1e-9]]\n",
+            "my.toml:5: rotor.decay_length_mm belongs to rotor.model = \"beam\", and this is rotor.model = \"table\"",
+        ),
+        (
+            "compliance = [[1, 1e-9]]\n",
+            "my.toml:4: rotor.compliance belongs to rotor.model = \"table\", and this is rotor.model = \"beam\"",
+        ),
+    ] {
+        let message = message(&format!("[rotor]\n{lines}"));
+        assert!(message.contains(expected), "{message}\nexpected {expected}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+}
+
+// ---- --set
+
+#[test]
+fn set_reads_text_in_the_unit_of_the_key() {
+    let mut scene = Scene::motor();
+    scene.set("stator.tooth_radius_m", "3").unwrap();
+    assert_eq!(scene.get("stator.tooth_radius_m"), Some(Value::Number(3.0)));
+    scene.set("stator.tooth_radius_m", "none").unwrap();
+    assert_eq!(scene.get("stator.tooth_radius_m"), None);
+    scene.set("numerics.contact_nodes", "361").unwrap();
+    scene.set("numerics.contact_nodes", "").unwrap();
+    scene.set("film.slip", "none").unwrap();
+    assert_eq!(scene.get("film.slip"), Some(Value::Text("none".into())));
+    scene.set("film.shear", "false").unwrap();
+    scene.set("name", "Mine").unwrap();
+    assert_eq!(scene.name, "Mine");
+    scene.set_value("motor.waves", Value::Number(6.0)).unwrap();
+    assert_eq!(scene.get("motor.waves"), Some(Value::Whole(6)));
+}
+
+#[test]
+fn set_refuses_and_changes_nothing() {
+    let mut scene = Scene::motor();
+    for (key, text, expected) in [
+        ("film.min_spacing_nm", "3", "film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"),
+        ("film.min_spacing_nm", "none", "film.min_spacing_nm = none is of the wrong type: expected a number"),
+        ("film.min_spacing_nm", "1,5", "film.min_spacing_nm = 1,5 is of the wrong type"),
+        ("film.min_spacing_nm", "NaN", "film.min_spacing_nm = NaN is not finite"),
+        ("motor.waves", "7.5", "motor.waves = 7.5 is of the wrong type: expected a whole number from 1 to 100"),
+        ("film.spacing_nm", "3", "unknown key film.spacing_nm: did you mean film.min_spacing_nm?"),
+        ("plate.length_mm", "1", "plate.length_mm belongs to scene = \"plate\", and this is scene = \"motor\""),
+        ("plate.x", "1", "plate.x belongs to scene = \"plate\", and this is scene = \"motor\""),
+        ("qqq.x", "1", "unknown key qqq.x: known are motor, stator, rotor, film, numerics"),
+        ("film", "1", "unknown key film: known are film.min_spacing_nm, film.ambient"),
+        ("scene", "plate", "scene cannot be changed: start from another preset"),
+        ("rotor.model", "ring", "rotor.model = \"ring\" is reserved"),
+        ("rotor.compliance_csv", "no.csv", "rotor.compliance_csv = \"no.csv\": no.csv cannot be read: "),
+        ("rotor.compliance", "[[1, 2, 3]]", "rotor.compliance, row 1: [1, 2, 3] is not a pair"),
+    ] {
+        let message = scene.set(key, text).unwrap_err().to_string();
+        assert!(message.starts_with(expected), "{message}\nexpected {expected}");
+        assert_eq!(scene, Scene::motor(), "{key}");
+    }
+    assert!(scene.set_value("motor.waves", Value::Number(6.5)).is_err());
+}
+
+#[test]
+fn pairs_are_set_in_any_order() {
+    let mut scene = Scene::motor();
+    // Twice the teeth leave no room for the tooth, until the tooth is narrower.
+    let pairs = [("stator.teeth_per_wave", "18"), ("stator.tooth_width_mm", "1")];
+    scene.set_all(pairs).unwrap();
+    let mut other = Scene::motor();
+    other.set_all(pairs.into_iter().rev()).unwrap();
+    assert_eq!(scene, other);
+
+    let before = scene.clone();
+    assert!(scene.set_all([("stator.tooth_width_mm", "2")]).is_err());
+    let error = scene.set_all([("film.slip", "no"), ("motor.waves", "0")]).unwrap_err();
+    assert_eq!(error.faults().len(), 2);
+    assert_eq!(scene, before);
+
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("r.csv");
+    std::fs::write(&csv, "harmonic,compliance_m2_per_n\n1,2e-9\n").unwrap();
+    let mut table = Scene::motor();
+    table.set_all([("rotor.compliance_csv", csv.to_str().unwrap()), ("motor.waves", "6")]).unwrap();
+    let Some(RotorModel::Table { compliance }) = table.rotor_model() else { panic!("a table") };
+    assert!((compliance[0].0 - 6.0 / 29e-3).abs() < 1e-9, "{compliance:?}");
+}
+
+// ---- presets
+
+#[test]
+fn every_preset_is_a_problem_and_saves_equal() {
+    let folder = tempfile::tempdir().unwrap();
+    for built_in in presets::BUILT_IN {
+        let scene = built_in.scene().unwrap();
+        assert!(!scene.about.is_empty(), "{}", built_in.name);
+        Problem::new(&scene).unwrap();
+        let path = folder.path().join(built_in.name);
+        scene.save(&path).unwrap();
+        assert_eq!(presets::find(path.to_str().unwrap()).unwrap(), scene);
+    }
+}
+
+#[test]
+fn every_published_row_has_its_preset_and_its_change() {
+    for row in table1::published() {
+        let preset = presets::find(&row.preset).unwrap();
+        let mut expected = presets::find("fundamental").unwrap();
+        match row.change.split_once('=') {
+            Some((key, value)) if key.contains('.') => expected.set(key, value).unwrap(),
+            _ if row.row == "doubled_mesh" => {
+                expected.set_all([("numerics.film_nodes_along", "101"), ("numerics.film_nodes_across", "21")]).unwrap();
+                expected.set("numerics.contact_nodes", "361").unwrap();
+            }
+            _ => assert_eq!(row.row, "fundamental"),
+        }
+        assert_eq!(preset.kind, expected.kind, "{}", row.row);
+        assert_eq!(preset.numerics, expected.numerics, "{}", row.row);
+        // The description quotes the published numbers as printed in the paper.
+        let (load, alpha) = (row.published_load_n, row.published_alpha);
+        assert!(preset.about.contains(&format!("{load:.3} N, share of the load {alpha:.3}")), "{}", preset.about);
+    }
+}
+
+#[test]
+fn every_built_in_name_is_an_embedded_file() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("presets");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap().replace(".toml", ""))
+        .collect();
+    files.sort();
+    let mut names: Vec<_> = presets::BUILT_IN.iter().map(|built_in| built_in.name.to_owned()).collect();
+    names.sort();
+    assert_eq!(files, names);
+}
+
+#[test]
+fn an_unknown_preset_suggests_the_nearest() {
+    for (name, meant) in [
+        ("fundemental", "fundamental"),
+        ("frequency-30khz", "frequency-3khz"),
+        ("plate_trapped", "plate-trapped"),
+        ("no/such/levitating.toml", "levitating"),
+    ] {
+        let message = presets::find(name).unwrap_err().to_string();
+        assert!(message.starts_with(&format!("unknown preset {name}: ")), "{message}");
+        assert!(message.contains(&format!("did you mean {meant}?")), "{message}");
+    }
+    assert!(!presets::find("").unwrap_err().to_string().contains("did you mean"));
+}
+
+// ---- to SI
+
+#[test]
+fn the_fundamental_case_in_si() {
+    let mut scene = presets::find("fundamental").unwrap();
+    scene.set("motor.rotor_speed_rpm", "60").unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
+    assert_eq!(problem.name, "Fundamental case");
+    assert_eq!((motor.waves, motor.teeth, motor.tooth_radius), (7, 9, None));
+    let RotorCompliance::Beam { decay_length, point_compliance, local_compliance } = motor.rotor else {
+        panic!("a beam")
+    };
+    // A decimal fraction is not exact, so its thousandth may be the double next to the one written here.
+    for (found, expected) in [
+        (motor.contact_radius, 29e-3),
+        (motor.load, 2.45),
+        (motor.dry_friction, 0.7),
+        (motor.frequency, 30e3),
+        (motor.normal_amplitude, 1.3e-6),
+        (motor.tangential_amplitude, 1e-6),
+        (motor.tooth_width, 1.7353e-3),
+        (motor.contact_width, 0.3e-3),
+        (motor.gas.ambient_pressure, 101_325.0),
+        (motor.gas.viscosity, 18.1e-6),
+        (point_compliance, 0.64e-6),
+        (local_compliance, 1.05e-10),
+    ] {
+        assert!((found / expected - 1.0f64).abs() <= f64::EPSILON, "{found:e} {expected:e}");
+    }
+    // Whole numbers are exact.
+    assert_eq!((motor.min_spacing, motor.gas.mean_free_path, decay_length), (200e-9, 64e-9, 4e-3));
+    // One turn a second.
+    assert!((motor.rotor_speed - std::f64::consts::TAU * 0.029).abs() < 1e-16);
+    assert!((motor.tooth_width / motor.wavelength() - 12.0 / 180.0).abs() < 1e-5);
+}
+
+#[test]
+fn a_scene_broken_in_memory_is_no_problem_and_is_not_saved() {
+    let mut scene = Scene::plate();
+    if let Kind::Plate { plate, .. } = &mut scene.kind {
+        plate.amplitude_um = 1.0;
+    }
+    assert!(Problem::new(&scene).unwrap_err().to_string().starts_with("plate.amplitude_um = 1 is out of range"));
+    let folder = tempfile::tempdir().unwrap();
+    assert!(scene.save(&folder.path().join("p.toml")).is_err());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+// ---- saving
+
+#[test]
+fn saving_replaces_the_file_and_leaves_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.toml");
+    std::fs::write(&path, "old").unwrap();
+    Scene::motor().save(&path).unwrap();
+    assert_eq!(Scene::load(&path).unwrap(), Scene::motor());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    let error = Scene::motor().save(&folder.path().join("no/p.toml")).unwrap_err();
+    assert!(matches!(error.faults()[0].what, What::Unwritable { .. }), "{error}");
+    assert!(Scene::motor().save(folder.path()).is_err());
+}
+
+#[test]
+fn a_saved_file_has_every_key() {
+    let mut table = Scene::motor();
+    table.set("rotor.compliance", "[[1, 1e-9]]").unwrap();
+    for scene in [Scene::motor(), Scene::plate(), table] {
+        let text = scene.to_toml();
+        for parameter in scene.parameters().filter(|p| p.kind != ParameterKind::CsvPath) {
+            assert!(text.contains(&format!("{} ", parameter.leaf())), "{} in\n{text}", parameter.key);
+        }
+    }
+}
+
+/// A number anywhere in a range, its ends and small numbers included.
+fn anywhere(range: Range) -> BoxedStrategy<f64> {
+    let Range { min, max } = range;
+    let log = (min.max(1e-12).ln()..=max.ln()).prop_map(move |ln| ln.exp().clamp(min, max));
+    prop_oneof![1 => Just(min), 1 => Just(max), 4 => min..=max, 4 => log].boxed()
+}
+
+fn any_value(kind: ParameterKind) -> BoxedStrategy<Option<Value>> {
+    match kind {
+        ParameterKind::Number { range, .. } => anywhere(range).prop_map(|x| Some(Value::Number(x))).boxed(),
+        ParameterKind::Whole { min, max, .. } => {
+            (i64::from(min)..=i64::from(max)).prop_map(|n| Some(Value::Whole(n))).boxed()
+        }
+        ParameterKind::Flag { .. } => any::<bool>().prop_map(|flag| Some(Value::Flag(flag))).boxed(),
+        ParameterKind::Choice { options, .. } => {
+            proptest::sample::select(options).prop_map(|name| Some(Value::Text(name.to_owned()))).boxed()
+        }
+        ParameterKind::Text { .. } => any::<String>().prop_map(|text| Some(Value::Text(text))).boxed(),
+        ParameterKind::Rows => {
+            proptest::collection::btree_map(1u32..10_000_000, anywhere(Range::new(1e-20, 1.0)), 1..20)
+                .prop_map(|rows| Some(Value::Rows(rows.into_iter().map(|(k, c)| (f64::from(k) / 7.0, c)).collect())))
+                .boxed()
+        }
+        ParameterKind::CsvPath => Just(None).boxed(),
+    }
+}
+
+/// Scenes all over the ranges: every key drawn, then the two that others limit drawn again within what is left.
+fn any_scene() -> impl Strategy<Value = Scene> {
+    let values: Vec<_> = PARAMETERS
+        .iter()
+        .map(
+            |p| if p.absent.is_some() { prop_oneof![Just(None), any_value(p.kind)].boxed() } else { any_value(p.kind) },
+        )
+        .collect();
+    (any::<bool>(), values, 0.0..1.0f64).prop_map(|(is_motor, values, share)| {
+        let mut scene = if is_motor { Scene::motor() } else { Scene::plate() };
+        // The model first: it decides which keys apply.
+        for keep in ["rotor.model", ""] {
+            for (parameter, value) in PARAMETERS.iter().zip(&values) {
+                let applies = parameter.key.starts_with(keep) && scene.parameters().any(|p| p.key == parameter.key);
+                if let (true, Some(value)) = (applies, value) {
+                    scene.set_value(parameter.key, value.clone()).unwrap();
+                }
+            }
+        }
+        for key in ["stator.tooth_width_mm", "plate.amplitude_um"] {
+            if let Some(range) = scene.range(key) {
+                let value = range.min + share * (range.max - range.min);
+                scene.set_value(key, Value::Number(value)).unwrap();
+            }
+        }
+        scene
+    })
+}
+
+fn bits(value: Value) -> Vec<u64> {
+    match value {
+        Value::Number(x) => vec![x.to_bits()],
+        Value::Rows(rows) => rows.iter().flat_map(|(k, c)| [k.to_bits(), c.to_bits()]).collect(),
+        _ => Vec::new(),
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_saved_scene_loads_back_bit_for_bit(scene in any_scene()) {
+        scene.check().unwrap();
+        let text = scene.to_toml();
+        let loaded = read(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        prop_assert_eq!(&loaded, &scene);
+        for parameter in scene.parameters() {
+            prop_assert_eq!(loaded.get(parameter.key).map(bits), scene.get(parameter.key).map(bits));
+        }
+        Problem::new(&loaded).unwrap();
+    }
+
+    #[test]
+    fn set_of_what_get_shows_changes_nothing(scene in any_scene()) {
+        let mut copy = scene.clone();
+        for parameter in scene.parameters() {
+            match scene.get(parameter.key) {
+                Some(Value::Number(number)) => copy.set(parameter.key, &number.to_string()).unwrap(),
+                Some(Value::Whole(whole)) => copy.set(parameter.key, &whole.to_string()).unwrap(),
+                Some(value) => copy.set_value(parameter.key, value).unwrap(),
+                None => {}
+            }
+        }
+        prop_assert_eq!(copy, scene);
+    }
+
+    #[test]
+    fn no_text_panics(text in "(schema = 1\n)?(\\[(film|motor|rotor)\\]\n)?(compliance|waves|model|slip)? ?=? ?\\PC{0,40}") {
+        let _ = read(&text);
+        let mut scene = Scene::motor();
+        for parameter in PARAMETERS {
+            let _ = scene.set(parameter.key, &text);
+        }
+        let _ = presets::find(&text);
+    }
+}
