@@ -6,7 +6,7 @@ use crate::numerics::grading::clustering;
 use crate::problem::{Motor, Numerics, Plate};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// Intervals along a tooth (of a plate: along half its length).
     pub along: usize,
@@ -14,6 +14,9 @@ pub struct Grid {
     pub across: usize,
     /// Time steps in a cycle.
     pub steps: usize,
+    /// Rotor harmonics are kept until they fall below this fraction of the local compliance: four times as large on a
+    /// grid of twice the spacing, so that what the cut changes is extrapolated, and estimated, with the rest.
+    pub harmonic_fraction: f64,
 }
 
 /// What will be solved.
@@ -35,9 +38,7 @@ pub struct Plan {
     pub shear: bool,
     /// Bound of what leaving out the wedge term changes, relative to α.
     pub shear_effect: f64,
-    /// Rotor harmonics are kept until they fall below this fraction of the local compliance …
-    pub harmonic_fraction: f64,
-    /// … or until there are this many.
+    /// Rotor harmonics kept at most.
     pub most_harmonics: usize,
     /// Largest relative change that counts as a repeating cycle.
     pub tolerance: f64,
@@ -102,14 +103,13 @@ impl Plan {
         });
         Self {
             fidelity: name(fidelity, numerics),
-            grids: nested(Grid { along, across, steps }),
+            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }),
             clustering_along,
             clustering_across,
             half_width: true,
             every_tooth: false,
             shear,
             shear_effect: if motor.shear && !shear { shear_effect } else { 0.0 },
-            harmonic_fraction: spec.harmonic_fraction,
             most_harmonics: spec.most_harmonics,
             tolerance: spec.tolerance,
             round_limit: ROUND_LIMIT,
@@ -136,14 +136,13 @@ impl Plan {
         why.push(format!("time: {steps} steps a cycle; two coarser grids for the error estimate"));
         Self {
             fidelity: name(fidelity, numerics),
-            grids: nested(Grid { along, across, steps }),
+            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }),
             clustering_along,
             clustering_across,
             half_width: true,
             every_tooth: false,
             shear: false,
             shear_effect: 0.0,
-            harmonic_fraction: spec.harmonic_fraction,
             most_harmonics: spec.most_harmonics,
             tolerance: spec.tolerance,
             round_limit: ROUND_LIMIT,
@@ -170,6 +169,7 @@ fn nested(finest: Grid) -> Vec<Grid> {
             along: finest.along >> halved,
             across: finest.across >> halved,
             steps: finest.steps >> halved,
+            harmonic_fraction: finest.harmonic_fraction * (1 << (2 * halved)) as f64,
         })
         .collect()
 }

@@ -86,7 +86,7 @@ impl Level {
                 })
                 .collect()
         });
-        let harmonics = cutoff(&motor.rotor, motor.wavelength(), plan.harmonic_fraction, plan.most_harmonics);
+        let harmonics = cutoff(&motor.rotor, motor.wavelength(), grid.harmonic_fraction, plan.most_harmonics);
         let modes = Modes::new(&motor.rotor, motor.wavelength(), harmonics, &positions);
         let gas = &motor.gas;
         let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load);
