@@ -234,12 +234,19 @@ impl Film {
             self.scatter_pressure(guess);
         }
         self.theta.fill(1.0);
+        let mut upwind = speed.is_none();
         loop {
-            self.newton(law, h, speed, dt, state, &mut cost)?;
-            if !self.limit(h, state) {
-                break;
+            match self.newton(law, h, speed, dt, state, &mut cost) {
+                Ok(()) if !self.limit(h, state) => break,
+                Ok(()) => cost.limited = true,
+                // The fitting was made for another pressure: fully upwind faces make an M-function of any pressure.
+                Err(_) if !upwind => {
+                    upwind = true;
+                    cost.limited = true;
+                    self.fit_upwind(h, speed.unwrap_or_default(), dt);
+                }
+                Err(error) => return Err(error),
             }
-            cost.limited = true;
         }
         // Accept: Z = hP, W = Z + θ/2 (Z − Z_old).
         let (ux, ny, columns) = (self.grid.x.unknown(), self.grid.y.len(), self.columns);
@@ -297,6 +304,16 @@ impl Film {
                     diffusion * (half_peclet / half_peclet.tanh() - 1.0)
                 };
             }
+        }
+    }
+
+    /// The diffusion that makes the wedge flux fully upwind.
+    fn fit_upwind(&mut self, h: &[f64], speed: &[f64], dt: f64) {
+        let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
+        for face in 0..nx - 1 {
+            let (_, face_gap) = self.x_face(face, h, dt);
+            let drift = 0.125 * dt * face_gap * (speed[face] + speed[face + 1]);
+            self.fitting[face * ny..(face + 1) * ny].fill(drift.abs());
         }
     }
 

@@ -1,0 +1,216 @@
+//! The film against exact results (docs/theory.md, model.md §6): nothing in here is compared with ourselves.
+
+use squeezefilm::control::Cancel;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::film::exact;
+use squeezefilm::plan::Plan;
+use squeezefilm::plate::{self, Periodic};
+use squeezefilm::problem::{Gas, Numerics, Plate, Slip};
+use squeezefilm::solution::Status;
+
+const GAP: f64 = 1e-6;
+const LENGTH: f64 = 1e-3;
+
+fn air(mean_free_path: f64) -> Gas {
+    Gas { ambient_pressure: 101_325.0, viscosity: 18.1e-6, mean_free_path, slip: Slip::FirstOrder }
+}
+
+/// A plate with squeeze number `sigma`, relative excursion `epsilon`, Knudsen number `m`, and width/length `aspect`.
+fn plate(sigma: f64, epsilon: f64, m: f64, aspect: Option<f64>) -> Plate {
+    let gas = air(m * GAP);
+    let omega = sigma * gas.ambient_pressure * GAP * GAP / (12.0 * gas.viscosity * LENGTH * LENGTH);
+    Plate {
+        length: LENGTH,
+        width: aspect.map(|a| a * LENGTH),
+        mean_gap: GAP,
+        amplitude: epsilon * GAP,
+        frequency: omega / std::f64::consts::TAU,
+        gas,
+    }
+}
+
+fn solve_with(plate: &Plate, fidelity: Fidelity, numerics: &Numerics) -> Periodic {
+    let plan = Plan::plate(plate, fidelity, numerics);
+    let found = plate::periodic(plate, &plan, &mut (), &Cancel::new()).unwrap();
+    assert_eq!(found.status, Status::Converged, "{plate:?}");
+    found
+}
+
+fn solve(plate: &Plate, fidelity: Fidelity) -> Periodic {
+    solve_with(plate, fidelity, &Numerics::default())
+}
+
+/// ⟨h (Z²/2 + 6λZ)⟩ at every node against ⟨h³/2 + 6λh²⟩ of the same time steps: the discrete film keeps the invariant
+/// exactly, so that only the tolerance of the periodic state is left.
+fn largest_invariant_error(plate: &Plate, found: &Periodic) -> f64 {
+    let recording = &found.recording;
+    let (nodes, slip) = (recording.map_x.len() * recording.map_y.len(), 6.0 * plate.gas.mean_free_path);
+    let gaps: Vec<f64> = (0..recording.frames).map(|m| recording.film_thickness[m * recording.x.len()]).collect();
+    let expected: f64 = gaps.iter().map(|h| h * h * (0.5 * h + slip)).sum();
+    (0..nodes)
+        .map(|node| {
+            let sum: f64 = (0..recording.frames)
+                .map(|m| {
+                    let z = gaps[m] * recording.pressure[m * nodes + node] / plate.gas.ambient_pressure;
+                    gaps[m] * z * (0.5 * z + slip)
+                })
+                .sum();
+            (sum / expected - 1.0).abs()
+        })
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn invariant_holds_at_every_node_for_all_squeeze_numbers() {
+    for m in [0.0, 0.32] {
+        for sigma in [0.1, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5] {
+            let strip = plate(sigma, 0.5, m, None);
+            let error = largest_invariant_error(&strip, &solve(&strip, Fidelity::Standard));
+            assert!(error < 3e-6, "strip, σ = {sigma}, m = {m}: {error:.1e}");
+        }
+        for sigma in [0.1, 30.0, 1e5] {
+            let rectangle = plate(sigma, 0.5, m, Some(0.6));
+            let error = largest_invariant_error(&rectangle, &solve(&rectangle, Fidelity::Draft));
+            assert!(error < 3e-5, "rectangle, σ = {sigma}, m = {m}: {error:.1e}");
+        }
+    }
+}
+
+#[test]
+fn trapped_limit_is_langlois_and_is_approached_as_the_edge_layer_thins() {
+    for (epsilon, m) in [(0.5, 0.0), (0.2, 0.1), (0.8, 0.3)] {
+        let limit = exact::trapped_mean_pressure(epsilon, m) - 1.0;
+        let deficit = |sigma: f64| {
+            let strip = plate(sigma, epsilon, m, None);
+            let found = solve(&strip, Fidelity::Fine);
+            1.0 - found.result.film_load / (strip.gas.ambient_pressure * LENGTH) / limit
+        };
+        // The layer is O(σ^-1/2) thick: a hundred times σ makes a tenth of the deficit.
+        let (near, far) = (deficit(1e4), deficit(1e6));
+        assert!(far.abs() < 0.02, "ε = {epsilon}, m = {m}: {far}");
+        assert!((near / far - 10.0).abs() < 1.0, "ε = {epsilon}, m = {m}: {near} {far}");
+    }
+}
+
+#[test]
+fn viscous_limit_is_the_incompressible_film_with_no_mean_load() {
+    let (epsilon, m) = (0.3, 0.1);
+    let strip = plate(1e-3, epsilon, m, None);
+    let found = solve(&strip, Fidelity::Fine);
+    let omega = std::f64::consts::TAU * strip.frequency;
+    let recording = &found.recording;
+    let scale = exact::viscous_strip_force(strip.gas.viscosity, LENGTH, GAP, omega * GAP, m * GAP).abs();
+    for frame in 0..recording.frames {
+        let phase = std::f64::consts::TAU * frame as f64 / recording.frames as f64;
+        let gap = strip.gap(frame as f64 / recording.frames as f64);
+        let rate = -omega * strip.amplitude * phase.sin();
+        let force = exact::viscous_strip_force(strip.gas.viscosity, LENGTH, gap, rate, strip.gas.mean_free_path);
+        // Finite volumes on 52 graded intervals and 256 steps: 0.2 % of the largest force.
+        assert!(
+            (recording.film_load[frame] - force).abs() < 2e-3 * scale,
+            "{frame}: {} {force}",
+            recording.film_load[frame]
+        );
+    }
+    assert!(found.result.film_load.abs() < 1e-3 * scale, "{} {scale}", found.result.film_load);
+}
+
+/// Spring and damping of the load over a cycle, divided by p_a·area·ε.
+fn first_harmonic(plate: &Plate, found: &Periodic) -> (f64, f64) {
+    let frames = found.recording.frames as f64;
+    let scale = 2.0 / frames / (plate.gas.ambient_pressure * plate.area() * plate.amplitude / GAP);
+    let mut sum = (0.0, 0.0);
+    for (frame, load) in found.recording.film_load.iter().enumerate() {
+        let phase = std::f64::consts::TAU * frame as f64 / frames;
+        // Re(F e^{iτ}) = F_r cos τ − F_i sin τ.
+        sum = (sum.0 + load * phase.cos(), sum.1 - load * phase.sin());
+    }
+    (scale * sum.0, scale * sum.1)
+}
+
+#[test]
+fn small_amplitudes_have_the_linear_spring_and_damping() {
+    for (aspect, fidelity, bound) in [
+        // Fields of the finest grid, not extrapolated: 96 intervals and 512 steps, 24 and 128.
+        (None, Fidelity::Reference, 5e-4),
+        (Some(1.0), Fidelity::Standard, 6e-3),
+        (Some(0.3), Fidelity::Standard, 6e-3),
+    ] {
+        for m in [0.0, 0.2] {
+            for sigma in [1.0, 30.0, 1000.0] {
+                let plate = plate(sigma, 1e-4, m, aspect);
+                let found = solve(&plate, fidelity);
+                let (spring, damping) = first_harmonic(&plate, &found);
+                let exact = match aspect {
+                    None => exact::linear_strip(sigma, m),
+                    Some(aspect) => exact::linear_rectangle(sigma, m, aspect),
+                };
+                let size = exact.0.hypot(exact.1);
+                let error = (spring - exact.0).hypot(damping - exact.1) / size;
+                assert!(
+                    error < bound,
+                    "{aspect:?} m = {m} σ = {sigma}: {spring} {damping}, exact {exact:?}: {error:.1e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_plate_of_two_other_codes() {
+    // 1.735 mm × 0.3 mm, h = 1 µm (1 + 0.5 cos ωt), 30 kHz: mean gauge load 13.850 mN without slip (two independent
+    // codes, mesh-extrapolated), 12.26 mN with first-order slip at λ_a = 65 nm.
+    for (mean_free_path, expected, digits) in [(0.0, 13.850e-3, 2e-6), (65e-9, 12.26e-3, 6e-6)] {
+        let plate = Plate {
+            length: 1.735e-3,
+            width: Some(0.3e-3),
+            mean_gap: 1e-6,
+            amplitude: 0.5e-6,
+            frequency: 30e3,
+            gas: air(mean_free_path),
+        };
+        let found = solve(&plate, Fidelity::Standard);
+        let load = found.result.film_load;
+        assert!(
+            (load - expected).abs() < digits,
+            "{load:.6e} ± {:.1e}, expected {expected}",
+            found.result.film_load_error
+        );
+    }
+}
+
+#[test]
+fn slip_laws_agree_at_small_knudsen_numbers_and_differ_at_ours() {
+    let load = |slip: Slip, mean_free_path: f64| {
+        let mut plate = plate(100.0, 0.5, 0.0, None);
+        plate.gas.slip = slip;
+        plate.gas.mean_free_path = mean_free_path;
+        solve(&plate, Fidelity::Standard).result.film_load
+    };
+    let laws = [Slip::FirstOrder, Slip::SecondOrder, Slip::FukuiKaneko];
+    let continuum = load(Slip::None, 64e-9);
+    for law in laws {
+        assert!((load(law, 1e-10) / continuum - 1.0).abs() < 1e-3, "{law:?}");
+        assert_eq!(load(law, 0.0), load(Slip::None, 0.0));
+    }
+    let ours: Vec<f64> = laws.iter().map(|law| load(*law, 0.3 * GAP)).collect();
+    assert!((ours[0] - ours[1]).abs() > 1e-2 * ours[0], "{ours:?}");
+}
+
+#[test]
+fn convergence_is_of_second_order_in_space_and_time() {
+    // A crossover strip, its mean load on grids and steps that are doubled one at a time: the differences of a
+    // second-order scheme fall by 4.
+    let strip = plate(30.0, 0.5, 0.1, None);
+    let load = |along: usize, steps: usize| {
+        let numerics =
+            Numerics { film_nodes_along: Some(2 * along + 1), steps_per_cycle: Some(steps), ..Numerics::default() };
+        *solve_with(&strip, Fidelity::Reference, &numerics).loads.last().unwrap()
+    };
+    let space: Vec<f64> = [16, 32, 64, 128].iter().map(|n| load(*n, 64)).collect();
+    let time: Vec<f64> = [32, 64, 128, 256].iter().map(|n| load(16, *n)).collect();
+    for (what, r) in [("space", space), ("time", time)] {
+        let orders: Vec<f64> = (0..2).map(|i| ((r[i + 1] - r[i]) / (r[i + 2] - r[i + 1])).abs().log2()).collect();
+        assert!(orders.iter().all(|order| (1.8..2.4).contains(order)), "{what}: orders {orders:?} of {r:?}");
+    }
+}
