@@ -65,7 +65,10 @@ pub enum FilmError {
 /// Newton's relative change below which a step is accepted, unless `Film::accept` loosens it. Convergence is quadratic:
 /// the error left is about the square.
 pub const NEWTON_TOLERANCE: f64 = 1e-7;
-const NEWTON_LIMIT: u32 = 60;
+const NEWTON_LIMIT: u32 = 40;
+/// Iterations of the damped method, and the largest relative change of a pressure that it accepts.
+const CAREFUL_LIMIT: u32 = 400;
+const LARGEST_CAREFUL_CHANGE: f64 = 0.8;
 /// W is kept above this fraction of Z.
 const CARRIED_FLOOR: f64 = 0.1;
 
@@ -234,16 +237,19 @@ impl Film {
             self.scatter_pressure(guess);
         }
         self.theta.fill(1.0);
-        let mut upwind = speed.is_none();
+        let mut careful = false;
         loop {
-            match self.newton(law, h, speed, dt, state, &mut cost) {
+            match self.newton(law, h, speed, dt, state, careful, &mut cost) {
                 Ok(()) if !self.limit(h, state) => break,
                 Ok(()) => cost.limited = true,
-                // The fitting was made for another pressure: fully upwind faces make an M-function of any pressure.
-                Err(_) if !upwind => {
-                    upwind = true;
+                // Strong sliding into a narrow gap: the fitting was made for another pressure, and Newton overshoots.
+                // Fully upwind faces make an M-function of any pressure, damped steps find its root.
+                Err(_) if !careful => {
+                    careful = true;
                     cost.limited = true;
-                    self.fit_upwind(h, speed.unwrap_or_default(), dt);
+                    if let Some(speed) = speed {
+                        self.fit_upwind(h, speed, dt);
+                    }
                 }
                 Err(error) => return Err(error),
             }
@@ -413,6 +419,8 @@ impl Film {
         }
     }
 
+    /// Newton's method for the step. `careful`: damped by pseudo-time, the matrix's inertia raised until no pressure
+    /// moves by more than a factor, for the rare step on which plain Newton runs away.
     fn newton<L: Mobility>(
         &mut self,
         law: L,
@@ -420,6 +428,7 @@ impl Film {
         speed: Option<&[f64]>,
         dt: f64,
         state: &FilmState,
+        careful: bool,
         cost: &mut StepCost,
     ) -> Result<(), FilmError> {
         let (ux, uy) = (self.grid.x.unknown(), self.grid.y.unknown());
@@ -428,14 +437,16 @@ impl Film {
             self.rhs[k] = state.carried[k] + 0.5 * self.theta[k] * state.trapped[k];
         }
         let mut change = f64::INFINITY;
-        for _ in 0..NEWTON_LIMIT {
+        let mut damping = if careful { 1.0 } else { 0.0 };
+        let limit = if careful { CAREFUL_LIMIT } else { NEWTON_LIMIT };
+        for _ in 0..limit {
             self.assemble_flux(law, h, speed, dt);
             self.jacobian.fill(columns, &mut self.matrix);
             for (row, ix) in ux.clone().enumerate() {
                 for j in 0..columns {
                     let k = row * columns + j;
                     let inertia = (1.0 + 0.5 * self.theta[k]) * h[ix];
-                    self.matrix.row_mut(k)[columns] += inertia;
+                    self.matrix.row_mut(k)[columns] += inertia + damping * self.jacobian.centre[k];
                     let pressure = self.pressure[ix * ny + uy.start + j];
                     self.residual[k] = self.rhs[k] - inertia * pressure - self.residual[k];
                 }
@@ -444,23 +455,36 @@ impl Film {
             cost.solves += 1;
             change = 0.0;
             for (column, ix) in self.residual.chunks_exact(columns).zip(ux.clone()) {
-                let target = &mut self.pressure[ix * ny + uy.start..ix * ny + uy.end];
-                for (p, step) in target.iter_mut().zip(column) {
-                    let relative = (step / *p).abs();
+                let values = &self.pressure[ix * ny + uy.start..ix * ny + uy.end];
+                for (p, step) in values.iter().zip(column) {
+                    let relative = (step / p).abs();
                     if relative.is_nan() || relative > change {
                         change = relative;
                     }
+                }
+            }
+            if change.is_nan() {
+                break;
+            }
+            if careful && change > LARGEST_CAREFUL_CHANGE {
+                damping = f64::max(4.0 * damping, 1e-3);
+                continue;
+            }
+            for (column, ix) in self.residual.chunks_exact(columns).zip(ux.clone()) {
+                let values = &mut self.pressure[ix * ny + uy.start..ix * ny + uy.end];
+                for (p, step) in values.iter_mut().zip(column) {
                     // A Newton step from below may overshoot zero: it is cut, not refused.
                     *p = (*p + step).clamp(0.1 * *p, 10.0 * *p);
                 }
             }
-            if change < self.tolerance {
+            if change < self.tolerance && damping == 0.0 {
                 return Ok(());
             }
+            damping = if damping < 1e-6 { 0.0 } else { 0.25 * damping };
         }
         // The caller gets a film that still holds the state it had.
         self.load_pressure(h, &state.trapped);
-        Err(FilmError::Newton { iterations: NEWTON_LIMIT, change })
+        Err(FilmError::Newton { iterations: limit, change })
     }
 
     /// Lowers θ to 0 where W would fall too far; whether any was lowered.
