@@ -1,0 +1,159 @@
+//! The contact problem against exact elastic contacts, and its conditions.
+
+use proptest::prelude::*;
+use squeezefilm::contact::{Contact, Instant, Modes, Shape};
+use squeezefilm::problem::RotorCompliance;
+use std::f64::consts::{PI, TAU};
+
+const WAVE: f64 = 0.026;
+const SPACING: f64 = 200e-9;
+
+/// Nodes over a whole wavelength, no film (vacuum), `stator` profile.
+fn dry(
+    rotor: &RotorCompliance,
+    harmonics: usize,
+    nodes: usize,
+    load: f64,
+    stator: impl Fn(f64) -> f64,
+) -> (Vec<f64>, Instant, f64) {
+    let x: Vec<f64> = (0..nodes).map(|i| WAVE * i as f64 / nodes as f64).collect();
+    let length = WAVE / nodes as f64;
+    let modes = Modes::new(rotor, WAVE, harmonics, &x);
+    let mut contact = Contact::new(modes, vec![length; nodes], &vec![0.0; nodes], 101_325.0, SPACING, load);
+    let stator: Vec<f64> = x.iter().map(|x| stator(*x)).collect();
+    let mut out = Instant::default();
+    contact.solve(&stator, &vec![0.0; nodes], &mut Shape::unknown(), &mut out).unwrap();
+    (x, out, length)
+}
+
+fn check_conditions(out: &Instant, lengths: &[f64], load: f64) {
+    let total: f64 = out.contact.iter().zip(lengths).map(|(c, l)| c * l).sum();
+    assert!((total / load - 1.0).abs() < 1e-12, "Σf = {total}, L = {load}");
+    for (c, h) in out.contact.iter().zip(&out.film_thickness) {
+        assert!(*c >= 0.0 && *h >= SPACING && *c * (*h - SPACING) == 0.0, "c = {c}, h = {h}");
+    }
+}
+
+#[test]
+fn a_sinusoidal_wave_on_an_elastic_half_plane_is_westergaards() {
+    // Compliance inversely proportional to the wavenumber is an elastic half-plane. Westergaard (1939): contact over
+    // |x| < a with sin²(πa/λ) = L/L*, L* = λ A/C(k₁), and line load
+    // q = 2 (L/λ) cos(πx/λ)/sin²(πa/λ) √(sin²(πa/λ) − sin²(πx/λ)).
+    let rotor = RotorCompliance::Table(vec![(1.0, 1e-6), (1e9, 1e-15)]);
+    let amplitude = 1.3e-6;
+    let closing = WAVE * amplitude / rotor.at(TAU / WAVE);
+    let mut errors = Vec::new();
+    for (harmonics, nodes) in [(32, 256), (64, 512), (128, 1024)] {
+        let mut error = 0.0_f64;
+        for fraction in [0.1, 0.4, 0.8] {
+            let load = fraction * closing;
+            let (x, out, length) = dry(&rotor, harmonics, nodes, load, |x| amplitude * (TAU * x / WAVE).cos());
+            check_conditions(&out, &vec![length; nodes], load);
+            let mean = load / WAVE;
+            for (x, c) in x.iter().zip(&out.contact) {
+                let sine = (PI * x / WAVE).sin().powi(2);
+                let exact = 2.0 * mean * (PI * x / WAVE).cos().abs() / fraction * (fraction - sine).max(0.0).sqrt();
+                error += (c - exact).abs() * length / load;
+            }
+            let touching = out.contact.iter().filter(|c| **c > 0.0).count() as f64 / nodes as f64;
+            let exact = 2.0 / PI * fraction.sqrt().asin();
+            assert!(
+                (touching - exact).abs() < 4.0 / nodes as f64 + 0.3 / harmonics as f64,
+                "{fraction}: {touching} {exact}"
+            );
+        }
+        errors.push(error / 3.0);
+    }
+    // Area between the curves over the load; how the contact's edge falls between nodes makes it irregular.
+    assert!(errors[0] < 2e-3 && errors[1] < 0.5 * errors[0] && errors[2] < 0.8 * errors[1], "{errors:?}");
+}
+
+#[test]
+fn full_contact_follows_the_wave_exactly() {
+    // Pressed flat everywhere, the rotor takes the stator's shape: q = L/λ + A/C(k₁) cos kx, whatever the compliance.
+    let rotor = RotorCompliance::Beam { decay_length: 4e-3, point_compliance: 0.64e-6, local_compliance: 1.05e-10 };
+    let (amplitude, load) = (1.3e-6, 60.0);
+    let (x, out, length) = dry(&rotor, 24, 240, load, |x| amplitude * (TAU * x / WAVE).cos());
+    check_conditions(&out, &vec![length; 240], load);
+    for (x, c) in x.iter().zip(&out.contact) {
+        let exact = load / WAVE + amplitude / rotor.at(TAU / WAVE) * (TAU * x / WAVE).cos();
+        assert!((c / exact - 1.0).abs() < 1e-9, "{x}: {c} {exact}");
+    }
+}
+
+#[test]
+fn a_crowned_tooth_on_springs_is_the_parabola_of_winkler() {
+    // Constant compliance C: q = (δ − ξ²/2R)/C within |ξ| < a, L = 2a³/(3RC).
+    let compliance = 1e-10;
+    let rotor = RotorCompliance::Table(vec![(1.0, compliance)]);
+    let (radius, half_width): (f64, f64) = (2.0, 1.2e-3);
+    let load = 2.0 * half_width.powi(3) / (3.0 * radius * compliance);
+    let nodes = 2001;
+    let (x, out, length) = dry(&rotor, 8, nodes, load, |x| -(x - 0.5 * WAVE).powi(2) / (2.0 * radius));
+    check_conditions(&out, &vec![length; nodes], load);
+    let top = half_width * half_width / (2.0 * radius * compliance);
+    for (x, c) in x.iter().zip(&out.contact) {
+        let exact = (top - (x - 0.5 * WAVE).powi(2) / (2.0 * radius * compliance)).max(0.0);
+        assert!((c - exact).abs() < 2e-3 * top, "{x}: {c} {exact}");
+    }
+}
+
+#[test]
+fn a_point_load_deflects_the_rotor_by_its_greens_function() {
+    // Deflection under a single loaded node far from its periodic images: C_p e^{−|x|/ℓ}(cos x/ℓ + sin|x|/ℓ).
+    let (decay_length, point_compliance) = (1e-3, 0.64e-6);
+    let rotor = RotorCompliance::Beam { decay_length, point_compliance, local_compliance: 0.0 };
+    let nodes = 401;
+    let x: Vec<f64> = (0..nodes).map(|i| WAVE * i as f64 / nodes as f64).collect();
+    let modes = Modes::new(&rotor, WAVE, 120, &x);
+    let mut force = vec![0.0; nodes];
+    force[200] = 1.0;
+    let (mut projected, mut deflection) = (vec![0.0; modes.unknowns()], vec![0.0; nodes]);
+    modes.project(&force, &mut projected);
+    projected[0] = 0.0;
+    modes.deflection(&projected, &mut deflection);
+    let green =
+        |d: f64| point_compliance * (-d / decay_length).exp() * ((d / decay_length).cos() + (d / decay_length).sin());
+    // The mean (harmonic 0) is not part of the compliance. Harmonics from 120 on, and the compliance of harmonic 120 that
+    // is counted as local, make 1.4e-4 at the loaded node.
+    let mean: f64 = 2.0 * decay_length * point_compliance / WAVE;
+    for i in 0..nodes {
+        let exact = green((x[i] - x[200]).abs()) - mean;
+        assert!((deflection[i] - exact).abs() < 2e-4 * point_compliance, "{i}: {} {exact}", deflection[i]);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    /// Contact with trapped gas, over the documented ranges: the conditions hold and the load is balanced.
+    #[test]
+    fn conditions_hold_for_any_gas_and_load(
+        load in -2.0f64..2.0, spacing in -8.3f64..-5.0, amplitude in -9.0f64..-4.7, pressure in 1.0f64..7.0,
+        decay in -4.0f64..-1.0, point in -9.0f64..-3.0, local in -12.0f64..-6.0, trapped in -9.0f64..-5.0, seed in 0u32..1000,
+    ) {
+        let ten = |e: f64| 10f64.powf(e);
+        let rotor = RotorCompliance::Beam { decay_length: ten(decay), point_compliance: ten(point), local_compliance: ten(local) };
+        let nodes = 120;
+        let x: Vec<f64> = (0..nodes).map(|i| WAVE * (i as f64 + 0.3) / nodes as f64).collect();
+        let lengths: Vec<f64> = (0..nodes).map(|i| WAVE / nodes as f64 * if i % 10 < 7 { 1.0 } else { 0.3 }).collect();
+        let (width, load, spacing) = (3e-4, ten(load), ten(spacing));
+        let modes = Modes::new(&rotor, WAVE, 24, &x);
+        let mut contact = Contact::new(modes, lengths.clone(), &vec![width; nodes], ten(pressure), spacing, load);
+        let stator: Vec<f64> = x.iter().map(|x| ten(amplitude) * (TAU * x / WAVE + f64::from(seed)).cos()).collect();
+        let gas: Vec<f64> = (0..nodes).map(|i| width * ten(trapped) * (1.0 + 0.9 * (i as f64 * f64::from(seed)).sin())).collect();
+        let mut out = Instant::default();
+        let solved = contact.solve(&stator, &gas, &mut Shape::unknown(), &mut out);
+        prop_assert!(solved.is_ok(), "{solved:?}");
+        let mut total = 0.0;
+        let mut scale = load;
+        for i in 0..nodes {
+            let (c, h) = (out.contact[i], out.film_thickness[i]);
+            prop_assert!(c >= 0.0 && h >= spacing && c * (h - spacing) == 0.0, "{} {}", c, h);
+            let force = (c + ten(pressure) * (gas[i] / h - width)) * lengths[i];
+            total += force;
+            scale += force.abs();
+        }
+        prop_assert!((total - load).abs() < 1e-10 * scale, "Σf = {}, L = {}, scale {}", total, load, scale);
+    }
+}
