@@ -6,19 +6,23 @@ use super::mesh::Meshes;
 use crate::problem::Motor;
 
 /// Change of pressure \[p_a\] and of film thickness \[H_m\] in a round of the inner loop that counts as none.
-pub(super) const INNER_TOLERANCE: f64 = 1e-5;
+pub(super) const INNER_TOLERANCE: f64 = 1e-4;
 /// Most rounds of the inner loop in a time step.
-pub(super) const INNER_ROUNDS: usize = 20;
+const INNER_ROUNDS: usize = 60;
+/// Rounds without a smaller change after which the inner loop is taken not to converge.
+const INNER_STALLED: usize = 10;
 /// Pressure \[p_a\] beyond which the march is taken to have blown up.
 const BLOWN_UP: f64 = 1e4;
 
 /// What one time step came to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
-    /// Rounds of the inner loop.
-    pub(super) rounds: usize,
     /// Whether pressure and spacing settled.
     pub(super) settled: bool,
+    /// Change of pressure \[p_a\] or film thickness \[H_m\] in the last round of the inner loop, whichever is greater.
+    pub(super) change: f64,
+    /// Load that film and contact together miss, relative to L.
+    pub(super) imbalance: f64,
     /// How the last contact problem ended.
     pub(super) balance: Balance,
     /// Whether the state is finite and not absurd; if not, the step was not taken.
@@ -101,10 +105,12 @@ impl<'a> March<'a> {
         self.move_stator((step + 1) as f64 / self.steps as f64);
         let dtau = std::f64::consts::TAU / self.steps as f64;
         let half_step = (step as f64 + 0.5) / self.steps as f64;
-        let mut result = Step { rounds: 0, settled: false, balance: Balance::Held, sound: true };
+        let mut result =
+            Step { settled: false, change: 0.0, imbalance: 0.0, balance: Balance::Held, sound: true };
+        let (mut least, mut least_at) = (f64::INFINITY, 0);
         // The first guess at the pressure is the last step's, which `nodal` still holds.
-        while result.rounds < INNER_ROUNDS && !result.settled {
-            result.rounds += 1;
+        for round in 0..INNER_ROUNDS {
+            self.rounds += 1;
             result.balance = self.meet();
             let moved = self.thicken(self.motor.min_spacing);
             for tooth in 0..self.motor.teeth {
@@ -113,15 +119,22 @@ impl<'a> March<'a> {
             let (changed, greatest) = self.press();
             result.sound = moved.is_finite() && greatest < BLOWN_UP;
             if !result.sound {
+                return result;
+            }
+            result.change = moved.max(changed);
+            // The first round's change is that of the time step.
+            result.settled = round > 0 && result.change < INNER_TOLERANCE;
+            if result.change < least {
+                (least, least_at) = (result.change, round);
+            }
+            if result.settled || round - least_at >= INNER_STALLED {
                 break;
             }
-            result.settled = result.rounds > 1 && moved < INNER_TOLERANCE && changed < INNER_TOLERANCE;
         }
-        self.rounds += result.rounds as u64;
-        if result.sound {
-            std::mem::swap(&mut self.z, &mut self.z_new);
-            std::mem::swap(&mut self.h, &mut self.h_new);
-        }
+        let carried = self.nodal.iter().sum::<f64>() + self.contact.force.iter().sum::<f64>();
+        result.imbalance = (carried / self.motor.load - 1.0).abs();
+        std::mem::swap(&mut self.z, &mut self.z_new);
+        std::mem::swap(&mut self.h, &mut self.h_new);
         result
     }
 
@@ -204,9 +217,12 @@ impl<'a> March<'a> {
                 *load *= scale;
             }
         }
-        for (force, top) in self.nodal.iter_mut().zip(&self.meshes.tops) {
-            let line = &self.line[top.tooth * nx..(top.tooth + 1) * nx];
-            *force = self.meshes.entries[top.entry].on_film.of(line) * self.meshes.spacing;
+        self.nodal.fill(0.0);
+        let dx = self.motor.tooth_width / (nx - 1) as f64;
+        // The edges need no half weight: p = p_a there.
+        for (line, share) in self.line.iter().zip(&self.meshes.shares) {
+            self.nodal[share.low] += (1.0 - share.weight) * line * dx;
+            self.nodal[share.high] += share.weight * line * dx;
         }
         (changed, greatest)
     }

@@ -1,27 +1,20 @@
 //! Keeps the last cycle: lines of every tooth and the pressure map of tooth 0.
 //!
-//! Lines are at the contact nodes of tooth 0. Where another tooth carries other nodes, its film thickness and film load
-//! are interpolated there, and each of its contact forces is shared by the two nodes beside it, so that their sum
-//! is kept.
+//! Lines are at the contact nodes of tooth 0, film and contact line loads being nodal force over spacing. Where another
+//! tooth carries other nodes, its film thickness is interpolated there, and each nodal force is shared by the two
+//! nodes beside it, so that sums are kept.
 
 use super::march::March;
 use super::mesh::Between;
 use crate::recording::Recording;
 
-/// Where a local node of the recording is on one tooth.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    on_entries: Between,
-    on_film: Between,
-}
-
 /// Fills a [`Recording`] frame by frame; every cycle overwrites the last.
 #[derive(Clone, Debug)]
 pub(super) struct Recorder {
     recording: Recording,
-    /// `[tooth][node]`.
-    places: Vec<Place>,
-    /// Per top, where its contact force goes among the local nodes.
+    /// Where each local node is among the entries of each tooth, `[tooth][node]`.
+    places: Vec<Between>,
+    /// Per top, where its forces go among the local nodes.
     shares: Vec<Between>,
     /// Per tooth, whether the last frame had contact on it.
     touched: Vec<bool>,
@@ -39,10 +32,7 @@ impl Recorder {
         for tooth in 0..teeth {
             let entries = meshes.tooth(tooth);
             for &xi in &x {
-                places.push(Place {
-                    on_entries: Between::uniform((xi - entries[0].xi) / meshes.spacing, entries.len() - 1),
-                    on_film: Between::uniform((xi / b + 0.5) * (nx - 1) as f64, nx - 1),
-                });
+                places.push(Between::uniform((xi - entries[0].xi) / meshes.spacing, entries.len() - 1));
             }
         }
         let shares = meshes
@@ -85,30 +75,32 @@ impl Recorder {
     /// Stores the march's present instant as frame `frame`.
     pub(super) fn record(&mut self, march: &March<'_>, frame: usize) {
         let (motor, meshes, contact) = (march.motor, &march.meshes, &march.contact);
-        let (nx, nodes) = (march.film.nx(), self.recording.x.len());
+        let nodes = self.recording.x.len();
         let phase = frame as f64 / march.steps as f64;
         let recording = &mut self.recording;
         for tooth in 0..motor.teeth {
             let gap = &march.gap[meshes.first[tooth]..meshes.first[tooth + 1]];
-            let line = &march.line[tooth * nx..(tooth + 1) * nx];
             let at = recording.line_offset(tooth, frame);
             let middle = tooth as f64 * motor.pitch();
             for node in 0..nodes {
                 let (xi, place) = (recording.x[node], self.places[tooth * nodes + node]);
-                recording.film_thickness[at + node] = motor.min_spacing + place.on_entries.of(gap);
+                recording.film_thickness[at + node] = motor.min_spacing + place.of(gap);
                 recording.stator[at + node] = motor.stator_displacement(middle + xi, xi, phase);
-                recording.film[at + node] = place.on_film.of(line);
+                recording.film[at + node] = 0.0;
                 recording.contact[at + node] = 0.0;
             }
         }
         self.touched.fill(false);
-        for ((top, share), &force) in meshes.tops.iter().zip(&self.shares).zip(&contact.force) {
+        let forces = contact.force.iter().zip(&march.nodal);
+        for ((top, share), (&contact, &film)) in meshes.tops.iter().zip(&self.shares).zip(forces) {
             let at = recording.line_offset(top.tooth, frame) + share.at;
-            recording.contact[at] += (1.0 - share.weight) * force / meshes.spacing;
-            if share.weight > 0.0 {
-                recording.contact[at + 1] += share.weight * force / meshes.spacing;
+            for (line, force) in [(&mut recording.contact, contact), (&mut recording.film, film)] {
+                line[at] += (1.0 - share.weight) * force / meshes.spacing;
+                if share.weight > 0.0 {
+                    line[at + 1] += share.weight * force / meshes.spacing;
+                }
             }
-            self.touched[top.tooth] |= force > 0.0;
+            self.touched[top.tooth] |= contact > 0.0;
         }
         let field = march.film.nodes();
         let h_m = motor.min_spacing;
