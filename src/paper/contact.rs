@@ -125,8 +125,8 @@ impl Contact {
         let carried: f64 = film.iter().sum();
         let left = self.load - carried;
         self.force.fill(0.0);
-        // Written so that a NaN ends here too.
-        if !(left > 0.0) {
+        // A NaN ends here too.
+        if left.is_nan() || left <= 0.0 {
             self.rounds += 1;
             self.touching.fill(false);
             self.rest_on_highest(stator);

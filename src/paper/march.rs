@@ -5,12 +5,12 @@ use super::film::FactoredFilm;
 use super::mesh::Meshes;
 use crate::problem::Motor;
 
-/// Change of pressure \[p_a\] and of film thickness \[H_m\] in a round of the inner loop that counts as none.
-pub(super) const INNER_TOLERANCE: f64 = 1e-4;
+/// Change of pressure and of film thickness in a round of the inner loop, relative to the greatest, that counts as none.
+pub(super) const INNER_TOLERANCE: f64 = 1e-3;
 /// Most rounds of the inner loop in a time step.
-const INNER_ROUNDS: usize = 60;
+const INNER_ROUNDS: usize = 40;
 /// Rounds without a smaller change after which the inner loop is taken not to converge.
-const INNER_STALLED: usize = 10;
+const INNER_STALLED: usize = 8;
 /// Pressure \[p_a\] beyond which the march is taken to have blown up.
 const BLOWN_UP: f64 = 1e4;
 
@@ -19,7 +19,8 @@ const BLOWN_UP: f64 = 1e4;
 pub(super) struct Step {
     /// Whether pressure and spacing settled.
     pub(super) settled: bool,
-    /// Change of pressure \[p_a\] or film thickness \[H_m\] in the last round of the inner loop, whichever is greater.
+    /// Change of pressure or film thickness in the last round of the inner loop, relative to the greatest of each,
+    /// whichever is greater.
     pub(super) change: f64,
     /// Load that film and contact together miss, relative to L.
     pub(super) imbalance: f64,
@@ -105,8 +106,7 @@ impl<'a> March<'a> {
         self.move_stator((step + 1) as f64 / self.steps as f64);
         let dtau = std::f64::consts::TAU / self.steps as f64;
         let half_step = (step as f64 + 0.5) / self.steps as f64;
-        let mut result =
-            Step { settled: false, change: 0.0, imbalance: 0.0, balance: Balance::Held, sound: true };
+        let mut result = Step { settled: false, change: 0.0, imbalance: 0.0, balance: Balance::Held, sound: true };
         let (mut least, mut least_at) = (f64::INFINITY, 0);
         // The first guess at the pressure is the last step's, which `nodal` still holds.
         for round in 0..INNER_ROUNDS {
@@ -121,7 +121,7 @@ impl<'a> March<'a> {
             if !result.sound {
                 return result;
             }
-            result.change = moved.max(changed);
+            result.change = moved.max(changed / greatest);
             // The first round's change is that of the time step.
             result.settled = round > 0 && result.change < INNER_TOLERANCE;
             if result.change < least {
@@ -157,19 +157,21 @@ impl<'a> March<'a> {
         balance
     }
 
-    /// h = gap + H_m on the film meshes, into `h_new`; returns the greatest change from what `h_new` held.
+    /// h = gap + H_m on the film meshes, into `h_new`; returns the greatest change from what `h_new` held, relative to
+    /// the greatest h.
     fn thicken(&mut self, h_m: f64) -> f64 {
         let nx = self.film.nx();
-        let mut moved = 0.0_f64;
+        let (mut moved, mut greatest) = (0.0_f64, 0.0_f64);
         for tooth in 0..self.motor.teeth {
             let gap = &self.gap[self.meshes.first[tooth]..self.meshes.first[tooth + 1]];
             for i in tooth * nx..(tooth + 1) * nx {
                 let h = 1.0 + self.meshes.to_film[i].of(gap) / h_m;
                 moved = worst(moved, (h - self.h_new[i]).abs());
+                greatest = worst(greatest, h);
                 self.h_new[i] = h;
             }
         }
-        moved
+        moved / greatest
     }
 
     fn step_film(&mut self, tooth: usize, half_step: f64, dtau: f64) {
@@ -242,6 +244,5 @@ fn squeeze_number(motor: &Motor) -> f64 {
 
 /// Λ/U = 6 μ b/(p_a H_m²).
 fn bearing_per_speed(motor: &Motor) -> f64 {
-    6.0 * motor.gas.viscosity * motor.tooth_width
-        / (motor.gas.ambient_pressure * motor.min_spacing * motor.min_spacing)
+    6.0 * motor.gas.viscosity * motor.tooth_width / (motor.gas.ambient_pressure * motor.min_spacing * motor.min_spacing)
 }
