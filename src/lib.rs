@@ -7,6 +7,7 @@ pub mod fidelity;
 pub mod film;
 pub mod motor;
 pub mod numerics;
+pub mod paper;
 pub mod plan;
 pub mod plate;
 pub mod problem;

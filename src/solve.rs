@@ -4,6 +4,7 @@ use crate::control::{Cancel, Observer};
 use crate::fidelity::Fidelity;
 use crate::film::cycle::Interrupted;
 use crate::motor::{self, MotorError};
+use crate::paper;
 use crate::plan::Plan;
 use crate::plate;
 use crate::problem::{Problem, Scenario};
@@ -90,7 +91,7 @@ pub fn solve(
                 recording: found.recording,
             })
         }
-        (Scenario::Motor(_), Method::Paper) => Err(SolveError::PaperPlate),
+        (Scenario::Motor(motor), Method::Paper) => Ok(paper::solve(motor, &problem.numerics, observer, cancel)),
         (Scenario::Plate(_), Method::Paper) => Err(SolveError::PaperPlate),
     }
 }
