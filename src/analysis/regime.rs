@@ -5,9 +5,9 @@ use crate::dimensionless::Dimensionless;
 /// What the squeeze number σ says.
 pub fn squeeze(numbers: &Dimensionless) -> &'static str {
     match numbers.squeeze_number {
-        sigma if sigma < 1.0 => "≪ 1: the gas flows out and back in each cycle; it damps and carries little",
+        sigma if sigma < 1.0 => "≪ 1: viscous; the gas flows out and back in, damps and carries little",
         sigma if sigma < 100.0 => "in between: part of the gas escapes in each cycle; it damps and carries",
-        _ => "≫ 1: the gas has no time to leave; it is trapped, acts as a spring and carries",
+        _ => "≫ 1: trapped; the gas has no time to leave, is a spring and carries",
     }
 }
 
@@ -15,9 +15,9 @@ pub fn squeeze(numbers: &Dimensionless) -> &'static str {
 pub fn bearing(numbers: &Dimensionless) -> &'static str {
     match (numbers.bearing_number, numbers.bearing_to_squeeze) {
         (0.0, _) => "nothing slides",
-        (_, ratio) if ratio < 0.01 => "≪ σ: sliding drags in next to nothing beside what squeezing moves",
-        (_, ratio) if ratio < 0.3 => "< σ: sliding drags in a little beside what squeezing moves",
-        _ => "not small beside σ: sliding drags in as much as squeezing moves",
+        (_, ratio) if ratio < 0.01 => "≪ σ: sliding drags in next to nothing",
+        (_, ratio) if ratio < 0.3 => "< σ: sliding drags in a little of what squeezing moves",
+        _ => "not ≪ σ: sliding drags in as much as squeezing moves",
     }
 }
 

@@ -1,6 +1,7 @@
 //! Progress on standard error, only if that is a terminal.
 
 use crate::control::{Observer, Progress};
+use crate::export::digits::significant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::time::Duration;
@@ -12,60 +13,78 @@ const COST_RATIO: f64 = 6.0;
 const REDRAW: Duration = Duration::from_millis(100);
 
 /// A bar that goes away when it is dropped.
-pub(super) struct Bar(ProgressBar);
+pub(super) struct Bar {
+    bar: ProgressBar,
+    unit: &'static str,
+    last: Option<Progress>,
+}
 
 impl Bar {
-    /// For one solve.
-    pub(super) fn solve() -> Self {
-        Self::new(PARTS, "{spinner} {bar:24} {msg}")
+    /// For one solve, whose forces are in `unit`.
+    pub(super) fn solve(unit: &'static str) -> Self {
+        Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", unit)
     }
 
     /// For a number of rows.
     pub(super) fn rows(rows: usize) -> Self {
-        Self::new(rows as u64, "{spinner} {bar:24} {pos}/{len} rows  {msg}")
+        Self::new(rows as u64, "{spinner} {bar:20} {pos}/{len} rows  {wide_msg}", "")
     }
 
-    fn new(length: u64, template: &str) -> Self {
-        if !stderr().is_terminal() {
-            return Self(ProgressBar::hidden());
-        }
-        let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        bar.enable_steady_tick(REDRAW);
-        Self(bar)
+    fn new(length: u64, template: &str, unit: &'static str) -> Self {
+        let bar = if stderr().is_terminal() {
+            let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
+            if let Ok(style) = ProgressStyle::with_template(template) {
+                bar.set_style(style.progress_chars("━╸─"));
+            }
+            bar.enable_steady_tick(REDRAW);
+            bar
+        } else {
+            ProgressBar::hidden()
+        };
+        Self { bar, unit, last: None }
     }
 
     /// One more row is done.
     pub(super) fn row_done(&self, row: &str) {
-        self.0.set_message(row.to_owned());
-        self.0.inc(1);
+        self.bar.set_message(row.to_owned());
+        self.bar.inc(1);
+    }
+
+    /// How far the solve came.
+    pub(super) fn reached(&self) -> String {
+        match &self.last {
+            None => "before the first round was complete".to_owned(),
+            Some(last) => format!("after {}", describe(last, self.unit)),
+        }
     }
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }
 
 impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) {
-        if self.0.is_hidden() {
-            return;
+        self.last = Some(*progress);
+        if !self.bar.is_hidden() {
+            self.bar.set_position((PARTS as f64 * fraction(progress)) as u64);
+            self.bar.set_message(describe(progress, self.unit));
         }
-        self.0.set_position((PARTS as f64 * fraction(progress)) as u64);
-        self.0.set_message(format!(
-            "grid {} of {}, round {}: change {:.1e} → {:.0e}, film load {:.4} N",
-            progress.level + 1,
-            progress.levels,
-            progress.iteration,
-            progress.residual,
-            progress.tolerance,
-            progress.film_load
-        ));
     }
+}
+
+fn describe(progress: &Progress, unit: &str) -> String {
+    format!(
+        "grid {}/{}, round {}: change {:.0e} → {:.0e}, film load {} {unit}",
+        progress.level + 1,
+        progress.levels,
+        progress.iteration,
+        progress.residual,
+        progress.tolerance,
+        significant(progress.film_load, 4),
+    )
 }
 
 /// How much of the work is done, 0 to 1: the change falls by about the same factor in every round.

@@ -8,7 +8,7 @@ use super::{summary, terminal};
 use crate::control::Cancel;
 use crate::export::csv;
 use crate::export::folder::{Staged, WriteError};
-use crate::export::json::Summary;
+use crate::export::json::{Summary, force_unit};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -59,18 +59,19 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
     let cancel = cancel_on_interrupt();
 
-    let mut bar = Bar::solve();
+    let mut bar = Bar::solve(force_unit(&problem));
     let started = Instant::now();
     let solved = solve(&problem, &settings, &mut bar, &cancel);
     let wall_s = started.elapsed().as_secs_f64();
+    let reached = bar.reached();
     drop(bar);
     let solution = solved?;
-    let result = Summary::new(&problem, &solution, wall_s, command);
-
     if solution.status == Status::Cancelled {
-        terminal::note(&format!("cancelled; reached was\n\n{}", summary::text(&scene, &problem, &result)));
+        // The fields are of a cycle cut short; the last complete round is what there is to tell.
+        terminal::note(&format!("cancelled {reached}"));
         return Ok(Exit::Other);
     }
+    let result = Summary::new(&problem, &solution, wall_s, command);
     for warning in &result.warnings {
         terminal::warning(warning);
     }

@@ -24,7 +24,9 @@ pub(super) fn text(scene: &Scene, problem: &Problem, summary: &Summary) -> Strin
         Scenario::Motor(motor) => motor_rows(&mut columns, motor, summary),
         Scenario::Plate(plate) => plate_rows(&mut columns, plate, summary),
     }
-    columns.row([""]);
+    text.push_str(&columns.text("  ", &[]));
+    text.push('\n');
+    let mut columns = Columns::new();
     number_rows(&mut columns, &Dimensionless::of(problem));
     text.push_str(&columns.text("  ", &[]));
     let model = &summary.model;

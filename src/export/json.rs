@@ -152,7 +152,7 @@ impl Summary {
             preset: problem.name.clone(),
             converged: solution.status == Status::Converged,
             status: status_name(&solution.status),
-            force_unit: "N",
+            force_unit: force_unit(problem),
             squeeze_number: numbers.take("squeeze_number", groups.squeeze_number),
             bearing_number: numbers.take("bearing_number", groups.bearing_number),
             knudsen_number: numbers.take("knudsen_number", groups.knudsen_number),
@@ -202,9 +202,6 @@ impl Summary {
 
     fn fill_plate(&mut self, plate: &Plate, result: &PlateResult, numbers: &mut Numbers) {
         self.scene = "plate";
-        if plate.width.is_none() {
-            self.force_unit = "N/m";
-        }
         self.film_load_n = numbers.take("film_load_n", result.film_load);
         self.film_load_error_n = numbers.take("film_load_error_n", result.film_load_error);
         self.film_load_min_n = numbers.take("film_load_min_n", result.film_load_min);
@@ -228,6 +225,14 @@ impl Summary {
 pub fn text(object: &impl Serialize) -> String {
     // Fails only for maps whose keys are not text, and for types that refuse: ours are plain structs.
     serde_json::to_string_pretty(object).map_or_else(|_| String::new(), |text| text + "\n")
+}
+
+/// What the forces of a problem are in: those of a strip are per metre of width.
+pub fn force_unit(problem: &Problem) -> &'static str {
+    match &problem.scenario {
+        Scenario::Plate(plate) if plate.width.is_none() => "N/m",
+        Scenario::Plate(_) | Scenario::Motor(_) => "N",
+    }
 }
 
 /// How a solve ended, in a word.
