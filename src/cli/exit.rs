@@ -2,6 +2,7 @@
 
 use crate::export::folder::WriteError;
 use crate::scene::SceneError;
+use crate::solution::Status;
 use crate::solve::SolveError;
 use std::io;
 use std::process::ExitCode;
@@ -20,6 +21,15 @@ pub(super) enum Exit {
 }
 
 impl Exit {
+    /// What a solve that ended so leads to.
+    pub(super) fn of(status: &Status) -> Self {
+        match status {
+            Status::Converged => Self::Solved,
+            Status::NotConverged { .. } => Self::NotConverged,
+            Status::Cancelled => Self::Other,
+        }
+    }
+
     /// The status.
     pub(super) fn code(self) -> ExitCode {
         ExitCode::from(match self {

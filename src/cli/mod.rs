@@ -23,7 +23,7 @@ use std::process::ExitCode;
 /// together for the periodic steady state, with an estimate of the numerical error of every α.
 #[derive(Debug, Parser)]
 #[command(name = "squeezefilm", version, arg_required_else_help = true, subcommand_required = true)]
-#[command(after_help = EXAMPLES, after_long_help = AFTER)]
+#[command(after_help = AFTER)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -35,13 +35,6 @@ enum Command {
     Table1(table1::Arguments),
     Presets(presets::Arguments),
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  squeezefilm solve fundamental
-  squeezefilm solve fundamental --set film.min_spacing_nm=100 --fidelity fine --json
-  squeezefilm solve levitating --out results
-  squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml";
 
 const AFTER: &str = "\
 Examples:

@@ -18,26 +18,26 @@ use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Solves a preset for its periodic steady state and prints a summary
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  squeezefilm solve fundamental
-  squeezefilm solve fundamental --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3
-  squeezefilm solve my.toml --fidelity fine --json | jq .alpha
-  squeezefilm solve levitating --out results")]
-#[command(after_long_help = "Files of --out, each with units in its column names:
-  summary.json   what --json prints
-  scene.toml     the scene as solved, changes included: solve it again with squeezefilm solve DIR/scene.toml
-  series.csv     over one cycle: film load, contact load, teeth in contact, least film thickness, highest pressure
-  fields.csv     surfaces, film thickness and line loads at every node of every tooth, over one cycle;
-                 the sum of a line load × length_m over one time_s is the load in series.csv
-  pressure.csv   pressure under one tooth over one cycle; y_m >= 0 where the other half is its mirror
-
+const EXAMPLES: &str = "\
 Examples:
   squeezefilm solve fundamental
   squeezefilm solve fundamental --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3
   squeezefilm solve my.toml --fidelity fine --json | jq .alpha
-  squeezefilm solve levitating --out results")]
+  squeezefilm solve levitating --out results";
+
+const FILES: &str = "\
+Files of --out, with the unit in every column's name:
+  summary.json   what --json prints
+  scene.toml     the scene as solved, changes included; it is a preset: squeezefilm solve DIR/scene.toml
+  series.csv     over one cycle: film load, contact load, teeth in contact, least film thickness, highest pressure
+  fields.csv     surfaces, film thickness and line loads at every node of every tooth, over one cycle;
+                 a line load × length_m, summed over one time_s, is the load in series.csv
+  pressure.csv   pressure under one tooth, over one cycle
+Of a symmetric film only the half that was solved is there: y_m >= 0, and of a plate x_m >= 0 as well.";
+
+/// Solves a preset for its periodic steady state and prints a summary
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
     /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
     #[arg(value_name = "PRESET")]
@@ -85,11 +85,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             }
         }
     }
-    Ok(match solution.status {
-        Status::Converged => Exit::Solved,
-        Status::NotConverged { .. } => Exit::NotConverged,
-        Status::Cancelled => Exit::Other,
-    })
+    Ok(Exit::of(&solution.status))
 }
 
 /// Writes the files of `--out`; `None` if it was cancelled meanwhile, and then no file is there.

@@ -172,3 +172,34 @@ fn plain(value: f64) -> String {
 fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Cancel;
+    use crate::scene::presets;
+    use crate::solution::Status;
+    use crate::solve::{Settings, solve};
+
+    #[test]
+    fn what_did_not_converge_is_marked_and_still_reported() {
+        let scene = presets::find("plate-viscous").unwrap();
+        let problem = Problem::new(&scene).unwrap();
+        let mut solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
+        solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
+        let summary = Summary::new(&problem, &solution, 0.0123, &[]);
+        assert_eq!((summary.converged, summary.status), (false, "not converged"));
+        assert_eq!((summary.residual, summary.tolerance), (Some(2e-3), Some(1e-6)));
+        let shown = text(&scene, &problem, &summary);
+        assert!(shown.starts_with("Plate, viscous: NOT CONVERGED (the last round still changed by 2.0e-3"), "{shown}");
+        assert!(shown.contains("N/m") && shown.contains("12.3 ms"), "{shown}");
+    }
+
+    #[test]
+    fn durations_have_a_unit() {
+        assert_eq!(
+            (duration(0.0426), duration(5.0), duration(300.0)),
+            ("42.6 ms".into(), "5.00 s".into(), "5.00 min".into())
+        );
+    }
+}
