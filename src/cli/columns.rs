@@ -65,7 +65,8 @@ pub(super) fn paragraph(words: &str, first: &str, rest: &str) -> String {
         if !empty {
             line.push(' ');
         }
-        line.push_str(word);
+        // A name in a file may hold anything, control sequences of a terminal included.
+        line.extend(word.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }));
         empty = false;
     }
     text.push_str(line.trim_end());

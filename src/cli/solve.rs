@@ -28,12 +28,15 @@ Examples:
 const FILES: &str = "\
 Files of --out, with the unit in every column's name:
   summary.json   what --json prints
-  scene.toml     the scene as solved, changes included; it is a preset: squeezefilm solve DIR/scene.toml
-  series.csv     over one cycle: film load, contact load, teeth in contact, least film thickness, highest pressure
-  fields.csv     surfaces, film thickness and line loads at every node of every tooth, over one cycle;
-                 a line load × length_m, summed over one time_s, is the load in series.csv
+  scene.toml     the scene as solved, changes included: a preset again
+  series.csv     loads, teeth in contact, least film thickness and
+                 highest pressure, over one cycle
+  fields.csv     surfaces, film thickness and line loads at every node of
+                 every tooth, over one cycle; a line load × length_m,
+                 summed over one time_s, is the load in series.csv
   pressure.csv   pressure under one tooth, over one cycle
-Of a symmetric film only the half that was solved is there: y_m >= 0, and of a plate x_m >= 0 as well.";
+Of a symmetric film only the half that was solved is there: y_m >= 0,
+and of a plate x_m >= 0 as well.";
 
 /// Solves a preset for its periodic steady state and prints a summary
 #[derive(Debug, Args)]
