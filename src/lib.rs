@@ -8,6 +8,9 @@ pub mod estimate;
 pub mod export;
 pub mod fidelity;
 pub mod film;
+#[cfg(feature = "gui")]
+pub mod gui;
+pub mod job;
 pub mod motor;
 pub mod numerics;
 pub mod paper;

@@ -1,0 +1,71 @@
+//! What a panel or a key asks the application to do. Panels push commands; only the application carries them out.
+
+use crate::fidelity::Fidelity;
+use crate::scene::Value;
+use std::path::PathBuf;
+
+/// One request of the user.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Sets a scene parameter. `dragging`: part of one continuous edit, undone as one.
+    Set {
+        /// Dotted key, as in the preset file.
+        key: &'static str,
+        /// The new value.
+        value: Value,
+        /// Whether the pointer still holds the slider.
+        dragging: bool,
+    },
+    /// Sets a scene parameter from typed text; refused text becomes a message at the parameter.
+    SetText {
+        /// Dotted key.
+        key: &'static str,
+        /// What was typed.
+        text: String,
+    },
+    /// Back to the parameter's default (for an optional one: absent).
+    Reset {
+        /// Dotted key.
+        key: &'static str,
+    },
+    /// Takes the last edit back.
+    Undo,
+    /// Makes it again.
+    Redo,
+    /// Opens a built-in preset.
+    OpenBuiltIn(&'static str),
+    /// Asks for a file to open.
+    OpenDialog,
+    /// Opens a file.
+    OpenPath(PathBuf),
+    /// Saves to the scene's file, or asks for one.
+    Save,
+    /// Asks for a file and saves there.
+    SaveAs,
+    /// Saves to this file.
+    SavePath(PathBuf),
+    /// Refines the present scene up to this fidelity.
+    Refine(Fidelity),
+    /// Cancels the running solve.
+    CancelSolve,
+    /// Play or pause.
+    TogglePlay,
+    /// Moves by this many frames, pausing.
+    StepFrames(i64),
+    /// Jumps to this phase of the cycle, 0 to 1, pausing.
+    Seek(f64),
+    /// Seconds on screen for one cycle.
+    SecondsPerCycle(f64),
+    /// Follows this tooth.
+    FollowTooth(usize),
+    /// Light or dark.
+    ToggleTheme,
+    /// Text size relative to the usual one.
+    TextScale(f32),
+    /// Saves a picture of the window.
+    Screenshot,
+    /// Shows or hides the sheet of shortcuts.
+    ToggleShortcuts,
+    /// Closes the window.
+    Quit,
+}

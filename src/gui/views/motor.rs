@@ -1,0 +1,12 @@
+//! The motor: wave, pressures and maps on one x axis.
+
+use crate::gui::command::Command;
+use crate::gui::state::View;
+use crate::job::Run;
+use eframe::egui;
+
+/// Draws `run` at the view's phase.
+pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+    let _ = (run, view, commands);
+    ui.label("motor");
+}

@@ -1,0 +1,299 @@
+//! The background solver: one named worker thread, the newest request wins, results stream back as they improve.
+//!
+//! A request is a checked problem. The worker solves it at draft, then standard, then fine, and sends each result; a newer
+//! request cancels the running solve. A panic in a solver becomes an event. On drop the worker is cancelled and joined.
+//! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
+
+use crate::control::{Cancel, Progress};
+use crate::fidelity::Fidelity;
+use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::solution::{Solution, Status};
+use crate::solve::{Method, Settings, solve};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Instant;
+
+/// One finished solve: immutable, shared.
+#[derive(Debug)]
+pub struct Run {
+    /// The request's number, ascending.
+    pub number: u64,
+    /// What was solved.
+    pub scene: Scene,
+    /// The same, checked and in SI units.
+    pub problem: Problem,
+    /// At which fidelity.
+    pub fidelity: Fidelity,
+    /// The result.
+    pub solution: Solution,
+    /// Wall time of this fidelity's solve \[s\].
+    pub wall_s: f64,
+    /// Residual of each round, all grids, in order: the convergence history.
+    pub history: Vec<Progress>,
+}
+
+/// What the worker tells.
+#[derive(Clone, Debug)]
+pub enum Event {
+    /// A round of the running solve is done.
+    Progress {
+        /// The request's number.
+        number: u64,
+        /// At which fidelity.
+        fidelity: Fidelity,
+        /// How far it is.
+        progress: Progress,
+    },
+    /// A fidelity is solved; more may follow.
+    Solved(Arc<Run>),
+    /// There is no result: an error, or a panic of the solver.
+    Failed {
+        /// The request's number.
+        number: u64,
+        /// What the user is told.
+        message: String,
+    },
+    /// Nothing more will come of this request.
+    Done {
+        /// The request's number.
+        number: u64,
+        /// Whether it was cancelled before its last fidelity.
+        cancelled: bool,
+    },
+}
+
+/// A problem to solve, at each of the fidelities in turn.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The scene, carried into the results.
+    pub scene: Scene,
+    /// The same, checked.
+    pub problem: Problem,
+    /// Fidelities, coarse to fine.
+    pub fidelities: Vec<Fidelity>,
+}
+
+#[derive(Debug, Default)]
+struct Slot {
+    waiting: Option<(u64, Request)>,
+    running: Option<Cancel>,
+    closed: bool,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    slot: Mutex<Slot>,
+    changed: Condvar,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, Slot> {
+        // The slot holds plain data that is never left half-changed.
+        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The worker and the way to it.
+#[derive(Debug)]
+pub struct Solver {
+    shared: Arc<Shared>,
+    events: Option<Receiver<Event>>,
+    worker: Option<JoinHandle<()>>,
+    next: u64,
+}
+
+impl Solver {
+    /// Starts the worker. `wake` is called after every event, from the worker's thread.
+    ///
+    /// # Errors
+    /// If the thread cannot be started.
+    pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        let shared = Arc::new(Shared::default());
+        let (sender, events) = channel();
+        let theirs = Arc::clone(&shared);
+        let worker = std::thread::Builder::new().name("squeezefilm-solver".to_owned()).spawn(move || {
+            let tell = |event: Event| {
+                let sent = sender.send(event).is_ok();
+                wake();
+                sent
+            };
+            work(&theirs, &tell);
+        })?;
+        Ok(Self { shared, events: Some(events), worker: Some(worker), next: 0 })
+    }
+
+    /// Solves `request` instead of whatever is running or waiting. Returns its number.
+    pub fn submit(&mut self, request: Request) -> u64 {
+        self.next += 1;
+        let mut slot = self.shared.lock();
+        slot.waiting = Some((self.next, request));
+        if let Some(running) = &slot.running {
+            running.cancel();
+        }
+        self.shared.changed.notify_all();
+        self.next
+    }
+
+    /// Cancels what is running and forgets what is waiting.
+    pub fn cancel(&self) {
+        let mut slot = self.shared.lock();
+        slot.waiting = None;
+        if let Some(running) = &slot.running {
+            running.cancel();
+        }
+    }
+
+    /// Events that have arrived.
+    pub fn drain(&self) -> impl Iterator<Item = Event> {
+        self.events.iter().flat_map(Receiver::try_iter)
+    }
+}
+
+impl Drop for Solver {
+    fn drop(&mut self) {
+        {
+            let mut slot = self.shared.lock();
+            slot.closed = true;
+            slot.waiting = None;
+            if let Some(running) = &slot.running {
+                running.cancel();
+            }
+            self.shared.changed.notify_all();
+        }
+        self.events = None;
+        if let Some(worker) = self.worker.take() {
+            // A worker that panicked outside a solve has nothing left to tell.
+            let _ = worker.join();
+        }
+    }
+}
+
+fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
+    loop {
+        let (number, request, cancel) = {
+            let mut slot = shared.lock();
+            loop {
+                if slot.closed {
+                    return;
+                }
+                if let Some((number, request)) = slot.waiting.take() {
+                    let cancel = Cancel::new();
+                    slot.running = Some(cancel.clone());
+                    break (number, request, cancel);
+                }
+                slot = shared.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
+            }
+        };
+        let cancelled = !refine(number, &request, &cancel, tell);
+        shared.lock().running = None;
+        if !tell(Event::Done { number, cancelled }) {
+            return;
+        }
+    }
+}
+
+/// Solves at every fidelity of the request; false if cancelled.
+fn refine(number: u64, request: &Request, cancel: &Cancel, tell: &dyn Fn(Event) -> bool) -> bool {
+    for &fidelity in &request.fidelities {
+        if cancel.is_cancelled() {
+            return false;
+        }
+        let mut history = Vec::new();
+        let started = Instant::now();
+        let mut listen = |progress: &Progress| {
+            history.push(*progress);
+            tell(Event::Progress { number, fidelity, progress: *progress });
+        };
+        let settings = Settings { fidelity, method: Method::Auto };
+        let solved = catch_unwind(AssertUnwindSafe(|| solve(&request.problem, &settings, &mut listen, cancel)));
+        let wall_s = started.elapsed().as_secs_f64();
+        let message = match solved {
+            Ok(Ok(solution)) if solution.status == Status::Cancelled => return false,
+            Ok(Ok(solution)) => {
+                tell(Event::Solved(Arc::new(Run {
+                    number,
+                    scene: request.scene.clone(),
+                    problem: request.problem.clone(),
+                    fidelity,
+                    solution,
+                    wall_s,
+                    history,
+                })));
+                continue;
+            }
+            Ok(Err(error)) => error.to_string(),
+            Err(panic) => format!("the solver failed at {fidelity}: {}", panic_text(panic.as_ref())),
+        };
+        tell(Event::Failed { number, message });
+        return true;
+    }
+    true
+}
+
+fn panic_text(panic: &(dyn std::any::Any + Send)) -> &str {
+    panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("?")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::presets;
+    use std::time::Duration;
+
+    fn request(preset: &str, fidelities: &[Fidelity]) -> Request {
+        let scene = presets::find(preset).unwrap();
+        Request { problem: Problem::new(&scene).unwrap(), scene, fidelities: fidelities.to_vec() }
+    }
+
+    fn until_done(solver: &Solver, number: u64) -> Vec<Event> {
+        let mut seen = Vec::new();
+        for _ in 0..6000 {
+            seen.extend(solver.drain());
+            if seen.iter().any(|event| matches!(event, Event::Done { number: n, .. } if *n == number)) {
+                return seen;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("request {number} is not done: {} events", seen.len());
+    }
+
+    #[test]
+    fn results_come_coarse_to_fine() {
+        let mut solver = Solver::start(|| ()).unwrap();
+        let number = solver.submit(request("plate-crossover", &[Fidelity::Draft, Fidelity::Standard]));
+        let events = until_done(&solver, number);
+        let solved: Vec<Fidelity> =
+            events.iter().filter_map(|e| if let Event::Solved(run) = e { Some(run.fidelity) } else { None }).collect();
+        assert_eq!(solved, [Fidelity::Draft, Fidelity::Standard]);
+        assert!(events.iter().any(|event| matches!(event, Event::Progress { .. })));
+    }
+
+    #[test]
+    fn the_newest_request_wins() {
+        let mut solver = Solver::start(|| ()).unwrap();
+        let mut last = 0;
+        for _ in 0..50 {
+            last = solver.submit(request("fundamental", &[Fidelity::Reference]));
+        }
+        last = last.max(solver.submit(request("plate-trapped", &[Fidelity::Draft])));
+        let events = until_done(&solver, last);
+        let finished: Vec<u64> =
+            events.iter().filter_map(|e| if let Event::Solved(run) = e { Some(run.number) } else { None }).collect();
+        assert_eq!(finished, [last]);
+    }
+
+    #[test]
+    fn cancelling_and_dropping_end_a_long_solve() {
+        let mut solver = Solver::start(|| ()).unwrap();
+        let number = solver.submit(request("fundamental", &[Fidelity::Reference]));
+        std::thread::sleep(Duration::from_millis(50));
+        solver.cancel();
+        let events = until_done(&solver, number);
+        assert!(matches!(events.last(), Some(Event::Done { cancelled: true, .. })));
+        solver.submit(request("fundamental", &[Fidelity::Reference]));
+        drop(solver);
+    }
+}
