@@ -64,6 +64,12 @@ pub(super) enum CliError {
         /// The system's reason.
         reason: String,
     },
+    /// The window.
+    #[cfg(feature = "gui")]
+    #[error(
+        "no window can be opened here: {0}\nwithout one: squeezefilm solve fundamental, or squeezefilm --help\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)"
+    )]
+    Window(String),
     /// Standard output.
     #[error("standard output: cannot be written: {0}")]
     Output(io::Error),
@@ -74,6 +80,8 @@ impl CliError {
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Scene(_) | Self::Usage(_) | Self::Solve(SolveError::PaperPlate) => Exit::BadInput,
+            #[cfg(feature = "gui")]
+            Self::Window(_) => Exit::Other,
             Self::Solve(_) | Self::Write(_) | Self::Threads { .. } | Self::Output(_) => Exit::Other,
         }
     }

@@ -2,6 +2,8 @@
 
 mod columns;
 mod exit;
+#[cfg(feature = "gui")]
+mod gui;
 mod interrupt;
 mod options;
 mod presets;
@@ -22,15 +24,18 @@ use std::process::ExitCode;
 /// squeezefilm solves the film (compressible Reynolds equation with slip), the elastic rotor and the unilateral contact
 /// together for the periodic steady state, with an estimate of the numerical error of every α.
 #[derive(Debug, Parser)]
-#[command(name = "squeezefilm", version, arg_required_else_help = true, subcommand_required = true)]
+#[command(name = "squeezefilm", version)]
+#[cfg_attr(not(feature = "gui"), command(arg_required_else_help = true, subcommand_required = true))]
 #[command(after_help = AFTER)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    #[cfg(feature = "gui")]
+    Gui(gui::Arguments),
     Solve(solve::Arguments),
     Table1(table1::Arguments),
     Presets(presets::Arguments),
@@ -62,9 +67,16 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         }
     };
     let ended = match cli.command {
-        Command::Solve(arguments) => solve::run(&arguments, &command_line(words)),
-        Command::Table1(arguments) => table1::run(&arguments),
-        Command::Presets(arguments) => presets::run(&arguments),
+        #[cfg(feature = "gui")]
+        Some(Command::Gui(arguments)) => gui::run(&arguments),
+        #[cfg(feature = "gui")]
+        None => gui::run(&gui::Arguments::default()),
+        // clap asks for a command where there is no window.
+        #[cfg(not(feature = "gui"))]
+        None => Ok(exit::Exit::Solved),
+        Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
+        Some(Command::Table1(arguments)) => table1::run(&arguments),
+        Some(Command::Presets(arguments)) => presets::run(&arguments),
     };
     match ended {
         Ok(exit) => exit.code(),

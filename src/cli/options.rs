@@ -10,7 +10,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use std::path::PathBuf;
 
 /// Changes to a scene.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub(super) struct SceneOptions {
     /// Changes a key of the scene, dotted as in the file; may be repeated
     ///

@@ -58,10 +58,14 @@ pub enum Command {
     SecondsPerCycle(f64),
     /// Follows this tooth.
     FollowTooth(usize),
+    /// Follows the tooth this many further on.
+    NextTooth(i64),
+    /// Shows a prompt for a path to open.
+    OpenPathPrompt,
     /// Light or dark.
     ToggleTheme,
-    /// Text size relative to the usual one.
-    TextScale(f32),
+    /// Large text, for a lecture room, or the usual size.
+    ToggleLecture,
     /// Saves a picture of the window.
     Screenshot,
     /// Shows or hides the sheet of shortcuts.

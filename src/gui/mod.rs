@@ -3,8 +3,34 @@
 //! `app` drains the solver's events and carries out commands; panels and views only read state, draw, and push commands.
 //! The solver is reached through [`crate::job`] alone; the window's thread never solves.
 
+pub mod app;
 pub mod command;
+pub mod dialogs;
+pub mod document;
+pub mod keys;
 pub mod panels;
 pub mod state;
 pub mod theme;
 pub mod views;
+
+use crate::scene::Scene;
+use eframe::egui;
+use std::path::PathBuf;
+
+/// Opens the window on a scene, or where the last one was left, and returns when it is closed.
+///
+/// # Errors
+/// If there is no display, or no way to draw on it.
+pub fn open(opened: Option<(Scene, Option<PathBuf>)>) -> Result<(), eframe::Error> {
+    let options = eframe::NativeOptions {
+        renderer: eframe::Renderer::Glow,
+        viewport: egui::ViewportBuilder::default()
+            .with_title("squeezefilm")
+            .with_app_id("squeezefilm")
+            .with_inner_size([1400.0, 900.0])
+            .with_min_inner_size([900.0, 600.0])
+            .with_drag_and_drop(true),
+        ..Default::default()
+    };
+    eframe::run_native("squeezefilm", options, Box::new(|context| Ok(Box::new(app::App::new(context, opened)?))))
+}

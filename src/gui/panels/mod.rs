@@ -1,4 +1,7 @@
 //! Panels: each is a function that reads state and pushes commands.
 
+pub mod menu;
 pub mod parameters;
 pub mod results;
+pub mod sheet;
+pub mod timeline;

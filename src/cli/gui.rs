@@ -1,0 +1,46 @@
+//! `squeezefilm gui`, and the program without a command: the window.
+
+use super::exit::{CliError, Exit};
+use super::options::SceneOptions;
+use crate::gui;
+use crate::scene::presets::BUILT_IN;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Opens the window (as without any command), on a preset or where it was left
+#[derive(Debug, Default, Args)]
+#[command(after_help = "Examples:
+  squeezefilm
+  squeezefilm gui levitating")]
+pub(super) struct Arguments {
+    /// A built-in name or a path; without it, the scene that was last open
+    #[arg(value_name = "PRESET")]
+    preset: Option<String>,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    let opened = match &arguments.preset {
+        Some(preset) => {
+            let built_in = BUILT_IN.iter().any(|built_in| built_in.name == preset);
+            Some((arguments.scene.scene(preset)?, (!built_in).then(|| PathBuf::from(preset))))
+        }
+        None if !arguments.scene.changes.is_empty() => {
+            return Err(CliError::Usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));
+        }
+        None => None,
+    };
+    if no_display() {
+        return Err(CliError::Window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
+    }
+    gui::open(opened).map_err(|error| CliError::Window(error.to_string()))?;
+    Ok(Exit::Solved)
+}
+
+/// Whether it is known beforehand that no window can be opened.
+fn no_display() -> bool {
+    let unset = |name: &str| std::env::var_os(name).is_none_or(|value| value.is_empty());
+    cfg!(all(unix, not(target_os = "macos"))) && unset("DISPLAY") && unset("WAYLAND_DISPLAY")
+}

@@ -1,0 +1,585 @@
+//! The application: drains events, carries out commands, lays out panels and views. It never solves.
+
+use super::command::Command;
+use super::dialogs::{Chosen, Dialogs, Purpose};
+use super::document::Document;
+use super::keys;
+use super::panels::{menu, parameters, results, sheet, timeline};
+use super::state::View;
+use super::theme;
+use super::views;
+use crate::fidelity::Fidelity;
+use crate::job::{Event, Request, Run, Solver};
+use crate::problem::{Problem, Scenario};
+use crate::scene::{Kind, Parameter, Scene, SceneError, presets};
+use eframe::egui;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// Fidelities that every edit is solved at, in turn.
+const REFINEMENT: [Fidelity; 3] = [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine];
+/// Files remembered.
+const RECENT: usize = 10;
+/// Zoom of the lecture size.
+const LECTURE_ZOOM: f32 = 1.35;
+/// Unsaved work is written away this often.
+const SAVE_INTERVAL: Duration = Duration::from_secs(2);
+
+/// What the solver is doing.
+#[derive(Clone, Debug, Default)]
+pub struct Activity {
+    /// The newest request.
+    pub number: u64,
+    /// What is running.
+    pub running: Option<Running>,
+    /// Why there is no newer result.
+    pub failure: Option<String>,
+}
+
+/// The fidelity being solved, and how far it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Running {
+    /// Which fidelity.
+    pub fidelity: Fidelity,
+    /// Grid, of how many, and round.
+    pub level: (usize, usize, usize),
+    /// ln residual at the start of this grid, now, and at the tolerance.
+    pub decay: (f64, f64, f64),
+}
+
+impl Running {
+    /// Progress between 0 and 1.
+    pub fn fraction(&self) -> f32 {
+        let (first, now, last) = self.decay;
+        let here = if first > last { ((first - now) / (first - last)).clamp(0.0, 1.0) } else { 0.0 };
+        ((self.level.0 as f64 + here) / self.level.1.max(1) as f64) as f32
+    }
+
+    /// In words.
+    pub fn text(&self) -> String {
+        format!("solving {}, grid {} of {}, round {}", self.fidelity, self.level.0 + 1, self.level.1, self.level.2)
+    }
+}
+
+impl Activity {
+    /// Whether `run` is of an earlier scene.
+    pub fn stale(&self, run: &Run) -> bool {
+        run.number < self.number
+    }
+}
+
+/// A modal in the way.
+#[derive(Clone, Debug)]
+enum Modal {
+    /// Something went wrong; nothing changed.
+    Error(String),
+    /// Unsaved changes before this command.
+    Unsaved(Box<Command>),
+    /// A path to open or save to.
+    Path(String),
+}
+
+/// The application.
+pub struct App {
+    document: Document,
+    refusals: parameters::Refusals,
+    solver: Solver,
+    shown: Option<Arc<Run>>,
+    activity: Activity,
+    view: View,
+    dialogs: Dialogs,
+    pictures: (Sender<Arc<egui::ColorImage>>, Receiver<Arc<egui::ColorImage>>),
+    picture: Option<Arc<egui::ColorImage>>,
+    modal: Option<Modal>,
+    /// What to do after a save that a question led to.
+    after_save: Option<Command>,
+    sheet: bool,
+    recent: Vec<PathBuf>,
+    dark: bool,
+    lecture: bool,
+    quitting: bool,
+    last_frame: Option<Instant>,
+}
+
+impl App {
+    /// The application on `scene`, or where the last window was left, or on the fundamental case.
+    ///
+    /// # Errors
+    /// If the solver's thread cannot be started.
+    pub fn new(
+        context: &eframe::CreationContext<'_>,
+        opened: Option<(Scene, Option<PathBuf>)>,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        theme::install_fonts(&context.egui_ctx);
+        let wake = context.egui_ctx.clone();
+        let solver = Solver::start(move || wake.request_repaint())?;
+        let stored = |key: &str| context.storage.and_then(|storage| storage.get_string(key));
+        let document = match opened {
+            Some((scene, path)) => Document::opened(scene, path),
+            None => match restore(&stored) {
+                Some(document) => document,
+                None => Document::fundamental()?,
+            },
+        };
+        let mut app = Self {
+            document,
+            refusals: parameters::Refusals::new(),
+            solver,
+            shown: None,
+            activity: Activity::default(),
+            view: View::default(),
+            dialogs: Dialogs::default(),
+            pictures: channel(),
+            picture: None,
+            modal: None,
+            after_save: None,
+            sheet: false,
+            recent: stored("recent").map(|text| text.lines().map(PathBuf::from).collect()).unwrap_or_default(),
+            dark: stored("theme").is_none_or(|theme| theme != "light"),
+            lecture: stored("lecture").is_some_and(|size| size == "true"),
+            quitting: false,
+            last_frame: None,
+        };
+        app.apply_theme(&context.egui_ctx);
+        app.solve(&REFINEMENT);
+        Ok(app)
+    }
+
+    /// The scene being edited.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The run on screen.
+    pub fn shown(&self) -> Option<&Run> {
+        self.shown.as_deref()
+    }
+
+    /// What the solver is doing.
+    pub fn activity(&self) -> &Activity {
+        &self.activity
+    }
+
+    /// How the run is looked at.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    fn apply_theme(&self, ctx: &egui::Context) {
+        ctx.set_theme(if self.dark { egui::Theme::Dark } else { egui::Theme::Light });
+        ctx.set_zoom_factor(if self.lecture { LECTURE_ZOOM } else { 1.0 });
+    }
+
+    /// Asks for the present scene at these fidelities.
+    fn solve(&mut self, fidelities: &[Fidelity]) {
+        match Problem::new(self.document.scene()) {
+            Ok(problem) => {
+                let scene = self.document.scene().clone();
+                self.activity.number = self.solver.submit(Request { scene, problem, fidelities: fidelities.to_vec() });
+                self.activity.failure = None;
+            }
+            Err(error) => self.activity.failure = Some(error.to_string()),
+        }
+    }
+
+    fn drain(&mut self, ctx: &egui::Context) {
+        for event in self.solver.drain() {
+            match event {
+                Event::Progress { number, fidelity, progress } if number == self.activity.number => {
+                    let now = progress.residual.max(f64::MIN_POSITIVE).ln();
+                    let same = self.activity.running.filter(|r| r.fidelity == fidelity && r.level.0 == progress.level);
+                    self.activity.running = Some(Running {
+                        fidelity,
+                        level: (progress.level, progress.levels, progress.iteration),
+                        decay: (same.map_or(now, |r| r.decay.0), now, progress.tolerance.ln()),
+                    });
+                }
+                // A result of an edit that is already history is still newer than what is shown.
+                Event::Solved(run) if self.shown.as_ref().is_none_or(|shown| run.number >= shown.number) => {
+                    self.view.tooth = self.view.tooth.min(run.solution.recording.teeth.saturating_sub(1));
+                    self.shown = Some(run);
+                }
+                Event::Failed { number, message } if number == self.activity.number => {
+                    self.activity.failure = Some(message);
+                }
+                Event::Done { number, .. } if number == self.activity.number => self.activity.running = None,
+                _ => {}
+            }
+        }
+        let chosen: Vec<Chosen> = self.dialogs.drain().collect();
+        for Chosen { purpose, path } in chosen {
+            match (purpose, path) {
+                (Purpose::Open, Some(path)) => self.carry_out(ctx, Command::OpenPath(path)),
+                (Purpose::Save, Some(path)) => self.carry_out(ctx, Command::SavePath(path)),
+                (Purpose::Screenshot, Some(path)) => self.write_picture(&path),
+                // Cancelled, or there is no file dialog on this machine: the path can be typed.
+                (Purpose::Save, None) => self.modal = Some(Modal::Path(self.suggested_name())),
+                (_, None) => self.after_save = None,
+            }
+        }
+        while let Ok(picture) = self.pictures.1.try_recv() {
+            self.picture = Some(picture);
+            self.ask(ctx, Purpose::Screenshot, "squeezefilm.png");
+        }
+    }
+
+    fn ask(&mut self, ctx: &egui::Context, purpose: Purpose, name: &str) {
+        let wake = ctx.clone();
+        if let Err(error) = self.dialogs.show(purpose, name, move || wake.request_repaint()) {
+            self.modal = Some(Modal::Error(format!("The file dialog cannot be shown: {error}")));
+        }
+    }
+
+    fn suggested_name(&self) -> String {
+        self.document.path().map_or_else(
+            || {
+                let stem: String =
+                    self.document.scene().name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+                format!("{}.toml", stem.to_lowercase())
+            },
+            |path| path.display().to_string(),
+        )
+    }
+
+    fn write_picture(&mut self, path: &Path) {
+        let Some(picture) = self.picture.take() else { return };
+        if let Err(error) = write_png(&picture, path) {
+            self.modal = Some(Modal::Error(format!("{}: the picture cannot be written: {error}", path.display())));
+        }
+    }
+
+    /// An edit: the scene changes, everything depending on it is solved again.
+    fn edit(&mut self, key: &'static str, dragging: bool, change: impl FnOnce(&mut Scene) -> Result<(), SceneError>) {
+        let mut next = self.document.scene().clone();
+        let checked = change(&mut next).and_then(|()| next.check());
+        match checked {
+            Ok(()) => {
+                self.refusals.remove(key);
+                let changed = next != *self.document.scene();
+                self.document.edit(next, key, dragging);
+                if changed {
+                    self.solve(&REFINEMENT);
+                }
+            }
+            Err(error) => {
+                self.refusals.insert(key, error.to_string());
+            }
+        }
+    }
+
+    fn open(&mut self, loaded: Result<Scene, SceneError>, path: Option<PathBuf>) {
+        match loaded {
+            Ok(scene) => {
+                if let Some(path) = &path {
+                    self.recent.retain(|other| other != path);
+                    self.recent.insert(0, path.clone());
+                    self.recent.truncate(RECENT);
+                }
+                self.document = Document::opened(scene, path);
+                self.refusals.clear();
+                self.solve(&REFINEMENT);
+            }
+            Err(error) => self.modal = Some(Modal::Error(error.to_string())),
+        }
+    }
+
+    /// Whether `command` would lose unsaved changes; then the user is asked first.
+    fn would_lose(&mut self, command: &Command) -> bool {
+        let loses = matches!(command, Command::OpenBuiltIn(_) | Command::OpenPath(_) | Command::Quit);
+        if loses && self.document.is_dirty() && !self.quitting {
+            self.modal = Some(Modal::Unsaved(Box::new(command.clone())));
+            return true;
+        }
+        false
+    }
+
+    fn carry_out(&mut self, ctx: &egui::Context, command: Command) {
+        if self.would_lose(&command) {
+            return;
+        }
+        self.carry_out_now(ctx, command);
+    }
+
+    fn carry_out_now(&mut self, ctx: &egui::Context, command: Command) {
+        match command {
+            Command::Set { key, value, dragging } => self.edit(key, dragging, |scene| scene.set_value(key, value)),
+            Command::SetText { key, text } => self.edit(key, false, |scene| scene.set(key, &text)),
+            Command::Reset { key } => self.reset(key),
+            Command::Undo | Command::Redo => {
+                let changed = if command == Command::Undo { self.document.undo() } else { self.document.redo() };
+                if changed {
+                    self.refusals.clear();
+                    self.solve(&REFINEMENT);
+                }
+            }
+            Command::OpenBuiltIn(name) => self.open(presets::find(name), None),
+            Command::OpenDialog => self.ask(ctx, Purpose::Open, ""),
+            Command::OpenPathPrompt => self.modal = Some(Modal::Path(self.suggested_name())),
+            Command::OpenPath(path) => self.open(Scene::load(&path), Some(path)),
+            Command::Save => match self.document.path().map(Path::to_path_buf) {
+                Some(path) => self.carry_out_now(ctx, Command::SavePath(path)),
+                None => self.carry_out_now(ctx, Command::SaveAs),
+            },
+            Command::SaveAs => {
+                let name = self.suggested_name();
+                let name = Path::new(&name).file_name().map(|name| name.to_string_lossy().into_owned());
+                self.ask(ctx, Purpose::Save, &name.unwrap_or_default());
+            }
+            Command::SavePath(path) => match self.document.save(&path) {
+                Ok(()) => {
+                    self.recent.retain(|other| *other != path);
+                    self.recent.insert(0, path);
+                    self.recent.truncate(RECENT);
+                    if let Some(next) = self.after_save.take() {
+                        self.carry_out_now(ctx, next);
+                    }
+                }
+                Err(error) => {
+                    self.after_save = None;
+                    self.modal = Some(Modal::Error(error.to_string()));
+                }
+            },
+            Command::Refine(fidelity) => self.solve(&[fidelity]),
+            Command::CancelSolve => {
+                self.solver.cancel();
+                self.activity.running = None;
+            }
+            Command::TogglePlay => self.view.playing = !self.view.playing,
+            Command::StepFrames(by) => {
+                if let Some(run) = &self.shown {
+                    let frames = run.solution.recording.frames.max(1) as i64;
+                    let frame = self.view.frame(&run.solution.recording) as i64 + by;
+                    self.view.playing = false;
+                    self.view.phase = (frame.rem_euclid(frames) as f64 + 0.5) / frames as f64;
+                }
+            }
+            Command::Seek(phase) => {
+                self.view.playing = false;
+                self.view.phase = phase.rem_euclid(1.0);
+            }
+            Command::SecondsPerCycle(seconds) => self.view.seconds_per_cycle = seconds,
+            Command::FollowTooth(tooth) => self.view.tooth = tooth,
+            Command::NextTooth(by) => {
+                if let Some(run) = &self.shown {
+                    let teeth = run.solution.recording.teeth.max(1) as i64;
+                    self.view.tooth = (self.view.tooth as i64 + by).rem_euclid(teeth) as usize;
+                }
+            }
+            Command::ToggleTheme => {
+                self.dark = !self.dark;
+                self.apply_theme(ctx);
+            }
+            Command::ToggleLecture => {
+                self.lecture = !self.lecture;
+                self.apply_theme(ctx);
+            }
+            Command::Screenshot => {
+                let (sender, wake) = (self.pictures.0.clone(), ctx.clone());
+                ctx.request_screenshot(move |image| {
+                    // The window may be gone by now: then there is nobody to show it to.
+                    let _ = sender.send(image);
+                    wake.request_repaint();
+                });
+            }
+            Command::ToggleShortcuts => self.sheet = !self.sheet,
+            Command::Quit => {
+                self.quitting = true;
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+        }
+    }
+
+    fn reset(&mut self, key: &'static str) {
+        let Some(parameter) = Parameter::find(key) else { return };
+        if parameter.absent.is_some() {
+            self.edit(key, false, |scene| scene.unset(key));
+            return;
+        }
+        let default = match self.document.scene().kind {
+            Kind::Motor { .. } => Scene::motor(),
+            Kind::Plate { .. } => Scene::plate(),
+        };
+        if let Some(value) = default.get(key) {
+            self.edit(key, false, |scene| scene.set_value(key, value));
+        }
+    }
+
+    fn modals(&mut self, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        if self.sheet {
+            self.sheet = sheet::show(ctx);
+        }
+        let Some(mut modal) = self.modal.take() else { return };
+        let name = self.document.scene().name.clone();
+        let response = egui::Modal::new(egui::Id::unique("question")).show(ctx, |ui| {
+            ui.set_max_width(460.0);
+            let mut open = true;
+            match &mut modal {
+                Modal::Error(message) => {
+                    ui.heading("This did not work");
+                    ui.add_space(6.0);
+                    ui.add(egui::Label::new(message.as_str()).wrap());
+                    ui.add_space(10.0);
+                    open = !ui.button("Close").clicked();
+                }
+                Modal::Unsaved(next) => {
+                    ui.heading(format!("Save the changes to “{name}”?"));
+                    ui.add_space(10.0);
+                    ui.horizontal(|ui| {
+                        if ui.button("Save").clicked() {
+                            self.after_save = Some((**next).clone());
+                            commands.push(Command::Save);
+                            open = false;
+                        }
+                        if ui.button("Don't save").clicked() {
+                            // Carried out as it is: the changes are given up.
+                            self.after_save = None;
+                            self.document = Document::opened(
+                                self.document.saved().clone(),
+                                self.document.path().map(Path::to_path_buf),
+                            );
+                            commands.push((**next).clone());
+                            open = false;
+                        }
+                        open &= !ui.button("Cancel").clicked();
+                    });
+                }
+                Modal::Path(path) => {
+                    ui.heading("Open or save a preset");
+                    ui.add_space(6.0);
+                    let label = ui.label("Path");
+                    ui.add(egui::TextEdit::singleline(path).desired_width(f32::INFINITY)).labelled_by(label.id);
+                    ui.add_space(10.0);
+                    ui.horizontal(|ui| {
+                        if ui.button("Open").clicked() {
+                            commands.push(Command::OpenPath(PathBuf::from(path.as_str())));
+                            open = false;
+                        }
+                        if ui.button("Save").clicked() {
+                            commands.push(Command::SavePath(PathBuf::from(path.as_str())));
+                            open = false;
+                        }
+                        open &= !ui.button("Cancel").clicked();
+                    });
+                }
+            }
+            open
+        });
+        if response.inner && !response.should_close() {
+            // Unless the modal's own button put another in its place.
+            self.modal.get_or_insert(modal);
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.drain(ctx);
+        let now = Instant::now();
+        if self.view.playing && self.shown.is_some() {
+            // A frame after a pause must not leap.
+            let elapsed = self.last_frame.map_or(0.0, |last| (now - last).as_secs_f64().min(0.1));
+            self.view.phase = (self.view.phase + elapsed / self.view.seconds_per_cycle).rem_euclid(1.0);
+            ctx.request_repaint_after(Duration::from_millis(16));
+        }
+        self.last_frame = Some(now);
+        let mut commands = Vec::new();
+        keys::pressed(ctx, &mut commands);
+        let dropped: Vec<PathBuf> = ctx.input(|input| {
+            input
+                .raw
+                .dropped_files
+                .iter()
+                .map(|file| file.path().to_path_buf())
+                .filter(|path| !path.as_os_str().is_empty())
+                .collect()
+        });
+        commands.extend(dropped.into_iter().map(Command::OpenPath));
+        if ctx.input(|input| input.viewport().close_requested()) && !self.quitting && self.document.is_dirty() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            commands.push(Command::Quit);
+        }
+        for command in commands {
+            self.carry_out(ctx, command);
+        }
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        let palette = theme::palette(self.dark);
+        let mut commands = Vec::new();
+        let shown = self.shown.clone();
+        self.view.cursor_x = self.view.hover_x.take();
+
+        egui::Panel::top("menu").show(ui, |ui| menu::show(ui, &self.document, &self.recent, self.dark, &mut commands));
+        egui::Panel::bottom("status").show(ui, |ui| {
+            if let Some(run) = &shown {
+                ui.add_space(2.0);
+                timeline::show(ui, run, &self.view, &mut commands);
+            }
+            timeline::status(ui, shown.as_deref(), &self.activity, &palette, &mut commands);
+        });
+        egui::Panel::left("parameters").default_size(300.0).min_size(250.0).resizable(true).show(ui, |ui| {
+            parameters::show(ui, self.document.scene(), &self.refusals, &mut commands);
+        });
+        egui::Panel::right("results").default_size(280.0).min_size(230.0).resizable(true).show(ui, |ui| {
+            if let Some(run) = &shown {
+                results::show(ui, run, self.dark);
+            }
+        });
+        egui::CentralPanel::default().show(ui, |ui| match &shown {
+            Some(run) => match run.problem.scenario {
+                Scenario::Motor(_) => views::motor::show(ui, run, &mut self.view, &mut commands),
+                Scenario::Plate(_) => views::plate::show(ui, run, &mut self.view, &mut commands),
+            },
+            None => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+        });
+        self.modals(&ctx, &mut commands);
+        if !commands.is_empty() {
+            // What a command changes is drawn, and written away, soon.
+            ctx.request_repaint();
+            ctx.request_repaint_after(SAVE_INTERVAL + Duration::from_millis(500));
+        }
+        for command in commands {
+            self.carry_out(&ctx, command);
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        storage.set_string("scene", self.document.scene().to_toml());
+        storage.set_string("saved", self.document.saved().to_toml());
+        storage.set_string("path", self.document.path().map(|p| p.display().to_string()).unwrap_or_default());
+        let recent: Vec<String> = self.recent.iter().map(|path| path.display().to_string()).collect();
+        storage.set_string("recent", recent.join("\n"));
+        storage.set_string("theme", if self.dark { "dark" } else { "light" }.to_owned());
+        storage.set_string("lecture", self.lecture.to_string());
+    }
+
+    fn auto_save_interval(&self) -> Duration {
+        SAVE_INTERVAL
+    }
+}
+
+/// The scene that the last window was left with.
+fn restore(stored: &dyn Fn(&str) -> Option<String>) -> Option<Document> {
+    let parse = |key: &str| Scene::from_toml(&stored(key)?, "the last window").ok();
+    let scene = parse("scene")?;
+    let saved = parse("saved").unwrap_or_else(|| scene.clone());
+    let path = stored("path").filter(|path| !path.is_empty()).map(PathBuf::from);
+    Some(Document::restored(scene, saved, path))
+}
+
+/// Writes a picture under a temporary name, then renames it.
+fn write_png(picture: &egui::ColorImage, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    let [width, height] = picture.size;
+    let bytes: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
+    let buffer = image::RgbaImage::from_raw(width as u32, height as u32, bytes).ok_or("the picture is incomplete")?;
+    let mut encoded = std::io::Cursor::new(Vec::new());
+    buffer.write_to(&mut encoded, image::ImageFormat::Png)?;
+    std::io::Write::write_all(file.as_file_mut(), encoded.get_ref())?;
+    file.persist(path)?;
+    Ok(())
+}

@@ -1,0 +1,153 @@
+//! The scene being edited: its file, its history of edits, and whether anything is unsaved.
+
+use crate::scene::{Scene, SceneError, presets};
+use std::path::{Path, PathBuf};
+
+/// Edits that can be taken back.
+const HISTORY: usize = 500;
+
+/// A scene and where it came from.
+#[derive(Clone, Debug)]
+pub struct Document {
+    scene: Scene,
+    saved: Scene,
+    path: Option<PathBuf>,
+    undo: Vec<Scene>,
+    redo: Vec<Scene>,
+    /// The parameter that a pointer is dragging: its edits are one.
+    dragging: Option<&'static str>,
+}
+
+impl Document {
+    /// A scene as it was opened, from a file or built in.
+    pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {
+        Self { saved: scene.clone(), scene, path, undo: Vec::new(), redo: Vec::new(), dragging: None }
+    }
+
+    /// A scene that outlived its window: unsaved if it differs from what its file or preset says.
+    pub fn restored(scene: Scene, saved: Scene, path: Option<PathBuf>) -> Self {
+        Self { saved, ..Self::opened(scene, path) }
+    }
+
+    /// The fundamental case.
+    ///
+    /// # Errors
+    /// Never: the preset is built in and tested.
+    pub fn fundamental() -> Result<Self, SceneError> {
+        Ok(Self::opened(presets::find("fundamental")?, None))
+    }
+
+    /// The scene as edited.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scene as it was opened or last saved.
+    pub fn saved(&self) -> &Scene {
+        &self.saved
+    }
+
+    /// The file, if it has one.
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// Whether there are unsaved changes.
+    pub fn is_dirty(&self) -> bool {
+        self.scene != self.saved
+    }
+
+    /// Replaces the scene by an edited one. Edits of one `dragging` parameter are undone together.
+    pub fn edit(&mut self, next: Scene, key: &'static str, dragging: bool) {
+        if next != self.scene {
+            if self.dragging != Some(key) {
+                self.undo.push(std::mem::replace(&mut self.scene, next));
+                if self.undo.len() > HISTORY {
+                    self.undo.remove(0);
+                }
+            } else {
+                self.scene = next;
+            }
+            self.redo.clear();
+            self.dragging = dragging.then_some(key);
+        } else if !dragging {
+            self.dragging = None;
+        }
+    }
+
+    /// Takes the last edit back; whether there was one.
+    pub fn undo(&mut self) -> bool {
+        self.dragging = None;
+        self.undo.pop().map(|scene| self.redo.push(std::mem::replace(&mut self.scene, scene))).is_some()
+    }
+
+    /// Makes the last undone edit again; whether there was one.
+    pub fn redo(&mut self) -> bool {
+        self.dragging = None;
+        self.redo.pop().map(|scene| self.undo.push(std::mem::replace(&mut self.scene, scene))).is_some()
+    }
+
+    /// Whether there is anything to undo.
+    pub fn can_undo(&self) -> bool {
+        !self.undo.is_empty()
+    }
+
+    /// Whether there is anything to redo.
+    pub fn can_redo(&self) -> bool {
+        !self.redo.is_empty()
+    }
+
+    /// Saves to `path` (a temporary name, then renamed).
+    ///
+    /// # Errors
+    /// If the file cannot be written; nothing changes then.
+    pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
+        self.scene.save(path)?;
+        self.saved = self.scene.clone();
+        self.path = Some(path.to_path_buf());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with_spacing(document: &Document, nanometres: &str) -> Scene {
+        let mut scene = document.scene().clone();
+        scene.set("film.min_spacing_nm", nanometres).unwrap();
+        scene
+    }
+
+    #[test]
+    fn one_drag_is_one_edit() {
+        let mut document = Document::fundamental().unwrap();
+        let original = document.scene().clone();
+        for spacing in ["190", "180", "170"] {
+            document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", true);
+        }
+        document.edit(with_spacing(&document, "170"), "film.min_spacing_nm", false);
+        document.edit(with_spacing(&document, "100"), "film.min_spacing_nm", false);
+        assert!(document.is_dirty() && document.can_undo());
+        assert!(document.undo());
+        assert_eq!(document.scene(), &with_spacing(&document, "170"));
+        assert!(document.undo());
+        assert_eq!(document.scene(), &original);
+        assert!(!document.undo() && !document.is_dirty());
+        assert!(document.redo() && document.redo() && !document.redo());
+        assert_eq!(document.scene(), &with_spacing(&document, "100"));
+    }
+
+    #[test]
+    fn saving_clears_the_mark_and_a_failed_save_changes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut document = Document::fundamental().unwrap();
+        document.edit(with_spacing(&document, "90"), "film.min_spacing_nm", false);
+        assert!(document.save(&folder.path().join("no/such/folder/a.toml")).is_err());
+        assert!(document.is_dirty() && document.path().is_none());
+        let path = folder.path().join("a.toml");
+        document.save(&path).unwrap();
+        assert!(!document.is_dirty());
+        assert_eq!(&Scene::load(&path).unwrap(), document.scene());
+    }
+}

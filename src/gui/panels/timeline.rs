@@ -1,0 +1,139 @@
+//! The bottom panel: the cycle's timeline, and what the solver is doing.
+
+use crate::fidelity::Fidelity;
+use crate::gui::app::Activity;
+use crate::gui::command::Command;
+use crate::gui::state::View;
+use crate::gui::theme::Palette;
+use crate::job::Run;
+use crate::solution::{Outcome, Status};
+use eframe::egui::{self, ProgressBar, RichText, Slider};
+
+/// Seconds on screen for one cycle that can be chosen.
+const SPEEDS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 30.0];
+
+/// Play, step, scrub and speed.
+pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Command>) {
+    let recording = &run.solution.recording;
+    let (frames, frame) = (recording.frames, view.frame(recording));
+    ui.horizontal(|ui| {
+        let play = if view.playing { "Pause" } else { "Play" };
+        if ui.add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play)).on_hover_text("Space").clicked()
+        {
+            commands.push(Command::TogglePlay);
+        }
+        if ui.button("◀").on_hover_text("One frame back (←)").clicked() {
+            commands.push(Command::StepFrames(-1));
+        }
+        if ui.button("▶").on_hover_text("One frame on (→)").clicked() {
+            commands.push(Command::StepFrames(1));
+        }
+        let slow = view.seconds_per_cycle / recording.period;
+        let speed = egui::ComboBox::from_id_salt("speed")
+            .selected_text(format!("slowed {}×", thousands(slow)))
+            .show_ui(ui, |ui| {
+                for seconds in SPEEDS {
+                    let text = format!("one cycle in {seconds} s, slowed {}×", thousands(seconds / recording.period));
+                    if ui.selectable_label(seconds == view.seconds_per_cycle, text).clicked() {
+                        commands.push(Command::SecondsPerCycle(seconds));
+                    }
+                }
+            });
+        name(&speed.response, "Speed");
+        let mut at = frame;
+        ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
+        let scrub = ui.add(Slider::new(&mut at, 0..=frames.saturating_sub(1)).show_value(false));
+        name(&scrub, "Time in the cycle");
+        if scrub.changed() {
+            commands.push(Command::Seek((at as f64 + 0.5) / frames as f64));
+        }
+        ui.label(format!("t = {}  ({:.0}°)", time(recording.time(frame)), 360.0 * frame as f64 / frames as f64));
+    });
+}
+
+/// Fidelity, error, time; progress and cancel while something runs.
+pub fn status(
+    ui: &mut egui::Ui,
+    run: Option<&Run>,
+    activity: &Activity,
+    palette: &Palette,
+    commands: &mut Vec<Command>,
+) {
+    ui.horizontal(|ui| {
+        if let Some(run) = run {
+            let error = match run.solution.outcome {
+                Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha_error),
+                Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load_error),
+            };
+            ui.label(format!("Shown: {}, {error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s));
+            match run.solution.status {
+                Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(palette.alarm))),
+                _ if activity.stale(run) => drop(ui.label(RichText::new("of the scene before this edit").weak())),
+                _ => {}
+            }
+        } else {
+            ui.label("Nothing solved yet");
+        }
+        if let Some(message) = &activity.failure {
+            ui.label(RichText::new(message).color(palette.alarm)).on_hover_text(message);
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if let Some(running) = &activity.running {
+                if ui.button("Cancel").on_hover_text("Esc").clicked() {
+                    commands.push(Command::CancelSolve);
+                }
+                ui.add(ProgressBar::new(running.fraction()).desired_width(120.0));
+                ui.label(running.text());
+            } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !activity.stale(run)) {
+                let text = "Solve for reference";
+                let hover = "Some seconds: the error falls to a few millionths";
+                if ui.small_button(text).on_hover_text(hover).clicked() {
+                    commands.push(Command::Refine(Fidelity::Reference));
+                }
+            }
+        });
+    });
+}
+
+/// Gives a widget without text of its own a name for screen readers.
+fn name(response: &egui::Response, text: &'static str) {
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, text));
+}
+
+/// A time in the unit that suits it.
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-4 => format!("{:.2} µs", s * 1e6),
+        s if s < 1e-1 => format!("{:.2} ms", s * 1e3),
+        s => format!("{s:.2} s"),
+    }
+}
+
+/// A factor with its digits in groups of three.
+fn thousands(value: f64) -> String {
+    if value < 10.0 {
+        return format!("{value:.2}");
+    }
+    let digits = format!("{value:.0}");
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(thousands(180_000.4), "180\u{202f}000");
+        assert_eq!(thousands(12.0), "12");
+        assert_eq!(time(3.333e-5), "33.33 µs");
+        assert_eq!(time(0.5), "0.50 s");
+    }
+}
