@@ -485,7 +485,7 @@ impl eframe::App for App {
         }
         self.last_frame = Some(now);
         let mut commands = Vec::new();
-        keys::pressed(ctx, &mut commands);
+        keys::pressed(ctx, self.modal.is_some() || self.sheet, &mut commands);
         let dropped: Vec<PathBuf> = ctx.input(|input| {
             input
                 .raw

@@ -52,9 +52,9 @@ pub const SHORTCUTS: &[Shortcut] = &[
     always(key(CTRL, Key::Q), "Quit", || Command::Quit),
 ];
 
-/// Commands of the shortcuts pressed in this frame.
-pub fn pressed(ctx: &Context, commands: &mut Vec<Command>) {
-    let typing = ctx.egui_wants_keyboard_input();
+/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open, and the plain keys are its own.
+pub fn pressed(ctx: &Context, modal: bool, commands: &mut Vec<Command>) {
+    let typing = modal || ctx.egui_wants_keyboard_input();
     ctx.input_mut(|input| {
         for shortcut in SHORTCUTS {
             if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {

