@@ -1,0 +1,250 @@
+//! Measures the tables of `docs/validation.md` that are not printed by tests, in Markdown.
+//!
+//! ```text
+//! cargo run --release --example validation [table1] [mesh] [fidelity] [spacing] [slip] [limits]   (none: all)
+//! cargo run --release --example validation memory LEVEL
+//! ```
+
+#![allow(clippy::print_stdout)]
+
+use squeezefilm::control::Cancel;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::{presets, table1};
+use squeezefilm::solution::{MotorResult, Outcome, Solution, Status};
+use squeezefilm::solve::{Method, Settings, solve};
+use std::error::Error;
+use std::time::Instant;
+
+type Outline = Result<(), Box<dyn Error>>;
+
+fn main() -> Outline {
+    let asked: Vec<String> = std::env::args().skip(1).collect();
+    if let [first, level] = &asked[..]
+        && first == "memory"
+    {
+        return memory(level.parse()?);
+    }
+    let parts: [(&str, fn() -> Outline); 6] = [
+        ("table1", table),
+        ("mesh", mesh),
+        ("fidelity", fidelities),
+        ("spacing", spacing),
+        ("slip", slip_laws),
+        ("limits", limits),
+    ];
+    for (name, part) in parts {
+        if asked.is_empty() || asked.iter().any(|a| a == name) {
+            println!("\n## {name}\n");
+            part()?;
+        }
+    }
+    Ok(())
+}
+
+/// Solves a preset with some keys changed.
+fn run(
+    preset: &str,
+    changes: &[(&str, &str)],
+    method: Method,
+    fidelity: Fidelity,
+) -> Result<(Solution, MotorResult), Box<dyn Error>> {
+    let mut scene = presets::find(preset)?;
+    scene.set_all(changes.iter().copied())?;
+    let solution = solve(&Problem::new(&scene)?, &Settings { fidelity, method }, &mut (), &Cancel::new())?;
+    match solution.outcome {
+        Outcome::Motor(result) => Ok((solution, result)),
+        Outcome::Plate(_) => Err("a plate has no share of a load".into()),
+    }
+}
+
+fn mark(status: Status) -> &'static str {
+    if status == Status::Converged { "" } else { ", not converged" }
+}
+
+/// Table I: published, the paper's method on the paper's meshes, and the mesh-independent value.
+fn table() -> Outline {
+    println!("| row | published [N] | paper's method [N] | | converged [N] | ± [N] | |");
+    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: |");
+    for row in table1::published() {
+        let (paper, on_mesh) = run(&row.preset, &[], Method::Paper, Fidelity::Standard)?;
+        let (own, converged) = run(&row.preset, &[], Method::Auto, Fidelity::Fine)?;
+        let off = |load: f64| 100.0 * (load / row.published_load_n - 1.0);
+        println!(
+            "| {} | {:.3} | {:.4}{} | {:+.1} % | {:.4}{} | {:.0e} | {:+.1} % |",
+            row.row.replace('_', " "),
+            row.published_load_n,
+            on_mesh.film_load,
+            mark(paper.status),
+            off(on_mesh.film_load),
+            converged.film_load,
+            mark(own.status),
+            converged.alpha_error * 2.45,
+            off(converged.film_load),
+        );
+    }
+    Ok(())
+}
+
+/// The paper's method on finer meshes, one direction at a time, and all together.
+fn mesh() -> Outline {
+    println!("| film nodes along × across | contact nodes | steps | load [N] | α |");
+    println!("| --- | ---: | ---: | ---: | ---: |");
+    for (along, across, contact, steps) in [
+        (51, 11, 181, 180),
+        (101, 11, 181, 180),
+        (51, 11, 361, 180),
+        (51, 11, 181, 360),
+        (51, 21, 181, 180),
+        (51, 41, 181, 180),
+        (51, 81, 181, 180),
+        (101, 21, 361, 180),
+        (201, 41, 721, 180),
+        (201, 81, 721, 360),
+    ] {
+        let changes = [
+            ("numerics.film_nodes_along", along),
+            ("numerics.film_nodes_across", across),
+            ("numerics.contact_nodes", contact),
+            ("numerics.steps_per_cycle", steps),
+        ]
+        .map(|(key, value)| (key, value.to_string()));
+        let changes: Vec<(&str, &str)> = changes.iter().map(|(key, value)| (*key, value.as_str())).collect();
+        let (solution, result) = run("fundamental", &changes, Method::Paper, Fidelity::Standard)?;
+        println!(
+            "| {along} × {across} | {contact} | {steps} | {:.4}{} | {:.5} |",
+            result.film_load,
+            mark(solution.status),
+            result.alpha
+        );
+    }
+    Ok(())
+}
+
+/// Shortest of a few runs \[s\].
+fn shortest(runs: usize, mut run: impl FnMut() -> Outline) -> Result<f64, Box<dyn Error>> {
+    let mut best = f64::INFINITY;
+    for _ in 0..runs {
+        let start = Instant::now();
+        run()?;
+        best = best.min(start.elapsed().as_secs_f64());
+    }
+    Ok(best)
+}
+
+/// Error and cost of each fidelity in the fundamental case.
+fn fidelities() -> Outline {
+    let exact = run("fundamental", &[], Method::Auto, Fidelity::Reference)?.1.alpha;
+    let paper_time = shortest(3, || run("fundamental", &[], Method::Paper, Fidelity::Standard).map(|_| ()))?;
+    println!("| | α | stated error | true error | rounds | film steps | film solves | contact solves | time |");
+    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    let settings = Fidelity::ALL.map(|level| (level.name(), Method::Auto, level)).into_iter().chain([(
+        "paper's method",
+        Method::Paper,
+        Fidelity::Standard,
+    )]);
+    for (name, method, level) in settings {
+        let (solution, result) = run("fundamental", &[], method, level)?;
+        let time = match (method, level) {
+            (Method::Paper, _) => paper_time,
+            (_, Fidelity::Reference) => shortest(1, || run("fundamental", &[], method, level).map(|_| ()))?,
+            _ => shortest(5, || run("fundamental", &[], method, level).map(|_| ()))?,
+        };
+        let truth = if method == Method::Auto && level == Fidelity::Reference {
+            "–".to_owned()
+        } else {
+            format!("{:.1e}", (result.alpha - exact).abs())
+        };
+        println!(
+            "| {name} | {:.5} | {:.1e} | {truth} | {} | {} | {} | {} | {:.3} |",
+            result.alpha,
+            result.alpha_error,
+            solution.stats.coupling_iterations,
+            solution.stats.film_steps,
+            solution.stats.film_solves,
+            solution.stats.contact_solves,
+            time / paper_time,
+        );
+    }
+    println!("\nTime of the paper's method, and the unit of the last column: {:.0} ms.", 1e3 * paper_time);
+    Ok(())
+}
+
+/// From rough faces to a rotor that floats. Below the 5 nm that a preset allows nothing is claimed.
+fn spacing() -> Outline {
+    println!("| H_m [nm] | α | stated error | 1 − α | teeth in contact | least h [nm] | rounds |");
+    println!("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    for nm in
+        ["1000", "700", "500", "400", "300", "200", "150", "100", "70", "50", "40", "30", "20", "15", "10", "7", "5"]
+    {
+        let (solution, result) = run("fundamental", &[("film.min_spacing_nm", nm)], Method::Auto, Fidelity::Standard)?;
+        println!(
+            "| {nm} | {:.5}{} | {:.1e} | {:.1e} | {:.2} | {:.1} | {} |",
+            result.alpha,
+            mark(solution.status),
+            result.alpha_error,
+            1.0 - result.alpha,
+            result.teeth_in_contact,
+            1e9 * result.min_gap,
+            solution.stats.coupling_iterations,
+        );
+    }
+    Ok(())
+}
+
+/// What the slip law and the wedge term change in the fundamental case.
+fn slip_laws() -> Outline {
+    println!("| change | α | |");
+    println!("| --- | ---: | ---: |");
+    let base = run("fundamental", &[], Method::Auto, Fidelity::Fine)?.1.alpha;
+    for (what, key, value) in [
+        ("none: first-order slip", "film.slip", "first-order"),
+        ("no slip", "film.slip", "none"),
+        ("second-order slip", "film.slip", "second-order"),
+        ("Fukui and Kaneko", "film.slip", "fukui-kaneko"),
+        ("no wedge term", "film.shear", "false"),
+    ] {
+        let alpha = run("fundamental", &[(key, value)], Method::Auto, Fidelity::Fine)?.1.alpha;
+        println!("| {what} | {alpha:.5} | {:+.2} % |", 100.0 * (alpha / base - 1.0));
+    }
+    Ok(())
+}
+
+/// Corners of the allowed ranges that cost the most rounds, and a light load.
+fn limits() -> Outline {
+    println!("| change of the fundamental case | α | stated error | rounds on the three grids |");
+    println!("| --- | ---: | ---: | ---: |");
+    for changes in [
+        &[("motor.load_per_wave_n", "0.1")][..],
+        &[("motor.load_per_wave_n", "0.01")],
+        &[("film.ambient_pressure_kpa", "10000")],
+        &[("film.ambient_pressure_kpa", "10000"), ("motor.load_per_wave_n", "0.01")],
+        &[("film.ambient_pressure_kpa", "1")],
+        &[("stator.frequency_khz", "1000")],
+        &[("stator.frequency_khz", "0.1")],
+        &[("stator.normal_amplitude_um", "10")],
+    ] {
+        let words: Vec<String> = changes.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        match run("fundamental", changes, Method::Auto, Fidelity::Standard) {
+            Ok((solution, result)) => println!(
+                "| {} | {:.5}{} | {:.1e} | {} |",
+                words.join(", "),
+                result.alpha,
+                mark(solution.status),
+                result.alpha_error,
+                solution.stats.coupling_iterations
+            ),
+            Err(error) => println!("| {} | {error} | | |", words.join(", ")),
+        }
+    }
+    Ok(())
+}
+
+/// One solve, then the greatest resident memory of this process (Linux).
+fn memory(level: Fidelity) -> Outline {
+    let (_, result) = run("fundamental", &[], Method::Auto, level)?;
+    let status = std::fs::read_to_string("/proc/self/status")?;
+    let peak = status.lines().find(|line| line.starts_with("VmHWM")).unwrap_or("VmHWM is not known here");
+    println!("{level}: α = {:.5}, {peak}", result.alpha);
+    Ok(())
+}
