@@ -1,8 +1,11 @@
 //! Squeezed air films in ultrasonic motors.
+pub mod analysis;
+pub mod cli;
 pub mod contact;
 pub mod control;
 pub mod dimensionless;
 pub mod estimate;
+pub mod export;
 pub mod fidelity;
 pub mod film;
 pub mod motor;

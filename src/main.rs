@@ -1,3 +1,7 @@
 //! The `squeezefilm` program: arguments to command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    squeezefilm::cli::run(std::env::args_os())
+}

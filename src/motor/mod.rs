@@ -43,6 +43,9 @@ pub enum MotorError {
     },
 }
 
+/// Residual of a grid's last round above which finer grids are not tried.
+const HOPELESS: f64 = 1e-2;
+
 /// Interrupted or failed: what ends a round early.
 enum Stop {
     Cancelled,
@@ -110,7 +113,9 @@ pub fn periodic(
         };
         alphas.push(level.alpha(motor));
         coarse = Some(level);
-        if status == Status::Cancelled {
+        // Far from a periodic state on a coarse grid, a finer one only costs more.
+        if status == Status::Cancelled || matches!(status, Status::NotConverged { residual, .. } if residual > HOPELESS)
+        {
             break;
         }
     }
@@ -121,7 +126,9 @@ pub fn periodic(
     let mut result = summarise(motor, &recording);
     let estimate = extrapolate(&alphas);
     result.set_alpha(motor, estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)));
-    result.alpha_error = estimate.error + level.imbalance() + plan.shear_effect * estimate.value.abs();
+    let astray = if let Status::NotConverged { residual, .. } = status { residual.min(1.0) } else { 0.0 };
+    let estimated = if estimate.error.is_finite() { estimate.error } else { 1.0 };
+    result.alpha_error = estimated + astray + level.imbalance() + plan.shear_effect * estimate.value.abs();
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();

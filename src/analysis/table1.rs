@@ -1,0 +1,95 @@
+//! Table I of Maeno and Bogy (1992), row by row: published beside computed.
+//!
+//! With [`Method::Paper`] the rows are computed at the paper's own meshes. With [`Method::Auto`] they are
+//! mesh-converged: a row's `[numerics]` table is dropped, so that `doubled-mesh` is then the fundamental case again.
+
+use crate::control::Cancel;
+use crate::problem::{Numerics, Problem, Scenario};
+use crate::scene::table1::{PublishedRow, published};
+use crate::scene::{SceneError, presets};
+use crate::solution::{MotorResult, Outcome, Status};
+use crate::solve::{Method, Settings, SolveError, solve};
+use rayon::prelude::*;
+
+/// One row: what was published, and what came of it here.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// As published.
+    pub published: PublishedRow,
+    /// As computed, or why not.
+    pub computed: Result<Computed, SolveError>,
+}
+
+/// A computed row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Computed {
+    /// How it ended.
+    pub status: Status,
+    /// The numbers.
+    pub result: MotorResult,
+    /// Axial load on one wavelength \[N\], of which `result.alpha` is the film's share.
+    pub load: f64,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+impl Computed {
+    /// Estimated numerical error of the film load \[N\], absolute.
+    pub fn film_load_error(&self) -> f64 {
+        self.result.alpha_error * self.load
+    }
+}
+
+impl Row {
+    /// By how much the computed film load exceeds the published one \[%\].
+    pub fn difference_percent(&self) -> Option<f64> {
+        let computed = self.computed.as_ref().ok()?;
+        Some(100.0 * (computed.result.film_load / self.published.published_load_n - 1.0))
+    }
+
+    /// Whether the row was computed and its cycle repeats to the tolerance.
+    pub fn converged(&self) -> bool {
+        self.computed.as_ref().is_ok_and(|computed| computed.status == Status::Converged)
+    }
+}
+
+/// Solves the 14 rows, several at a time (on rayon's pool), in the paper's order. `changes` are made to every row's
+/// scene as by `--set`; `finished` is told of each row as it ends, from whichever thread.
+///
+/// # Errors
+/// Faults of `changes`, before anything is solved. A row that fails is a [`Row`] that says so.
+pub fn rows(
+    changes: &[(String, String)],
+    settings: &Settings,
+    cancel: &Cancel,
+    finished: &(dyn Fn(&Row) + Sync),
+) -> Result<Vec<Row>, SceneError> {
+    let problems = published()
+        .into_iter()
+        .map(|row| {
+            let mut scene = presets::find(&row.preset)?;
+            if settings.method == Method::Auto {
+                scene.numerics = Numerics::default();
+            }
+            scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+            Ok((row, Problem::new(&scene)?))
+        })
+        .collect::<Result<Vec<_>, SceneError>>()?;
+    let solved = problems.into_par_iter().map(|(published, problem)| {
+        let row = Row { published, computed: compute(&problem, settings, cancel) };
+        finished(&row);
+        row
+    });
+    Ok(solved.collect())
+}
+
+fn compute(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<Computed, SolveError> {
+    let solution = solve(problem, settings, &mut (), cancel)?;
+    match (&problem.scenario, solution.outcome) {
+        (Scenario::Motor(motor), Outcome::Motor(result)) => {
+            Ok(Computed { status: solution.status, result, load: motor.load, warnings: solution.warnings })
+        }
+        // Every row is a motor, and no change makes it a plate.
+        _ => Err(SolveError::PaperPlate),
+    }
+}

@@ -1,0 +1,80 @@
+//! Exit status, and what ends a command early.
+
+use crate::export::folder::WriteError;
+use crate::scene::SceneError;
+use crate::solution::Status;
+use crate::solve::SolveError;
+use std::io;
+use std::process::ExitCode;
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Exit {
+    /// Solved.
+    Solved,
+    /// Anything else.
+    Other,
+    /// Bad input.
+    BadInput,
+    /// Not converged.
+    NotConverged,
+}
+
+impl Exit {
+    /// What a solve that ended so leads to.
+    pub(super) fn of(status: &Status) -> Self {
+        match status {
+            Status::Converged => Self::Solved,
+            Status::NotConverged { .. } => Self::NotConverged,
+            Status::Cancelled => Self::Other,
+        }
+    }
+
+    /// The status.
+    pub(super) fn code(self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Solved => 0,
+            Self::Other => 1,
+            Self::BadInput => 2,
+            Self::NotConverged => 3,
+        })
+    }
+}
+
+/// What ends a command early.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CliError {
+    /// A preset or a `--set`.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The solver.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// Options that do not go together.
+    #[error("{0}")]
+    Usage(&'static str),
+    /// A file or folder of `--out`.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// `--threads`.
+    #[error("--threads {threads}: the threads cannot be started: {reason}")]
+    Threads {
+        /// How many were asked for.
+        threads: u16,
+        /// The system's reason.
+        reason: String,
+    },
+    /// Standard output.
+    #[error("standard output: cannot be written: {0}")]
+    Output(io::Error),
+}
+
+impl CliError {
+    /// The exit status it leads to.
+    pub(super) fn exit(&self) -> Exit {
+        match self {
+            Self::Scene(_) | Self::Usage(_) | Self::Solve(SolveError::PaperPlate) => Exit::BadInput,
+            Self::Solve(_) | Self::Write(_) | Self::Threads { .. } | Self::Output(_) => Exit::Other,
+        }
+    }
+}

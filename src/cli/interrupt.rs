@@ -1,0 +1,20 @@
+//! Ctrl-C: the first asks the solver to stop, the second ends the program.
+
+use crate::control::Cancel;
+
+/// What a shell reports for a program ended by Ctrl-C.
+const KILLED: i32 = 130;
+
+/// A flag that the first Ctrl-C (or a request to terminate) raises.
+pub(super) fn cancel_on_interrupt() -> Cancel {
+    let cancel = Cancel::new();
+    let raised = cancel.clone();
+    // Without a handler Ctrl-C ends the program at once, which is all that would be lost.
+    let _ = ctrlc::set_handler(move || {
+        if raised.is_cancelled() {
+            std::process::exit(KILLED);
+        }
+        raised.cancel();
+    });
+    cancel
+}

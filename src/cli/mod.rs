@@ -1,0 +1,95 @@
+//! The command line: one file per command. Data goes to standard output, everything else to standard error.
+
+mod columns;
+mod exit;
+mod interrupt;
+mod options;
+mod presets;
+mod progress;
+mod solve;
+mod summary;
+mod table1;
+mod terminal;
+
+use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// The squeezed air film of an ultrasonic motor, solved.
+///
+/// Between the vibrating teeth of a ring-type ultrasonic motor and its rotor a film of air is squeezed tens of thousands
+/// of times a second. It carries part of the axial load (the share α) and takes that much friction, hence torque, away.
+/// squeezefilm solves the film (compressible Reynolds equation with slip), the elastic rotor and the unilateral contact
+/// together for the periodic steady state, with an estimate of the numerical error of every α.
+#[derive(Debug, Parser)]
+#[command(name = "squeezefilm", version, arg_required_else_help = true, subcommand_required = true)]
+#[command(after_help = AFTER)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Solve(solve::Arguments),
+    Table1(table1::Arguments),
+    Presets(presets::Arguments),
+}
+
+const AFTER: &str = "\
+Examples:
+  squeezefilm solve fundamental
+  squeezefilm solve fundamental --set film.min_spacing_nm=100 --fidelity fine --json
+  squeezefilm solve levitating --out results
+  squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
+
+Exit status:
+  0  solved
+  2  bad input: the key, its value and the allowed range are named
+  3  not converged: what was reached is reported, and marked
+  1  anything else, Ctrl-C included";
+
+/// Runs the program with its arguments, the program's name first.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let words: Vec<String> = arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+    let cli = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        Err(usage) => {
+            // Help and version go to standard output with status 0, faults to standard error with 2. A closed pipe is fine.
+            let _ = usage.print();
+            return ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));
+        }
+    };
+    let ended = match cli.command {
+        Command::Solve(arguments) => solve::run(&arguments, &command_line(words)),
+        Command::Table1(arguments) => table1::run(&arguments),
+        Command::Presets(arguments) => presets::run(&arguments),
+    };
+    match ended {
+        Ok(exit) => exit.code(),
+        Err(error) => {
+            terminal::error(&error.to_string());
+            error.exit().code()
+        }
+    }
+}
+
+/// The command line as it is recorded with results: the program by its name, wherever it lies.
+fn command_line(mut words: Vec<String>) -> Vec<String> {
+    if let Some(program) = words.first_mut() {
+        *program = "squeezefilm".to_owned();
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,98 @@
+//! Options that several commands share.
+
+use super::exit::CliError;
+use super::terminal;
+use crate::fidelity::Fidelity;
+use crate::scene::{Scene, presets};
+use crate::solve::{Method, Settings};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
+use std::path::PathBuf;
+
+/// Changes to a scene.
+#[derive(Clone, Debug, Args)]
+pub(super) struct SceneOptions {
+    /// Changes a key of the scene, dotted as in the file; may be repeated
+    ///
+    /// Keys carry their unit: --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3. `none` removes an optional
+    /// key. All changes are applied together, in any order.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = pair)]
+    pub(super) changes: Vec<(String, String)>,
+}
+
+impl SceneOptions {
+    /// The scene of a PRESET argument with the changes made.
+    pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
+        let mut scene = presets::find(preset)?;
+        scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        Ok(scene)
+    }
+}
+
+/// How to solve.
+#[derive(Clone, Debug, Args)]
+pub(super) struct SolveOptions {
+    /// How much accuracy to buy
+    ///
+    /// draft: about a per cent of α; standard: a few tenths; fine: a few hundredths; reference: for judging the others.
+    /// Every result comes with its own error estimate.
+    #[arg(long, value_name = "LEVEL", value_parser = fidelity())]
+    pub(super) fidelity: Option<Fidelity>,
+
+    /// Which algorithm
+    ///
+    /// auto solves only what the scene needs; paper is the algorithm of Maeno and Bogy (1992) at its own meshes, kept as
+    /// the yardstick.
+    #[arg(long, value_name = "METHOD", value_parser = method())]
+    pub(super) method: Option<Method>,
+
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+}
+
+impl SolveOptions {
+    /// The settings, with defaults for what was not chosen; starts the threads.
+    pub(super) fn prepare(&self, fidelity: Fidelity, method: Method) -> Result<Settings, CliError> {
+        if let Some(threads) = self.threads {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(usize::from(threads))
+                .build_global()
+                .map_err(|error| CliError::Threads { threads, reason: error.to_string() })?;
+        }
+        let method = self.method.unwrap_or(method);
+        if let (Method::Paper, Some(level)) = (method, self.fidelity) {
+            terminal::warning(&format!("--fidelity {level} has no effect: method paper has its own meshes"));
+        }
+        Ok(Settings { fidelity: self.fidelity.unwrap_or(fidelity), method })
+    }
+}
+
+/// What to print, and where to write.
+#[derive(Clone, Debug, Args)]
+pub(super) struct OutputOptions {
+    /// Prints JSON, and nothing else, to standard output
+    #[arg(long)]
+    pub(super) json: bool,
+
+    /// Writes files into this folder, made if need be; files of the same name are replaced
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
+        _ => Err("expected key=value, as in film.min_spacing_nm=100".to_owned()),
+    }
+}
+
+fn fidelity() -> ValueParser {
+    PossibleValuesParser::new(Fidelity::ALL.map(Fidelity::name)).try_map(|name| name.parse::<Fidelity>()).into()
+}
+
+fn method() -> ValueParser {
+    PossibleValuesParser::new([Method::Auto, Method::Paper].map(Method::name))
+        .map(|name| if name == Method::Paper.name() { Method::Paper } else { Method::Auto })
+        .into()
+}

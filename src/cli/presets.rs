@@ -1,0 +1,118 @@
+//! `squeezefilm presets`: what is built in, and a preset's text to start one's own from.
+
+use super::columns::Columns;
+use super::exit::{CliError, Exit};
+use super::options::SceneOptions;
+use super::terminal;
+use crate::export::json;
+use crate::scene::presets::{BUILT_IN, BuiltIn};
+use crate::scene::table1::published;
+use crate::scene::{Scene, SceneError};
+use clap::Args;
+use serde::Serialize;
+
+/// Lists the built-in presets, or prints one as a file to start your own from
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  squeezefilm presets
+  squeezefilm presets fundamental > my.toml
+  squeezefilm presets fundamental --set film.min_spacing_nm=100 > smoother.toml")]
+pub(super) struct Arguments {
+    /// Prints this preset (a built-in name or a path) as a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: Option<String>,
+
+    /// Prints JSON to standard output
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    match &arguments.preset {
+        Some(preset) => print_one(preset, arguments)?,
+        None if !arguments.scene.changes.is_empty() => {
+            return Err(CliError::Usage("--set needs a PRESET to change: squeezefilm presets fundamental --set …"));
+        }
+        None => print_all(arguments.json)?,
+    }
+    Ok(Exit::Solved)
+}
+
+/// A preset as JSON.
+#[derive(Serialize)]
+struct Object<'a> {
+    preset: &'a str,
+    name: &'a str,
+    about: &'a str,
+    scene: &'static str,
+    group: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    toml: Option<&'a str>,
+}
+
+impl<'a> Object<'a> {
+    fn new(preset: &'a str, scene: &'a Scene, toml: Option<&'a str>) -> Self {
+        let group = group(preset, scene);
+        Self { preset, name: &scene.name, about: &scene.about, scene: scene.scene(), group, toml }
+    }
+}
+
+fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
+    let scene = arguments.scene.scene(preset)?;
+    let built_in = BUILT_IN.iter().find(|built_in| built_in.name == preset);
+    // An unchanged built-in preset keeps the remarks in its file.
+    let toml = match built_in {
+        Some(built_in) if arguments.scene.changes.is_empty() => built_in.toml.to_owned(),
+        _ => scene.to_toml(),
+    };
+    if arguments.json {
+        return terminal::data(&json::text(&Object::new(preset, &scene, Some(&toml))));
+    }
+    terminal::data(&toml)
+}
+
+fn print_all(as_json: bool) -> Result<(), CliError> {
+    let read = |built_in: &BuiltIn| Ok((built_in.name, built_in.scene()?));
+    let scenes = BUILT_IN.iter().map(read).collect::<Result<Vec<_>, SceneError>>()?;
+    if as_json {
+        let objects: Vec<_> = scenes.iter().map(|(preset, scene)| Object::new(preset, scene, None)).collect();
+        return terminal::data(&json::text(&objects));
+    }
+    // One set of columns for all groups, so that they line up; the headings go in between.
+    let mut columns = Columns::new();
+    for (preset, scene) in &scenes {
+        columns.row([*preset, about(scene)]);
+    }
+    let (lines, mut last, mut text) = (columns.text("  ", &[]), "", String::new());
+    for (line, (preset, scene)) in lines.lines().zip(&scenes) {
+        let group = group(preset, scene);
+        if group != last {
+            let gap = if last.is_empty() { "" } else { "\n" };
+            text.push_str(&format!("{gap}{group}\n"));
+            last = group;
+        }
+        text.push_str(line);
+        text.push('\n');
+    }
+    terminal::data(&text)
+}
+
+/// The group a preset is listed in.
+fn group(preset: &str, scene: &Scene) -> &'static str {
+    if scene.scene() == "plate" {
+        "Plates: the film alone, under a gap that is given"
+    } else if published().iter().any(|row| row.preset == preset) {
+        "Motors of Maeno and Bogy (1992), Table I"
+    } else {
+        "Motors beyond Table I"
+    }
+}
+
+/// What a preset is, without what its group's heading says.
+fn about(scene: &Scene) -> &str {
+    let rest = ["Maeno and Bogy 1992, Table I, ", "Maeno and Bogy 1992, Table I: ", "Beyond Table I: "];
+    rest.iter().find_map(|prefix| scene.about.strip_prefix(prefix)).unwrap_or(&scene.about)
+}

@@ -1,0 +1,113 @@
+//! Progress on standard error, only if that is a terminal.
+
+use crate::control::{Observer, Progress};
+use crate::export::digits::significant;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{IsTerminal, stderr};
+use std::time::Duration;
+
+/// Parts of the bar.
+const PARTS: u64 = 1000;
+/// Each grid takes about this many times as long as the one before.
+const COST_RATIO: f64 = 6.0;
+const REDRAW: Duration = Duration::from_millis(100);
+
+/// A bar that goes away when it is dropped.
+pub(super) struct Bar {
+    bar: ProgressBar,
+    unit: &'static str,
+    last: Option<Progress>,
+}
+
+impl Bar {
+    /// For one solve, whose forces are in `unit`.
+    pub(super) fn solve(unit: &'static str) -> Self {
+        Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", unit)
+    }
+
+    /// For a number of rows.
+    pub(super) fn rows(rows: usize) -> Self {
+        Self::new(rows as u64, "{spinner} {bar:20} {pos}/{len} rows  {wide_msg}", "")
+    }
+
+    fn new(length: u64, template: &str, unit: &'static str) -> Self {
+        let bar = if stderr().is_terminal() {
+            let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
+            if let Ok(style) = ProgressStyle::with_template(template) {
+                bar.set_style(style.progress_chars("━╸─"));
+            }
+            bar.enable_steady_tick(REDRAW);
+            bar
+        } else {
+            ProgressBar::hidden()
+        };
+        Self { bar, unit, last: None }
+    }
+
+    /// One more row is done.
+    pub(super) fn row_done(&self, row: &str) {
+        self.bar.set_message(row.to_owned());
+        self.bar.inc(1);
+    }
+
+    /// How far the solve came.
+    pub(super) fn reached(&self) -> String {
+        match &self.last {
+            None => "before the first round was complete".to_owned(),
+            Some(last) => format!("after {}", describe(last, self.unit)),
+        }
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Observer for Bar {
+    fn progress(&mut self, progress: &Progress) {
+        self.last = Some(*progress);
+        if !self.bar.is_hidden() {
+            self.bar.set_position((PARTS as f64 * fraction(progress)) as u64);
+            self.bar.set_message(describe(progress, self.unit));
+        }
+    }
+}
+
+fn describe(progress: &Progress, unit: &str) -> String {
+    format!(
+        "grid {}/{}, round {}: change {:.0e} → {:.0e}, film load {} {unit}",
+        progress.level + 1,
+        progress.levels,
+        progress.iteration,
+        progress.residual,
+        progress.tolerance,
+        significant(progress.film_load, 4),
+    )
+}
+
+/// How much of the work is done, 0 to 1: the change falls by about the same factor in every round.
+fn fraction(progress: &Progress) -> f64 {
+    let within = (progress.residual.ln() / progress.tolerance.ln()).clamp(0.0, 1.0);
+    let cost = |level: usize| COST_RATIO.powi(i32::try_from(level).unwrap_or(i32::MAX));
+    let before: f64 = (0..progress.level).map(cost).sum();
+    let all: f64 = (0..progress.levels).map(cost).sum();
+    let done = (before + cost(progress.level) * if within.is_nan() { 0.0 } else { within }) / all;
+    if done.is_nan() { 0.0 } else { done.clamp(0.0, 1.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bar_grows_from_nothing_to_all() {
+        let at = |level, residual| {
+            fraction(&Progress { level, levels: 3, iteration: 1, residual, tolerance: 1e-6, film_load: 0.0 })
+        };
+        assert_eq!((at(0, 2.0), at(2, 1e-7)), (0.0, 1.0));
+        assert!(at(0, 1e-3) < at(1, 1e-1) && at(1, 1e-1) < at(2, 1e-1));
+        assert_eq!(at(0, f64::NAN), 0.0);
+    }
+}

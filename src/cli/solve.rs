@@ -1,0 +1,119 @@
+//! `squeezefilm solve`: one scene's periodic steady state.
+
+use super::exit::{CliError, Exit};
+use super::interrupt::cancel_on_interrupt;
+use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::progress::Bar;
+use super::{summary, terminal};
+use crate::control::Cancel;
+use crate::export::csv;
+use crate::export::folder::{Staged, WriteError};
+use crate::export::json::{Summary, force_unit};
+use crate::fidelity::Fidelity;
+use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::solution::{Solution, Status};
+use crate::solve::{Method, solve};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm solve fundamental
+  squeezefilm solve fundamental --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3
+  squeezefilm solve my.toml --fidelity fine --json | jq .alpha
+  squeezefilm solve levitating --out results";
+
+const FILES: &str = "\
+Files of --out, with the unit in every column's name:
+  summary.json   what --json prints
+  scene.toml     the scene as solved, changes included: a preset again
+  series.csv     loads, teeth in contact, least film thickness and
+                 highest pressure, over one cycle
+  fields.csv     surfaces, film thickness and line loads at every node of
+                 every tooth, over one cycle; a line load × length_m,
+                 summed over one time_s, is the load in series.csv
+  pressure.csv   pressure under one tooth, over one cycle
+Of a symmetric film only the half that was solved is there: y_m >= 0,
+and of a plate x_m >= 0 as well.";
+
+/// Solves a preset for its periodic steady state and prints a summary
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: String,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+
+    #[command(flatten)]
+    output: OutputOptions,
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scene = arguments.scene.scene(&arguments.preset)?;
+    let problem = Problem::new(&scene)?;
+    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let cancel = cancel_on_interrupt();
+
+    let mut bar = Bar::solve(force_unit(&problem));
+    let started = Instant::now();
+    let solved = solve(&problem, &settings, &mut bar, &cancel);
+    let wall_s = started.elapsed().as_secs_f64();
+    let reached = bar.reached();
+    drop(bar);
+    let solution = solved?;
+    if solution.status == Status::Cancelled {
+        // The fields are of a cycle cut short; the last complete round is what there is to tell.
+        terminal::note(&format!("cancelled {reached}"));
+        return Ok(Exit::Other);
+    }
+    let result = Summary::new(&problem, &solution, wall_s, command);
+    for warning in &result.warnings {
+        terminal::warning(warning);
+    }
+    terminal::data(&if arguments.output.json { result.to_text() } else { summary::text(&scene, &problem, &result) })?;
+    if let Some(folder) = &arguments.output.out {
+        match write(folder, &scene, &problem, &solution, &result, &cancel)? {
+            Some(paths) => terminal::note(&written(folder, &paths)),
+            None => {
+                terminal::note("cancelled; no file was written");
+                return Ok(Exit::Other);
+            }
+        }
+    }
+    Ok(Exit::of(&solution.status))
+}
+
+/// Writes the files of `--out`; `None` if it was cancelled meanwhile, and then no file is there.
+fn write(
+    folder: &Path,
+    scene: &Scene,
+    problem: &Problem,
+    solution: &Solution,
+    summary: &Summary,
+    cancel: &Cancel,
+) -> Result<Option<Vec<PathBuf>>, WriteError> {
+    let mut staged = Staged::new(folder)?;
+    staged.add("summary.json", |out| out.write_all(summary.to_text().as_bytes()))?;
+    staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
+    staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
+    staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
+    staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
+    if cancel.is_cancelled() {
+        return Ok(None);
+    }
+    staged.commit().map(Some)
+}
+
+/// `wrote results: summary.json, scene.toml, …`
+pub(super) fn written(folder: &Path, paths: &[PathBuf]) -> String {
+    let names: Vec<_> = paths.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy()).collect();
+    format!("wrote to {}: {}", folder.display(), names.join(", "))
+}

@@ -1,0 +1,205 @@
+//! A solution for people: aligned, a unit on every number, as many digits as its error justifies.
+
+use super::columns::{Columns, paragraph};
+use crate::analysis::regime;
+use crate::dimensionless::Dimensionless;
+use crate::export::digits::{significant, with_error};
+use crate::export::json::Summary;
+use crate::problem::{Motor, Plate, Problem, Scenario};
+use crate::scene::Scene;
+use std::fmt::Write as _;
+
+/// Significant digits of numbers without an error of their own.
+const DIGITS: usize = 4;
+
+/// The whole summary.
+pub(super) fn text(scene: &Scene, problem: &Problem, summary: &Summary) -> String {
+    let mut text = paragraph(&format!("{}: {}", name(scene), status(summary)), "", "");
+    if !scene.about.is_empty() {
+        text.push_str(&paragraph(&scene.about, "", ""));
+    }
+    text.push('\n');
+    let mut columns = Columns::new();
+    match &problem.scenario {
+        Scenario::Motor(motor) => motor_rows(&mut columns, motor, summary),
+        Scenario::Plate(plate) => plate_rows(&mut columns, plate, summary),
+    }
+    text.push_str(&columns.text("  ", &[]));
+    text.push('\n');
+    let mut columns = Columns::new();
+    number_rows(&mut columns, &Dimensionless::of(problem));
+    text.push_str(&columns.text("  ", &[]));
+    let model = &summary.model;
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "\nModelled: method {}, fidelity {}", model.method, model.fidelity);
+    for reason in &model.why {
+        text.push_str(&paragraph(reason, "  - ", "    "));
+    }
+    text.push_str(&cost(summary));
+    text
+}
+
+fn name(scene: &Scene) -> &str {
+    if scene.name.is_empty() { "unnamed scene" } else { &scene.name }
+}
+
+fn status(summary: &Summary) -> String {
+    match (summary.residual, summary.tolerance) {
+        (Some(residual), Some(tolerance)) => {
+            format!("NOT CONVERGED (the last round still changed by {residual:.1e}, allowed {tolerance:.0e})")
+        }
+        _ if summary.converged => "converged to the periodic steady state".to_owned(),
+        _ => summary.status.to_uppercase(),
+    }
+}
+
+fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
+    let error = or_nan(summary.alpha_error);
+    let dry = or_nan(summary.dry_torque_nm);
+    columns.row([
+        "film share of the load  α",
+        &with_error(or_nan(summary.alpha), error),
+        &format!("of the {} N pressed on one wavelength", plain(motor.load)),
+    ]);
+    film_load(columns, summary);
+    columns.row([
+        "contact load",
+        &format!("{} N", with_error(or_nan(summary.contact_load_n), or_nan(summary.film_load_error_n))),
+        "mean over the cycle, the rest of the load",
+    ]);
+    columns.row([
+        "torque of the whole ring",
+        &format!("{} N·m", with_error(or_nan(summary.max_torque_nm), dry * error)),
+        &format!("greatest; {} N·m if there were no air", shown(dry)),
+    ]);
+    columns.row([
+        "teeth in contact",
+        &format!("{} of {}", shown(or_nan(summary.teeth_in_contact)), motor.teeth),
+        "mean over the cycle",
+    ]);
+    columns.row(match summary.levitated {
+        Some(true) => ["levitated", "yes", "no tooth touches at any instant: the rotor floats on air"],
+        Some(false) => ["levitated", "no", "teeth touch the rotor"],
+        None => ["levitated", "unknown", ""],
+    });
+    let spacing = format!("the minimum spacing of {} nm included", plain(motor.min_spacing * 1e9));
+    extremes(columns, summary, &spacing, motor.gas.ambient_pressure);
+}
+
+fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
+    let area = match plate.width {
+        Some(_) => "of p_a × area, mean over the cycle",
+        None => "of p_a × length, mean over the cycle; an infinitely wide strip",
+    };
+    film_load(columns, summary);
+    columns.row([
+        "load ratio",
+        &with_error(or_nan(summary.mean_load_ratio), or_nan(summary.mean_load_ratio_error)),
+        area,
+    ]);
+    columns.row([
+        "",
+        &format!("{} … {}", shown(or_nan(summary.load_ratio_min)), shown(or_nan(summary.load_ratio_max))),
+        "least and greatest in the cycle",
+    ]);
+    let mean = format!("the mean gap is {} nm", plain(plate.mean_gap * 1e9));
+    extremes(columns, summary, &mean, plate.gas.ambient_pressure);
+}
+
+fn film_load(columns: &mut Columns, summary: &Summary) {
+    let unit = summary.force_unit;
+    columns.row([
+        "film load",
+        &format!("{} {unit}", with_error(or_nan(summary.film_load_n), or_nan(summary.film_load_error_n))),
+        "mean over the cycle",
+    ]);
+    let (least, most) = (or_nan(summary.film_load_min_n), or_nan(summary.film_load_max_n));
+    columns.row(["", &format!("{} … {} {unit}", shown(least), shown(most)), "least and greatest in the cycle"]);
+}
+
+fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: f64) {
+    columns.row(["least film thickness", &format!("{} nm", shown(or_nan(summary.min_gap_nm))), thickness]);
+    let pressure = or_nan(summary.max_pressure_kpa);
+    columns.row([
+        "highest pressure",
+        &format!("{} kPa", shown(pressure)),
+        &format!("{} × ambient", significant(pressure * 1e3 / ambient, 3)),
+    ]);
+}
+
+fn number_rows(columns: &mut Columns, numbers: &Dimensionless) {
+    columns.row(["squeeze number  σ", &shown(numbers.squeeze_number), regime::squeeze(numbers)]);
+    columns.row(["bearing number  Λ", &shown(numbers.bearing_number), regime::bearing(numbers)]);
+    columns.row(["Knudsen number  Kn", &shown(numbers.knudsen_number), regime::knudsen(numbers)]);
+}
+
+/// `Cost: 42.6 ms for …`
+fn cost(summary: &Summary) -> String {
+    let stats = &summary.stats;
+    let mut parts = vec![format!("{} film steps", stats.film_steps)];
+    if stats.coupling_iterations > 0 {
+        parts.push(format!("{} rounds of film and contact", stats.coupling_iterations));
+        parts.push(format!("{} contact problems", stats.contact_solves));
+    } else {
+        parts.push(format!("{} cycles", stats.cycles));
+    }
+    let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
+    paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(stats.wall_s)), parts.join(", ")), "\n", "  ")
+}
+
+/// A wall time with its unit.
+pub(super) fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{} ms", significant(seconds * 1e3, 3))
+    } else if seconds < 120.0 {
+        format!("{} s", significant(seconds, 3))
+    } else {
+        format!("{} min", significant(seconds / 60.0, 3))
+    }
+}
+
+fn shown(value: f64) -> String {
+    significant(value, DIGITS)
+}
+
+/// A number of the scene, with the digits it was given in: conversions to SI leave a last bit that nobody wrote.
+fn plain(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{rounded}")
+}
+
+/// What is null in the object is unknown here.
+fn or_nan(value: Option<f64>) -> f64 {
+    value.unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Cancel;
+    use crate::scene::presets;
+    use crate::solution::Status;
+    use crate::solve::{Settings, solve};
+
+    #[test]
+    fn what_did_not_converge_is_marked_and_still_reported() {
+        let scene = presets::find("plate-viscous").unwrap();
+        let problem = Problem::new(&scene).unwrap();
+        let mut solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
+        solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
+        let summary = Summary::new(&problem, &solution, 0.0123, &[]);
+        assert_eq!((summary.converged, summary.status), (false, "not converged"));
+        assert_eq!((summary.residual, summary.tolerance), (Some(2e-3), Some(1e-6)));
+        let shown = text(&scene, &problem, &summary);
+        assert!(shown.starts_with("Plate, viscous: NOT CONVERGED (the last round still changed by 2.0e-3"), "{shown}");
+        assert!(shown.contains("N/m") && shown.contains("12.3 ms"), "{shown}");
+    }
+
+    #[test]
+    fn durations_have_a_unit() {
+        assert_eq!(
+            (duration(0.0426), duration(5.0), duration(300.0)),
+            ("42.6 ms".into(), "5.00 s".into(), "5.00 min".into())
+        );
+    }
+}

@@ -1,0 +1,195 @@
+//! `squeezefilm table1`: the paper's Table I, published beside computed.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::interrupt::cancel_on_interrupt;
+use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::progress::Bar;
+use super::solve::written;
+use super::summary::duration;
+use super::terminal;
+use crate::analysis::table1::{Row, rows};
+use crate::export::digits::{significant, with_error};
+use crate::export::folder::Staged;
+use crate::export::json;
+use crate::export::table1::{Object, write_csv};
+use crate::fidelity::Fidelity;
+use crate::scene::table1::published;
+use crate::solution::Status;
+use crate::solve::{Method, Settings, SolveError};
+use clap::Args;
+use std::time::Instant;
+
+/// Solves the 14 rows of the paper's Table I and prints published beside computed values
+///
+/// By default with the paper's algorithm at the paper's own meshes; with --converged mesh-independently, with the error
+/// estimated.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  squeezefilm table1
+  squeezefilm table1 --converged --fidelity standard
+  squeezefilm table1 --converged --set stator.normal_amplitude_um=1.4 --json")]
+pub(super) struct Arguments {
+    /// Mesh-independent values: method auto at a fidelity [default: fine]
+    #[arg(long)]
+    converged: bool,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+
+    #[command(flatten)]
+    output: OutputOptions,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    if arguments.converged && arguments.solve.method == Some(Method::Paper) {
+        return Err(CliError::Usage("--converged is method auto, and --method paper was asked for: keep one"));
+    }
+    let method = if arguments.converged { Method::Auto } else { Method::Paper };
+    let settings = arguments.solve.prepare(Fidelity::Fine, method)?;
+    let cancel = cancel_on_interrupt();
+
+    let bar = Bar::rows(published().len());
+    let started = Instant::now();
+    let solved = rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.row_done(&row.published.row));
+    let wall_s = started.elapsed().as_secs_f64();
+    drop(bar);
+    let rows = solved?;
+
+    let exit = exit(&rows);
+    let human = text(&rows, &settings, &arguments.scene.changes);
+    if exit == Exit::Other && cancel.is_cancelled() {
+        terminal::note(&format!("cancelled; reached was\n\n{human}"));
+        return Ok(exit);
+    }
+    for row in &rows {
+        match &row.computed {
+            Err(error) => terminal::error(&format!("{}: {error}", row.published.row)),
+            Ok(computed) => {
+                computed.warnings.iter().for_each(|warning| {
+                    terminal::warning(&format!("{}: {warning}", row.published.row));
+                });
+            }
+        }
+    }
+    let objects: Vec<Object> = rows.iter().map(|row| Object::new(row, &settings)).collect();
+    terminal::data(&if arguments.output.json { json::text(&objects) } else { human })?;
+    terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
+    if let Some(folder) = &arguments.output.out {
+        let mut staged = Staged::new(folder)?;
+        staged.add("table1.csv", |out| write_csv(&objects, out))?;
+        terminal::note(&written(folder, &staged.commit()?));
+    }
+    Ok(exit)
+}
+
+/// The worst of the rows decides.
+fn exit(rows: &[Row]) -> Exit {
+    let worst = |row: &Row| match &row.computed {
+        Err(SolveError::PaperPlate) => Exit::BadInput,
+        Err(_) => Exit::Other,
+        Ok(computed) => Exit::of(&computed.status),
+    };
+    let exits: Vec<Exit> = rows.iter().map(worst).collect();
+    let order = [Exit::Other, Exit::BadInput, Exit::NotConverged];
+    order.into_iter().find(|exit| exits.contains(exit)).unwrap_or(Exit::Solved)
+}
+
+/// The table for people, with what to know about it below.
+fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> String {
+    let how = match settings.method {
+        Method::Paper => "the paper's algorithm at the paper's own meshes".to_owned(),
+        Method::Auto => format!("mesh-converged, fidelity {}", settings.fidelity),
+    };
+    let mut text = paragraph(&format!("Table I of Maeno and Bogy (1992), published beside computed: {how}"), "", "");
+    for (key, value) in changes {
+        text.push_str(&format!("changed in every row: {key} = {value}\n"));
+    }
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row(["", "film load, N", "", "film share α", "", "", ""]);
+    columns.row(["row", "published", "computed", "published", "computed", "difference", ""]);
+    for row in rows {
+        let published = &row.published;
+        let (load, share) = (format!("{:.3}", published.published_load_n), format!("{:.3}", published.published_alpha));
+        match (&row.computed, row.difference_percent()) {
+            // A row cut short has no numbers worth a comparison.
+            (Ok(computed), _) if computed.status == Status::Cancelled => {
+                columns.row([&published.row, &load, "cancelled", &share, "cancelled", "", ""]);
+            }
+            (Ok(computed), Some(difference)) => columns.row([
+                published.row.clone(),
+                load,
+                estimated(computed.result.film_load, computed.film_load_error()),
+                share,
+                estimated(computed.result.alpha, computed.result.alpha_error),
+                format!("{difference:+.1} %"),
+                mark(&computed.status).to_owned(),
+            ]),
+            _ => columns.row([&published.row, &load, "failed", &share, "failed", "", ""]),
+        }
+    }
+    text.push_str(&columns.text("  ", &[1, 3, 5]));
+    // What is known about the differences holds for the scenes as they are.
+    if changes.is_empty() {
+        text.push('\n');
+        NOTES.iter().for_each(|note| text.push_str(&paragraph(note, "  ", "  ")));
+    }
+    text
+}
+
+const NOTES: [&str; 2] = [
+    "rotor_width_0.6mm comes out high, as expected: the paper's wider rotor was probably stiffer too, and here only its \
+     width differs.",
+    "Mesh-converged values (--converged) are about 3 % above the published ones, more above 40 kHz: the published fundamental case \
+     itself rises by 2 % when its mesh is doubled.",
+];
+
+fn mark(status: &Status) -> &'static str {
+    match status {
+        Status::Converged => "",
+        Status::NotConverged { .. } => "NOT CONVERGED",
+        Status::Cancelled => "cancelled",
+    }
+}
+
+/// With its error, where there is an estimate: one mesh alone gives none.
+fn estimated(value: f64, error: f64) -> String {
+    if error.is_finite() { with_error(value, error) } else { significant(value, 4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::table1::Computed;
+    use crate::solution::MotorResult;
+
+    fn rows_that_ended(statuses: &[Status]) -> Vec<Row> {
+        let computed = |status: &Status| {
+            let result =
+                MotorResult { alpha: 0.25, alpha_error: f64::INFINITY, film_load: 0.6, ..MotorResult::default() };
+            Computed { status: *status, result, load: 2.45, warnings: Vec::new() }
+        };
+        published()
+            .into_iter()
+            .zip(statuses)
+            .map(|(row, s)| Row { published: row, computed: Ok(computed(s)) })
+            .collect()
+    }
+
+    #[test]
+    fn the_worst_row_decides_and_is_marked() {
+        let limit = Status::NotConverged { residual: 1e-3, tolerance: 1e-6 };
+        let rows = rows_that_ended(&[Status::Converged, limit]);
+        assert_eq!(exit(&rows), Exit::NotConverged);
+        let shown = text(&rows, &Settings::default(), &[]);
+        assert!(shown.lines().any(|line| line.contains("doubled_mesh") && line.ends_with("NOT CONVERGED")), "{shown}");
+        // One mesh has no error estimate: the value stands alone.
+        assert!(shown.contains("0.2500 ") && !shown.contains("error"), "{shown}");
+        assert_eq!(exit(&rows_that_ended(&[limit, Status::Cancelled])), Exit::Other);
+        assert_eq!(exit(&rows_that_ended(&[Status::Converged])), Exit::Solved);
+    }
+}

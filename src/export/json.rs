@@ -1,0 +1,316 @@
+//! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
+
+use crate::dimensionless::Dimensionless;
+use crate::problem::{Motor, Plate, Problem, Scenario};
+use crate::solution::{Model, MotorResult, Outcome, PlateResult, Solution, Stats, Status};
+use serde::Serialize;
+
+/// The version of the object.
+pub const SCHEMA: u32 = 1;
+
+/// The object. Numbers that a scene does not have, and numbers that are not finite, are null.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// The scene's name.
+    pub preset: String,
+    /// `motor` or `plate`.
+    pub scene: &'static str,
+    /// The cycle repeats to the tolerance.
+    pub converged: bool,
+    /// `converged`, `not converged` or `cancelled`.
+    pub status: &'static str,
+    /// Relative change of the last round, if it did not converge …
+    pub residual: Option<f64>,
+    /// … and what it had to fall below.
+    pub tolerance: Option<f64>,
+    /// The film's share of the load.
+    pub alpha: Option<f64>,
+    /// Estimated numerical error of `alpha`, absolute.
+    pub alpha_error: Option<f64>,
+    /// What forces are in: `N`, or `N/m` for a strip, where they are per metre of width.
+    pub force_unit: &'static str,
+    /// Cycle mean of the film's net gauge force on one wavelength or the plate.
+    pub film_load_n: Option<f64>,
+    /// Estimated numerical error of `film_load_n`, absolute.
+    pub film_load_error_n: Option<f64>,
+    /// Its least value in the cycle.
+    pub film_load_min_n: Option<f64>,
+    /// Its greatest value in the cycle.
+    pub film_load_max_n: Option<f64>,
+    /// Cycle mean on the finest grid, as in the recorded fields; `film_load_n` is extrapolated from all grids.
+    pub film_load_finest_grid_n: Option<f64>,
+    /// Cycle mean of the contact force on one wavelength.
+    pub contact_load_n: Option<f64>,
+    /// Greatest torque of the whole ring.
+    pub max_torque_nm: Option<f64>,
+    /// The same without the air film.
+    pub dry_torque_nm: Option<f64>,
+    /// Cycle mean of the number of teeth that touch.
+    pub teeth_in_contact: Option<f64>,
+    /// No tooth touches at any instant.
+    pub levitated: Option<bool>,
+    /// Least film thickness, H_m included.
+    pub min_gap_nm: Option<f64>,
+    /// Greatest absolute pressure.
+    pub max_pressure_kpa: Option<f64>,
+    /// Film load over ambient pressure × area (plate).
+    pub mean_load_ratio: Option<f64>,
+    /// Estimated numerical error of `mean_load_ratio`, absolute.
+    pub mean_load_ratio_error: Option<f64>,
+    /// Its least value in the cycle.
+    pub load_ratio_min: Option<f64>,
+    /// Its greatest value in the cycle.
+    pub load_ratio_max: Option<f64>,
+    /// σ.
+    pub squeeze_number: Option<f64>,
+    /// Λ.
+    pub bearing_number: Option<f64>,
+    /// Kn.
+    pub knudsen_number: Option<f64>,
+    /// Cost.
+    pub stats: StatsObject,
+    /// What was modelled.
+    pub model: ModelObject,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Version of this program.
+    pub version: &'static str,
+    /// The command line, word by word; empty if there was none.
+    pub command: Vec<String>,
+}
+
+/// What the solve cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct StatsObject {
+    /// Wall time of the solve alone \[s\].
+    pub wall_s: Option<f64>,
+    /// Time steps of one tooth's film.
+    pub film_steps: u64,
+    /// Linear solves of those steps.
+    pub film_solves: u64,
+    /// Steps that positivity made locally first-order.
+    pub limited_steps: u64,
+    /// Cycles of the vibration marched.
+    pub cycles: u64,
+    /// Rounds of the film–contact coupling.
+    pub coupling_iterations: u64,
+    /// Contact problems solved.
+    pub contact_solves: u64,
+    /// Newton iterations in them.
+    pub contact_iterations: u64,
+    /// Film nodes of one tooth.
+    pub film_nodes: usize,
+    /// Contact nodes in one wavelength.
+    pub contact_nodes: usize,
+    /// Time steps in a cycle.
+    pub steps_per_cycle: usize,
+}
+
+/// What was modelled.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ModelObject {
+    /// `draft`, `standard`, …
+    pub fidelity: String,
+    /// `auto` or `paper`.
+    pub method: String,
+    /// Teeth whose film was solved.
+    pub teeth_solved: usize,
+    /// Half the width was solved and mirrored.
+    pub half_width: bool,
+    /// The wedge term was solved.
+    pub shear: bool,
+    /// A sentence for each decision.
+    pub why: Vec<String>,
+}
+
+/// Collects numbers, and the names of those that are not finite.
+#[derive(Default)]
+struct Numbers {
+    unknown: Vec<&'static str>,
+}
+
+impl Numbers {
+    fn take(&mut self, name: &'static str, value: f64) -> Option<f64> {
+        if value.is_finite() {
+            return Some(value);
+        }
+        self.unknown.push(name);
+        None
+    }
+}
+
+impl Summary {
+    /// The object of a solution. `wall_s`: how long the solve took, by the caller's clock. `command`: the words of the
+    /// command line, kept as they are.
+    pub fn new(problem: &Problem, solution: &Solution, wall_s: f64, command: &[String]) -> Self {
+        let mut numbers = Numbers::default();
+        let groups = Dimensionless::of(problem);
+        let mut summary = Self {
+            schema: SCHEMA,
+            preset: problem.name.clone(),
+            converged: solution.status == Status::Converged,
+            status: status_name(&solution.status),
+            force_unit: force_unit(problem),
+            squeeze_number: numbers.take("squeeze_number", groups.squeeze_number),
+            bearing_number: numbers.take("bearing_number", groups.bearing_number),
+            knudsen_number: numbers.take("knudsen_number", groups.knudsen_number),
+            film_load_finest_grid_n: numbers.take("film_load_finest_grid_n", mean(&solution.recording.film_load)),
+            stats: StatsObject::new(&solution.stats, numbers.take("stats.wall_s", wall_s)),
+            model: ModelObject::new(&solution.model),
+            version: env!("CARGO_PKG_VERSION"),
+            command: command.to_vec(),
+            ..Self::default()
+        };
+        if let Status::NotConverged { residual, tolerance } = solution.status {
+            summary.residual = numbers.take("residual", residual);
+            summary.tolerance = numbers.take("tolerance", tolerance);
+        }
+        match (&problem.scenario, &solution.outcome) {
+            (Scenario::Plate(plate), Outcome::Plate(result)) => summary.fill_plate(plate, result, &mut numbers),
+            (Scenario::Motor(motor), Outcome::Motor(result)) => {
+                summary.fill_motor(motor, result, &mut numbers);
+            }
+            // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
+            (Scenario::Plate(_), Outcome::Motor(_)) => summary.scene = "plate",
+            (Scenario::Motor(_), Outcome::Plate(_)) => summary.scene = "motor",
+        }
+        summary.warnings = solution.warnings.clone();
+        if !numbers.unknown.is_empty() {
+            summary.warnings.push(format!("not known, hence null: {}", numbers.unknown.join(", ")));
+        }
+        summary
+    }
+
+    fn fill_motor(&mut self, motor: &Motor, result: &MotorResult, numbers: &mut Numbers) {
+        self.scene = "motor";
+        self.alpha = numbers.take("alpha", result.alpha);
+        self.alpha_error = numbers.take("alpha_error", result.alpha_error);
+        self.film_load_n = numbers.take("film_load_n", result.film_load);
+        self.film_load_error_n = numbers.take("film_load_error_n", result.alpha_error * motor.load);
+        self.film_load_min_n = numbers.take("film_load_min_n", result.film_load_min);
+        self.film_load_max_n = numbers.take("film_load_max_n", result.film_load_max);
+        self.contact_load_n = numbers.take("contact_load_n", result.contact_load);
+        self.max_torque_nm = numbers.take("max_torque_nm", result.max_torque);
+        self.dry_torque_nm = numbers.take("dry_torque_nm", dry_torque(motor));
+        self.teeth_in_contact = numbers.take("teeth_in_contact", result.teeth_in_contact);
+        self.levitated = Some(result.levitated);
+        self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
+        self.max_pressure_kpa = numbers.take("max_pressure_kpa", result.max_pressure * 1e-3);
+    }
+
+    fn fill_plate(&mut self, plate: &Plate, result: &PlateResult, numbers: &mut Numbers) {
+        self.scene = "plate";
+        self.film_load_n = numbers.take("film_load_n", result.film_load);
+        self.film_load_error_n = numbers.take("film_load_error_n", result.film_load_error);
+        self.film_load_min_n = numbers.take("film_load_min_n", result.film_load_min);
+        self.film_load_max_n = numbers.take("film_load_max_n", result.film_load_max);
+        self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
+        self.max_pressure_kpa = numbers.take("max_pressure_kpa", result.max_pressure * 1e-3);
+        let mut ratio = |name, load| numbers.take(name, PlateResult::ratio(load, plate));
+        self.mean_load_ratio = ratio("mean_load_ratio", result.film_load);
+        self.mean_load_ratio_error = ratio("mean_load_ratio_error", result.film_load_error);
+        self.load_ratio_min = ratio("load_ratio_min", result.film_load_min);
+        self.load_ratio_max = ratio("load_ratio_max", result.film_load_max);
+    }
+
+    /// As text, indented, with a line break at the end.
+    pub fn to_text(&self) -> String {
+        text(self)
+    }
+}
+
+/// Any object as indented JSON text with a line break at the end. Numbers that are not finite become null.
+pub fn text(object: &impl Serialize) -> String {
+    // Fails only for maps whose keys are not text, and for types that refuse: ours are plain structs.
+    serde_json::to_string_pretty(object).map_or_else(|_| String::new(), |text| text + "\n")
+}
+
+/// What the forces of a problem are in: those of a strip are per metre of width.
+pub fn force_unit(problem: &Problem) -> &'static str {
+    match &problem.scenario {
+        Scenario::Plate(plate) if plate.width.is_none() => "N/m",
+        Scenario::Plate(_) | Scenario::Motor(_) => "N",
+    }
+}
+
+/// How a solve ended, in a word.
+pub fn status_name(status: &Status) -> &'static str {
+    match status {
+        Status::Converged => "converged",
+        Status::NotConverged { .. } => "not converged",
+        Status::Cancelled => "cancelled",
+    }
+}
+
+fn mean(series: &[f64]) -> f64 {
+    series.iter().sum::<f64>() / series.len() as f64
+}
+
+impl StatsObject {
+    fn new(stats: &Stats, wall_s: Option<f64>) -> Self {
+        Self {
+            wall_s,
+            film_steps: stats.film_steps,
+            film_solves: stats.film_solves,
+            limited_steps: stats.limited_steps,
+            cycles: stats.cycles,
+            coupling_iterations: stats.coupling_iterations,
+            contact_solves: stats.contact_solves,
+            contact_iterations: stats.contact_iterations,
+            film_nodes: stats.film_nodes,
+            contact_nodes: stats.contact_nodes,
+            steps_per_cycle: stats.steps_per_cycle,
+        }
+    }
+}
+
+impl ModelObject {
+    fn new(model: &Model) -> Self {
+        Self {
+            fidelity: model.fidelity.clone(),
+            method: model.method.clone(),
+            teeth_solved: model.teeth_solved,
+            half_width: model.half_width,
+            shear: model.shear,
+            why: model.why.clone(),
+        }
+    }
+}
+
+/// Greatest torque of the whole ring if there were no air film, μ_d waves L r \[N m\].
+pub fn dry_torque(motor: &Motor) -> f64 {
+    motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Cancel;
+    use crate::fidelity::Fidelity;
+    use crate::scene::presets;
+    use crate::solve::{Method, Settings, solve};
+
+    fn solved(preset: &str) -> (Problem, Solution) {
+        let problem = Problem::new(&presets::find(preset).unwrap()).unwrap();
+        let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto };
+        let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+        (problem, solution)
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_null_and_said_to_be() {
+        let (problem, mut solution) = solved("plate-viscous");
+        let Outcome::Plate(result) = &mut solution.outcome else { panic!("a plate") };
+        result.film_load_error = f64::INFINITY;
+        let summary = Summary::new(&problem, &solution, f64::NAN, &[]);
+        assert_eq!((summary.film_load_error_n, summary.stats.wall_s), (None, None));
+        let warning = summary.warnings.last().unwrap();
+        for name in ["stats.wall_s", "film_load_error_n", "mean_load_ratio_error"] {
+            assert!(warning.contains(name), "{warning}");
+        }
+        let value: serde_json::Value = serde_json::from_str(&summary.to_text()).unwrap();
+        assert!(value["film_load_error_n"].is_null() && value["film_load_n"].is_f64());
+    }
+}

@@ -1,0 +1,7 @@
+//! A solution as numbers for people, as JSON, as CSV files, and into a folder all at once.
+
+pub mod csv;
+pub mod digits;
+pub mod folder;
+pub mod json;
+pub mod table1;

@@ -1,0 +1,399 @@
+//! The program as its users see it: what it prints where, the exit status, the files.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+fn squeezefilm(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
+    command.args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    squeezefilm(arguments).output().unwrap()
+}
+
+fn out(output: &Output) -> &str {
+    std::str::from_utf8(&output.stdout).unwrap()
+}
+
+fn err(output: &Output) -> &str {
+    std::str::from_utf8(&output.stderr).unwrap()
+}
+
+/// Runs with `--json` at draft fidelity and reads the whole of standard output.
+fn solved(arguments: &[&str]) -> Value {
+    let output = run(&[&["solve", "--fidelity", "draft", "--json"], arguments].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert_eq!(err(&output), "");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Runs, expects the status, nothing on standard output, and these words on standard error.
+fn refused(arguments: &[&str], status: i32, words: &[&str]) {
+    let output = run(arguments);
+    let said = err(&output);
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {said}");
+    assert_eq!(out(&output), "", "{arguments:?}");
+    for word in words {
+        assert!(said.contains(word), "{arguments:?}: {word:?} is not in {said:?}");
+    }
+    assert!(!said.contains("panicked"), "{said}");
+}
+
+const NUMBERS: [&str; 9] = [
+    "film_load_n",
+    "film_load_min_n",
+    "film_load_max_n",
+    "min_gap_nm",
+    "max_pressure_kpa",
+    "squeeze_number",
+    "bearing_number",
+    "knudsen_number",
+    "film_load_error_n",
+];
+const MOTOR_NUMBERS: [&str; 5] = ["alpha", "alpha_error", "contact_load_n", "max_torque_nm", "teeth_in_contact"];
+const PLATE_NUMBERS: [&str; 3] = ["mean_load_ratio", "load_ratio_min", "load_ratio_max"];
+const STATS: [&str; 8] = [
+    "wall_s",
+    "film_steps",
+    "cycles",
+    "coupling_iterations",
+    "contact_solves",
+    "film_nodes",
+    "contact_nodes",
+    "steps_per_cycle",
+];
+
+fn check_common(result: &Value, name: &str, scene: &str) {
+    assert_eq!(result["schema"], 1);
+    assert_eq!((&result["preset"], &result["scene"]), (&Value::from(name), &Value::from(scene)));
+    assert_eq!((&result["converged"], &result["status"]), (&Value::from(true), &Value::from("converged")));
+    NUMBERS.iter().for_each(|key| assert!(result[key].is_number(), "{key}"));
+    STATS.iter().for_each(|key| assert!(result["stats"][key].is_number(), "stats.{key}"));
+    let model = &result["model"];
+    assert_eq!((&model["fidelity"], &model["method"]), (&Value::from("draft"), &Value::from("auto")));
+    assert!(model["teeth_solved"] == 1 && model["half_width"].is_boolean() && model["shear"].is_boolean());
+    assert!(model["why"].as_array().unwrap().iter().all(Value::is_string));
+    assert_eq!(result["warnings"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn json_of_a_motor_has_every_name() {
+    let result = solved(&["fundamental"]);
+    check_common(&result, "Fundamental case", "motor");
+    MOTOR_NUMBERS.iter().for_each(|key| assert!(result[key].is_number(), "{key}"));
+    PLATE_NUMBERS.iter().for_each(|key| assert!(result.get(key).is_some_and(Value::is_null), "{key}"));
+    assert_eq!(result["levitated"], false);
+    let number = |key: &str| result[key].as_f64().unwrap();
+    assert!((number("alpha") - 0.2459).abs() < number("alpha_error"));
+    assert!((number("film_load_n") + number("contact_load_n") - 2.45).abs() < 1e-9);
+    assert!((number("max_torque_nm") - 0.7 * 7.0 * 0.029 * number("contact_load_n")).abs() < 1e-9);
+}
+
+#[test]
+fn json_of_a_plate_has_every_name_and_null_where_there_is_no_motor() {
+    for (width, unit) in [("none", "N/m"), ("1", "N")] {
+        let result = solved(&["plate-crossover", "--set", &format!("plate.width_mm={width}")]);
+        check_common(&result, "Plate, crossover", "plate");
+        assert_eq!(result["force_unit"], unit);
+        PLATE_NUMBERS.iter().for_each(|key| assert!(result[key].is_number(), "{key}"));
+        MOTOR_NUMBERS.iter().for_each(|key| assert!(result.get(key).is_some_and(Value::is_null), "{key}"));
+        assert!(result.get("levitated").is_some_and(Value::is_null));
+        let number = |key: &str| result[key].as_f64().unwrap();
+        let area = if unit == "N" { 1e-6 } else { 1e-3 };
+        assert!((number("mean_load_ratio") * 101_325.0 * area / number("film_load_n") - 1.0).abs() < 1e-9);
+        assert!(number("load_ratio_min") < number("mean_load_ratio"));
+    }
+}
+
+#[test]
+fn summary_names_the_numbers_with_units() {
+    let output = run(&["solve", "fundamental", "--fidelity", "draft"]);
+    assert_eq!((output.status.code(), err(&output)), (Some(0), ""));
+    for words in ["film share of the load  α", " ± ", " N·m", "levitated", " nm", " kPa", "σ", "Λ", "Kn", " ms"] {
+        assert!(out(&output).contains(words), "{words:?} is not in\n{}", out(&output));
+    }
+}
+
+#[test]
+fn changes_reach_the_scene() {
+    let smoother = solved(&["fundamental", "--set", "film.min_spacing_nm=100"]);
+    assert!((smoother["alpha"].as_f64().unwrap() - 0.499).abs() < 0.01);
+    let set = ["--set", "stator.tooth_radius_m=3", "--set", "stator.tooth_radius_m=none"];
+    assert_eq!(
+        solved(&[&["fundamental"][..], &set].concat())["film_load_n"],
+        solved(&["fundamental", "--threads", "1"])["film_load_n"]
+    );
+}
+
+#[test]
+fn bad_input_is_named_and_exits_with_2() {
+    let motor = |change: &'static str| ["solve", "fundamental", "--set", change];
+    refused(&motor("film.min_spacing_nm=3"), 2, &["film.min_spacing_nm", "= 3", "5 to 10000 nm"]);
+    refused(&motor("film.min_spacing_nm=nan"), 2, &["film.min_spacing_nm", "NaN"]);
+    refused(&motor("film.slip=second"), 2, &["film.slip", "second-order"]);
+    refused(&motor("film.min_spacing=100"), 2, &["unknown key film.min_spacing", "film.min_spacing_nm"]);
+    refused(&motor("plate.length_mm=1"), 2, &["plate.length_mm", "motor"]);
+    refused(&motor("film.min_spacing_nm"), 2, &["key=value"]);
+    refused(&motor("=3"), 2, &["key=value"]);
+    let two = ["solve", "fundamental", "--set", "film.min_spacing_nm=3", "--set", "motor.waves=0"];
+    refused(&two, 2, &["film.min_spacing_nm", "motor.waves"]);
+    refused(&["solve", "fundamentl"], 2, &["fundamentl", "did you mean fundamental?"]);
+    refused(&["solve", "no/such/file.toml"], 2, &["no/such/file.toml"]);
+    refused(&["solve", ""], 2, &["unknown preset"]);
+    refused(&["solve", "."], 2, &["cannot be read"]);
+    refused(&["solve"], 2, &["PRESET"]);
+    refused(&["sovle", "fundamental"], 2, &["sovle", "solve"]);
+    refused(&["solve", "fundamental", "--fidelity", "best"], 2, &["draft, standard, fine, reference"]);
+    refused(&["solve", "fundamental", "--method", "best"], 2, &["auto, paper"]);
+    refused(&["solve", "fundamental", "--threads", "0"], 2, &["--threads"]);
+    refused(&["solve", "plate-viscous", "--method", "paper"], 2, &["paper", "motors"]);
+    refused(&["table1", "--converged", "--set", "film.min_spacing_nm=3"], 2, &["5 to 10000 nm"]);
+    refused(&["table1", "--converged", "--method", "paper"], 2, &["--converged"]);
+    refused(&["presets", "--set", "film.min_spacing_nm=100"], 2, &["PRESET"]);
+    refused(&[], 2, &["Usage", "squeezefilm solve fundamental"]);
+}
+
+#[test]
+fn a_scene_in_a_file_that_is_not_one_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    for (bytes, word) in [(&b"schema = 2\n"[..], "schema"), (b"\xff\xfe", "UTF-8"), (b"a = [", "TOML"), (b"", "schema")]
+    {
+        fs::write(&path, bytes).unwrap();
+        refused(&["solve", path.to_str().unwrap()], 2, &["mine.toml", word]);
+    }
+}
+
+#[test]
+fn help_and_version_go_to_standard_output() {
+    for arguments in [&["--help"][..], &["help", "solve"], &["solve", "--help"], &["--version"], &["table1", "-h"]] {
+        let output = run(arguments);
+        assert_eq!((output.status.code(), err(&output)), (Some(0), ""), "{arguments:?}");
+        assert!(!out(&output).is_empty());
+    }
+}
+
+/// A CSV file as columns by name. Every field is a finite number.
+fn columns(path: &Path) -> BTreeMap<String, Vec<f64>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let mut columns: BTreeMap<String, Vec<f64>> = names.iter().map(|name| (name.clone(), Vec::new())).collect();
+    for record in reader.records() {
+        for (name, field) in names.iter().zip(&record.unwrap()) {
+            let number: f64 = field.parse().unwrap();
+            assert!(number.is_finite(), "{name}");
+            columns.get_mut(name).unwrap().push(number);
+        }
+    }
+    columns
+}
+
+fn mean(series: &[f64]) -> f64 {
+    series.iter().sum::<f64>() / series.len() as f64
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-6 * (a.abs() + b.abs()) + 1e-12
+}
+
+#[test]
+fn files_of_a_motor_agree_with_the_summary() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("a/b");
+    let arguments = ["solve", "fundamental", "--fidelity", "draft", "--json", "--out", folder.to_str().unwrap()];
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(err(&output).contains("series.csv"));
+
+    let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["fields.csv", "pressure.csv", "scene.toml", "series.csv", "summary.json"]);
+    let summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary, serde_json::from_slice::<Value>(&output.stdout).unwrap());
+    assert_eq!(summary["command"][0], "squeezefilm");
+    let number = |key: &str| summary[key].as_f64().unwrap();
+
+    let series = columns(&folder.join("series.csv"));
+    let steps = summary["stats"]["steps_per_cycle"].as_u64().unwrap() as usize;
+    let film = &series["film_load_n"];
+    assert_eq!((film.len(), series.len()), (steps, 6));
+    assert!(close(mean(film), number("film_load_finest_grid_n")));
+    // The summary's load is extrapolated from three grids; on the finest, 12 × its error is more than the correction.
+    assert!((mean(film) - number("film_load_n")).abs() < 12.0 * number("film_load_error_n"));
+    assert!(close(film.iter().copied().fold(f64::INFINITY, f64::min), number("film_load_min_n")));
+    assert!(close(film.iter().copied().fold(0.0, f64::max), number("film_load_max_n")));
+    assert!(close(mean(&series["teeth_in_contact"]), number("teeth_in_contact")));
+    assert!(close(series["max_pressure_kpa"].iter().copied().fold(0.0, f64::max), number("max_pressure_kpa")));
+    assert!(close(series["min_film_thickness_nm"].iter().copied().fold(f64::INFINITY, f64::min), number("min_gap_nm")));
+
+    let fields = columns(&folder.join("fields.csv"));
+    let nodes = summary["stats"]["contact_nodes"].as_u64().unwrap() as usize;
+    assert_eq!(fields["time_s"].len(), steps * nodes);
+    assert_eq!(fields["tooth"].iter().copied().fold(0.0, f64::max), 8.0);
+    for step in 0..steps {
+        let rows = step * nodes..(step + 1) * nodes;
+        let sum = |name: &str| rows.clone().map(|row| fields[name][row] * fields["length_m"][row]).sum::<f64>();
+        assert!(rows.clone().all(|row| close(fields["time_s"][row], series["time_s"][step])));
+        assert!(close(sum("film_n_per_m"), film[step]), "step {step}");
+        assert!(close(sum("contact_n_per_m"), series["contact_load_n"][step]), "step {step}");
+        // x runs along one wavelength, and nothing is pressed into anything.
+        assert!(rows.clone().skip(1).all(|row| fields["x_m"][row] > fields["x_m"][row - 1]));
+        assert!(rows.clone().all(|row| fields["gap_nm"][row] >= -1e-6 && fields["contact_n_per_m"][row] >= 0.0));
+        // Nine digits of a micrometre.
+        let same = |a: f64, b: f64| (a - b).abs() < 1e-4;
+        assert!(rows.clone().all(|row| same(fields["film_thickness_nm"][row], fields["gap_nm"][row] + 200.0)));
+        let surfaces = |row: usize| (fields["rotor_nm"][row], fields["stator_nm"][row] + fields["gap_nm"][row]);
+        assert!(rows.clone().map(surfaces).all(|(rotor, sum)| same(rotor, sum)));
+    }
+
+    let pressure = columns(&folder.join("pressure.csv"));
+    let film_nodes = summary["stats"]["film_nodes"].as_u64().unwrap() as usize;
+    assert_eq!(pressure["pressure_kpa"].len(), steps * film_nodes);
+    assert!(pressure["y_m"].iter().all(|y| *y >= 0.0));
+    assert!(close(pressure["pressure_kpa"].iter().copied().fold(0.0, f64::max), number("max_pressure_kpa")));
+
+    // The scene that was written solves to the same, into the same folder.
+    let scene = folder.join("scene.toml");
+    let again = solved(&[scene.to_str().unwrap()]);
+    assert_eq!(again["film_load_n"], summary["film_load_n"]);
+    assert_eq!(run(&arguments).status.code(), Some(0));
+}
+
+#[test]
+fn files_of_a_strip_are_per_metre() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let output = run(&["solve", "plate-crossover", "--fidelity", "draft", "--json", "--out", path]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let series = columns(&folder.path().join("series.csv"));
+    let fields = columns(&folder.path().join("fields.csv"));
+    assert!(close(mean(&series["film_load_n_per_m"]), summary["film_load_finest_grid_n"].as_f64().unwrap()));
+    let steps = series["time_s"].len();
+    let loads = fields["film_n_per_m2"].iter().zip(&fields["length_m"]).map(|(load, length)| load * length);
+    assert!(close(loads.sum::<f64>() / steps as f64, mean(&series["film_load_n_per_m"])));
+    assert!(!fields.contains_key("contact_n_per_m"));
+}
+
+#[test]
+fn an_unwritable_folder_is_named_and_the_result_still_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "mine").unwrap();
+    for path in [file.clone(), file.join("below")] {
+        let output = run(&["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(err(&output).contains(path.to_str().unwrap()), "{}", err(&output));
+        assert_eq!(serde_json::from_slice::<Value>(&output.stdout).unwrap()["converged"], true);
+    }
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn presets_are_listed_and_printed_as_files() {
+    let listed = run(&["presets"]);
+    assert_eq!((listed.status.code(), err(&listed)), (Some(0), ""));
+    let objects = run(&["presets", "--json"]);
+    let objects: Vec<Value> = serde_json::from_slice(&objects.stdout).unwrap();
+    assert_eq!(objects.len(), 18);
+    for object in &objects {
+        let name = object["preset"].as_str().unwrap();
+        assert!(out(&listed).contains(&format!("\n  {name} ")), "{name}");
+        assert!(object["about"].is_string() && object["group"].is_string());
+    }
+    let printed = run(&["presets", "fundamental"]);
+    assert!(out(&printed).contains("\nschema = 1\n") && out(&printed).contains("inferred"));
+    let folder = tempfile::tempdir().unwrap();
+    let mine = folder.path().join("my.toml");
+    let changed = run(&["presets", "fundamental", "--set", "film.min_spacing_nm=100"]);
+    fs::write(&mine, &changed.stdout).unwrap();
+    let as_file = solved(&[mine.to_str().unwrap()]);
+    assert_eq!(as_file["film_load_n"], solved(&["fundamental", "--set", "film.min_spacing_nm=100"])["film_load_n"]);
+}
+
+#[test]
+fn table_1_has_14_rows_each_near_the_published_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let arguments = ["table1", "--converged", "--fidelity", "draft", "--threads", "2"];
+    let output = run(&[&arguments[..], &["--json", "--out", path]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let rows: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(rows.len(), 14);
+    for row in &rows {
+        let difference = row["difference_percent"].as_f64().unwrap();
+        let limit = if row["row"] == "rotor_width_0.6mm" { 15.0 } else { 9.0 };
+        assert!((-2.0..limit).contains(&difference), "{row}");
+        assert!(row["converged"] == true && row["alpha_error"].as_f64().unwrap() < 0.02);
+    }
+    // Mesh-converged, a doubled mesh is the fundamental case.
+    assert_eq!(rows[0]["film_load_n"], rows[1]["film_load_n"]);
+
+    let mut reader = csv::Reader::from_path(folder.path().join("table1.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let load = header.iter().position(|name| name == "film_load_n").unwrap();
+    for (record, row) in reader.records().zip(&rows) {
+        assert!(close(record.unwrap()[load].parse().unwrap(), row["film_load_n"].as_f64().unwrap()));
+    }
+    let table = run(&arguments);
+    assert_eq!(table.status.code(), Some(0));
+    assert!(rows.iter().all(|row| out(&table).contains(row["row"].as_str().unwrap())));
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    for arguments in [&["presets"][..], &["solve", "plate-viscous", "--fidelity", "draft", "--json"], &["--help"]] {
+        let mut child = squeezefilm(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!((output.status.code(), err(&output)), (Some(0), ""), "{arguments:?}");
+    }
+}
+
+/// A solve that takes minutes.
+#[cfg(unix)]
+const LONG: [&str; 10] = [
+    "solve",
+    "fundamental",
+    "--fidelity",
+    "reference",
+    "--set",
+    "numerics.film_nodes_along=201",
+    "--set",
+    "numerics.film_nodes_across=201",
+    "--set",
+    "numerics.steps_per_cycle=900",
+];
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_a_long_solve_at_once_and_leaves_no_file() {
+    use std::time::{Duration, Instant};
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("out");
+    let table = ["table1", "--converged", "--fidelity", "reference", "--threads", "1"];
+    for arguments in [&LONG[..], &table] {
+        let child = squeezefilm(arguments)
+            .args(["--json", "--out", folder.to_str().unwrap()])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Long enough for the handler to be in place; the solve takes far longer.
+        std::thread::sleep(Duration::from_millis(500));
+        let interrupted = Instant::now();
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert!(interrupted.elapsed() < Duration::from_secs(5));
+        assert_eq!((output.status.code(), out(&output)), (Some(1), ""), "{}", err(&output));
+        assert!(err(&output).starts_with("cancelled"), "{}", err(&output));
+        assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 0);
+    }
+}
