@@ -271,7 +271,7 @@ proptest! {
     fn any_motor_is_solved_or_says_that_it_is_not(
         teeth in 1u32..=24, waves in 1u32..=100, fill in 0.0101f64..0.999, radius in 0.0f64..2.69, load in -2.0f64..2.0,
         frequency in -3.0f64..4.0, amplitude in -3.0f64..1.3, spacing in 0.7f64..4.0, width in -2.0f64..1.0,
-        pressure in -2.0f64..4.0, decay in -1.0f64..2.0, point in -3.0f64..3.0, speed in -1000.0f64..1000.0,
+        pressure in -2.0f64..4.0, decay in -1.0f64..2.0, point in -3.0f64..3.0, speed in proptest::option::of(-1000.0f64..1000.0),
     ) {
         let ten = |e: f64| 10f64.powf(e);
         let pitch = std::f64::consts::TAU * ten(radius) / f64::from(waves) / f64::from(teeth);
@@ -284,7 +284,7 @@ proptest! {
             ("film.ambient_pressure_kpa", ten(pressure).to_string()),
             ("rotor.decay_length_mm", ten(decay).to_string()),
             ("rotor.point_compliance_um_per_n", ten(point).to_string()),
-            ("motor.rotor_speed_rpm", speed.to_string()),
+            ("motor.rotor_speed_rpm", speed.unwrap_or(0.0).to_string()),
         ];
         let text: Vec<(&str, &str)> = changes.iter().map(|(k, v)| (*k, v.as_str())).collect();
         let motor = motor_with(&text);
@@ -294,7 +294,9 @@ proptest! {
         let result = found.result;
         prop_assert!(result.alpha.is_finite() && result.alpha_error.is_finite() && result.min_gap >= motor.min_spacing);
         if found.status == Status::Converged {
-            prop_assert!(result.alpha > -result.alpha_error - 1e-3 && result.alpha <= 1.0 + 1e-5, "{result:?}");
+            // A rotor that slides fast over a diverging gap is sucked down: α may then be negative.
+            prop_assert!(speed.is_some() || result.alpha > -result.alpha_error - 1e-3, "{result:?}");
+            prop_assert!(result.alpha <= 1.0 + 1e-5, "{result:?}");
             check_frames(&motor, &found, 1e-4);
         } else {
             prop_assert!(matches!(found.status, Status::NotConverged { .. }), "{:?}", found.status);

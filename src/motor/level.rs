@@ -45,6 +45,8 @@ pub(super) struct Level {
     contact_load: Vec<f64>,
     /// ζ from the film's last cycle, lines.
     line: Vec<f64>,
+    /// `line` moved by the slow shift: ζ for the next round.
+    next: Vec<f64>,
 }
 
 impl Level {
@@ -110,6 +112,7 @@ impl Level {
             film_thickness: vec![motor.min_spacing; stored * steps * nx],
             contact_load: vec![0.0; stored * steps * nx],
             line: vec![0.0; stored * steps * nx],
+            next: vec![0.0; stored * steps * nx],
         }
     }
 
@@ -325,14 +328,15 @@ impl Level {
         }
     }
 
-    /// Moves the film's lines and states by the slow shift of the last cycle.
+    /// Moves the states, and the film's lines into `next`, by the slow shift of the last cycle.
     fn shift(&mut self) {
+        self.next.copy_from_slice(&self.line);
         let (nx, steps) = (self.nx, self.steps);
         let mut across = vec![0.0; nx];
         for (tooth, film) in self.films.iter_mut().enumerate() {
             let shift = film.shift(&mut self.states[tooth]).to_vec();
             film.grid().line_integral(&shift, &mut across);
-            for line in self.line[tooth * steps * nx..(tooth + 1) * steps * nx].chunks_exact_mut(nx) {
+            for line in self.next[tooth * steps * nx..(tooth + 1) * steps * nx].chunks_exact_mut(nx) {
                 for ix in 1..nx - 1 {
                     line[ix] = shifted(line[ix], across[ix]);
                 }
@@ -351,7 +355,7 @@ impl Level {
         if self.trapped.iter().all(|&t| t == 0.0) {
             self.march(stats, cancel)?;
             self.shift();
-            self.trapped.copy_from_slice(&self.line);
+            self.trapped.copy_from_slice(&self.next);
         }
         let mut anderson = Anderson::new(DEPTH, LONGEST_STEP);
         let (mut present, mut image) = (Vec::new(), Vec::new());
@@ -364,7 +368,7 @@ impl Level {
             stats.coupling_iterations += 1;
             let imbalance = self.imbalance();
             self.shift();
-            self.pack(&self.line, &mut image);
+            self.pack(&self.next, &mut image);
             let change = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             residual = change.max(imbalance);
             report(round, residual, self.mean_film_load());
