@@ -56,3 +56,24 @@ impl<F: FnMut(&Progress)> Observer for F {
         self(progress);
     }
 }
+
+/// Reports the rounds of one grid to an observer.
+pub struct Reporter<'a> {
+    observer: &'a mut dyn Observer,
+    level: usize,
+    levels: usize,
+    tolerance: f64,
+}
+
+impl<'a> Reporter<'a> {
+    /// For grid `level` of `levels`, whose change has to fall below `tolerance`.
+    pub fn new(observer: &'a mut dyn Observer, level: usize, levels: usize, tolerance: f64) -> Self {
+        Self { observer, level, levels, tolerance }
+    }
+
+    /// Reports one round.
+    pub fn round(&mut self, iteration: usize, residual: f64, film_load: f64) {
+        let Self { level, levels, tolerance, .. } = *self;
+        self.observer.progress(&Progress { level, levels, iteration, residual, tolerance, film_load });
+    }
+}

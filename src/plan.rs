@@ -48,7 +48,7 @@ pub struct Plan {
     pub why: Vec<String>,
 }
 
-/// Effect of the wedge term on α, relative, is below this times Λ/σ (measured: `tests/reductions.rs`).
+/// Effect of the wedge term on α, relative, is below this times Λ/σ (measured: `tests/motor.rs`).
 const WEDGE_EFFECT: f64 = 2.0;
 const ROUND_LIMIT: usize = 300;
 

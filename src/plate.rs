@@ -1,6 +1,6 @@
 //! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
 
-use crate::control::{Cancel, Observer, Progress};
+use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::extrapolate;
 use crate::film::cycle::{FilmCycle, Interrupted};
 use crate::film::exact::trapped_height;
@@ -48,16 +48,7 @@ pub fn periodic(
     let mut recording = Recording::default();
     for (number, grid) in plan.grids.iter().enumerate() {
         let mut level = Level::new(plate, plan, grid);
-        let mut report = |iteration: usize, residual: f64, film_load: f64| {
-            observer.progress(&Progress {
-                level: number,
-                levels: plan.grids.len(),
-                iteration,
-                residual,
-                tolerance: plan.tolerance,
-                film_load,
-            });
-        };
+        let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
         status = match level.converge(plan, &mut stats, &mut report, cancel) {
             Ok(status) => status,
             Err(Interrupted::Cancelled) => Status::Cancelled,
@@ -129,7 +120,7 @@ impl Level {
         &mut self,
         plan: &Plan,
         stats: &mut Stats,
-        report: &mut dyn FnMut(usize, f64, f64),
+        report: &mut Reporter<'_>,
         cancel: &Cancel,
     ) -> Result<Status, Interrupted> {
         let mut anderson = Anderson::new(DEPTH, LONGEST_STEP);
@@ -146,7 +137,7 @@ impl Level {
             self.cycle.shift(&mut self.state);
             pack(&self.state, &mut image);
             residual = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            report(round, residual, self.mean_load());
+            report.round(round, residual, self.mean_load());
             if residual < plan.tolerance {
                 return Ok(Status::Converged);
             }

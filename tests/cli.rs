@@ -397,3 +397,23 @@ fn an_interrupt_ends_a_long_solve_at_once_and_leaves_no_file() {
         assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 0);
     }
 }
+
+#[test]
+fn what_does_not_converge_is_reported_marked_and_exits_with_3() {
+    // The paper's alternation diverges for a stiff film; ours solves the same scene (tests/motor.rs).
+    let coarse = ["film_nodes_along=21", "film_nodes_across=7", "contact_nodes=91", "steps_per_cycle=60"];
+    let mut arguments = vec!["solve", "fundamental", "--method", "paper", "--set", "film.min_spacing_nm=20"];
+    let sets: Vec<String> = coarse.iter().map(|set| format!("--set=numerics.{set}")).collect();
+    arguments.extend(sets.iter().map(String::as_str));
+    arguments.push("--json");
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(3), "{}", err(&output));
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&result["converged"], &result["status"]), (&Value::from(false), &Value::from("not converged")));
+    assert!(result["alpha"].is_number() && result["residual"].as_f64() > result["tolerance"].as_f64());
+    assert!(!result["warnings"].as_array().unwrap().is_empty());
+    arguments.pop();
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(out(&output).contains("NOT CONVERGED"), "{}", out(&output));
+}

@@ -2,7 +2,7 @@
 
 use super::{MotorError, Stop};
 use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
-use crate::control::Cancel;
+use crate::control::{Cancel, Reporter};
 use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, FilmGrid, Start};
@@ -349,7 +349,7 @@ impl Level {
         &mut self,
         plan: &Plan,
         stats: &mut Stats,
-        report: &mut dyn FnMut(usize, f64, f64),
+        report: &mut Reporter<'_>,
         cancel: &Cancel,
     ) -> Result<Status, Stop> {
         if self.trapped.iter().all(|&t| t == 0.0) {
@@ -371,7 +371,7 @@ impl Level {
             self.pack(&self.next, &mut image);
             let change = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             residual = change.max(imbalance);
-            report(round, residual, self.mean_film_load());
+            report.round(round, residual, self.mean_film_load());
             if residual < plan.tolerance {
                 return Ok(Status::Converged);
             }

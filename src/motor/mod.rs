@@ -12,7 +12,7 @@
 mod level;
 
 use crate::contact::ContactError;
-use crate::control::{Cancel, Observer, Progress};
+use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::extrapolate;
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
@@ -96,16 +96,7 @@ pub fn periodic(
             None => level.start(motor),
             Some(coarse) => level.start_from(coarse),
         }
-        let mut report = |iteration: usize, residual: f64, film_load: f64| {
-            observer.progress(&Progress {
-                level: number,
-                levels: plan.grids.len(),
-                iteration,
-                residual,
-                tolerance: plan.tolerance,
-                film_load,
-            });
-        };
+        let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
         status = match level.converge(plan, &mut stats, &mut report, cancel) {
             Ok(status) => status,
             Err(Stop::Cancelled) => Status::Cancelled,
