@@ -17,6 +17,8 @@ use std::error::Error;
 use std::time::Instant;
 
 type Outline = Result<(), Box<dyn Error>>;
+/// A part of the page, by name.
+type Part = (&'static str, fn() -> Outline);
 
 fn main() -> Outline {
     let asked: Vec<String> = std::env::args().skip(1).collect();
@@ -25,7 +27,7 @@ fn main() -> Outline {
     {
         return memory(level.parse()?);
     }
-    let parts: [(&str, fn() -> Outline); 6] = [
+    let parts: [Part; 6] = [
         ("table1", table),
         ("mesh", mesh),
         ("fidelity", fidelities),

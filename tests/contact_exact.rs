@@ -1,5 +1,8 @@
 //! The contact problem against exact elastic contacts, and its conditions.
 
+// clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
+#![allow(clippy::unwrap_used)]
+
 use proptest::prelude::*;
 use squeezefilm::contact::{Contact, Instant, Modes, Shape};
 use squeezefilm::problem::RotorCompliance;

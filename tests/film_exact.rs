@@ -1,5 +1,8 @@
 //! The film against exact results (docs/theory.md, model.md §6): nothing in here is compared with ourselves.
 
+// clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
+#![allow(clippy::unwrap_used)]
+
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact;

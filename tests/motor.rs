@@ -1,5 +1,8 @@
 //! The coupled periodic state of a motor.
 
+// clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
+#![allow(clippy::unwrap_used)]
+
 use proptest::prelude::*;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::dimensionless::Dimensionless;
