@@ -1,4 +1,4 @@
-//! The film against exact results (docs/theory.md, model.md §6): nothing in here is compared with ourselves.
+//! The film against exact results (docs/theory.md, section 12): nothing in here is compared with ourselves.
 
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used)]
