@@ -1,7 +1,7 @@
 //! Measures the tables of `docs/validation.md` that are not printed by tests, in Markdown.
 //!
 //! ```text
-//! cargo run --release --example validation [table1] [mesh] [fidelity] [spacing] [slip] [limits]   (none: all)
+//! cargo run --release --example validation [table1] [mesh] [grids] [fidelity] [spacing] [slip] [limits]   (none: all)
 //! cargo run --release --example validation memory LEVEL
 //! ```
 
@@ -9,7 +9,9 @@
 
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
-use squeezefilm::problem::Problem;
+use squeezefilm::motor;
+use squeezefilm::plan::Plan;
+use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::{presets, table1};
 use squeezefilm::solution::{MotorResult, Outcome, Solution, Status};
 use squeezefilm::solve::{Method, Settings, solve};
@@ -27,9 +29,10 @@ fn main() -> Outline {
     {
         return memory(level.parse()?);
     }
-    let parts: [Part; 6] = [
+    let parts: [Part; 7] = [
         ("table1", table),
         ("mesh", mesh),
+        ("grids", grids),
         ("fidelity", fidelities),
         ("spacing", spacing),
         ("slip", slip_laws),
@@ -119,6 +122,27 @@ fn mesh() -> Outline {
             mark(solution.status),
             result.alpha
         );
+    }
+    Ok(())
+}
+
+/// α on each of the nested grids, and what is made of them.
+fn grids() -> Outline {
+    println!("| fidelity | intervals along × across half the width, steps | α on the grid | extrapolated |");
+    println!("| --- | --- | ---: | ---: |");
+    let problem = Problem::new(&presets::find("fundamental")?)?;
+    let Scenario::Motor(motor) = &problem.scenario else { return Err("the fundamental case is a motor".into()) };
+    for fidelity in Fidelity::ALL {
+        let plan = Plan::motor(motor, fidelity, &problem.numerics);
+        let found = motor::periodic(motor, &plan, &mut (), &Cancel::new())?;
+        for (number, (grid, alpha)) in plan.grids.iter().zip(&found.alphas).enumerate() {
+            let name = if number == 0 { fidelity.name() } else { "" };
+            let value = match number.checked_sub(1) {
+                Some(before) => format!("{:.6}", alpha + (alpha - found.alphas[before]) / 3.0),
+                None => String::new(),
+            };
+            println!("| {name} | {} × {}, {} | {alpha:.6} | {value} |", grid.along, grid.across, grid.steps);
+        }
     }
     Ok(())
 }
