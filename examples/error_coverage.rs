@@ -6,7 +6,8 @@
 //! ```
 //!
 //! `mild` draws parameters within a factor of about 2 to 5 of the fundamental case, `wide` over up to two decades either
-//! way. Every draw is the same on every run. Motors whose error is not covered are printed, with the keys to repeat them.
+//! way. Every draw is the same on every run. Motors whose error is
+//! not covered, or that do not converge, are printed with the keys to repeat them.
 
 #![allow(clippy::print_stdout)]
 
@@ -60,9 +61,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (tally, fidelity) in tallies.iter_mut().zip([Fidelity::Draft, Fidelity::Standard]) {
             match solve(fidelity)? {
                 Ok(found) => {
-                    if !tally.add(&found, &fine) {
+                    let covered = tally.add(&found, &fine);
+                    let all_converged = [&found, &fine].iter().all(|one| one.status == Status::Converged);
+                    if !covered || !all_converged {
+                        let mark = if all_converged { "" } else { ", not converged" };
                         println!(
-                            "{fidelity}: α = {:.5} ± {:.1e}, fine {:.5} ± {:.1e}: {}",
+                            "{fidelity}{mark}: α = {:.5} ± {:.1e}, fine {:.5} ± {:.1e}: {}",
                             found.result.alpha,
                             found.result.alpha_error,
                             fine.result.alpha,
