@@ -5,7 +5,7 @@
 //! cargo run --release --example error_coverage [mild|wide] [COUNT]
 //! ```
 //!
-//! `mild` draws parameters within a factor of about 2 to 5 of the fundamental case, `wide` over up to two decades either
+//! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
 //! way. Every draw is the same on every run. Motors whose error is
 //! not covered, or that do not converge, are printed with the keys to repeat them.
 
