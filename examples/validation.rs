@@ -1,7 +1,7 @@
 //! Measures the tables of `docs/validation.md` that are not printed by tests, in Markdown.
 //!
 //! ```text
-//! cargo run --release --example validation [table1] [mesh] [grids] [fidelity] [spacing] [slip] [limits]   (none: all)
+//! cargo run --release --example validation [table1] [mesh] [grids] [fidelity] [spacing] [slip] [limits] [ranges]   (none: all)
 //! cargo run --release --example validation memory LEVEL
 //! ```
 
@@ -29,7 +29,7 @@ fn main() -> Outline {
     {
         return memory(level.parse()?);
     }
-    let parts: [Part; 7] = [
+    let parts: [Part; 8] = [
         ("table1", table),
         ("mesh", mesh),
         ("grids", grids),
@@ -37,6 +37,7 @@ fn main() -> Outline {
         ("spacing", spacing),
         ("slip", slip_laws),
         ("limits", limits),
+        ("ranges", ranges),
     ];
     for (name, part) in parts {
         if asked.is_empty() || asked.iter().any(|a| a == name) {
@@ -263,6 +264,58 @@ fn limits() -> Outline {
             Err(error) => println!("| {} | {error} | | |", words.join(", ")),
         }
     }
+    Ok(())
+}
+
+/// Motors drawn from nearly the whole of the allowed ranges: how many are solved at draft, and what the others are.
+fn ranges() -> Outline {
+    const MOTORS: usize = 400;
+    let mut seed = 99u64;
+    let mut random = |low: f64, high: f64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (mut solved, mut rounds) = (0, Vec::new());
+    for _ in 0..MOTORS {
+        let (teeth, waves) = (random(1.0, 25.0) as u32, random(1.0, 101.0) as u32);
+        let (radius, fill) = (10f64.powf(random(0.0, 2.69)), random(0.0101, 0.999));
+        let pitch = std::f64::consts::TAU * radius / f64::from(waves) / f64::from(teeth);
+        let mut changes = vec![
+            ("stator.teeth_per_wave", teeth.to_string()),
+            ("motor.waves", waves.to_string()),
+            ("motor.contact_radius_mm", radius.to_string()),
+            ("stator.tooth_width_mm", (fill * pitch).to_string()),
+            ("motor.rotor_speed_rpm", random(-1000.0, 1000.0).to_string()),
+        ];
+        for (key, low, high) in [
+            ("motor.load_per_wave_n", -2.0, 2.0),
+            ("stator.frequency_khz", -3.0, 4.0),
+            ("stator.normal_amplitude_um", -3.0, 1.3),
+            ("film.min_spacing_nm", 0.7, 4.0),
+            ("rotor.contact_width_mm", -2.0, 1.0),
+            ("film.ambient_pressure_kpa", -2.0, 4.0),
+            ("rotor.decay_length_mm", -1.0, 2.0),
+            ("rotor.point_compliance_um_per_n", -3.0, 3.0),
+        ] {
+            changes.push((key, 10f64.powf(random(low, high)).to_string()));
+        }
+        let words: Vec<(&str, &str)> = changes.iter().map(|(key, value)| (*key, value.as_str())).collect();
+        let (solution, result) = run("fundamental", &words, Method::Auto, Fidelity::Draft)?;
+        rounds.push(solution.stats.coupling_iterations);
+        if solution.status == Status::Converged {
+            solved += 1;
+        } else {
+            let sets: Vec<String> = words.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
+            println!("not converged: α = {:.3} ± {:.1e}: {}\n", result.alpha, result.alpha_error, sets.join(" "));
+        }
+    }
+    rounds.sort_unstable();
+    println!(
+        "{solved} of {MOTORS} solved; rounds on the three grids: median {}, 95 % {}, most {}",
+        rounds[MOTORS / 2],
+        rounds[MOTORS * 95 / 100],
+        rounds[MOTORS - 1]
+    );
     Ok(())
 }
 
