@@ -108,7 +108,7 @@ impl Motor {
         wave - self.tooth_radius.map_or(0.0, |r| xi * xi / (2.0 * r))
     }
 
-    /// Sliding speed U = V_R − V_St of the rotor seen from the tooth \[m/s\] (model.md §3), at `x` \[m\] and phase
+    /// Sliding speed U = V_R − V_St of the rotor seen from the tooth \[m/s\] (docs/theory.md), at `x` \[m\] and phase
     /// `t_over_period`; V_St = 2πf B_S cos 2π(t/T + x/λ).
     pub fn sliding_speed(&self, x: f64, t_over_period: f64) -> f64 {
         let tau = std::f64::consts::TAU;

@@ -1,5 +1,8 @@
 //! The contact problem against exact elastic contacts, and its conditions.
 
+// clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
+#![allow(clippy::unwrap_used)]
+
 use proptest::prelude::*;
 use squeezefilm::contact::{Contact, Instant, Modes, Shape};
 use squeezefilm::problem::RotorCompliance;
@@ -64,6 +67,7 @@ fn a_sinusoidal_wave_on_an_elastic_half_plane_is_westergaards() {
         }
         errors.push(error / 3.0);
     }
+    println!("Westergaard, area between the curves: {errors:.6?}");
     // Area between the curves over the load; how the contact's edge falls between nodes makes it irregular.
     assert!(errors[0] < 2e-3 && errors[1] < 0.5 * errors[0] && errors[2] < 0.8 * errors[1], "{errors:?}");
 }
@@ -75,10 +79,13 @@ fn full_contact_follows_the_wave_exactly() {
     let (amplitude, load) = (1.3e-6, 60.0);
     let (x, out, length) = dry(&rotor, 24, 240, load, |x| amplitude * (TAU * x / WAVE).cos());
     check_conditions(&out, &vec![length; 240], load);
+    let mut worst = 0.0_f64;
     for (x, c) in x.iter().zip(&out.contact) {
         let exact = load / WAVE + amplitude / rotor.at(TAU / WAVE) * (TAU * x / WAVE).cos();
+        worst = worst.max((c / exact - 1.0).abs());
         assert!((c / exact - 1.0).abs() < 1e-9, "{x}: {c} {exact}");
     }
+    println!("full contact: {worst:.1e}");
 }
 
 #[test]
@@ -92,10 +99,13 @@ fn a_crowned_tooth_on_springs_is_the_parabola_of_winkler() {
     let (x, out, length) = dry(&rotor, 8, nodes, load, |x| -(x - 0.5 * WAVE).powi(2) / (2.0 * radius));
     check_conditions(&out, &vec![length; nodes], load);
     let top = half_width * half_width / (2.0 * radius * compliance);
+    let mut worst = 0.0_f64;
     for (x, c) in x.iter().zip(&out.contact) {
         let exact = (top - (x - 0.5 * WAVE).powi(2) / (2.0 * radius * compliance)).max(0.0);
+        worst = worst.max((c - exact).abs() / top);
         assert!((c - exact).abs() < 2e-3 * top, "{x}: {c} {exact}");
     }
+    println!("Winkler parabola: {worst:.1e}");
 }
 
 #[test]
@@ -117,10 +127,13 @@ fn a_point_load_deflects_the_rotor_by_its_greens_function() {
     // The mean (harmonic 0) is not part of the compliance. Harmonics from 120 on, and the compliance of harmonic 120 that
     // is counted as local, make 1.4e-4 at the loaded node.
     let mean: f64 = 2.0 * decay_length * point_compliance / WAVE;
+    let mut worst = 0.0_f64;
     for i in 0..nodes {
         let exact = green((x[i] - x[200]).abs()) - mean;
+        worst = worst.max((deflection[i] - exact).abs() / point_compliance);
         assert!((deflection[i] - exact).abs() < 2e-4 * point_compliance, "{i}: {} {exact}", deflection[i]);
     }
+    println!("Green's function: {worst:.1e}");
 }
 
 proptest! {

@@ -1,4 +1,7 @@
-//! The film against exact results (docs/theory.md, model.md §6): nothing in here is compared with ourselves.
+//! The film against exact results (docs/theory.md, section 12): nothing in here is compared with ourselves.
+
+// clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
+#![allow(clippy::unwrap_used)]
 
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
@@ -66,11 +69,13 @@ fn invariant_holds_at_every_node_for_all_squeeze_numbers() {
         for sigma in [0.1, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5] {
             let strip = plate(sigma, 0.5, m, None);
             let error = largest_invariant_error(&strip, &solve(&strip, Fidelity::Standard));
+            println!("invariant, strip, σ = {sigma}, m = {m}: {error:.1e}");
             assert!(error < 3e-6, "strip, σ = {sigma}, m = {m}: {error:.1e}");
         }
         for sigma in [0.1, 30.0, 1e5] {
             let rectangle = plate(sigma, 0.5, m, Some(0.6));
             let error = largest_invariant_error(&rectangle, &solve(&rectangle, Fidelity::Draft));
+            println!("invariant, rectangle, σ = {sigma}, m = {m}: {error:.1e}");
             assert!(error < 3e-5, "rectangle, σ = {sigma}, m = {m}: {error:.1e}");
         }
     }
@@ -87,6 +92,7 @@ fn trapped_limit_is_langlois_and_is_approached_as_the_edge_layer_thins() {
         };
         // The layer is O(σ^-1/2) thick: a hundred times σ makes a tenth of the deficit.
         let (near, far) = (deficit(1e4), deficit(1e6));
+        println!("trapped limit, ε = {epsilon}, m = {m}: deficit {near:.4} at σ = 1e4, {far:.4} at 1e6");
         assert!(far.abs() < 0.02, "ε = {epsilon}, m = {m}: {far}");
         assert!((near / far - 10.0).abs() < 1.0, "ε = {epsilon}, m = {m}: {near} {far}");
     }
@@ -100,11 +106,13 @@ fn viscous_limit_is_the_incompressible_film_with_no_mean_load() {
     let omega = std::f64::consts::TAU * strip.frequency;
     let recording = &found.recording;
     let scale = exact::viscous_strip_force(strip.gas.viscosity, LENGTH, GAP, omega * GAP, m * GAP).abs();
+    let mut worst = 0.0_f64;
     for frame in 0..recording.frames {
         let phase = std::f64::consts::TAU * frame as f64 / recording.frames as f64;
         let gap = strip.gap(frame as f64 / recording.frames as f64);
         let rate = -omega * strip.amplitude * phase.sin();
         let force = exact::viscous_strip_force(strip.gas.viscosity, LENGTH, gap, rate, strip.gas.mean_free_path);
+        worst = worst.max((recording.film_load[frame] - force).abs() / scale);
         // Finite volumes on 52 graded intervals and 256 steps: 0.2 % of the largest force.
         assert!(
             (recording.film_load[frame] - force).abs() < 2e-3 * scale,
@@ -112,6 +120,10 @@ fn viscous_limit_is_the_incompressible_film_with_no_mean_load() {
             recording.film_load[frame]
         );
     }
+    println!(
+        "viscous limit: {worst:.1e}, mean load {:.1e}, of the largest force",
+        found.result.film_load.abs() / scale
+    );
     assert!(found.result.film_load.abs() < 1e-3 * scale, "{} {scale}", found.result.film_load);
 }
 
@@ -147,6 +159,7 @@ fn small_amplitudes_have_the_linear_spring_and_damping() {
                 };
                 let size = exact.0.hypot(exact.1);
                 let error = (spring - exact.0).hypot(damping - exact.1) / size;
+                println!("linear, aspect {aspect:?}, m = {m}, σ = {sigma}: {error:.1e}");
                 assert!(
                     error < bound,
                     "{aspect:?} m = {m} σ = {sigma}: {spring} {damping}, exact {exact:?}: {error:.1e}"
@@ -171,6 +184,7 @@ fn the_plate_of_two_other_codes() {
         };
         let found = solve(&plate, Fidelity::Standard);
         let load = found.result.film_load;
+        println!("plate benchmark: {:.4} ± {:.4} mN", 1e3 * load, 1e3 * found.result.film_load_error);
         assert!(
             (load - expected).abs() < digits,
             "{load:.6e} ± {:.1e}, expected {expected}",
@@ -211,6 +225,7 @@ fn convergence_is_of_second_order_in_space_and_time() {
     let time: Vec<f64> = [32, 64, 128, 256].iter().map(|n| load(16, *n)).collect();
     for (what, r) in [("space", space), ("time", time)] {
         let orders: Vec<f64> = (0..2).map(|i| ((r[i + 1] - r[i]) / (r[i + 2] - r[i + 1])).abs().log2()).collect();
+        println!("order in {what}: {orders:.3?}");
         assert!(orders.iter().all(|order| (1.8..2.4).contains(order)), "{what}: orders {orders:?} of {r:?}");
     }
 }

@@ -348,6 +348,7 @@ impl Level {
     pub(super) fn converge(
         &mut self,
         plan: &Plan,
+        rounds: usize,
         stats: &mut Stats,
         report: &mut Reporter<'_>,
         cancel: &Cancel,
@@ -361,7 +362,7 @@ impl Level {
         let (mut present, mut image) = (Vec::new(), Vec::new());
         let mut residual = f64::INFINITY;
         self.pack(&self.trapped, &mut present);
-        for round in 1..=plan.round_limit {
+        for round in 1..=rounds {
             self.films.iter_mut().for_each(|film| film.accept(step_tolerance(residual)));
             self.solve_contacts(stats, cancel)?;
             self.march(stats, cancel)?;
@@ -388,6 +389,14 @@ impl Level {
             return 0.0;
         }
         self.ambient_pressure * (self.line[index] / self.film_thickness[index] - self.interior_width)
+    }
+
+    /// Cycle mean of the absolute force of the gas on one wavelength \[N\], ambient pressure included.
+    pub(super) fn gas_force(&self) -> f64 {
+        let lengths = &self.grid().x.lengths;
+        let force = |i: usize| self.ambient_pressure * self.line[i] / self.film_thickness[i] * lengths[i % self.nx];
+        let sum: f64 = (0..self.line.len()).map(force).sum();
+        sum * self.teeth as f64 / (self.stored * self.steps) as f64
     }
 
     /// Cycle mean of the film load on one wavelength \[N\].

@@ -43,8 +43,8 @@ pub enum MotorError {
     },
 }
 
-/// Residual of a grid's last round above which finer grids are not tried.
-const HOPELESS: f64 = 1e-2;
+/// Rounds after which a coarse grid is left for the next one.
+const COARSE_ROUNDS: usize = 120;
 
 /// Interrupted or failed: what ends a round early.
 enum Stop {
@@ -93,20 +93,24 @@ pub fn periodic(
     for (number, grid) in plan.grids.iter().enumerate() {
         let mut level = Level::new(motor, plan, grid);
         match &coarse {
-            None => level.start(motor),
-            Some(coarse) => level.start_from(coarse),
+            // A coarse grid without a periodic state says nothing about the next one.
+            Some(coarse) if status == Status::Converged => level.start_from(coarse),
+            _ => {
+                alphas.clear();
+                level.start(motor);
+            }
         }
+        let finest = number + 1 == plan.grids.len();
+        let rounds = if finest { plan.round_limit } else { plan.round_limit.min(COARSE_ROUNDS) };
         let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
-        status = match level.converge(plan, &mut stats, &mut report, cancel) {
+        status = match level.converge(plan, rounds, &mut stats, &mut report, cancel) {
             Ok(status) => status,
             Err(Stop::Cancelled) => Status::Cancelled,
             Err(Stop::Failed(error)) => return Err(error),
         };
         alphas.push(level.alpha(motor));
         coarse = Some(level);
-        // Far from a periodic state on a coarse grid, a finer one only costs more.
-        if status == Status::Cancelled || matches!(status, Status::NotConverged { residual, .. } if residual > HOPELESS)
-        {
+        if status == Status::Cancelled {
             break;
         }
     }
@@ -119,7 +123,14 @@ pub fn periodic(
     result.set_alpha(motor, estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)));
     let astray = if let Status::NotConverged { residual, .. } = status { residual.min(1.0) } else { 0.0 };
     let estimated = if estimate.error.is_finite() { estimate.error } else { 1.0 };
-    result.alpha_error = estimated + astray + level.imbalance() + plan.shear_effect * estimate.value.abs();
+    // The cycle repeats to a tolerance, relative in the trapped gas: its force is known to no more than that. What floats
+    // carries its load whatever that is, and whatever terms were left out; only the height changes.
+    let (repeating, left_out) = if result.levitated {
+        (0.0, 0.0)
+    } else {
+        (plan.tolerance * level.gas_force() / motor.load, plan.shear_effect * estimate.value.abs())
+    };
+    result.alpha_error = estimated + astray + level.imbalance() + repeating + left_out;
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();
