@@ -1,12 +1,219 @@
 //! The plate: gap, pressure profile and map, load over the cycle, pressure–gap loop.
 
+use super::field::{self, Stamp};
+use super::map::y_labels;
+use super::motor::{Readout, named, seek};
+use super::paint::{Axes, Ink, number, scale_bar, times, title_with_bar};
+use super::sample;
+use super::scales::{Curve, Scales};
+use super::series::{Series, Trace};
 use crate::gui::command::Command;
 use crate::gui::state::View;
 use crate::job::Run;
-use eframe::egui;
+use crate::problem::{Plate, Scenario};
+use crate::recording::Recording;
+use eframe::egui::{self, CursorIcon, Painter, Pos2, Rect, Stroke, pos2};
+
+struct Shown<'a> {
+    recording: &'a Recording,
+    plate: &'a Plate,
+    scales: &'a Scales,
+    frame: usize,
+    phase: f64,
+    cursor: Option<f64>,
+}
+
+impl Shown<'_> {
+    fn x_range(&self) -> [f64; 2] {
+        [-0.5 * self.recording.length, 0.5 * self.recording.length]
+    }
+
+    fn thickness(&self) -> f64 {
+        self.recording.film_thickness[self.recording.line_offset(0, self.frame)]
+    }
+}
 
 /// Draws `run` at the view's phase.
 pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
-    let _ = (run, view, commands);
-    ui.label("plate");
+    let recording = &run.solution.recording;
+    let Scenario::Plate(plate) = &run.problem.scenario else { return };
+    let Some(area) = super::paint::area(ui, recording) else { return };
+    let scales = Scales::of(ui, run);
+    let frame = view.frame(recording);
+    let phase = frame as f64 / recording.frames.max(1) as f64;
+    let shown = Shown { recording, plate, scales: &scales, frame, phase, cursor: view.cursor_x };
+    let ink = Ink::new(ui);
+    let painter = ui.painter_at(area);
+    let gutter = ink.width(&painter, "−0.000") + 6.0;
+
+    let (title, axis) = (ink.row + 4.0, ink.row + 3.0);
+    let readout = readout(&shown);
+    let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
+    let reserved = longest.height(&painter, &ink, area.width());
+    let with_map = plate.width.is_some();
+    let heads = if with_map { 4.0 } else { 3.0 };
+    let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
+    let parts = if with_map { [0.23, 0.25, 0.20] } else { [0.28, 0.38, 0.0] };
+    let right = area.right() - 0.5 * ink.row;
+    let mut top = area.top();
+    let mut next = |part: f32| {
+        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + title), pos2(right, top + title + part * body));
+        top = rect.bottom();
+        rect
+    };
+    let (wall, profile) = (next(parts[0]), next(parts[1]));
+    let axes = draw_gap(&painter, &ink, wall, &shown);
+    draw_profile(&painter, &ink, profile, &shown);
+    let mut last = profile;
+    if with_map {
+        last = next(parts[2]);
+        let half = sample::half_width(recording);
+        let axes = Axes::new(last, shown.x_range(), [-half, half]);
+        axes.canvas(&painter, &ink);
+        let range = scales.pressure;
+        let stamp = Stamp { run: (run.number, run.fidelity), frame, tooth: 0, x: axes.x, range };
+        field::draw(ui, &painter, &axes, recording, "plate", stamp);
+        title_with_bar(&painter, &ink, last, ["Pressure map, kPa absolute", "Map, absolute"], range);
+        y_labels(&painter, &ink, &axes);
+        axes.cursor(&painter, &ink, shown.cursor);
+    }
+    Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &ink, 1e-3, "x, mm");
+
+    let bottom = area.bottom() - reserved - axis;
+    let middle = 0.5 * (area.left() + right);
+    let plots = [(area.left(), middle - 0.4 * ink.row), (middle + 0.4 * ink.row, right)].map(|(left, right)| {
+        Rect::from_min_max(pos2(left + gutter, last.bottom() + axis + title + 2.0), pos2(right, bottom))
+    });
+    let over_cycle = draw_load(&painter, &ink, plots[0], &shown);
+    seek(ui, &over_cycle, "Load over the cycle", commands);
+    draw_loop(&painter, &ink, plots[1], &shown);
+    let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
+    readout.draw(&painter, &ink, place);
+
+    let name = "Plate along its length: point to read values";
+    let response = named(ui, wall.union(last), name).on_hover_cursor(CursorIcon::Crosshair);
+    if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+        view.hover_x = Some(x);
+    }
+}
+
+/// The wall, the plate above it, the film between them.
+fn draw_gap(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Axes {
+    let highest = shown.scales.thickness[1].max(1e-9);
+    let (below, above) = (0.16, 0.26);
+    let part = 1.0 - below - above;
+    let bottom = -highest * below / part;
+    let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + highest / part]);
+    let scale = f64::from(rect.height()) * part / highest;
+    axes.canvas(painter, ink);
+    scale_bar(painter, ink, rect, scale);
+    let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
+    let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(scale / along));
+    ink.title(painter, rect, &title, &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
+
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
+    let (left, right) = (rect.left(), rect.right());
+    let block = |top: f32, bottom: f32| Rect::from_min_max(pos2(left, top), pos2(right, bottom));
+    painter.rect_filled(block(plate, wall), 0.0, ink.palette.film.gamma_multiply(0.25));
+    painter.rect_filled(block(wall, rect.bottom()), 0.0, ink.palette.stator.gamma_multiply(0.75));
+    painter.hline(rect.x_range(), wall, Stroke::new(1.5, ink.palette.stator));
+    // The plate keeps its thickness and moves.
+    let thickness = 0.8 * above as f32 * rect.height();
+    painter.rect_filled(block(plate - thickness, plate), 0.0, ink.palette.rotor.gamma_multiply(0.75));
+    painter.hline(rect.x_range(), plate, Stroke::new(1.5, ink.palette.rotor));
+    axes.cursor(painter, ink, shown.cursor);
+    axes
+}
+
+/// Pressure along x at y = 0.
+fn draw_profile(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
+    let recording = shown.recording;
+    let ambient = shown.plate.gas.ambient_pressure;
+    let [low, high] = shown.scales.pressure;
+    let (low, high) = (low.min(ambient), high.max(ambient));
+    let margin = 0.06 * (high - low);
+    let axes = Axes::new(rect, shown.x_range(), [low - margin, high + margin]);
+    axes.canvas(painter, ink);
+    axes.y_ticks(painter, ink, 1e3);
+    let title = if shown.plate.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
+    ink.title(painter, rect, title, &[("film", ink.palette.film), ("ambient", ink.palette.quiet)]);
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    axes.x_grid(painter, ink, 1e-3);
+    painter.hline(rect.x_range(), axes.py(ambient), Stroke::new(1.0, ink.palette.quiet));
+    let at = |x: f64| sample::middle_pressure(recording, 0, x, shown.frame).map(|pressure| axes.at(x, pressure));
+    let mirrored = recording.map_x.iter().rev().filter(|x| recording.half_length && **x > 0.0).map(|x| -x);
+    let line: Vec<Pos2> = mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect();
+    painter.line(line, Stroke::new(1.8, ink.palette.film));
+    axes.cursor(painter, ink, shown.cursor);
+}
+
+/// Unit of a load: its name and its size.
+fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
+    match (greatest < 0.5, strip) {
+        (true, false) => ("mN", 1e-3),
+        (true, true) => ("mN/m", 1e-3),
+        (false, false) => ("N", 1.0),
+        (false, true) => ("N/m", 1.0),
+    }
+}
+
+fn draw_load(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Axes {
+    let [low, high] = shown.scales.tooth_load;
+    let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
+    let none = Curve::default();
+    let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
+    let series = Series {
+        title: &format!("Film load, {name}"),
+        legend: &[],
+        traces: &[Trace { curve, lag, offset: 0.0, colour: ink.palette.film }],
+        range: [low, high],
+        unit,
+        period: shown.recording.period,
+        phase: shown.phase,
+    };
+    series.draw(painter, ink, rect)
+}
+
+/// Mean gauge pressure against the gap, once round the cycle.
+fn draw_loop(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
+    let area = shown.plate.area();
+    let [low, high] = shown.scales.tooth_load.map(|load| load / area);
+    let margin = 0.08 * (high - low);
+    let [near, far] = shown.scales.thickness;
+    let side = 0.08 * (far - near);
+    let axes = Axes::new(rect, [near - side, far + side], [low - margin, high + margin]);
+    axes.canvas(painter, ink);
+    axes.y_ticks(painter, ink, 1e3);
+    axes.x_labels(painter, ink, 1e-6, "µm");
+    let titles = ["Mean pressure over the gap, kPa gauge", "Pressure over gap, kPa", "Loop, kPa"];
+    let fits = |title: &&&str| ink.width(painter, title) <= rect.width();
+    ink.title(painter, rect, titles.iter().find(fits).unwrap_or(&titles[2]), &[]);
+    axes.x_grid(painter, ink, 1e-6);
+    painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, ink.palette.quiet));
+    let Some((curves, _)) = shown.scales.tooth(0) else { return };
+    let at = |phase: f64| axes.at(curves.thickness.at(phase), curves.film.at(phase) / area);
+    let samples = 180;
+    let line: Vec<Pos2> = (0..=samples).map(|i| at(f64::from(i) / f64::from(samples))).collect();
+    painter.line(line, Stroke::new(1.6, ink.palette.film));
+    painter.circle(at(shown.phase), 3.5, ink.palette.film, Stroke::new(1.0, ink.palette.canvas));
+}
+
+const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p at y = 0 0000 kPa absolute", "load −0000 mN/m"];
+
+fn readout(shown: &Shown<'_>) -> Readout {
+    let [left, right] = shown.x_range();
+    let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
+        return Readout { values: vec!["Point at a view to read its values".to_owned()] };
+    };
+    let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
+    if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.frame) {
+        values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
+    }
+    if let Some(load) = shown.recording.film_load.get(shown.frame) {
+        let [low, high] = shown.scales.tooth_load;
+        let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
+        values.push(format!("load {} {name}", number(load / unit)));
+    }
+    Readout { values }
 }

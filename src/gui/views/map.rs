@@ -1,0 +1,45 @@
+//! The pressure map of all teeth.
+
+use super::field::{self, Stamp};
+use super::motor::Shown;
+use super::paint::{Axes, Ink, title_with_bar};
+use super::sample;
+use eframe::egui::{Align2, Painter, Rect, Stroke, StrokeKind, Ui, pos2};
+
+/// Draws the map into `rect`, with the colour bar in its title and the values of x below.
+pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
+    let recording = shown.recording;
+    let half = sample::half_width(recording);
+    let axes = Axes::new(rect, shown.x_range(), [-half, half]);
+    axes.canvas(painter, ink);
+    let range = shown.scales.pressure;
+    let stamp = Stamp { run: shown.run, frame: shown.frame, tooth: 0, x: axes.x, range };
+    field::draw(ui, painter, &axes, recording, "all teeth", stamp);
+    let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
+    title_with_bar(painter, ink, rect, titles, range);
+    y_labels(painter, ink, &axes);
+    axes.x_labels(painter, ink, 1e-3, "x, mm");
+    // The followed tooth.
+    let reach = recording.x.last().copied().unwrap_or(0.0);
+    let middle = shown.tooth as f64 * recording.pitch;
+    let outline = Rect::from_x_y_ranges(axes.px(middle - reach)..=axes.px(middle + reach), rect.y_range());
+    painter.rect_stroke(outline, 0.0, Stroke::new(1.5, ink.palette.accent), StrokeKind::Outside);
+    axes.cursor(painter, ink, shown.cursor);
+}
+
+/// The ends of y, and its name between them if there is room.
+pub(super) fn y_labels(painter: &Painter, ink: &Ink, axes: &Axes) {
+    let x = axes.rect.left() - 4.0;
+    let (top, bottom) = (axes.rect.top(), axes.rect.bottom());
+    let write = |y: f32, anchor: Align2, text: &str| {
+        ink.write(painter, pos2(x, y), anchor, text, ink.palette.quiet);
+    };
+    if bottom - top > 2.0 * ink.row {
+        let text = |value: f64| super::paint::number(value * 1e3);
+        write(top - 0.15 * ink.row, Align2::RIGHT_TOP, &text(axes.y[1]));
+        write(bottom + 0.1 * ink.row, Align2::RIGHT_BOTTOM, &text(axes.y[0]));
+    }
+    if bottom - top > 3.2 * ink.row || bottom - top <= 2.0 * ink.row {
+        write(axes.rect.center().y, Align2::RIGHT_CENTER, "y, mm");
+    }
+}

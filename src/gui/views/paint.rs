@@ -1,0 +1,370 @@
+//! Axes, ticks, text and bands: the little that the views need to draw.
+
+use crate::gui::theme::{self, Palette};
+use crate::recording::Recording;
+use eframe::egui::epaint::{Mesh, Shape};
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
+use std::sync::{Arc, OnceLock};
+
+/// Colours and text of the drawings.
+pub(super) struct Ink {
+    pub(super) palette: Palette,
+    pub(super) text: Color32,
+    pub(super) grid: Color32,
+    pub(super) font: FontId,
+    /// Height of a line of text.
+    pub(super) row: f32,
+}
+
+impl Ink {
+    pub(super) fn new(ui: &Ui) -> Self {
+        let palette = theme::palette(ui.visuals().dark_mode);
+        let body = TextStyle::Body.resolve(ui.style());
+        let font = FontId::new((0.85 * body.size).max(9.0), body.family);
+        let row = ui.fonts_mut(|fonts| fonts.row_height(&font));
+        Self { palette, text: ui.visuals().text_color(), grid: palette.quiet.gamma_multiply(0.22), font, row }
+    }
+
+    /// Writes one line.
+    pub(super) fn write(&self, painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) -> Rect {
+        painter.text(at, anchor, text, self.font.clone(), colour)
+    }
+
+    /// Width of one line.
+    pub(super) fn width(&self, painter: &Painter, text: &str) -> f32 {
+        painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
+    }
+
+    /// A title above `plot`, and a legend at its right end if both fit.
+    pub(super) fn title(&self, painter: &Painter, plot: Rect, title: &str, legend: &[(&str, Color32)]) {
+        let bottom = plot.top() - 2.0;
+        let clipped =
+            painter.with_clip_rect(painter.clip_rect().intersect(Rect::everything_left_of(plot.right() + 1.0)));
+        let end = self.write(&clipped, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, self.text).right();
+        let gap = 0.7 * self.row;
+        let width: f32 = legend.iter().map(|(text, _)| self.width(painter, text) + gap + self.row).sum();
+        if end + gap + width > plot.right() {
+            return;
+        }
+        let mut right = plot.right();
+        for (text, colour) in legend.iter().rev() {
+            let left = self.write(painter, pos2(right, bottom), Align2::RIGHT_BOTTOM, text, self.text).left();
+            let key = Rect::from_center_size(
+                pos2(left - 0.6 * self.row, bottom - 0.5 * self.row),
+                vec2(0.7 * self.row, 0.35 * self.row),
+            );
+            painter.rect_filled(key, 1.0, *colour);
+            right = key.left() - gap;
+        }
+    }
+}
+
+/// Takes the whole of `ui`; `None`, with a word about it, if there is nothing to draw or no room.
+pub(super) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rect> {
+    if recording.frames == 0 || recording.x.is_empty() || recording.film.is_empty() {
+        ui.label("This run has no fields to show.");
+        return None;
+    }
+    let size = ui.available_size();
+    let (rect, _) = ui.allocate_exact_size(size.min(vec2(6000.0, 6000.0)), Sense::hover());
+    (rect.width() > 160.0 && rect.height() > 160.0).then_some(rect)
+}
+
+/// A rectangle on the screen and what its edges mean.
+#[derive(Clone, Copy)]
+pub(super) struct Axes {
+    pub(super) rect: Rect,
+    pub(super) x: [f64; 2],
+    pub(super) y: [f64; 2],
+}
+
+impl Axes {
+    /// Ranges of no extent are widened.
+    pub(super) fn new(rect: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+        Self { rect, x: widened(x), y: widened(y) }
+    }
+
+    pub(super) fn px(&self, x: f64) -> f32 {
+        let part = (x - self.x[0]) / (self.x[1] - self.x[0]);
+        self.rect.left() + part as f32 * self.rect.width()
+    }
+
+    pub(super) fn py(&self, y: f64) -> f32 {
+        let part = (y - self.y[0]) / (self.y[1] - self.y[0]);
+        self.rect.bottom() - part as f32 * self.rect.height()
+    }
+
+    pub(super) fn at(&self, x: f64, y: f64) -> Pos2 {
+        pos2(self.px(x), self.py(y))
+    }
+
+    /// x at a place on the screen; `None` beside the rectangle.
+    pub(super) fn x_at(&self, px: f32) -> Option<f64> {
+        let part = f64::from((px - self.rect.left()) / self.rect.width());
+        (0.0..=1.0).contains(&part).then(|| self.x[0] + part * (self.x[1] - self.x[0]))
+    }
+
+    /// Background and frame.
+    pub(super) fn canvas(&self, painter: &Painter, ink: &Ink) {
+        painter.rect_filled(self.rect, 2.0, ink.palette.canvas);
+    }
+
+    /// Horizontal grid lines with their values, written left of the plot. `unit`: size of the written unit.
+    pub(super) fn y_ticks(&self, painter: &Painter, ink: &Ink, unit: f64) {
+        let about = (self.rect.height() / (2.2 * ink.row)).clamp(1.0, 6.0) as usize;
+        let ticks = Ticks::new([self.y[0] / unit, self.y[1] / unit], about);
+        for value in ticks.values() {
+            let y = self.py(value * unit);
+            painter.hline(self.rect.x_range(), y, Stroke::new(1.0, ink.grid));
+            // A label may not reach into the title above or the axis below.
+            let label = y.clamp(self.rect.top() + 0.35 * ink.row, self.rect.bottom() - 0.35 * ink.row);
+            if (label - y).abs() < 0.4 * ink.row {
+                let at = pos2(self.rect.left() - 4.0, label);
+                ink.write(painter, at, Align2::RIGHT_CENTER, &ticks.format(value), ink.palette.quiet);
+            }
+        }
+    }
+
+    /// Vertical grid lines.
+    pub(super) fn x_grid(&self, painter: &Painter, ink: &Ink, unit: f64) {
+        for value in self.x_values(ink, unit).values() {
+            painter.vline(self.px(value * unit), self.rect.y_range(), Stroke::new(1.0, ink.grid));
+        }
+    }
+
+    fn x_values(&self, ink: &Ink, unit: f64) -> Ticks {
+        let about = (self.rect.width() / (4.5 * ink.row)).clamp(1.0, 12.0) as usize;
+        Ticks::new([self.x[0] / unit, self.x[1] / unit], about)
+    }
+
+    /// Values below the plot, and the name of the axis left of them.
+    pub(super) fn x_labels(&self, painter: &Painter, ink: &Ink, unit: f64, name: &str) {
+        let ticks = self.x_values(ink, unit);
+        let top = self.rect.bottom() + 1.0;
+        let named =
+            ink.write(painter, pos2(self.rect.left() - 4.0, top), Align2::RIGHT_TOP, name, ink.palette.quiet).right();
+        for value in ticks.values() {
+            let text = ticks.format(value);
+            let half = 0.5 * ink.width(painter, &text);
+            let x = self.px(value * unit);
+            if x - half > named + 2.0 && x + half < self.rect.right() + 8.0 {
+                ink.write(painter, pos2(x, top), Align2::CENTER_TOP, &text, ink.palette.quiet);
+            }
+        }
+    }
+
+    /// The line under the pointer.
+    pub(super) fn cursor(&self, painter: &Painter, ink: &Ink, x: Option<f64>) {
+        if let Some(x) = x.filter(|x| (self.x[0]..=self.x[1]).contains(x)) {
+            painter.vline(self.px(x), self.rect.y_range(), Stroke::new(1.0, ink.palette.accent));
+        }
+    }
+}
+
+fn widened([low, high]: [f64; 2]) -> [f64; 2] {
+    if !(low.is_finite() && high.is_finite()) {
+        return [0.0, 1.0];
+    }
+    let span = high - low;
+    if span > 1e-12 * low.abs().max(high.abs()) && span > f64::MIN_POSITIVE {
+        return [low, high];
+    }
+    let half = if low == 0.0 { 0.5 } else { 0.05 * low.abs() };
+    [low - half, high + half]
+}
+
+/// Round numbers on an axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ticks {
+    step: f64,
+    first: i64,
+    last: i64,
+    decimals: usize,
+}
+
+impl Ticks {
+    /// About `about` steps of 1, 2 or 5 times a power of ten over `range`.
+    pub(super) fn new(range: [f64; 2], about: usize) -> Self {
+        let step = round_up((range[1] - range[0]) / about.max(1) as f64);
+        let decimals = (-step.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
+        Self {
+            step,
+            first: (range[0] / step - 1e-6).ceil() as i64,
+            last: (range[1] / step + 1e-6).floor() as i64,
+            decimals,
+        }
+    }
+
+    pub(super) fn values(self) -> impl Iterator<Item = f64> {
+        (self.first..=self.last.min(self.first + 50)).map(move |k| k as f64 * self.step)
+    }
+
+    pub(super) fn format(&self, value: f64) -> String {
+        signed(format!("{value:.*}", self.decimals))
+    }
+}
+
+/// The least of 1, 2, 5 × 10ⁿ that is not below `value`.
+pub(super) fn round_up(value: f64) -> f64 {
+    if !(value.is_finite() && value > 0.0) {
+        return 1.0;
+    }
+    let power = 10f64.powf(value.log10().floor());
+    let lead = value / power;
+    let lead = [1.0, 2.0, 5.0].into_iter().find(|round| lead <= round * (1.0 + 1e-9)).unwrap_or(10.0);
+    lead * power
+}
+
+/// The greatest of 1, 2, 5 × 10ⁿ that is not above `value`.
+pub(super) fn round_down(value: f64) -> f64 {
+    1.0 / round_up(1.0 / value)
+}
+
+/// `value` with about three significant digits.
+pub(super) fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return "0".to_owned();
+    }
+    let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
+    signed(format!("{value:.decimals$}"))
+}
+
+fn signed(text: String) -> String {
+    if text.starts_with('-') {
+        // "-0.00" is a zero.
+        if text.bytes().any(|digit| digit.is_ascii_digit() && digit != b'0') {
+            return text.replacen('-', "−", 1);
+        }
+        return text[1..].to_owned();
+    }
+    text
+}
+
+/// Fills between two lines, given as columns (x, one y, other y).
+pub(super) fn band(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
+    let mut mesh = Mesh::default();
+    let (least, _) = columns.size_hint();
+    mesh.reserve_vertices(2 * least);
+    mesh.reserve_triangles(2 * least);
+    for (x, one, other) in columns {
+        let next = mesh.vertices.len() as u32;
+        mesh.colored_vertex(pos2(x, one), colour);
+        mesh.colored_vertex(pos2(x, other), colour);
+        if next > 0 {
+            mesh.add_triangle(next - 2, next - 1, next);
+            mesh.add_triangle(next - 1, next, next + 1);
+        }
+    }
+    painter.add(Shape::Mesh(Arc::new(mesh)));
+}
+
+/// Colours of the field in 256 steps.
+pub(super) fn field_colours() -> &'static [Color32; 256] {
+    static COLOURS: OnceLock<[Color32; 256]> = OnceLock::new();
+    COLOURS.get_or_init(|| std::array::from_fn(|i| theme::field_colour(i as f64 / 255.0)))
+}
+
+/// A title above `plot` with the colour bar and its ends at the right end of the same line.
+pub(super) fn title_with_bar(painter: &Painter, ink: &Ink, plot: Rect, titles: [&str; 2], range: [f64; 2]) {
+    let bottom = plot.top() - 2.0;
+    let ends = range.map(|pascal| number(pascal / 1e3));
+    let ends = [ends[0].clone(), format!("{} kPa", ends[1])];
+    let written = ink.width(painter, &ends[0]) + ink.width(painter, &ends[1]) + 2.0 * ink.row;
+    let room = plot.width() - written - 2.0 * ink.row;
+    // The longer title if a bar of some length is left.
+    let title = if ink.width(painter, titles[0]) < room { titles[0] } else { titles[1] };
+    let length = (room - ink.width(painter, title)).clamp(2.0 * ink.row, 9.0 * ink.row);
+    ink.write(painter, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, ink.text);
+    let right =
+        ink.write(painter, pos2(plot.right(), bottom), Align2::RIGHT_BOTTOM, &ends[1], ink.palette.quiet).left();
+    let bar = Rect::from_min_max(
+        pos2(right - 4.0 - length, bottom - 0.8 * ink.row),
+        pos2(right - 4.0, bottom - 0.2 * ink.row),
+    );
+    let mut mesh = Mesh::default();
+    let colours = field_colours();
+    for i in (0..=255u8).step_by(5) {
+        let x = bar.left() + bar.width() * f32::from(i) / 255.0;
+        let next = mesh.vertices.len() as u32;
+        mesh.colored_vertex(pos2(x, bar.top()), colours[usize::from(i)]);
+        mesh.colored_vertex(pos2(x, bar.bottom()), colours[usize::from(i)]);
+        if next > 0 {
+            mesh.add_triangle(next - 2, next - 1, next);
+            mesh.add_triangle(next - 1, next, next + 1);
+        }
+    }
+    painter.add(Shape::Mesh(Arc::new(mesh)));
+    ink.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, &ends[0], ink.palette.quiet);
+}
+
+/// A vertical bar left of `plot`, as long as a round number of micrometres, `scale` points to a metre.
+pub(super) fn scale_bar(painter: &Painter, ink: &Ink, plot: Rect, scale: f64) {
+    let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
+    let height = (length * 1e-6 * scale) as f32;
+    let x = plot.left() - 6.0;
+    let middle = plot.center().y;
+    let (top, bottom) = (middle - 0.5 * height, middle + 0.5 * height);
+    let stroke = Stroke::new(1.5, ink.text);
+    painter.vline(x, top..=bottom, stroke);
+    for y in [top, bottom] {
+        painter.hline(x - 3.0..=x + 3.0, y, stroke);
+    }
+    let at = pos2(x - 5.0, middle);
+    ink.write(painter, at - vec2(0.0, 0.5 * ink.row), Align2::RIGHT_CENTER, &number_bare(length), ink.text);
+    ink.write(painter, at + vec2(0.0, 0.5 * ink.row), Align2::RIGHT_CENTER, "µm", ink.text);
+}
+
+fn number_bare(value: f64) -> String {
+    let decimals = (-value.log10() - 1e-9).ceil().clamp(0.0, 6.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// "×9000", to two digits.
+pub(super) fn times(factor: f64) -> String {
+    if !(factor.is_finite() && factor > 0.0) {
+        return "×1".to_owned();
+    }
+    let power = 10f64.powf(factor.log10().floor() - 1.0);
+    let rounded = (factor / power).round() * power;
+    let decimals = if rounded < 10.0 { 1 } else { 0 };
+    format!("×{rounded:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        let ticks = Ticks::new([-1.4, 24.6], 6);
+        assert_eq!(ticks.values().collect::<Vec<_>>(), [0.0, 5.0, 10.0, 15.0, 20.0]);
+        let ticks = Ticks::new([0.0, 0.031], 4);
+        let texts: Vec<String> = ticks.values().map(|value| ticks.format(value)).collect();
+        assert_eq!(texts, ["0.00", "0.01", "0.02", "0.03"]);
+        assert!(Ticks::new([0.0, 0.0], 3).values().count() < 60);
+        assert!(Ticks::new([1e300, -1e300], 0).values().count() < 60);
+    }
+
+    #[test]
+    fn numbers_have_three_digits_and_a_true_minus() {
+        assert_eq!(number(1234.6), "1235");
+        assert_eq!(number(0.012345), "0.0123");
+        assert_eq!(number(-12.34), "−12.3");
+        assert_eq!(number(-0.00001), "0.0000");
+        assert_eq!(number(0.0), "0");
+        assert_eq!(times(9012.0), "×9000");
+        assert_eq!(times(0.0), "×1");
+        assert!((round_down(3.9) - 2.0).abs() < 1e-12);
+        assert!((round_up(3.9) - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_range_of_no_extent_is_widened() {
+        let axes = Axes::new(Rect::from_min_size(Pos2::ZERO, vec2(10.0, 10.0)), [0.0, 0.0], [5.0, 5.0]);
+        assert!(axes.at(0.0, 5.0).is_finite());
+        let axes = Axes::new(axes.rect, [0.0, f64::NAN], [f64::INFINITY, f64::NEG_INFINITY]);
+        assert!(axes.at(0.0, 5.0).is_finite());
+        assert_eq!(axes.x_at(-1.0), None);
+        assert_eq!(axes.x_at(5.0), Some(0.5));
+    }
+}

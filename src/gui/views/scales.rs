@@ -1,0 +1,175 @@
+//! What the views need of the whole cycle, computed once for a run: fixed ranges of the axes, curves of each tooth.
+
+use crate::fidelity::Fidelity;
+use crate::job::Run;
+use crate::problem::Scenario;
+use crate::recording::Recording;
+use eframe::egui::{Id, Ui};
+use std::sync::Arc;
+
+/// A periodic curve, uniformly sampled over one cycle.
+#[derive(Debug, Default)]
+pub(super) struct Curve(Vec<f64>);
+
+impl Curve {
+    /// The value at a phase; any number of cycles away.
+    pub(super) fn at(&self, phase: f64) -> f64 {
+        let count = self.0.len();
+        if count == 0 {
+            return 0.0;
+        }
+        let place = phase.rem_euclid(1.0) * count as f64;
+        let left = (place as usize).min(count - 1);
+        let weight = place - left as f64;
+        self.0[left] + weight * (self.0[(left + 1) % count] - self.0[left])
+    }
+
+    /// Least and greatest value.
+    pub(super) fn range(&self) -> [f64; 2] {
+        span(self.0.iter().copied())
+    }
+}
+
+/// Curves of one tooth over the cycle.
+#[derive(Debug, Default)]
+pub(super) struct ToothCurves {
+    /// Least film thickness on the tooth \[m\].
+    pub(super) thickness: Curve,
+    /// Film's net gauge load \[N\].
+    pub(super) film: Curve,
+    /// Contact load \[N\].
+    pub(super) contact: Curve,
+}
+
+/// Ranges and curves of a whole cycle.
+#[derive(Debug, Default)]
+pub(super) struct Scales {
+    key: Option<(u64, Fidelity)>,
+    /// Absolute pressure in the map \[Pa\].
+    pub(super) pressure: [f64; 2],
+    /// Stator's displacement \[m\].
+    pub(super) stator: [f64; 2],
+    /// Stator plus film thickness \[m\].
+    pub(super) rotor: [f64; 2],
+    /// Line loads \[N/m\], film and contact, zero included.
+    pub(super) loads: [f64; 2],
+    /// Film thickness \[m\].
+    pub(super) thickness: [f64; 2],
+    /// Film load of a tooth and contact load of a tooth \[N\], zero included.
+    pub(super) tooth_load: [f64; 2],
+    /// For each stored tooth.
+    teeth: Vec<ToothCurves>,
+    lag: f64,
+}
+
+impl Scales {
+    /// Those of `run`, computed when it is first seen.
+    pub(super) fn of(ui: &Ui, run: &Run) -> Arc<Self> {
+        let id = Id::unique(match run.problem.scenario {
+            Scenario::Motor(_) => "squeezefilm motor scales",
+            Scenario::Plate(_) => "squeezefilm plate scales",
+        });
+        let key = Some((run.number, run.fidelity));
+        if let Some(known) = ui.data(|data| data.get_temp::<Arc<Self>>(id)).filter(|known| known.key == key) {
+            return known;
+        }
+        let fresh = Arc::new(Self { key, ..Self::new(&run.solution.recording) });
+        ui.data_mut(|data| data.insert_temp(id, Arc::clone(&fresh)));
+        fresh
+    }
+
+    /// Reads the whole recording once.
+    pub(super) fn new(recording: &Recording) -> Self {
+        let (nodes, frames) = (recording.x.len().max(1), recording.frames);
+        let lines = (recording.film.len() / nodes).min(recording.stored_teeth * frames);
+        let load = |line: usize, field: &[f64]| -> f64 {
+            field[line * nodes..(line + 1) * nodes].iter().zip(&recording.node_length).map(|(f, l)| f * l).sum()
+        };
+        let mut teeth = Vec::with_capacity(recording.stored_teeth);
+        for first in (0..lines).step_by(frames.max(1)) {
+            let all = first..(first + frames).min(lines);
+            let least =
+                |line: usize| span(recording.film_thickness[line * nodes..(line + 1) * nodes].iter().copied())[0];
+            teeth.push(ToothCurves {
+                thickness: Curve(all.clone().map(least).collect()),
+                film: Curve(all.clone().map(|line| load(line, &recording.film)).collect()),
+                contact: Curve(all.map(|line| load(line, &recording.contact)).collect()),
+            });
+        }
+        let loads = span(recording.film.iter().chain(&recording.contact).copied().chain([0.0]));
+        let curves = teeth.iter().flat_map(|tooth| tooth.film.0.iter().chain(&tooth.contact.0));
+        Self {
+            key: None,
+            pressure: span(recording.pressure.iter().copied()),
+            stator: span(recording.stator.iter().copied()),
+            rotor: span(recording.stator.iter().zip(&recording.film_thickness).map(|(w, h)| w + h)),
+            loads,
+            thickness: span(recording.film_thickness.iter().copied()),
+            tooth_load: span(curves.copied().chain([0.0])),
+            lag: if recording.stored_teeth == recording.teeth { 0.0 } else { 1.0 / recording.teeth.max(1) as f64 },
+            teeth,
+        }
+    }
+
+    /// Curves of a tooth, and by how much of a cycle they are ahead. `None` without a recording.
+    pub(super) fn tooth(&self, tooth: usize) -> Option<(&ToothCurves, f64)> {
+        if self.lag > 0.0 {
+            return Some((self.teeth.first()?, self.lag * tooth as f64));
+        }
+        Some((self.teeth.get(tooth)?, 0.0))
+    }
+}
+
+/// Least and greatest of the finite values; 0 to 0 for none.
+pub(super) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] = values
+        .filter(|value| value.is_finite())
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+    if low <= high { [low, high] } else { [0.0, 0.0] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn recording(stored_teeth: usize) -> Recording {
+        let (teeth, frames) = (3, 6);
+        let line = |tooth: usize, frame: usize| ((frame + 2 * tooth) % frames) as f64;
+        let film = (0..stored_teeth).flat_map(|t| (0..frames).flat_map(move |m| [line(t, m); 2])).collect::<Vec<_>>();
+        Recording {
+            frames,
+            teeth,
+            stored_teeth,
+            x: vec![-1.0, 1.0],
+            node_length: vec![1.0, 1.0],
+            contact: vec![0.0; film.len()],
+            stator: vec![0.0; film.len()],
+            film_thickness: film.clone(),
+            film,
+            ..Recording::default()
+        }
+    }
+
+    #[test]
+    fn lag_symmetry_gives_what_every_tooth_stored_gives() {
+        let (one, all) = (Scales::new(&recording(1)), Scales::new(&recording(3)));
+        for tooth in 0..3 {
+            let ((a, ahead_a), (b, ahead_b)) = (one.tooth(tooth).unwrap(), all.tooth(tooth).unwrap());
+            for frame in 0..6 {
+                let phase = f64::from(frame) / 6.0;
+                assert!((a.film.at(phase + ahead_a) - b.film.at(phase + ahead_b)).abs() < 1e-9);
+                let expected = f64::from((frame + 2 * tooth as i32) % 6);
+                assert!((b.film.at(phase) - 2.0 * expected).abs() < 1e-9);
+            }
+        }
+        assert_eq!(one.loads, all.loads);
+    }
+
+    #[test]
+    fn an_empty_recording_has_ranges_too() {
+        let scales = Scales::new(&Recording::default());
+        assert_eq!(scales.pressure, [0.0, 0.0]);
+        assert!(scales.tooth(0).is_none());
+        assert!(Curve::default().at(0.3).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,59 @@
+//! Small plots over the cycle, with a marker at the present phase.
+
+use super::paint::{Axes, Ink, number};
+use super::scales::Curve;
+use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, pos2};
+
+/// One curve of a small plot.
+pub(super) struct Trace<'a> {
+    pub(super) curve: &'a Curve,
+    /// By how much of a cycle the curve is ahead.
+    pub(super) lag: f64,
+    /// Added to the values.
+    pub(super) offset: f64,
+    pub(super) colour: Color32,
+}
+
+/// A small plot over the cycle.
+pub(super) struct Series<'a> {
+    /// With the unit.
+    pub(super) title: &'a str,
+    /// Shown at the right end of the title, if it fits.
+    pub(super) legend: &'a [(&'a str, Color32)],
+    pub(super) traces: &'a [Trace<'a>],
+    /// Range of the values.
+    pub(super) range: [f64; 2],
+    /// Size of the unit in the title.
+    pub(super) unit: f64,
+    /// Period \[s\].
+    pub(super) period: f64,
+    /// Phase at which the markers stand.
+    pub(super) phase: f64,
+}
+
+impl Series<'_> {
+    /// Draws the plot into `rect`, its title above and the time below.
+    pub(super) fn draw(&self, painter: &Painter, ink: &Ink, rect: Rect) -> Axes {
+        let [low, high] = self.range;
+        let margin = 0.08 * (high - low);
+        let axes = Axes::new(rect, [0.0, 1.0], [low - margin, high + margin]);
+        axes.canvas(painter, ink);
+        axes.y_ticks(painter, ink, self.unit);
+        ink.title(painter, rect, self.title, self.legend);
+        let quiet = ink.palette.quiet;
+        let top = rect.bottom() + 1.0;
+        ink.write(painter, pos2(rect.left(), top), Align2::LEFT_TOP, "0", quiet);
+        let period = format!("{} µs", number(self.period * 1e6));
+        ink.write(painter, pos2(rect.right(), top), Align2::RIGHT_TOP, &period, quiet);
+        let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+        inside.vline(axes.px(self.phase), rect.y_range(), Stroke::new(1.0, ink.palette.accent));
+        let samples = (0.5 * rect.width()).clamp(24.0, 240.0) as usize;
+        for trace in self.traces {
+            let point = |phase: f64| axes.at(phase, trace.offset + trace.curve.at(phase + trace.lag));
+            let line: Vec<Pos2> = (0..=samples).map(|i| point(i as f64 / samples as f64)).collect();
+            inside.line(line, Stroke::new(1.6, trace.colour));
+            painter.circle(point(self.phase), 3.5, trace.colour, Stroke::new(1.0, ink.palette.canvas));
+        }
+        axes
+    }
+}
