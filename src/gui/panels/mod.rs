@@ -1,4 +1,7 @@
 //! Panels: each is a function that reads state and pushes commands.
 
+pub mod convergence;
+pub mod field;
+pub mod labels;
 pub mod parameters;
 pub mod results;
