@@ -1,17 +1,487 @@
-//! The left panel: every parameter of the scene.
+//! The left panel: every parameter of the scene. Reads the scene, pushes commands.
 
+use super::field::Field;
+use super::labels::{self, choice, field_name, label, switch};
 use crate::gui::command::Command;
-use crate::scene::Scene;
-use eframe::egui;
+use crate::gui::theme::{Palette, palette};
+use crate::scene::{Kind, Parameter, ParameterKind, Range, Scale, Scene, Value};
+use eframe::egui::{self, RichText, TextStyle};
 use std::collections::BTreeMap;
 
 /// Texts that were typed and refused, by key, with what is allowed.
 pub type Refusals = BTreeMap<&'static str, String>;
 
+/// What the eye meets first.
+const MAIN: &[&str] = &[
+    "film.min_spacing_nm",
+    "stator.tooth_width_mm",
+    "stator.frequency_khz",
+    "plate.mean_gap_um",
+    "plate.amplitude_um",
+    "plate.frequency_khz",
+];
+
+/// The other groups: table, heading, whether it starts open.
+const GROUPS: &[(&str, &str, bool)] = &[
+    ("motor", "Motor", true),
+    ("stator", "Stator", true),
+    ("plate", "Plate", true),
+    ("rotor", "Rotor", false),
+    ("film", "Film", false),
+    ("numerics", "Numerics", false),
+];
+
+/// A whole number whose range spans more than this ratio gets a logarithmic slider.
+const LOG_RATIO: f64 = 50.0;
+/// Significant digits that a slider sets.
+const SLIDER_DIGITS: i32 = 4;
+/// Size of notes relative to the text.
+const NOTE_SIZE: f32 = 0.88;
+/// Between the frame of the main group and what is in it.
+const FRAME_MARGIN: i8 = 6;
+/// Distance that a slider keeps from an end that is itself not allowed, relative.
+const OPEN_END: f64 = 1e-3;
+
 /// Shows the parameters of `scene`; `refusals` are shown at their parameters.
 pub fn show(ui: &mut egui::Ui, scene: &Scene, refusals: &Refusals, commands: &mut Vec<Command>) {
-    let _ = (refusals, commands);
-    for parameter in scene.parameters() {
-        ui.label(parameter.key);
+    let defaults = match scene.kind {
+        Kind::Motor { .. } => Scene::motor(),
+        Kind::Plate { .. } => Scene::plate(),
+    };
+    let colours = palette(ui.visuals().dark_mode);
+    egui::ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| {
+        let mut panel = Panel { scene, defaults: &defaults, refusals, colours, commands };
+        panel.all(ui);
+    });
+}
+
+/// What every row needs.
+struct Panel<'a> {
+    scene: &'a Scene,
+    defaults: &'a Scene,
+    refusals: &'a Refusals,
+    colours: Palette,
+    commands: &'a mut Vec<Command>,
+}
+
+impl Panel<'_> {
+    fn all(&mut self, ui: &mut egui::Ui) {
+        ui.spacing_mut().item_spacing.y = 4.0;
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        ui.add_space(6.0);
+        for parameter in self.in_group("") {
+            self.row(ui, parameter);
+        }
+        ui.add_space(4.0);
+        let scene = self.scene;
+        let main = MAIN.iter().filter_map(|key| Parameter::find(key));
+        let main: Vec<_> = main.filter(|p| scene.get(p.key).is_some() && is_main(scene, p)).collect();
+        let frame = egui::Frame::new().fill(ui.visuals().faint_bg_color).corner_radius(6).inner_margin(FRAME_MARGIN);
+        frame.show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            heading(ui, "Main");
+            for parameter in main {
+                self.row(ui, parameter);
+            }
+        });
+        ui.add_space(4.0);
+        for &(table, title, open) in GROUPS {
+            let parameters = self.in_group(table);
+            if parameters.is_empty() {
+                continue;
+            }
+            let refused = parameters.iter().any(|parameter| self.refusals.contains_key(parameter.key));
+            egui::CollapsingHeader::new(RichText::new(title).strong())
+                .id_salt(table)
+                .default_open(open)
+                .open(refused.then_some(true))
+                .show_unindented(ui, |ui| {
+                    for parameter in parameters {
+                        self.row(ui, parameter);
+                    }
+                });
+        }
+        ui.add_space(12.0);
+    }
+
+    fn in_group(&self, table: &str) -> Vec<&'static Parameter> {
+        let inside = |p: &&'static Parameter| p.table() == table && !is_main(self.scene, p);
+        let mut parameters: Vec<_> = self.scene.parameters().filter(inside).collect();
+        if table == "rotor"
+            && self.scene.rotor_model().is_some()
+            && !parameters.iter().any(|p| p.kind == ParameterKind::CsvPath)
+        {
+            // A file that is given to a beam replaces it.
+            parameters.extend(Parameter::find("rotor.compliance_csv"));
+        }
+        parameters
+    }
+
+    fn row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+        ui.push_id(parameter.key, |ui| {
+            let value = self.scene.get(parameter.key);
+            match (parameter.kind, &value) {
+                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, None) => {
+                    self.switch_row(ui, parameter, false)
+                }
+                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, Some(value)) => {
+                    if parameter.absent.is_some() {
+                        self.switch_row(ui, parameter, true);
+                    }
+                    self.number_row(ui, parameter, value);
+                }
+                (ParameterKind::Flag { .. }, Some(Value::Flag(on))) => self.flag_row(ui, parameter, *on),
+                (ParameterKind::Choice { options, .. }, Some(Value::Text(name))) => {
+                    self.choice_row(ui, parameter, options, name);
+                }
+                (ParameterKind::Rows, Some(Value::Rows(rows))) => self.rows_row(ui, parameter, rows.len()),
+                (ParameterKind::Text { .. }, Some(value)) => self.text_row(ui, parameter, value),
+                (ParameterKind::CsvPath, _) => self.path_row(ui, parameter),
+                // No scene has a value of another type than its key.
+                _ => {}
+            }
+            self.footnotes(ui, parameter);
+        });
+        ui.add_space(4.0);
+    }
+
+    /// The name, and at its right the button that brings the default back.
+    fn label_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) -> egui::Response {
+        let explanation = self.explanation(parameter);
+        let text = RichText::new(label(parameter));
+        let text = if is_main(self.scene, parameter) { text.strong() } else { text };
+        self.beside_reset(ui, parameter, |ui, _| {
+            ui.add(egui::Label::new(text).wrap().selectable(false)).on_hover_text(explanation)
+        })
+    }
+
+    /// `add` at the left, and the reset button at the right if the value is not the default.
+    fn beside_reset<R>(
+        &mut self,
+        ui: &mut egui::Ui,
+        parameter: &'static Parameter,
+        add: impl FnOnce(&mut egui::Ui, &mut Vec<Command>) -> R,
+    ) -> R {
+        let default = self.default(parameter);
+        let changed = default.is_some() && default != self.scene.get(parameter.key);
+        let side = ui.text_style_height(&TextStyle::Body) + 2.0;
+        ui.horizontal(|ui| {
+            let width = (ui.available_width() - side - ui.spacing().item_spacing.x).max(side);
+            let inner = ui
+                .vertical(|ui| {
+                    ui.set_width(width);
+                    add(ui, self.commands)
+                })
+                .inner;
+            if changed {
+                let text = default.as_ref().map(|value| self.in_words(parameter, value)).unwrap_or_default();
+                let button = egui::Button::new("↺").small().frame(false).min_size(egui::vec2(side, 0.0));
+                let response = ui
+                    .add(button)
+                    .on_hover_text(format!("Reset to {text}"))
+                    .accessible_name(format!("Reset {}", label(parameter).to_lowercase()));
+                if response.clicked() {
+                    self.commands.push(Command::Reset { key: parameter.key });
+                }
+            }
+            inner
+        })
+        .inner
+    }
+
+    fn number_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
+        let explanation = self.explanation(parameter);
+        let name = if parameter.absent.is_some() { None } else { Some(self.label_row(ui, parameter)) };
+        ui.horizontal(|ui| {
+            let em = ui.text_style_height(&TextStyle::Body);
+            let (field, unit) = (4.2 * em, 2.9 * em);
+            let gaps = 2.0 * ui.spacing().item_spacing.x + 2.0 * ui.spacing().button_padding.x;
+            ui.spacing_mut().slider_width = (ui.available_width() - field - unit - gaps).max(40.0);
+            let slider = self.slider(ui, parameter, value).on_hover_text(&explanation);
+            match name {
+                Some(name) => slider.labelled_by(name.id),
+                None => slider.accessible_name(label(parameter)),
+            };
+            let typed = Field {
+                key: parameter.key,
+                value: Some(value),
+                name: &field_name(parameter),
+                hint: "",
+                refused: self.refusals.get(parameter.key).map(String::as_str),
+                width: field,
+                wrapped: false,
+            };
+            typed.show(ui, &self.colours, self.commands).on_hover_text(&explanation);
+            ui.add(
+                egui::Label::new(RichText::new(parameter.unit).color(self.colours.quiet)).selectable(false).extend(),
+            );
+        });
+    }
+
+    fn slider(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) -> egui::Response {
+        let present = value.as_number().unwrap_or_default();
+        let (range, logarithmic) = slider_range(self.scene, parameter);
+        let whole = matches!(parameter.kind, ParameterKind::Whole { .. });
+        let mut moved = present;
+        let slider = egui::Slider::new(&mut moved, range.min..=range.max)
+            .logarithmic(logarithmic)
+            .clamping(egui::SliderClamping::Never)
+            .show_value(false)
+            .trailing_fill(true);
+        let slider = if whole { slider.integer() } else { slider };
+        let response = ui.add(slider);
+        let dragging = response.dragged();
+        if response.changed() || response.drag_stopped() {
+            let value = if moved == present {
+                value.clone()
+            } else if whole {
+                // Ranges of whole numbers are far inside those of i64.
+                Value::Whole(moved.clamp(range.min, range.max).round() as i64)
+            } else {
+                Value::Number(inside(moved, range))
+            };
+            self.commands.push(Command::Set { key: parameter.key, value, dragging });
+        }
+        response
+    }
+
+    /// The checkbox that switches an optional parameter on and off.
+    fn switch_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, present: bool) {
+        let mut on = present;
+        let explanation = self.explanation(parameter);
+        if ui.checkbox(&mut on, switch(parameter)).on_hover_text(explanation).changed() {
+            self.commands.push(match (on, parameter.kind) {
+                (true, ParameterKind::Number { default, .. }) => {
+                    Command::Set { key: parameter.key, value: Value::Number(default), dragging: false }
+                }
+                (true, ParameterKind::Whole { default, .. }) => {
+                    Command::Set { key: parameter.key, value: Value::Whole(i64::from(default)), dragging: false }
+                }
+                _ => Command::Reset { key: parameter.key },
+            });
+        }
+        if !present && let Some(meaning) = parameter.absent {
+            let first = if parameter.table() == "numerics" { None } else { Some(meaning) };
+            first.map(|meaning| quiet(ui, &self.colours, &capitalised(meaning)));
+        }
+    }
+
+    fn flag_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, on: bool) {
+        let explanation = self.explanation(parameter);
+        self.beside_reset(ui, parameter, |ui, commands| {
+            let mut on = on;
+            if ui.checkbox(&mut on, label(parameter)).on_hover_text(explanation).changed() {
+                commands.push(Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false });
+            }
+        });
+    }
+
+    fn choice_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
+        let named = self.label_row(ui, parameter);
+        let combo = egui::ComboBox::from_id_salt(parameter.key)
+            .selected_text(choice(parameter.key, name))
+            .width(ui.available_width())
+            .truncate()
+            .show_ui(ui, |ui| {
+                for option in options {
+                    // A table is chosen by giving its file, below.
+                    let possible = (parameter.key, *option) != ("rotor.model", "table") || name == "table";
+                    let words = choice(parameter.key, option);
+                    let picked = ui.add_enabled(possible, egui::Button::selectable(*option == name, words));
+                    if picked.on_disabled_hover_text("Give a CSV file below").clicked() && *option != name {
+                        let value = Value::Text((*option).to_owned());
+                        self.commands.push(Command::Set { key: parameter.key, value, dragging: false });
+                    }
+                }
+            });
+        combo.response.labelled_by(named.id);
+    }
+
+    fn text_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
+        let field = Field {
+            key: parameter.key,
+            value: Some(value),
+            name: label(parameter),
+            hint: label(parameter),
+            refused: self.refusals.get(parameter.key).map(String::as_str),
+            width: f32::INFINITY,
+            wrapped: true,
+        };
+        ui.scope(|ui| {
+            if parameter.key == "name" {
+                ui.style_mut().override_text_style = Some(TextStyle::Heading);
+            }
+            field.show(ui, &self.colours, self.commands).on_hover_text(parameter.about);
+        });
+    }
+
+    fn path_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+        let name = ui
+            .add(egui::Label::new(label(parameter)).wrap().selectable(false))
+            .on_hover_text(format!("{}\n{}", parameter.about, parameter.key));
+        let field = Field {
+            key: parameter.key,
+            value: None,
+            name: label(parameter),
+            hint: "path of the file, then Enter",
+            refused: self.refusals.get(parameter.key).map(String::as_str),
+            width: f32::INFINITY,
+            wrapped: false,
+        };
+        field
+            .show(ui, &self.colours, self.commands)
+            .on_hover_text("Columns wavenumber_per_m or harmonic, and compliance_m2_per_n")
+            .labelled_by(name.id);
+    }
+
+    fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {
+        let explanation = self.explanation(parameter);
+        ui.horizontal_wrapped(|ui| {
+            ui.label(label(parameter)).on_hover_text(explanation);
+            ui.label(RichText::new(format!("{rows} {}", if rows == 1 { "row" } else { "rows" })).strong());
+        });
+        quiet(ui, &self.colours, "Edit the table in its file and give the file again");
+    }
+
+    /// What is refused, and what has no effect.
+    fn footnotes(&self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+        if let Some(message) = self.refusals.get(parameter.key) {
+            let prefix = format!("{} = ", parameter.key);
+            let text = message.strip_prefix(&prefix).unwrap_or(message);
+            ui.add(egui::Label::new(RichText::new(text).color(self.colours.alarm)).wrap());
+            let kept = self.scene.get(parameter.key).map(|value| self.in_words(parameter, &value));
+            if let (Some(kept), true) = (kept, parameter.range().is_some()) {
+                quiet(ui, &self.colours, &format!("Still {kept}; Escape in the field brings it back"));
+            }
+        }
+        if let Some(note) = labels::unused(self.scene, parameter) {
+            quiet(ui, &self.colours, note);
+        }
+    }
+
+    /// The default of a parameter that has one in this scene.
+    fn default(&self, parameter: &Parameter) -> Option<Value> {
+        if parameter.absent.is_some() || matches!(parameter.kind, ParameterKind::Text { .. } | ParameterKind::Rows) {
+            return None;
+        }
+        self.defaults.get(parameter.key)
+    }
+
+    fn explanation(&self, parameter: &Parameter) -> String {
+        labels::explanation(self.scene, parameter, self.default(parameter).as_ref())
+    }
+
+    fn in_words(&self, parameter: &Parameter, value: &Value) -> String {
+        match value {
+            Value::Text(name) => choice(parameter.key, name).to_owned(),
+            Value::Flag(on) => (if *on { "on" } else { "off" }).to_owned(),
+            value if parameter.unit.is_empty() => value.to_string(),
+            value => format!("{value} {}", parameter.unit),
+        }
+    }
+}
+
+/// Whether the parameter is among those that the eye meets first. A plate has no minimum spacing.
+fn is_main(scene: &Scene, parameter: &Parameter) -> bool {
+    MAIN.contains(&parameter.key) && labels::unused(scene, parameter).is_none()
+}
+
+fn heading(ui: &mut egui::Ui, text: &str) {
+    ui.add(egui::Label::new(RichText::new(text).strong()).selectable(false));
+    ui.add_space(2.0);
+}
+
+fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {
+    let size = NOTE_SIZE * TextStyle::Body.resolve(ui.style()).size;
+    ui.add(egui::Label::new(RichText::new(text).size(size).color(colours.quiet)).wrap().selectable(false));
+}
+
+fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
+/// The range of a slider: the part worth one, within what the other keys leave. And whether it is logarithmic.
+fn slider_range(scene: &Scene, parameter: &Parameter) -> (Range, bool) {
+    let allowed = scene.range(parameter.key).unwrap_or(Range::new(0.0, 1.0));
+    let (wanted, logarithmic) = match parameter.kind {
+        ParameterKind::Number { slider, scale, .. } => (slider, scale == Scale::Log),
+        _ => (allowed, allowed.min > 0.0 && allowed.max > LOG_RATIO * allowed.min),
+    };
+    let mut range = Range::new(wanted.min.max(allowed.min), wanted.max.min(allowed.max));
+    if range.min >= range.max {
+        range = allowed;
+    }
+    if parameter.key == "plate.amplitude_um" && range.max >= allowed.max {
+        range.max = allowed.max * (1.0 - OPEN_END);
+    }
+    (range, logarithmic && range.min > 0.0)
+}
+
+/// `value` to a few digits, towards the inside of the range.
+fn inside(value: f64, range: Range) -> f64 {
+    let value = value.clamp(range.min, range.max);
+    let nearest = to_digits(value, SLIDER_DIGITS, f64::round);
+    if nearest > range.max {
+        to_digits(value, SLIDER_DIGITS, f64::floor).clamp(range.min, range.max)
+    } else if nearest < range.min {
+        to_digits(value, SLIDER_DIGITS, f64::ceil).clamp(range.min, range.max)
+    } else {
+        nearest
+    }
+}
+
+/// `value` to a number of significant digits, `round` deciding which way.
+pub(super) fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let exponent = value.abs().log10().floor() as i32 - digits + 1;
+    let scaled = round(value / 10f64.powi(exponent));
+    // Through text, so that no stray bits are left.
+    format!("{scaled}e{exponent}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::PARAMETERS;
+
+    #[test]
+    fn sliders_stay_within_what_is_allowed() {
+        let scenes = [Scene::motor(), Scene::plate()];
+        for scene in &scenes {
+            for parameter in scene.parameters().filter(|parameter| parameter.range().is_some()) {
+                let (range, logarithmic) = slider_range(scene, parameter);
+                assert!(range.min < range.max, "{}", parameter.key);
+                assert!(!logarithmic || range.min > 0.0, "{}", parameter.key);
+                for share in [0.0, 0.1234567, 0.5, 1.0] {
+                    let value = inside(range.min + share * (range.max - range.min), range);
+                    let mut changed = scene.clone();
+                    let value =
+                        if matches!(parameter.kind, ParameterKind::Whole { .. }) { value.round() } else { value };
+                    changed.set_value(parameter.key, Value::Number(value)).unwrap();
+                    changed.check().unwrap();
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_parameter_is_in_a_group() {
+        for parameter in PARAMETERS {
+            let grouped = GROUPS.iter().any(|(table, _, _)| *table == parameter.table());
+            assert!(grouped || parameter.table().is_empty(), "{}", parameter.key);
+        }
+        assert!(MAIN.iter().all(|key| Parameter::find(key).is_some()));
+    }
+
+    #[test]
+    fn digits_leave_no_stray_bits() {
+        assert_eq!(to_digits(0.300_000_000_4, 4, f64::round), 0.3);
+        assert_eq!(to_digits(2.892_143_8, 4, f64::floor), 2.892);
+        assert_eq!(to_digits(-123_456.0, 4, f64::round), -123_500.0);
+        assert_eq!(to_digits(1.0499e-10, 4, f64::round), 1.05e-10);
     }
 }

@@ -1,10 +1,285 @@
-//! The right panel: the numbers of a run.
+//! The right panel: the numbers of a run. Every text can be selected and copied.
 
+use super::convergence;
+use crate::analysis::regime;
+use crate::dimensionless::Dimensionless;
+use crate::export::digits::{significant, with_error};
+use crate::export::json::{dry_torque, force_unit};
+use crate::gui::theme::{Palette, palette};
 use crate::job::Run;
-use eframe::egui;
+use crate::problem::{Motor, Plate, Scenario};
+use crate::solution::{MotorResult, Outcome, PlateResult, Status};
+use eframe::egui::{self, Color32, RichText, TextStyle};
+
+/// Significant digits of numbers without an error of their own.
+const DIGITS: usize = 4;
+/// Size of the headline number relative to the text.
+const HEADLINE: f32 = 2.1;
+/// Size of its error relative to the text.
+const HEADLINE_ERROR: f32 = 1.35;
 
 /// Shows the results of `run`.
 pub fn show(ui: &mut egui::Ui, run: &Run, dark: bool) {
-    let _ = dark;
-    ui.label(format!("{}", run.fidelity));
+    let colours = palette(dark);
+    egui::ScrollArea::vertical().id_salt("results").auto_shrink(false).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 4.0;
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        ui.add_space(8.0);
+        convergence_banner(ui, &run.solution.status, &colours);
+        match (&run.problem.scenario, &run.solution.outcome) {
+            (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, motor, result, &colours),
+            (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, run, plate, result, &colours),
+            // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
+            _ => {}
+        }
+        for warning in &run.solution.warnings {
+            ui.add(egui::Label::new(RichText::new(warning).color(colours.alarm)).wrap());
+        }
+        section(ui, "Regime");
+        regime_numbers(ui, &Dimensionless::of(&run.problem), &colours);
+        ui.add_space(8.0);
+        ui.separator();
+        egui::CollapsingHeader::new(RichText::new("How it was solved").strong())
+            .default_open(true)
+            .show_unindented(ui, |ui| how(ui, run, &colours));
+        if !run.solution.model.why.is_empty() {
+            egui::CollapsingHeader::new(RichText::new("What the model left out, and why").strong())
+                .show_unindented(ui, |ui| reasons(ui, &run.solution.model.why));
+        }
+        ui.add_space(12.0);
+    });
+}
+
+fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours: &Palette) {
+    if result.levitated {
+        banner(ui, colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
+    }
+    headline(ui, "α", &with_error(result.alpha, result.alpha_error), "");
+    quiet(ui, colours, "share of the load carried by air");
+    shares(ui, result.alpha, colours);
+    ui.add_space(4.0);
+    let force_error = result.alpha_error * motor.load;
+    let torque_error = result.alpha_error * dry_torque(motor);
+    number(ui, colours, "Film load", &with_error(result.film_load, force_error), "N");
+    number(ui, colours, "Over the cycle", &span(result.film_load_min, result.film_load_max), "N");
+    number(ui, colours, "Contact load", &with_error(result.contact_load, force_error), "N");
+    number(
+        ui,
+        colours,
+        "Teeth in contact, mean",
+        &format!("{} of {}", shown(result.teeth_in_contact), motor.teeth),
+        "",
+    );
+    section(ui, "Maximum torque");
+    number(ui, colours, "With air", &with_error(result.max_torque, torque_error), "N·m");
+    number(ui, colours, "Without air", &shown(dry_torque(motor)), "N·m");
+    section(ui, "Extremes");
+    extremes(ui, colours, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
+}
+
+fn plate_numbers(ui: &mut egui::Ui, run: &Run, plate: &Plate, result: &PlateResult, colours: &Palette) {
+    let unit = force_unit(&run.problem);
+    let ratio = |load| PlateResult::ratio(load, plate);
+    headline(ui, "", &with_error(result.film_load, result.film_load_error), unit);
+    quiet(ui, colours, "mean load of the film over the cycle");
+    ui.add_space(4.0);
+    number(ui, colours, "Over the cycle", &span(result.film_load_min, result.film_load_max), unit);
+    let area = if plate.width.is_some() { "Load / (p_a · area)" } else { "Load / (p_a · length)" };
+    section(ui, area);
+    number(ui, colours, "Mean", &with_error(ratio(result.film_load), ratio(result.film_load_error)), "");
+    number(ui, colours, "Over the cycle", &span(ratio(result.film_load_min), ratio(result.film_load_max)), "");
+    section(ui, "Extremes");
+    extremes(ui, colours, result.min_gap, result.max_pressure, plate.gas.ambient_pressure);
+}
+
+fn extremes(ui: &mut egui::Ui, colours: &Palette, gap: f64, pressure: f64, ambient: f64) {
+    number(ui, colours, "Least gap", &shown(gap * 1e9), "nm");
+    number(ui, colours, "Highest pressure", &shown(pressure * 1e-3), "kPa");
+    number(ui, colours, "Relative to ambient", &format!("{} ×", significant(pressure / ambient, 3)), "");
+}
+
+fn regime_numbers(ui: &mut egui::Ui, numbers: &Dimensionless, colours: &Palette) {
+    let rows = [
+        ("Squeeze number σ", numbers.squeeze_number, regime::squeeze(numbers)),
+        ("Bearing number Λ", numbers.bearing_number, regime::bearing(numbers)),
+        ("Knudsen number Kn", numbers.knudsen_number, regime::knudsen(numbers)),
+    ];
+    for (name, value, phrase) in rows {
+        number(ui, colours, name, &shown(value), "");
+        quiet(ui, colours, phrase);
+        ui.add_space(2.0);
+    }
+}
+
+fn how(ui: &mut egui::Ui, run: &Run, colours: &Palette) {
+    let stats = &run.solution.stats;
+    number(ui, colours, "Fidelity", run.fidelity.name(), "");
+    match &run.solution.outcome {
+        Outcome::Motor(result) => number(ui, colours, "Error of α", &rough(result.alpha_error), ""),
+        Outcome::Plate(result) => {
+            number(ui, colours, "Error of the load", &rough(result.film_load_error), force_unit(&run.problem));
+        }
+    }
+    if stats.coupling_iterations > 0 {
+        number(ui, colours, "Rounds of film and contact", &stats.coupling_iterations.to_string(), "");
+        number(ui, colours, "Contact problems", &stats.contact_solves.to_string(), "");
+    } else {
+        number(ui, colours, "Rounds", &stats.cycles.to_string(), "");
+    }
+    number(ui, colours, "Film steps", &stats.film_steps.to_string(), "");
+    number(ui, colours, "Film nodes, finest grid", &stats.film_nodes.to_string(), "");
+    number(ui, colours, "Steps in a cycle", &stats.steps_per_cycle.to_string(), "");
+    let (time, unit) = if run.wall_s < 1.0 { (run.wall_s * 1e3, "ms") } else { (run.wall_s, "s") };
+    number(ui, colours, "Time", &significant(time, 3), unit);
+    if !run.history.is_empty() {
+        ui.add_space(6.0);
+        quiet(ui, colours, "Change in each round, one line for each grid; dashed, where it may stop");
+        convergence::show(ui, &run.history, colours);
+    }
+    ui.add_space(4.0);
+}
+
+fn reasons(ui: &mut egui::Ui, why: &[String]) {
+    for reason in why {
+        let mut chars = reason.chars();
+        let sentence: String = chars.next().into_iter().flat_map(char::to_uppercase).chain(chars).collect();
+        ui.add(egui::Label::new(sentence).wrap());
+        ui.add_space(2.0);
+    }
+}
+
+fn convergence_banner(ui: &mut egui::Ui, status: &Status, colours: &Palette) {
+    match status {
+        Status::Converged => {}
+        Status::NotConverged { residual, tolerance } => {
+            let text = format!("The last round still changed by {residual:.1e}, allowed {tolerance:.0e}");
+            banner(ui, colours.alarm, "Not converged", &text);
+        }
+        Status::Cancelled => banner(ui, colours.alarm, "Cancelled", "These numbers are on the way, not the result"),
+    }
+}
+
+/// A title and a sentence on a tinted ground.
+fn banner(ui: &mut egui::Ui, colour: Color32, title: &str, text: &str) {
+    let ground = ui.visuals().panel_fill.lerp_to_gamma(colour, 0.16);
+    egui::Frame::new().fill(ground).corner_radius(4).inner_margin(egui::Margin::symmetric(8, 6)).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
+        ui.add(egui::Label::new(text).wrap());
+    });
+    ui.add_space(6.0);
+}
+
+/// The number that matters, its error smaller; all of it smaller where it would not fit.
+fn headline(ui: &mut egui::Ui, symbol: &str, value: &str, unit: &str) {
+    let body = TextStyle::Body.resolve(ui.style()).size;
+    let (number, error) = value.split_once(" ± ").map_or((value, None), |(number, error)| (number, Some(error)));
+    let (strong, weak) = (ui.visuals().strong_text_color(), ui.visuals().text_color());
+    let job = |scale: f32| {
+        let mut job = egui::text::LayoutJob::default();
+        let mut add = |text: &str, size: f32, colour: Color32| {
+            let format = egui::TextFormat {
+                font_id: egui::FontId::proportional(size * body * scale),
+                color: colour,
+                valign: egui::Align::BOTTOM,
+                ..Default::default()
+            };
+            job.append(text, 0.0, format);
+        };
+        if !symbol.is_empty() {
+            add(symbol, HEADLINE, weak);
+            add("  ", HEADLINE_ERROR, weak);
+        }
+        add(number, HEADLINE, strong);
+        if let Some(error) = error {
+            add(" ± ", HEADLINE_ERROR, weak);
+            add(error, HEADLINE_ERROR, weak);
+        }
+        if !unit.is_empty() {
+            add(" ", HEADLINE_ERROR, weak);
+            add(unit, HEADLINE_ERROR, weak);
+        }
+        job.wrap.max_width = f32::INFINITY;
+        ui.painter().layout_job(job)
+    };
+    let mut galley = job(1.0);
+    let room = ui.available_width();
+    if galley.size().x > room {
+        galley = job(room / galley.size().x * 0.98);
+    }
+    ui.add(egui::Label::new(galley));
+}
+
+/// Air and contact as parts of one bar, and what the colours mean.
+fn shares(ui: &mut egui::Ui, alpha: f64, colours: &Palette) {
+    let height = 0.6 * ui.text_style_height(&TextStyle::Body);
+    let (area, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), height), egui::Sense::hover());
+    // Suction can make the share negative, and it can pass 1 while it converges; the bar shows what it can.
+    let share = if alpha.is_finite() { alpha.clamp(0.0, 1.0) as f32 } else { 0.0 };
+    let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
+    painter.rect_filled(area, 3, colours.contact);
+    let air = egui::Rect::from_min_max(area.min, egui::pos2(area.left() + share * area.width(), area.bottom()));
+    painter.rect_filled(
+        air,
+        if share < 1.0 { egui::CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 } } else { 3.into() },
+        colours.film,
+    );
+    response.on_hover_text("Film and contact share the load");
+    ui.horizontal_wrapped(|ui| {
+        let percent = |share: f64| format!("{} %", significant(100.0 * share, 3));
+        legend(ui, colours.film, &format!("air {}", percent(alpha)));
+        ui.add_space(8.0);
+        legend(ui, colours.contact, &format!("contact {}", percent(1.0 - alpha)));
+    });
+}
+
+fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
+    let side = 0.6 * ui.text_style_height(&TextStyle::Body);
+    let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
+    ui.painter().rect_filled(area, 2, colour);
+    ui.label(text);
+}
+
+fn section(ui: &mut egui::Ui, title: &str) {
+    ui.add_space(8.0);
+    ui.add(egui::Label::new(RichText::new(title).strong()).wrap());
+}
+
+/// A name at the left, its value and unit at the right; below each other where they do not fit side by side.
+fn number(ui: &mut egui::Ui, colours: &Palette, name: &str, value: &str, unit: &str) {
+    let value = if unit.is_empty() { value.to_owned() } else { format!("{value} {unit}") };
+    let font = TextStyle::Body.resolve(ui.style());
+    let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
+    let gap = 2.0 * ui.spacing().item_spacing.x;
+    let fits = width(name) + width(&value) + gap < ui.available_width();
+    let name = egui::Label::new(RichText::new(name).color(colours.quiet));
+    let value = egui::Label::new(RichText::new(value).color(ui.visuals().strong_text_color()));
+    let right = egui::Layout::right_to_left(egui::Align::Center);
+    if fits {
+        ui.horizontal(|ui| {
+            ui.add(name.extend());
+            ui.with_layout(right, |ui| ui.add(value.extend()));
+        });
+    } else {
+        ui.add(name.wrap());
+        ui.horizontal(|ui| ui.with_layout(right, |ui| ui.add(value.wrap())));
+    }
+}
+
+fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {
+    ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
+}
+
+fn shown(value: f64) -> String {
+    significant(value, DIGITS)
+}
+
+/// An error, to two digits.
+fn rough(error: f64) -> String {
+    significant(error, 2)
+}
+
+fn span(least: f64, most: f64) -> String {
+    format!("{} … {}", shown(least), shown(most))
 }
