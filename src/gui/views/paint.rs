@@ -126,7 +126,7 @@ impl Axes {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, ink.grid));
             // A label may not reach into the title above or the axis below.
-            let label = y.clamp(self.rect.top() + 0.35 * ink.row, self.rect.bottom() - 0.35 * ink.row);
+            let label = y.min(self.rect.bottom() - 0.35 * ink.row).max(self.rect.top() + 0.35 * ink.row);
             if (label - y).abs() < 0.4 * ink.row {
                 let at = pos2(self.rect.left() - 4.0, label);
                 ink.write(painter, at, Align2::RIGHT_CENTER, &ticks.format(value), ink.palette.quiet);
@@ -205,7 +205,7 @@ impl Ticks {
     }
 
     pub(super) fn values(self) -> impl Iterator<Item = f64> {
-        (self.first..=self.last.min(self.first + 50)).map(move |k| k as f64 * self.step)
+        (self.first..=self.last.min(self.first.saturating_add(50))).map(move |k| k as f64 * self.step)
     }
 
     pub(super) fn format(&self, value: f64) -> String {
@@ -238,15 +238,13 @@ pub(super) fn number(value: f64) -> String {
     signed(format!("{value:.decimals$}"))
 }
 
+/// With a true minus sign; "-0.00" is a zero.
 fn signed(text: String) -> String {
-    if text.starts_with('-') {
-        // "-0.00" is a zero.
-        if text.bytes().any(|digit| digit.is_ascii_digit() && digit != b'0') {
-            return text.replacen('-', "−", 1);
-        }
-        return text[1..].to_owned();
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
+        Some(zero) => zero.to_owned(),
+        None => text,
     }
-    text
 }
 
 /// Fills between two lines, given as columns (x, one y, other y).

@@ -79,7 +79,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Co
     }
     Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &ink, 1e-3, "x, mm");
 
-    let bottom = area.bottom() - reserved - axis;
+    let bottom = (area.bottom() - reserved - axis).max(last.bottom() + axis + title + ink.row);
     let middle = 0.5 * (area.left() + right);
     let plots = [(area.left(), middle - 0.4 * ink.row), (middle + 0.4 * ink.row, right)].map(|(left, right)| {
         Rect::from_min_max(pos2(left + gutter, last.bottom() + axis + title + 2.0), pos2(right, bottom))
