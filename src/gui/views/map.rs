@@ -2,7 +2,7 @@
 
 use super::field::{self, Stamp};
 use super::motor::Shown;
-use super::paint::{Axes, Ink, title_with_bar};
+use super::paint::{Axes, Ink, plain, title_with_bar};
 use super::sample;
 use eframe::egui::{Align2, Painter, Rect, Stroke, StrokeKind, Ui, pos2};
 
@@ -35,7 +35,7 @@ pub(super) fn y_labels(painter: &Painter, ink: &Ink, axes: &Axes) {
         ink.write(painter, pos2(x, y), anchor, text, ink.palette.quiet);
     };
     if bottom - top > 2.0 * ink.row {
-        let text = |value: f64| super::paint::number(value * 1e3);
+        let text = |value: f64| plain(value * 1e3);
         write(top - 0.15 * ink.row, Align2::RIGHT_TOP, &text(axes.y[1]));
         write(bottom + 0.1 * ink.row, Align2::RIGHT_BOTTOM, &text(axes.y[0]));
     }

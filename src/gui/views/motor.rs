@@ -57,7 +57,7 @@ struct Layout {
 
 impl Layout {
     fn new(area: Rect, row: f32, gutter: f32, readout: f32) -> Self {
-        let (title, axis) = (row + 4.0, row + 3.0);
+        let (title, axis) = (row + 7.0, row + 3.0);
         let body = area.height() - readout - 3.0 * title - axis;
         let least = 6.0 * row + title + axis;
         let with_tooth = body > 16.0 * row + least && area.width() > 3.0 * (gutter + 5.0 * row);

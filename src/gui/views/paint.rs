@@ -25,6 +25,11 @@ impl Ink {
         Self { palette, text: ui.visuals().text_color(), grid: palette.quiet.gamma_multiply(0.22), font, row }
     }
 
+    /// Fill of a solid body: opaque, so that bodies may overlap, and lighter than its outline.
+    pub(super) fn solid(&self, outline: Color32) -> Color32 {
+        self.palette.canvas.lerp_to_gamma(outline, 0.72)
+    }
+
     /// Writes one line.
     pub(super) fn write(&self, painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) -> Rect {
         painter.text(at, anchor, text, self.font.clone(), colour)
@@ -35,15 +40,19 @@ impl Ink {
         painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
     }
 
-    /// A title above `plot`, and a legend at its right end if both fit.
-    pub(super) fn title(&self, painter: &Painter, plot: Rect, title: &str, legend: &[(&str, Color32)]) {
+    /// A title above `plot`, and a legend at its right end: the first of `titles`, long to short, beside which the legend
+    /// fits; else the first that fits alone.
+    pub(super) fn title(&self, painter: &Painter, plot: Rect, titles: &[&str], legend: &[(&str, Color32)]) {
         let bottom = plot.top() - 2.0;
-        let clipped =
-            painter.with_clip_rect(painter.clip_rect().intersect(Rect::everything_left_of(plot.right() + 1.0)));
-        let end = self.write(&clipped, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, self.text).right();
         let gap = 0.7 * self.row;
         let width: f32 = legend.iter().map(|(text, _)| self.width(painter, text) + gap + self.row).sum();
-        if end + gap + width > plot.right() {
+        let fits =
+            |beside: f32| titles.iter().copied().find(|title| self.width(painter, title) + beside <= plot.width());
+        let with_legend = fits(gap + width);
+        let Some(title) = with_legend.or_else(|| fits(0.0)).or(titles.last().copied()) else { return };
+        let clip = painter.clip_rect().intersect(Rect::everything_left_of(plot.right() + 1.0));
+        self.write(&painter.with_clip_rect(clip), pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, self.text);
+        if with_legend.is_none() {
             return;
         }
         let mut right = plot.right();
@@ -117,7 +126,7 @@ impl Axes {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, ink.grid));
             // A label may not reach into the title above or the axis below.
-            let label = y.clamp(self.rect.top() + 0.35 * ink.row, self.rect.bottom() - 0.35 * ink.row);
+            let label = y.min(self.rect.bottom() - 0.35 * ink.row).max(self.rect.top() + 0.35 * ink.row);
             if (label - y).abs() < 0.4 * ink.row {
                 let at = pos2(self.rect.left() - 4.0, label);
                 ink.write(painter, at, Align2::RIGHT_CENTER, &ticks.format(value), ink.palette.quiet);
@@ -133,7 +142,7 @@ impl Axes {
     }
 
     fn x_values(&self, ink: &Ink, unit: f64) -> Ticks {
-        let about = (self.rect.width() / (4.5 * ink.row)).clamp(1.0, 12.0) as usize;
+        let about = (self.rect.width() / (3.6 * ink.row)).clamp(1.0, 12.0) as usize;
         Ticks::new([self.x[0] / unit, self.x[1] / unit], about)
     }
 
@@ -196,7 +205,7 @@ impl Ticks {
     }
 
     pub(super) fn values(self) -> impl Iterator<Item = f64> {
-        (self.first..=self.last.min(self.first + 50)).map(move |k| k as f64 * self.step)
+        (self.first..=self.last.min(self.first.saturating_add(50))).map(move |k| k as f64 * self.step)
     }
 
     pub(super) fn format(&self, value: f64) -> String {
@@ -229,15 +238,13 @@ pub(super) fn number(value: f64) -> String {
     signed(format!("{value:.decimals$}"))
 }
 
+/// With a true minus sign; "-0.00" is a zero.
 fn signed(text: String) -> String {
-    if text.starts_with('-') {
-        // "-0.00" is a zero.
-        if text.bytes().any(|digit| digit.is_ascii_digit() && digit != b'0') {
-            return text.replacen('-', "−", 1);
-        }
-        return text[1..].to_owned();
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
+        Some(zero) => zero.to_owned(),
+        None => text,
     }
-    text
 }
 
 /// Fills between two lines, given as columns (x, one y, other y).
@@ -310,13 +317,14 @@ pub(super) fn scale_bar(painter: &Painter, ink: &Ink, plot: Rect, scale: f64) {
         painter.hline(x - 3.0..=x + 3.0, y, stroke);
     }
     let at = pos2(x - 5.0, middle);
-    ink.write(painter, at - vec2(0.0, 0.5 * ink.row), Align2::RIGHT_CENTER, &number_bare(length), ink.text);
+    ink.write(painter, at - vec2(0.0, 0.5 * ink.row), Align2::RIGHT_CENTER, &plain(length), ink.text);
     ink.write(painter, at + vec2(0.0, 0.5 * ink.row), Align2::RIGHT_CENTER, "µm", ink.text);
 }
 
-fn number_bare(value: f64) -> String {
-    let decimals = (-value.log10() - 1e-9).ceil().clamp(0.0, 6.0) as usize;
-    format!("{value:.decimals$}")
+/// `value` as it is, without trailing zeros.
+pub(super) fn plain(value: f64) -> String {
+    let text = number(value);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// "×9000", to two digits.

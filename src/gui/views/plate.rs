@@ -46,7 +46,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Co
     let painter = ui.painter_at(area);
     let gutter = ink.width(&painter, "−0.000") + 6.0;
 
-    let (title, axis) = (ink.row + 4.0, ink.row + 3.0);
+    let (title, axis) = (ink.row + 7.0, ink.row + 3.0);
     let readout = readout(&shown);
     let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
     let reserved = longest.height(&painter, &ink, area.width());
@@ -79,7 +79,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Co
     }
     Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &ink, 1e-3, "x, mm");
 
-    let bottom = area.bottom() - reserved - axis;
+    let bottom = (area.bottom() - reserved - axis).max(last.bottom() + axis + title + ink.row);
     let middle = 0.5 * (area.left() + right);
     let plots = [(area.left(), middle - 0.4 * ink.row), (middle + 0.4 * ink.row, right)].map(|(left, right)| {
         Rect::from_min_max(pos2(left + gutter, last.bottom() + axis + title + 2.0), pos2(right, bottom))
@@ -109,18 +109,18 @@ fn draw_gap(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Axes
     scale_bar(painter, ink, rect, scale);
     let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
     let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(scale / along));
-    ink.title(painter, rect, &title, &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
+    ink.title(painter, rect, &[&title], &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
     let (left, right) = (rect.left(), rect.right());
     let block = |top: f32, bottom: f32| Rect::from_min_max(pos2(left, top), pos2(right, bottom));
     painter.rect_filled(block(plate, wall), 0.0, ink.palette.film.gamma_multiply(0.25));
-    painter.rect_filled(block(wall, rect.bottom()), 0.0, ink.palette.stator.gamma_multiply(0.75));
+    painter.rect_filled(block(wall, rect.bottom()), 0.0, ink.solid(ink.palette.stator));
     painter.hline(rect.x_range(), wall, Stroke::new(1.5, ink.palette.stator));
     // The plate keeps its thickness and moves.
     let thickness = 0.8 * above as f32 * rect.height();
-    painter.rect_filled(block(plate - thickness, plate), 0.0, ink.palette.rotor.gamma_multiply(0.75));
+    painter.rect_filled(block(plate - thickness, plate), 0.0, ink.solid(ink.palette.rotor));
     painter.hline(rect.x_range(), plate, Stroke::new(1.5, ink.palette.rotor));
     axes.cursor(painter, ink, shown.cursor);
     axes
@@ -137,7 +137,7 @@ fn draw_profile(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     axes.canvas(painter, ink);
     axes.y_ticks(painter, ink, 1e3);
     let title = if shown.plate.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
-    ink.title(painter, rect, title, &[("film", ink.palette.film), ("ambient", ink.palette.quiet)]);
+    ink.title(painter, rect, &[title], &[("film", ink.palette.film), ("ambient", ink.palette.quiet)]);
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     axes.x_grid(painter, ink, 1e-3);
     painter.hline(rect.x_range(), axes.py(ambient), Stroke::new(1.0, ink.palette.quiet));
@@ -185,10 +185,9 @@ fn draw_loop(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     let axes = Axes::new(rect, [near - side, far + side], [low - margin, high + margin]);
     axes.canvas(painter, ink);
     axes.y_ticks(painter, ink, 1e3);
-    axes.x_labels(painter, ink, 1e-6, "µm");
-    let titles = ["Mean pressure over the gap, kPa gauge", "Pressure over gap, kPa", "Loop, kPa"];
-    let fits = |title: &&&str| ink.width(painter, title) <= rect.width();
-    ink.title(painter, rect, titles.iter().find(fits).unwrap_or(&titles[2]), &[]);
+    axes.x_labels(painter, ink, 1e-6, "gap, µm");
+    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
+    ink.title(painter, rect, &titles, &[]);
     axes.x_grid(painter, ink, 1e-6);
     painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, ink.palette.quiet));
     let Some((curves, _)) = shown.scales.tooth(0) else { return };
@@ -208,7 +207,8 @@ fn readout(shown: &Shown<'_>) -> Readout {
     };
     let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
     if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.frame) {
-        values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
+        let place = if shown.plate.width.is_some() { "p at y = 0" } else { "p" };
+        values.push(format!("{place} {} kPa absolute", number(pressure / 1e3)));
     }
     if let Some(load) = shown.recording.film_load.get(shown.frame) {
         let [low, high] = shown.scales.tooth_load;

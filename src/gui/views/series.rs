@@ -39,10 +39,10 @@ impl Series<'_> {
         let axes = Axes::new(rect, [0.0, 1.0], [low - margin, high + margin]);
         axes.canvas(painter, ink);
         axes.y_ticks(painter, ink, self.unit);
-        ink.title(painter, rect, self.title, self.legend);
+        ink.title(painter, rect, &[self.title], self.legend);
         let quiet = ink.palette.quiet;
         let top = rect.bottom() + 1.0;
-        ink.write(painter, pos2(rect.left(), top), Align2::LEFT_TOP, "0", quiet);
+        ink.write(painter, pos2(rect.left(), top), Align2::LEFT_TOP, "0 µs", quiet);
         let period = format!("{} µs", number(self.period * 1e6));
         ink.write(painter, pos2(rect.right(), top), Align2::RIGHT_TOP, &period, quiet);
         let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));

@@ -34,9 +34,10 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, row: Rect, gutter: f32
     let stamp =
         Stamp { run: shown.run, frame: shown.frame, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
     field::draw(ui, painter, &axes, recording, "followed tooth", stamp);
-    ink.title(painter, places[0], &format!("Tooth {}", shown.tooth), &[]);
+    let long = format!("Tooth {}, x from its middle", shown.tooth);
+    ink.title(painter, places[0], &[&long, &format!("Tooth {}", shown.tooth)], &[]);
     y_labels(painter, ink, &axes);
-    axes.x_labels(painter, ink, 1e-3, "mm");
+    axes.x_labels(painter, ink, 1e-3, "x, mm");
     let middle = shown.tooth as f64 * recording.pitch;
     axes.cursor(painter, ink, shown.cursor.map(|x| x - middle));
 

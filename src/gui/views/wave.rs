@@ -24,18 +24,18 @@ pub(super) fn draw(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) 
     let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
 
     axes.canvas(painter, ink);
+    scale_bar(painter, ink, rect, scale);
+    let title = format!("Rotor on the travelling wave, vertical {}", times(scale / along));
+    let legend = [("rotor", ink.palette.rotor), ("stator", ink.palette.stator), ("contact", ink.palette.contact)];
+    let short = format!("Wave, vertical {}", times(scale / along));
+    ink.title(painter, rect, &[&title, &short], &legend);
+
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     shown.mark_followed(painter, ink, &axes);
     stator(painter, ink, &axes, shown);
     rotor(painter, ink, &axes, shown);
     touching(painter, ink, &axes, shown);
     axes.cursor(painter, ink, shown.cursor);
-
-    let outside = &painter.with_clip_rect(Rect::EVERYTHING);
-    scale_bar(outside, ink, rect, scale);
-    let title = format!("Rotor on the travelling wave, vertical {}", times(scale / along));
-    let legend = [("rotor", ink.palette.rotor), ("stator", ink.palette.stator), ("contact", ink.palette.contact)];
-    ink.title(outside, rect, &title, &legend);
     axes
 }
 
@@ -48,9 +48,10 @@ fn stator(painter: &Painter, ink: &Ink, axes: &Axes, shown: &Shown<'_>) {
     // The body below the grooves.
     let samples = 96;
     let at = |i: usize| axes.x[0] + (axes.x[1] - axes.x[0]) * i as f64 / samples as f64;
-    let fill = colour.gamma_multiply(0.75);
+    let fill = ink.solid(colour);
     band(painter, (0..=samples).map(|i| (axes.px(at(i)), body(at(i)), axes.rect.bottom())), fill);
     let numbered = f64::from(axes.rect.width()) / recording.teeth.max(1) as f64 > 1.6 * f64::from(ink.row);
+    painter.line((0..=samples).map(|i| pos2(axes.px(at(i)), body(at(i)))).collect(), Stroke::new(1.0, colour));
     for tooth in 0..recording.teeth {
         let line = recording.line_offset(tooth, shown.frame);
         let middle = tooth as f64 * recording.pitch;
@@ -59,7 +60,7 @@ fn stator(painter: &Painter, ink: &Ink, axes: &Axes, shown: &Shown<'_>) {
         let (Some(first), Some(last)) = (recording.x.first(), recording.x.last()) else { continue };
         let feet = [body(middle + first), body(middle + last)];
         // A pixel below the body's edge, so that no seam shows.
-        let foot = feet[0].max(feet[1]) + 1.0;
+        let foot = feet[0].max(feet[1]) + 2.0;
         band(painter, top.iter().map(|point| (point.x, point.y, foot.max(point.y))), fill);
         let followed = tooth == shown.tooth;
         let stroke = if followed { Stroke::new(2.0, ink.palette.accent) } else { Stroke::new(1.0, colour) };
@@ -100,7 +101,7 @@ fn rotor(painter: &Painter, ink: &Ink, axes: &Axes, shown: &Shown<'_>) {
     underside[0] = pos2(axes.rect.left(), edge);
     underside.push(pos2(axes.rect.right(), edge));
     let colour = ink.palette.rotor;
-    band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), colour.gamma_multiply(0.75));
+    band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), ink.solid(colour));
     painter.line(underside, Stroke::new(1.5, colour));
 }
 
