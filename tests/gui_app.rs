@@ -1,6 +1,7 @@
 //! The window through its real application, without a display.
 #![cfg(feature = "gui")]
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -174,7 +175,7 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     assert_eq!(spacing(window.state()), Value::Number(120.0));
     drop_file(&mut window, path.clone());
     window.get_by_label_contains("Save the changes");
-    window.get_by_label("Cancel").click();
+    window.get_by_label("Keep editing").click();
     window.step();
     window.step();
     assert_eq!(spacing(window.state()), Value::Number(120.0));
@@ -188,7 +189,31 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
 
 /// Types a minimum spacing into the field of that name.
 fn edit_spacing(window: &mut Harness<'static, App>, text: &str) {
-    let _ = (window, text);
+    let field = "Minimum spacing H_m in nm";
+    window.get_by_role_and_label(Role::TextInput, field).click();
+    window.step();
+    window.step();
+    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
+    window.step();
+    window.key_press(Key::Enter);
+    window.step();
+    window.step();
+}
+
+#[test]
+fn an_edit_is_solved_again_and_the_headline_follows() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label_contains("0.2458");
+    edit_spacing(&mut window, "100");
+    solved(&mut window);
+    assert!((alpha(window.state().shown()) - 0.4988).abs() < 1e-3);
+    window.step();
+    window.get_by_label_contains("0.4987");
+    // What is out of range is refused in place; nothing changes.
+    edit_spacing(&mut window, "3");
+    window.get_by_label_contains("allowed 5 to 10000 nm");
+    assert_eq!(spacing(window.state()), Value::Number(100.0));
 }
 
 #[test]

@@ -442,7 +442,7 @@ impl App {
                             commands.push((**next).clone());
                             open = false;
                         }
-                        open &= !ui.button("Cancel").clicked();
+                        open &= !ui.button("Keep editing").clicked();
                     });
                 }
                 Modal::Path(path) => {

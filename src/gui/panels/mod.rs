@@ -1,9 +1,9 @@
 //! Panels: each is a function that reads state and pushes commands.
 
-pub mod menu;
 pub mod convergence;
 pub mod field;
 pub mod labels;
+pub mod menu;
 pub mod parameters;
 pub mod results;
 pub mod sheet;
