@@ -184,38 +184,32 @@ impl Panel<'_> {
     ) -> R {
         let default = self.default(parameter);
         let changed = default.is_some() && default != self.scene.get(parameter.key);
-        let side = ui.text_style_height(&TextStyle::Body) + 2.0;
-        ui.horizontal(|ui| {
-            let width = (ui.available_width() - side - ui.spacing().item_spacing.x).max(side);
-            let inner = ui
-                .vertical(|ui| {
-                    ui.set_width(width);
-                    add(ui, self.commands)
-                })
-                .inner;
-            if changed {
-                let text = default.as_ref().map(|value| self.in_words(parameter, value)).unwrap_or_default();
-                let size = NOTE_SIZE * TextStyle::Body.resolve(ui.style()).size;
-                let button = egui::Button::new(RichText::new("↺").size(size))
-                    .small()
-                    .frame(false)
-                    .min_size(egui::vec2(side, 0.0));
-                let response = ui
-                    .add(button)
-                    .on_hover_text(format!("Reset to {text}"))
-                    .accessible_name(format!("Reset {}", label(parameter).to_lowercase()));
-                if response.clicked() {
-                    self.commands.push(Command::Reset { key: parameter.key });
-                }
+        let side = ui.text_style_height(&TextStyle::Body);
+        let right = ui.max_rect().right();
+        let row = ui.scope(|ui| {
+            ui.set_max_width((ui.available_width() - side - ui.spacing().item_spacing.x).max(side));
+            add(ui, self.commands)
+        });
+        if changed {
+            // Placed over the row, which keeps its height when the button comes and goes.
+            let corner = egui::pos2(right - side, row.response.rect.top());
+            let area = egui::Rect::from_min_size(corner, egui::vec2(side, side));
+            let text = default.as_ref().map(|value| self.in_words(parameter, value)).unwrap_or_default();
+            let response = reset_button(ui, area, &format!("Reset {}", label(parameter).to_lowercase()))
+                .on_hover_text(format!("Reset to {text}"));
+            if response.clicked() {
+                self.commands.push(Command::Reset { key: parameter.key });
             }
-            inner
-        })
-        .inner
+        }
+        row.inner
     }
 
     fn number_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
         let explanation = self.explanation(parameter);
-        let name = if parameter.absent.is_some() { None } else { Some(self.label_row(ui, parameter)) };
+        // The checkbox above mostly says it already.
+        let said =
+            parameter.absent.is_some() && switch(parameter).to_lowercase().contains(&label(parameter).to_lowercase());
+        let name = if said { None } else { Some(self.label_row(ui, parameter)) };
         ui.horizontal(|ui| {
             let em = ui.text_style_height(&TextStyle::Body);
             let field = FIELD_WIDTH * em;
@@ -408,6 +402,19 @@ fn is_main(scene: &Scene, parameter: &Parameter) -> bool {
 fn heading(ui: &mut egui::Ui, text: &str) {
     ui.add(egui::Label::new(RichText::new(text).strong()).selectable(false));
     ui.add_space(2.0);
+}
+
+/// A round arrow in `area`.
+fn reset_button(ui: &egui::Ui, area: egui::Rect, name: &str) -> egui::Response {
+    let response = ui.interact(area, ui.scope_id().with("reset"), egui::Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
+    let visuals = ui.style().interact(&response);
+    if response.has_focus() {
+        ui.painter().rect_stroke(area, 3, visuals.fg_stroke, egui::StrokeKind::Inside);
+    }
+    let font = egui::FontId::proportional(TextStyle::Body.resolve(ui.style()).size);
+    ui.painter().text(area.center(), egui::Align2::CENTER_CENTER, "↺", font, visuals.text_color());
+    response
 }
 
 fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {

@@ -238,20 +238,29 @@ fn shares(ui: &mut egui::Ui, alpha: f64, colours: &Palette) {
         colours.film,
     );
     response.on_hover_text("Film and contact share the load");
-    ui.horizontal_wrapped(|ui| {
-        // Adding 0 turns −0 into 0.
-        let percent = |share: f64| format!("{:.1} %", (1000.0 * share).round() / 10.0 + 0.0);
-        legend(ui, colours.film, &format!("air {}", percent(alpha)));
-        ui.add_space(8.0);
-        legend(ui, colours.contact, &format!("contact {}", percent(1.0 - alpha)));
-    });
+    // Adding 0 turns −0 into 0.
+    let percent = |share: f64| format!("{:.1} %", (1000.0 * share).round() / 10.0 + 0.0);
+    let (air, contact) = (format!("air {}", percent(alpha)), format!("contact {}", percent(1.0 - alpha)));
+    let both = text_width(ui, &air) + text_width(ui, &contact) + 2.0 * height + 5.0 * ui.spacing().item_spacing.x;
+    let legends = |ui: &mut egui::Ui| {
+        legend(ui, colours.film, &air);
+        legend(ui, colours.contact, &contact);
+    };
+    if both < ui.available_width() {
+        ui.horizontal(legends);
+    } else {
+        legends(ui);
+    }
 }
 
 fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
     let side = 0.6 * text_height(ui);
-    let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
-    ui.painter().rect_filled(area, 2, colour);
-    ui.label(text);
+    // Swatch and text stay on one line.
+    ui.horizontal(|ui| {
+        let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
+        ui.painter().rect_filled(area, 2, colour);
+        ui.add(egui::Label::new(text).extend());
+    });
 }
 
 fn section(ui: &mut egui::Ui, title: &str) {
