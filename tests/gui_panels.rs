@@ -213,6 +213,20 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
 }
 
 #[test]
+fn a_refused_slider_says_why_and_escape_takes_the_message_away() {
+    let mut edited = Edited::of(Scene::motor());
+    edited.apply(&Command::Set { key: "motor.contact_radius_mm", value: Value::Number(5.0), dragging: false });
+    let mut harness = panel(edited);
+    harness.get_by_label_contains("of the tooth pitch");
+    harness.get_by_label("Still 29 mm");
+    harness.get_by_role_and_label(Role::TextInput, "Contact radius in mm").click();
+    harness.run();
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label_contains("of the tooth pitch").is_none());
+}
+
+#[test]
 fn a_refusal_opens_the_group_it_is_in() {
     let mut edited = Edited::of(Scene::motor());
     edited.refusals.insert("film.viscosity_upa_s", "film.viscosity_upa_s = 0 is out of range".into());
