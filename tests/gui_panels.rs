@@ -1,5 +1,6 @@
 //! The panels of the window, as a user meets them, without a window.
 #![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used)] // helpers of tests are not tests to clippy
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key};
