@@ -47,7 +47,7 @@ pub struct Field<'a> {
 impl Field<'_> {
     /// Shows the field and pushes what comes of it.
     pub fn show(&self, ui: &mut egui::Ui, palette: &Palette, commands: &mut Vec<Command>) -> egui::Response {
-        let id = Id::unique(("parameter", self.key));
+        let id = id_of(self.key);
         let present = self.value.map(plain).unwrap_or_default();
         let edit = self.pending(ui, id);
         let mut text = edit.as_ref().map_or_else(|| present.clone(), |edit| edit.text.clone());
@@ -75,14 +75,15 @@ impl Field<'_> {
         if response.gained_focus() {
             select_all(ui, id, &text);
         }
+        let escaped = ui.input(|input| input.key_pressed(Key::Escape));
         let typing = edit.as_ref().is_some_and(|edit| edit.stage == Stage::Typing) || response.changed();
         if response.has_focus() {
             if typing || edit.is_some() {
                 keep(ui, id, text, Stage::Typing);
             }
-        } else if typing {
+        } else if typing || (self.refused.is_some() && response.lost_focus() && escaped) {
             // A field that was not shown for a while has not been left just now.
-            let left = response.lost_focus() && !ui.input(|input| input.key_pressed(Key::Escape));
+            let left = response.lost_focus() && !escaped;
             self.finish(ui, id, &text, left && text.trim() != present, entered, commands);
         }
         response
@@ -130,6 +131,15 @@ impl Field<'_> {
             _ => Command::SetText { key: self.key, text: text.trim().to_owned() },
         }
     }
+}
+
+/// Whether the field of `key` holds text that is not in the scene.
+pub fn holds_text(ui: &egui::Ui, key: &'static str) -> bool {
+    ui.data(|data| data.get_temp::<Edit>(id_of(key))).is_some()
+}
+
+fn id_of(key: &'static str) -> Id {
+    Id::unique(("parameter", key))
 }
 
 fn is_text(value: &Value) -> bool {

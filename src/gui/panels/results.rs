@@ -15,6 +15,10 @@ use eframe::egui::{self, Color32, RichText, TextStyle};
 const DIGITS: usize = 4;
 /// Size of the headline number relative to the text.
 const HEADLINE: f32 = 2.1;
+/// Share of its error below which a value is shown as 0.
+const NOTHING: f64 = 0.05;
+/// Width that a collapsing header needs beside its text, in heights of the text.
+const HEADER_ICON: f32 = 2.0;
 /// Size of its error relative to the text.
 const HEADLINE_ERROR: f32 = 1.35;
 
@@ -44,7 +48,15 @@ pub fn show(ui: &mut egui::Ui, run: &Run, dark: bool) {
             .default_open(true)
             .show_unindented(ui, |ui| how(ui, run, &colours));
         if !run.solution.model.why.is_empty() {
-            egui::CollapsingHeader::new(RichText::new("What the model left out, and why").strong())
+            let title = "What the model left out, and why";
+            // A header does not wrap by itself.
+            let title = if text_width(ui, title) + HEADER_ICON * text_height(ui) < ui.available_width() {
+                title
+            } else {
+                "What the model\nleft out, and why"
+            };
+            egui::CollapsingHeader::new(RichText::new(title).strong())
+                .id_salt("why")
                 .show_unindented(ui, |ui| reasons(ui, &run.solution.model.why));
         }
         ui.add_space(12.0);
@@ -55,15 +67,15 @@ fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours
     if result.levitated {
         banner(ui, colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
     }
-    headline(ui, "α", &with_error(result.alpha, result.alpha_error), "");
+    headline(ui, "α", &uncertain(result.alpha, result.alpha_error), "");
     quiet(ui, colours, "share of the load carried by air");
     shares(ui, result.alpha, colours);
     ui.add_space(4.0);
     let force_error = result.alpha_error * motor.load;
     let torque_error = result.alpha_error * dry_torque(motor);
-    number(ui, colours, "Film load", &with_error(result.film_load, force_error), "N");
+    number(ui, colours, "Film load", &uncertain(result.film_load, force_error), "N");
     number(ui, colours, "Over the cycle", &span(result.film_load_min, result.film_load_max), "N");
-    number(ui, colours, "Contact load", &with_error(result.contact_load, force_error), "N");
+    number(ui, colours, "Contact load", &uncertain(result.contact_load, force_error), "N");
     number(
         ui,
         colours,
@@ -72,7 +84,7 @@ fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours
         "",
     );
     section(ui, "Maximum torque");
-    number(ui, colours, "With air", &with_error(result.max_torque, torque_error), "N·m");
+    number(ui, colours, "With air", &uncertain(result.max_torque, torque_error), "N·m");
     number(ui, colours, "Without air", &shown(dry_torque(motor)), "N·m");
     section(ui, "Extremes");
     extremes(ui, colours, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
@@ -81,13 +93,13 @@ fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours
 fn plate_numbers(ui: &mut egui::Ui, run: &Run, plate: &Plate, result: &PlateResult, colours: &Palette) {
     let unit = force_unit(&run.problem);
     let ratio = |load| PlateResult::ratio(load, plate);
-    headline(ui, "", &with_error(result.film_load, result.film_load_error), unit);
+    headline(ui, "", &uncertain(result.film_load, result.film_load_error), unit);
     quiet(ui, colours, "mean load of the film over the cycle");
     ui.add_space(4.0);
     number(ui, colours, "Over the cycle", &span(result.film_load_min, result.film_load_max), unit);
     let area = if plate.width.is_some() { "Load / (p_a · area)" } else { "Load / (p_a · length)" };
     section(ui, area);
-    number(ui, colours, "Mean", &with_error(ratio(result.film_load), ratio(result.film_load_error)), "");
+    number(ui, colours, "Mean", &uncertain(ratio(result.film_load), ratio(result.film_load_error)), "");
     number(ui, colours, "Over the cycle", &span(ratio(result.film_load_min), ratio(result.film_load_max)), "");
     section(ui, "Extremes");
     extremes(ui, colours, result.min_gap, result.max_pressure, plate.gas.ambient_pressure);
@@ -213,7 +225,7 @@ fn headline(ui: &mut egui::Ui, symbol: &str, value: &str, unit: &str) {
 
 /// Air and contact as parts of one bar, and what the colours mean.
 fn shares(ui: &mut egui::Ui, alpha: f64, colours: &Palette) {
-    let height = 0.6 * ui.text_style_height(&TextStyle::Body);
+    let height = 0.6 * text_height(ui);
     let (area, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), height), egui::Sense::hover());
     // Suction can make the share negative, and it can pass 1 while it converges; the bar shows what it can.
     let share = if alpha.is_finite() { alpha.clamp(0.0, 1.0) as f32 } else { 0.0 };
@@ -226,19 +238,29 @@ fn shares(ui: &mut egui::Ui, alpha: f64, colours: &Palette) {
         colours.film,
     );
     response.on_hover_text("Film and contact share the load");
-    ui.horizontal_wrapped(|ui| {
-        let percent = |share: f64| format!("{} %", significant(100.0 * share, 3));
-        legend(ui, colours.film, &format!("air {}", percent(alpha)));
-        ui.add_space(8.0);
-        legend(ui, colours.contact, &format!("contact {}", percent(1.0 - alpha)));
-    });
+    // Adding 0 turns −0 into 0.
+    let percent = |share: f64| format!("{:.1} %", (1000.0 * share).round() / 10.0 + 0.0);
+    let (air, contact) = (format!("air {}", percent(alpha)), format!("contact {}", percent(1.0 - alpha)));
+    let both = text_width(ui, &air) + text_width(ui, &contact) + 2.0 * height + 5.0 * ui.spacing().item_spacing.x;
+    let legends = |ui: &mut egui::Ui| {
+        legend(ui, colours.film, &air);
+        legend(ui, colours.contact, &contact);
+    };
+    if both < ui.available_width() {
+        ui.horizontal(legends);
+    } else {
+        legends(ui);
+    }
 }
 
 fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
-    let side = 0.6 * ui.text_style_height(&TextStyle::Body);
-    let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
-    ui.painter().rect_filled(area, 2, colour);
-    ui.label(text);
+    let side = 0.6 * text_height(ui);
+    // Swatch and text stay on one line.
+    ui.horizontal(|ui| {
+        let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
+        ui.painter().rect_filled(area, 2, colour);
+        ui.add(egui::Label::new(text).extend());
+    });
 }
 
 fn section(ui: &mut egui::Ui, title: &str) {
@@ -249,10 +271,8 @@ fn section(ui: &mut egui::Ui, title: &str) {
 /// A name at the left, its value and unit at the right; below each other where they do not fit side by side.
 fn number(ui: &mut egui::Ui, colours: &Palette, name: &str, value: &str, unit: &str) {
     let value = if unit.is_empty() { value.to_owned() } else { format!("{value} {unit}") };
-    let font = TextStyle::Body.resolve(ui.style());
-    let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
     let gap = 2.0 * ui.spacing().item_spacing.x;
-    let fits = width(name) + width(&value) + gap < ui.available_width();
+    let fits = text_width(ui, name) + text_width(ui, &value) + gap < ui.available_width();
     let name = egui::Label::new(RichText::new(name).color(colours.quiet));
     let value = egui::Label::new(RichText::new(value).color(ui.visuals().strong_text_color()));
     let right = egui::Layout::right_to_left(egui::Align::Center);
@@ -267,12 +287,31 @@ fn number(ui: &mut egui::Ui, colours: &Palette, name: &str, value: &str, unit: &
     }
 }
 
+fn text_width(ui: &egui::Ui, text: &str) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+}
+
+fn text_height(ui: &egui::Ui) -> f32 {
+    ui.text_style_height(&TextStyle::Body)
+}
+
 fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {
     ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
 }
 
 fn shown(value: f64) -> String {
     significant(value, DIGITS)
+}
+
+/// A value with its error, an exponent raised. What is far below its error is 0.
+fn uncertain(value: f64, error: f64) -> String {
+    let value = if value.abs() < NOTHING * error { 0.0 } else { value };
+    let text = with_error(value, error);
+    match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
+        Some((before, Ok(exponent))) => format!("{before}{}", convergence::power_of_ten(exponent)),
+        _ => text,
+    }
 }
 
 /// An error, to two digits.

@@ -1,0 +1,397 @@
+//! The panels of the window, as a user meets them, without a window.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used)] // helpers of tests are not tests to clippy
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{self, Key};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use squeezefilm::control::Cancel;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::gui::command::Command;
+use squeezefilm::gui::panels::parameters::Refusals;
+use squeezefilm::gui::panels::{labels, parameters, results};
+use squeezefilm::gui::theme;
+use squeezefilm::job::Run;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::{ParameterKind, Scene, Value, presets};
+use squeezefilm::solution::{Outcome, Status};
+use squeezefilm::solve::{Method, Settings, solve};
+
+/// A scene that is edited in the panel, with the commands that came of it.
+struct Edited {
+    scene: Scene,
+    refusals: Refusals,
+    pushed: Vec<Command>,
+    size: f32,
+}
+
+impl Edited {
+    fn of(scene: Scene) -> Self {
+        Self { scene, refusals: Refusals::new(), pushed: Vec::new(), size: 1.0 }
+    }
+
+    fn apply(&mut self, command: &Command) {
+        let mut next = self.scene.clone();
+        let (key, done) = match command.clone() {
+            Command::Set { key, value, .. } => (key, next.set_value(key, value)),
+            Command::SetText { key, text } => (key, next.set(key, &text)),
+            Command::Reset { key } => (key, next.unset(key)),
+            other => panic!("{other:?} does not come from this panel"),
+        };
+        match done.and_then(|()| next.check()) {
+            Ok(()) => {
+                self.refusals.remove(key);
+                self.scene = next;
+            }
+            Err(error) => {
+                self.refusals.insert(key, error.to_string());
+            }
+        }
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui) {
+        let mut commands = Vec::new();
+        parameters::show(ui, &self.scene, &self.refusals, &mut commands);
+        commands.iter().for_each(|command| self.apply(command));
+        self.pushed.extend(commands);
+    }
+}
+
+fn panel(edited: Edited) -> Harness<'static, Edited> {
+    let size = edited.size;
+    let mut harness = Harness::builder()
+        .with_size(egui::vec2(300.0, 3000.0))
+        .with_context_setup(move |ctx| {
+            theme::install_fonts(ctx);
+            ctx.all_styles_mut(|style| style.text_styles.values_mut().for_each(|font| font.size *= size));
+        })
+        .build_ui_state(|ui, edited: &mut Edited| edited.ui(ui), edited);
+    harness.run();
+    harness
+}
+
+fn open_all(harness: &mut Harness<'_, Edited>) {
+    for title in ["Rotor", "Film", "Numerics"] {
+        if let Some(header) = harness.query_by_label(title) {
+            header.click();
+            harness.run();
+        }
+    }
+}
+
+fn scenes() -> Vec<Scene> {
+    let mut crowned = Scene::motor();
+    crowned.set("stator.tooth_radius_m", "6.5").unwrap();
+    let mut table = Scene::motor();
+    table.set("rotor.compliance", "[[100, 1e-9], [200, 5e-10]]").unwrap();
+    let mut wide = Scene::plate();
+    wide.set("plate.width_mm", "2").unwrap();
+    for key in ["film_nodes_along", "film_nodes_across", "contact_nodes", "steps_per_cycle"] {
+        wide.set(&format!("numerics.{key}"), "41").unwrap();
+    }
+    vec![Scene::motor(), Scene::plate(), crowned, table, wide]
+}
+
+#[test]
+fn every_parameter_has_a_named_widget() {
+    for scene in scenes() {
+        let mut harness = panel(Edited::of(scene.clone()));
+        open_all(&mut harness);
+        for parameter in scene.parameters() {
+            let name = labels::label(parameter);
+            let has = |role, label: &str| harness.query_all_by_role_and_label(role, label).count() == 1;
+            let present = scene.get(parameter.key).is_some();
+            let found = match parameter.kind {
+                ParameterKind::Number { .. } | ParameterKind::Whole { .. } => {
+                    let switched = parameter.absent.is_none() || has(Role::CheckBox, labels::switch(parameter));
+                    let edited = has(Role::Slider, name) && has(Role::TextInput, &labels::field_name(parameter));
+                    switched && edited == present
+                }
+                ParameterKind::Flag { .. } => has(Role::CheckBox, name),
+                ParameterKind::Choice { .. } => has(Role::ComboBox, name),
+                ParameterKind::Text { .. } => has(Role::MultilineTextInput, name),
+                ParameterKind::CsvPath => has(Role::TextInput, name),
+                ParameterKind::Rows => harness.query_by_label("2 rows").is_some(),
+            };
+            assert!(found, "{} in {}", parameter.key, scene.scene());
+        }
+        assert_eq!(harness.state().pushed, [], "looking changes nothing");
+    }
+}
+
+fn type_into(harness: &mut Harness<'_, Edited>, name: &str, text: &str) {
+    harness.get_by_role_and_label(Role::TextInput, name).click();
+    harness.run();
+    // The old text is selected, so typing replaces it.
+    harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
+    harness.run();
+}
+
+#[test]
+fn a_typed_spacing_is_set() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    type_into(&mut harness, "Minimum spacing H_m in nm", "120");
+    assert_eq!(harness.state().pushed, [], "nothing happens before Enter");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(harness.state().pushed, [Command::SetText { key: "film.min_spacing_nm", text: "120".into() }]);
+    let field = harness.get_by_role_and_label(Role::TextInput, "Minimum spacing H_m in nm");
+    assert_eq!(field.value().as_deref(), Some("120"));
+}
+
+#[test]
+fn leaving_the_field_sets_it_once() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    type_into(&mut harness, "Tooth width in mm", "1.5");
+    harness.key_press(Key::Tab);
+    harness.run();
+    harness.run_steps(5);
+    assert_eq!(harness.state().pushed, [Command::SetText { key: "stator.tooth_width_mm", text: "1.5".into() }]);
+}
+
+#[test]
+fn a_slider_moves_by_keys_and_by_the_pointer() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    harness.get_by_role_and_label(Role::Slider, "Waves round the ring").focus();
+    harness.run();
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    let set = |value, dragging| Command::Set { key: "motor.waves", value: Value::Whole(value), dragging };
+    assert_eq!(harness.state().pushed, [set(8, false)]);
+
+    harness.state_mut().pushed.clear();
+    let rail = harness.get_by_role_and_label(Role::Slider, "Frequency").rect();
+    harness.drag_at(rail.center());
+    harness.step();
+    harness.hover_at(rail.center() + egui::vec2(60.0, 0.0));
+    harness.step();
+    harness.drop_at(rail.center() + egui::vec2(60.0, 0.0));
+    harness.run();
+    let flags: Vec<bool> = harness
+        .state()
+        .pushed
+        .iter()
+        .map(|command| match command {
+            Command::Set { key: "stator.frequency_khz", dragging, .. } => *dragging,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let (last, before) = flags.split_last().unwrap();
+    assert!(!last && !before.is_empty() && before.iter().all(|dragging| *dragging), "{flags:?}");
+    assert!(harness.state().scene.get("stator.frequency_khz").unwrap().as_number().unwrap() > 30.0);
+}
+
+#[test]
+fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    let name = "Minimum spacing H_m in nm";
+    let shown = |harness: &Harness<'_, Edited>| harness.get_by_role_and_label(Role::TextInput, name).value();
+    type_into(&mut harness, name, "3");
+    harness.key_press(Key::Enter);
+    harness.run();
+    harness.get_by_label("3 is out of range: allowed 5 to 10000 nm");
+    harness.get_by_label_contains("Still 200 nm");
+    assert_eq!(shown(&harness).as_deref(), Some("3"));
+    assert!(harness.get_by_role_and_label(Role::TextInput, name).is_focused(), "the next key corrects");
+
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert_eq!(shown(&harness).as_deref(), Some("200"));
+    assert!(harness.query_by_label_contains("out of range").is_none());
+    assert_eq!(harness.state().scene, Scene::motor());
+
+    type_into(&mut harness, name, "thick");
+    harness.key_press(Key::Tab);
+    harness.run();
+    harness.get_by_label_contains("wrong type");
+    assert_eq!(shown(&harness).as_deref(), Some("thick"));
+    type_into(&mut harness, name, "150");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(shown(&harness).as_deref(), Some("150"));
+    assert!(harness.query_by_label_contains("wrong type").is_none());
+}
+
+#[test]
+fn a_refused_slider_says_why_and_escape_takes_the_message_away() {
+    let mut edited = Edited::of(Scene::motor());
+    edited.apply(&Command::Set { key: "motor.contact_radius_mm", value: Value::Number(5.0), dragging: false });
+    let mut harness = panel(edited);
+    harness.get_by_label_contains("of the tooth pitch");
+    harness.get_by_label("Still 29 mm");
+    harness.get_by_role_and_label(Role::TextInput, "Contact radius in mm").click();
+    harness.run();
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label_contains("of the tooth pitch").is_none());
+}
+
+#[test]
+fn a_refusal_opens_the_group_it_is_in() {
+    let mut edited = Edited::of(Scene::motor());
+    edited.refusals.insert("film.viscosity_upa_s", "film.viscosity_upa_s = 0 is out of range".into());
+    panel(edited).get_by_label("0 is out of range");
+}
+
+#[test]
+fn one_click_brings_the_default_back() {
+    let mut scene = Scene::motor();
+    scene.set("motor.load_per_wave_n", "1").unwrap();
+    let mut harness = panel(Edited::of(scene));
+    assert!(harness.query_by_label("Reset tooth width").is_none(), "it has its default");
+    harness.get_by_label("Reset load on one wave").click();
+    harness.run();
+    assert_eq!(harness.state().pushed, [Command::Reset { key: "motor.load_per_wave_n" }]);
+    assert_eq!(harness.state().scene, Scene::motor());
+    assert!(harness.query_by_label("Reset load on one wave").is_none());
+}
+
+#[test]
+fn an_optional_parameter_is_switched() {
+    let mut harness = panel(Edited::of(Scene::plate()));
+    for on in [true, false] {
+        harness.get_by_label("Finite width").click();
+        harness.run();
+        assert_eq!(harness.state().scene.get("plate.width_mm").is_some(), on);
+        assert_eq!(harness.query_by_role_and_label(Role::Slider, "Width").is_some(), on);
+    }
+    assert_eq!(harness.state().pushed[1], Command::Reset { key: "plate.width_mm" });
+}
+
+#[test]
+fn choices_and_flags_are_set() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    open_all(&mut harness);
+    harness.get_by_role_and_label(Role::CheckBox, "Sliding drags gas along").click();
+    harness.run();
+    harness.get_by_role_and_label(Role::ComboBox, "Slip at the walls").click();
+    harness.run();
+    harness.get_by_label("Fukui and Kaneko").click();
+    harness.run();
+    let set = |key, value| Command::Set { key, value, dragging: false };
+    let expected = [set("film.shear", Value::Flag(false)), set("film.slip", Value::Text("fukui-kaneko".into()))];
+    assert_eq!(harness.state().pushed, expected);
+}
+
+#[test]
+fn a_table_comes_from_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rotor.csv");
+    std::fs::write(&path, "wavenumber_per_m,compliance_m2_per_n\n100,1e-9\n200,5e-10\n").unwrap();
+    let mut harness = panel(Edited::of(Scene::motor()));
+    open_all(&mut harness);
+    type_into(&mut harness, "Compliance from a CSV file", path.to_str().unwrap());
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(harness.state().scene.rotor_model().unwrap().name(), "table", "{:?}", harness.state().refusals);
+    harness.get_by_label("2 rows");
+}
+
+#[test]
+fn names_are_kept_on_one_line() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    harness.get_by_role_and_label(Role::MultilineTextInput, "Name").click();
+    harness.run();
+    harness.get_by_role_and_label(Role::MultilineTextInput, "Name").type_text("Mine, 2nd");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(harness.state().scene.name, "Mine, 2nd");
+}
+
+#[test]
+fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
+    for (width, size) in [(260.0, 1.0), (260.0, 1.5), (340.0, 1.5)] {
+        for scene in scenes() {
+            let mut harness = panel(Edited { size, ..Edited::of(scene) });
+            harness.set_size(egui::vec2(width, 4000.0));
+            open_all(&mut harness);
+            for role in [Role::Slider, Role::TextInput, Role::CheckBox, Role::ComboBox, Role::Label] {
+                for node in harness.query_all_by_role(role) {
+                    assert!(
+                        node.rect().right() <= width + 0.5,
+                        "{:?} at {width} × {size}",
+                        node.accesskit_node().label()
+                    );
+                }
+            }
+        }
+    }
+}
+
+fn run(preset: &str) -> Run {
+    let scene = presets::find(preset).unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto };
+    let mut history = Vec::new();
+    let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
+    let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
+    Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, wall_s: 0.0123, history }
+}
+
+fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
+    let mut harness = Harness::builder()
+        .with_size(egui::vec2(width, 3000.0))
+        .with_context_setup(move |ctx| {
+            theme::install_fonts(ctx);
+            ctx.all_styles_mut(|style| style.text_styles.values_mut().for_each(|font| font.size *= size));
+        })
+        .build_ui_state(|ui, run: &mut Run| results::show(ui, run, true), run);
+    harness.run();
+    harness
+}
+
+#[test]
+fn the_results_show_alpha_and_what_goes_with_it() {
+    let run = run("fundamental");
+    let Outcome::Motor(result) = run.solution.outcome else { panic!("a motor") };
+    let mut harness = shown(run, 300.0, 1.0);
+    let alpha = squeezefilm::export::digits::with_error(result.alpha, result.alpha_error);
+    harness.get_by_label_contains(&alpha);
+    harness.get_by_label("share of the load carried by air");
+    for name in ["Film load", "Contact load", "Without air", "Least gap", "Highest pressure", "Squeeze number σ"] {
+        harness.get_by_label(name);
+    }
+    harness.get_by_label("12.3 ms");
+    harness.get_by_label("draft");
+    assert!(harness.query_by_label("Levitated").is_none() && harness.query_by_label("Not converged").is_none());
+    let reason = harness.state().solution.model.why[0].clone();
+    assert!(harness.query_by_label_contains(&reason[1..]).is_none());
+    harness.get_by_label("What the model left out, and why").click();
+    harness.run();
+    harness.get_by_label_contains(&reason[1..]);
+}
+
+#[test]
+fn levitation_missing_convergence_and_warnings_are_said_plainly() {
+    let mut run = run("levitating");
+    run.solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
+    run.solution.warnings = vec!["the film is thinner than a mean free path".into()];
+    let harness = shown(run, 300.0, 1.0);
+    harness.get_by_label("Levitated");
+    harness.get_by_label("Not converged");
+    harness.get_by_label_contains("still changed by 2.0e-3, allowed 1e-6");
+    harness.get_by_label("the film is thinner than a mean free path");
+}
+
+#[test]
+fn a_plate_shows_its_load_and_ratio() {
+    let run = run("plate-crossover");
+    let Outcome::Plate(result) = run.solution.outcome else { panic!("a plate") };
+    let harness = shown(run, 300.0, 1.0);
+    let load = squeezefilm::export::digits::with_error(result.film_load, result.film_load_error);
+    harness.get_by_label_contains(&format!("{load} N/m"));
+    harness.get_by_label("Load / (p_a · length)");
+    assert!(harness.query_by_label("Contact load").is_none());
+}
+
+#[test]
+fn results_fit_a_narrow_panel_with_large_text() {
+    for preset in ["fundamental", "levitating", "plate-viscous"] {
+        let harness = shown(run(preset), 260.0, 1.5);
+        for node in harness.query_all_by_role(Role::Label) {
+            let rect = node.rect();
+            assert!(rect.left() >= 0.0 && rect.right() <= 260.5, "{:?} in {preset}", node.accesskit_node().value());
+        }
+    }
+}
