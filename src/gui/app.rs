@@ -523,7 +523,7 @@ impl eframe::App for App {
         egui::Panel::left("parameters").default_size(300.0).min_size(250.0).resizable(true).show(ui, |ui| {
             parameters::show(ui, self.document.scene(), &self.refusals, &mut commands);
         });
-        egui::Panel::right("results").default_size(280.0).min_size(230.0).resizable(true).show(ui, |ui| {
+        egui::Panel::right("results").default_size(310.0).min_size(230.0).resizable(true).show(ui, |ui| {
             if let Some(run) = &shown {
                 results::show(ui, run, self.dark);
             }
