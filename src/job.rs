@@ -240,6 +240,7 @@ fn panic_text(panic: &(dyn std::any::Any + Send)) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::Scenario;
     use crate::scene::presets;
     use std::time::Duration;
 
@@ -283,6 +284,21 @@ mod tests {
         let finished: Vec<u64> =
             events.iter().filter_map(|e| if let Event::Solved(run) = e { Some(run.number) } else { None }).collect();
         assert_eq!(finished, [last]);
+    }
+
+    #[test]
+    fn a_panic_in_a_solver_is_an_event_and_the_worker_lives_on() {
+        let mut solver = Solver::start(|| ()).unwrap();
+        let mut broken = request("fundamental", &[Fidelity::Draft]);
+        // A problem that no scene can make: the solver divides by the number of teeth.
+        if let Scenario::Motor(motor) = &mut broken.problem.scenario {
+            motor.teeth = 0;
+        }
+        let number = solver.submit(broken);
+        let events = until_done(&solver, number);
+        assert!(events.iter().any(|event| matches!(event, Event::Failed { message, .. } if message.contains("draft"))));
+        let number = solver.submit(request("plate-crossover", &[Fidelity::Draft]));
+        assert!(until_done(&solver, number).iter().any(|event| matches!(event, Event::Solved(_))));
     }
 
     #[test]

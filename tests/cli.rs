@@ -156,7 +156,6 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["table1", "--converged", "--set", "film.min_spacing_nm=3"], 2, &["5 to 10000 nm"]);
     refused(&["table1", "--converged", "--method", "paper"], 2, &["--converged"]);
     refused(&["presets", "--set", "film.min_spacing_nm=100"], 2, &["PRESET"]);
-    refused(&[], 2, &["Usage", "squeezefilm solve fundamental"]);
 }
 
 #[test]
@@ -416,4 +415,15 @@ fn what_does_not_converge_is_reported_marked_and_exits_with_3() {
     let output = run(&arguments);
     assert_eq!(output.status.code(), Some(3));
     assert!(out(&output).contains("NOT CONVERGED"), "{}", out(&output));
+}
+
+#[test]
+#[cfg(feature = "gui")]
+fn the_window_without_a_display_names_the_headless_command() {
+    for arguments in [&[][..], &["gui"], &["gui", "levitating"]] {
+        let output = squeezefilm(arguments).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {}", err(&output));
+        assert!(err(&output).contains("squeezefilm solve fundamental"), "{}", err(&output));
+    }
+    refused(&["gui", "levitatin"], 2, &["levitating"]);
 }

@@ -11,6 +11,7 @@ use squeezefilm::gui::app::App;
 use squeezefilm::job::Run;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::Outcome;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -215,6 +216,62 @@ fn an_edit_is_solved_again_and_the_headline_follows() {
     edit_spacing(&mut window, "3");
     window.get_by_label_contains("allowed 5 to 10000 nm");
     assert_eq!(spacing(window.state()), Value::Number(100.0));
+}
+
+#[test]
+fn nothing_is_redrawn_while_nothing_moves() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.key_press(Key::Space);
+    for _ in 0..10 {
+        window.step();
+    }
+    let delay = |window: &Harness<'static, App>| {
+        window.output().viewport_output.values().map(|viewport| viewport.repaint_delay).min().unwrap()
+    };
+    assert!(delay(&window) > Duration::from_secs(1), "{:?}", delay(&window));
+    window.key_press(Key::Space);
+    window.step();
+    window.step();
+    assert!(delay(&window) < Duration::from_millis(50), "{:?}", delay(&window));
+}
+
+/// Storage in memory, as eframe keeps it in a file.
+#[derive(Default)]
+struct Memory(BTreeMap<String, String>);
+
+impl eframe::Storage for Memory {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
+
+#[test]
+fn unsaved_work_survives_a_crash() {
+    let mut window = window("tooth-radius-3m");
+    edit_spacing(&mut window, "123");
+    let mut memory = Memory::default();
+    eframe::App::save(window.state_mut(), &mut memory);
+    drop(window);
+    let memory: &'static Memory = Box::leak(Box::new(memory));
+    let window = Harness::builder().with_size(Vec2::new(1024.0, 700.0)).build_eframe(move |context| {
+        context.storage = Some(memory);
+        App::new(context, None).unwrap()
+    });
+    let document = window.state().document();
+    assert_eq!(spacing(window.state()), Value::Number(123.0));
+    assert_eq!(document.scene().get("stator.tooth_radius_m"), Some(Value::Number(3.0)));
+    assert!(document.is_dirty());
 }
 
 #[test]
