@@ -37,7 +37,6 @@ fn a_gap_that_doubles_or_grows_a_thousandfold_in_a_step_leaves_positive_pressure
                 let mut film = Film::new(tooth(24, 6), &air(slip));
                 let mut h = vec![5e-9; 25];
                 let mut state = start(&film, &h);
-                let low = state.trapped.clone();
                 for step in 0..12 {
                     let gap = if step % 3 == 2 { 5e-9 * factor } else { 5e-9 };
                     h.fill(gap);
@@ -45,7 +44,6 @@ fn a_gap_that_doubles_or_grows_a_thousandfold_in_a_step_leaves_positive_pressure
                     assert!(film.pressure().iter().all(|p| *p > 0.0 && p.is_finite()), "{slip:?} {factor} {dt} {step}");
                     assert!(state.carried.iter().all(|w| *w > 0.0));
                 }
-                assert_eq!(low.len(), state.trapped.len());
             }
         }
     }

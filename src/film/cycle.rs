@@ -98,11 +98,6 @@ impl FilmCycle {
         &mut self.pressure[m * unknowns..(m + 1) * unknowns]
     }
 
-    /// P at unknown nodes for all steps, `[step][unknown]`.
-    pub fn pressures(&self) -> &[f64] {
-        &self.pressure
-    }
-
     /// Marches one cycle from `state` through the gaps `h[step][ix]` \[m\], with sliding speeds `speed[step][ix]` \[m/s\]
     /// (or without the wedge term). Writes the trapped height integrated across the width, `line[step][ix]` \[m²\].
     ///
