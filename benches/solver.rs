@@ -77,7 +77,7 @@ fn contact_solve(bencher: Bencher<'_, '_>) {
 #[divan::bench(args = [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine], sample_count = 10)]
 fn fundamental_case(bencher: Bencher<'_, '_>, fidelity: Fidelity) {
     let problem = problem("fundamental");
-    let settings = Settings { fidelity, method: Method::Auto };
+    let settings = Settings { fidelity, ..Settings::default() };
     bencher.bench_local(|| solve(black_box(&problem), &settings, &mut (), &Cancel::new()));
 }
 
@@ -85,6 +85,6 @@ fn fundamental_case(bencher: Bencher<'_, '_>, fidelity: Fidelity) {
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn fundamental_case_by_the_papers_method(bencher: Bencher<'_, '_>) {
     let problem = problem("fundamental");
-    let settings = Settings { fidelity: Fidelity::Standard, method: Method::Paper };
+    let settings = Settings { fidelity: Fidelity::Standard, method: Method::Paper, ..Settings::default() };
     bencher.bench_local(|| solve(black_box(&problem), &settings, &mut (), &Cancel::new()));
 }

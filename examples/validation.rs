@@ -57,7 +57,8 @@ fn run(
 ) -> Result<(Solution, MotorResult), Box<dyn Error>> {
     let mut scene = presets::find(preset)?;
     scene.set_all(changes.iter().copied())?;
-    let solution = solve(&Problem::new(&scene)?, &Settings { fidelity, method }, &mut (), &Cancel::new())?;
+    let solution =
+        solve(&Problem::new(&scene)?, &Settings { fidelity, method, ..Settings::default() }, &mut (), &Cancel::new())?;
     match solution.outcome {
         Outcome::Motor(result) => Ok((solution, result)),
         Outcome::Plate(_) => Err("a plate has no share of a load".into()),

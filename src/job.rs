@@ -6,10 +6,12 @@
 
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
+use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::{Solution, Status};
-use crate::solve::{Method, Settings, solve};
+use crate::solve::{Settings, solve_from};
+use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -172,6 +174,8 @@ impl Drop for Solver {
 }
 
 fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
+    // A slider moves in small steps: each solve starts from the last one of its fidelity.
+    let mut warm = HashMap::new();
     loop {
         let (number, request, cancel) = {
             let mut slot = shared.lock();
@@ -187,7 +191,7 @@ fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
                 slot = shared.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
             }
         };
-        let cancelled = !refine(number, &request, &cancel, tell);
+        let cancelled = !refine(number, &request, &mut warm, &cancel, tell);
         shared.lock().running = None;
         if !tell(Event::Done { number, cancelled }) {
             return;
@@ -196,7 +200,13 @@ fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
 }
 
 /// Solves at every fidelity of the request; false if cancelled.
-fn refine(number: u64, request: &Request, cancel: &Cancel, tell: &dyn Fn(Event) -> bool) -> bool {
+fn refine(
+    number: u64,
+    request: &Request,
+    warm: &mut HashMap<Fidelity, Warm>,
+    cancel: &Cancel,
+    tell: &dyn Fn(Event) -> bool,
+) -> bool {
     for &fidelity in &request.fidelities {
         if cancel.is_cancelled() {
             return false;
@@ -207,8 +217,10 @@ fn refine(number: u64, request: &Request, cancel: &Cancel, tell: &dyn Fn(Event) 
             history.push(*progress);
             tell(Event::Progress { number, fidelity, progress: *progress });
         };
-        let settings = Settings { fidelity, method: Method::Auto };
-        let solved = catch_unwind(AssertUnwindSafe(|| solve(&request.problem, &settings, &mut listen, cancel)));
+        let settings = Settings { fidelity, ..Settings::default() };
+        let warm = warm.entry(fidelity).or_default();
+        let solved =
+            catch_unwind(AssertUnwindSafe(|| solve_from(warm, &request.problem, &settings, &mut listen, cancel)));
         let wall_s = started.elapsed().as_secs_f64();
         let message = match solved {
             Ok(Ok(solution)) if solution.status == Status::Cancelled => return false,

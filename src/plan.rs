@@ -3,7 +3,7 @@
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::numerics::grading::clustering;
-use crate::problem::{Motor, Numerics, Plate};
+use crate::problem::{Flow, Motor, Named, Numerics, Plate, Teeth, Time, Wedge, Width};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,30 @@ pub struct Grid {
     /// Rotor harmonics are kept until they fall below this fraction of the local compliance: four times as large on a
     /// grid of twice the spacing, so that what the cut changes is extrapolated, and estimated, with the rest.
     pub harmonic_fraction: f64,
+}
+
+/// What was decided about one part of the model, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// The part: "wedge term".
+    pub term: &'static str,
+    /// The key that overrules it, if there is one: "numerics.wedge".
+    pub key: Option<&'static str>,
+    /// The value that key would need for the same decision: "off".
+    pub chosen: &'static str,
+    /// Whether the scene overruled what the plan would have done.
+    pub overruled: bool,
+    /// Bound of what it changes, relative to α; 0 is exact.
+    pub effect: f64,
+    /// What and why, in words.
+    pub words: String,
+}
+
+impl Decision {
+    /// The sentence for the user.
+    pub fn sentence(&self) -> String {
+        format!("{}: {}", self.term, self.words)
+    }
 }
 
 /// What will be solved.
@@ -36,104 +60,135 @@ pub struct Plan {
     pub every_tooth: bool,
     /// Solve the wedge term.
     pub shear: bool,
-    /// Bound of what leaving out the wedge term changes, relative to α.
-    pub shear_effect: f64,
+    /// Directions in which the film flows; never `Auto`.
+    pub flow: Flow,
+    /// The gas has no time to move: its trapped height does not change during the cycle.
+    pub trapped: bool,
+    /// Bound of what everything that was left out changes, relative to α.
+    pub left_out: f64,
     /// Rotor harmonics kept at most.
     pub most_harmonics: usize,
     /// Largest relative change that counts as a repeating cycle.
     pub tolerance: f64,
     /// Rounds of the coupling after which the solve gives up.
     pub round_limit: usize,
-    /// A sentence for each decision.
-    pub why: Vec<String>,
+    /// Record the pressure maps of the cycle, the largest of the fields.
+    pub maps: bool,
+    /// What was decided, part by part.
+    pub decisions: Vec<Decision>,
 }
 
-/// Effect of the wedge term on α, relative, is below this times Λ/σ (measured: `tests/motor.rs`).
+/// Effect on α, relative, of leaving out the wedge term, as a multiple of Λ/σ (measured, and bounded by `tests/plan.rs`).
 const WEDGE_EFFECT: f64 = 2.0;
+/// Effect on α, relative, of leaving out the leaks at one pair of edges, as a multiple of their layer over the length
+/// between them, the layer being that of the closed film times 1 + A_S/H_m, which bounds how far the gap opens (measured,
+/// and bounded by the same tests).
+const LEAK_EFFECT: f64 = 0.6;
+/// Share of the fidelity's aim that may be left out with each term.
+const SHARE: f64 = 0.2;
 const ROUND_LIMIT: usize = 300;
 
 impl Plan {
-    /// The plan of a motor at a fidelity; `numerics` overrules grid sizes.
+    /// The plan of a motor at a fidelity; `numerics` overrules.
     pub fn motor(motor: &Motor, fidelity: Fidelity, numerics: &Numerics) -> Self {
-        let spec = fidelity.spec();
-        let numbers = Dimensionless::of_motor(motor);
-        let mut why = Vec::new();
+        Self::motor_to(motor, fidelity, &fidelity.spec(), numerics)
+    }
 
+    /// The plan of a motor to a specification.
+    pub fn motor_to(motor: &Motor, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Self {
+        let numbers = Dimensionless::of_motor(motor);
         let layer = numbers.boundary_layer;
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
+        let edge = spec.edge_fraction * layer;
         let (along, clustering_along) =
-            graded(spec.along.max(per_wave), numerics.film_nodes_along.map(|n| n - 1), motor.tooth_width, layer, &spec);
+            graded(spec.along.max(per_wave), numerics.film_nodes_along.map(|n| n - 1), motor.tooth_width, edge);
         let (across, clustering_across) =
-            graded(spec.across, numerics.film_nodes_across.map(|n| n / 2), 0.5 * motor.contact_width, layer, &spec);
+            graded(spec.across, numerics.film_nodes_across.map(|n| n / 2), 0.5 * motor.contact_width, edge);
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;
-        why.push(format!(
-            "grid: {along} intervals along a tooth and {across} across half the width, the first {} of the film's \
-             boundary layer of {:.3} µm; {steps} steps a cycle; two coarser grids for the error estimate",
-            spec.edge_fraction,
-            layer * 1e6
-        ));
-        why.push(if motor.teeth == 1 {
-            "teeth: the wave has one tooth, and it is solved".to_owned()
-        } else {
-            format!(
-                "teeth: one of {} solved; in the steady state tooth k at time t is tooth 0 at t + kT/{} (exact)",
-                motor.teeth, motor.teeth
-            )
-        });
-        why.push(
-            "width: half of it solved; the gap does not depend on y, so the other half is its mirror (exact)"
-                .to_owned(),
-        );
 
-        let shear_effect = WEDGE_EFFECT * numbers.bearing_to_squeeze;
-        let shear = motor.shear && shear_effect > 0.2 * spec.aim;
-        why.push(if !motor.shear {
-            "wedge term left out: the scene says shear = false".to_owned()
-        } else if shear {
-            format!(
-                "wedge term solved: Λ/σ = {:.1e} may change α by up to {:.1e} of itself, and {fidelity} aims at {:.0e}",
-                numbers.bearing_to_squeeze, shear_effect, spec.aim
-            )
-        } else {
-            format!(
-                "wedge term left out: Λ/σ = {:.1e} changes α by less than {:.1e} of itself, and {fidelity} aims at {:.0e}",
-                numbers.bearing_to_squeeze, shear_effect, spec.aim
-            )
-        });
+        let time = time(numerics, &numbers, motor, fidelity, spec);
+        let flow = flow(numerics, &numbers, motor, fidelity, spec);
+        let wedge = wedge(numerics, &numbers, motor, fidelity, spec);
+        let trapped = time.chosen == Time::Trapped.name();
+        let half_width = numerics.width != Width::Full;
+        let every_tooth = numerics.teeth == Teeth::All;
+        let grid = Decision {
+            term: "grid",
+            key: None,
+            chosen: "",
+            overruled: custom(numerics),
+            effect: 0.0,
+            words: format!(
+                "{along} intervals along a tooth and {across} across half the width, the first {} of the film's \
+                 boundary layer of {:.3} µm; {steps} steps a cycle; two coarser grids for the error estimate",
+                spec.edge_fraction,
+                layer * 1e6
+            ),
+        };
+        let decisions = vec![time, flow, wedge, teeth(numerics, motor), width(numerics), grid];
+        // What the trapped limit leaves out, it leaves out once.
+        let moving = |decision: &&Decision| !trapped || decision.key == Some("numerics.time");
         Self {
             fidelity: name(fidelity, numerics),
             grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }),
             clustering_along,
             clustering_across,
-            half_width: true,
-            every_tooth: false,
-            shear,
-            shear_effect: if motor.shear && !shear { shear_effect } else { 0.0 },
+            half_width,
+            every_tooth,
+            shear: !trapped && decisions[2].chosen == Wedge::On.name(),
+            flow: [Flow::Across, Flow::Along]
+                .into_iter()
+                .find(|flow| flow.name() == decisions[1].chosen)
+                .unwrap_or(Flow::Plane),
+            trapped,
+            left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
             most_harmonics: spec.most_harmonics,
-            tolerance: spec.tolerance,
+            tolerance: numerics.tolerance.unwrap_or(spec.tolerance),
             round_limit: ROUND_LIMIT,
-            why,
+            maps: true,
+            decisions,
         }
+    }
+
+    /// A sentence for each decision.
+    pub fn why(&self) -> Vec<String> {
+        self.decisions.iter().map(Decision::sentence).collect()
     }
 
     /// The plan of a plate at a fidelity; `numerics` overrules grid sizes.
     pub fn plate(plate: &Plate, fidelity: Fidelity, numerics: &Numerics) -> Self {
         let spec = fidelity.spec();
         let layer = Dimensionless::of_plate(plate).boundary_layer;
-        let mut why = Vec::new();
+        let edge = spec.plate_edge_fraction * layer;
         let (along, clustering_along) =
-            graded(spec.plate, numerics.film_nodes_along.map(|n| n / 2), 0.5 * plate.length, layer, &spec);
+            graded(spec.plate, numerics.film_nodes_along.map(|n| n / 2), 0.5 * plate.length, edge);
         let (across, clustering_across) = match plate.width {
-            Some(width) => graded(spec.plate, numerics.film_nodes_across.map(|n| n / 2), 0.5 * width, layer, &spec),
+            Some(width) => graded(spec.plate, numerics.film_nodes_across.map(|n| n / 2), 0.5 * width, edge),
             None => (0, 0.0),
         };
         let steps = round_up(numerics.steps_per_cycle.unwrap_or(spec.plate_steps));
-        why.push(match plate.width {
-            Some(_) => format!("plate: a quarter of it solved, {along} × {across} intervals, and mirrored (exact)"),
-            None => format!("strip: one line across half its length solved, {along} intervals, and mirrored (exact)"),
-        });
-        why.push(format!("time: {steps} steps a cycle; two coarser grids for the error estimate"));
+        let exact = |term: &'static str, words: String| Decision {
+            term,
+            key: None,
+            chosen: "",
+            overruled: false,
+            effect: 0.0,
+            words,
+        };
+        let decisions = vec![
+            match plate.width {
+                Some(_) => exact(
+                    "plate",
+                    format!("a quarter of it solved, {along} × {across} intervals, and mirrored (exact)"),
+                ),
+                None => exact(
+                    "strip",
+                    format!("one line across half its length solved, {along} intervals, and mirrored (exact)"),
+                ),
+            },
+            exact("time", format!("{steps} steps a cycle; two coarser grids for the error estimate")),
+        ];
         Self {
             fidelity: name(fidelity, numerics),
             grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }),
@@ -142,18 +197,198 @@ impl Plan {
             half_width: true,
             every_tooth: false,
             shear: false,
-            shear_effect: 0.0,
+            flow: Flow::Plane,
+            trapped: false,
+            left_out: 0.0,
             most_harmonics: spec.most_harmonics,
-            tolerance: spec.tolerance,
+            tolerance: numerics.tolerance.unwrap_or(spec.plate_tolerance),
             round_limit: ROUND_LIMIT,
-            why,
+            maps: true,
+            decisions,
         }
     }
 }
 
+/// A decision to leave a term out, if what that changes is small enough and the switch allows it.
+struct Reduction {
+    term: &'static str,
+    key: &'static str,
+    /// Values of the switch: for the whole model, and for the reduced one.
+    values: [&'static str; 2],
+    /// What the switch says, `None` if it is left to the plan.
+    asked: Option<bool>,
+    /// Bound of what the reduction changes, relative to α.
+    effect: f64,
+    /// Words for the whole model and for the reduced one, and the number that decides.
+    words: [&'static str; 2],
+    because: String,
+}
+
+impl Reduction {
+    fn decide(self, fidelity: Fidelity, spec: &Spec) -> Decision {
+        let allowed = self.effect <= SHARE * spec.aim;
+        let reduced = self.asked.unwrap_or(allowed);
+        let overruled = self.asked.is_some_and(|asked| asked != allowed);
+        let may = if reduced { "changes α by less than" } else { "would change α by up to" };
+        let asked = if self.asked.is_some() { "as asked; " } else { "" };
+        Decision {
+            term: self.term,
+            key: Some(self.key),
+            chosen: self.values[usize::from(reduced)],
+            overruled,
+            effect: if reduced { self.effect } else { 0.0 },
+            words: format!(
+                "{}: {asked}{}, leaving it out {may} {} of itself, and {fidelity} aims at {}",
+                self.words[usize::from(reduced)],
+                self.because,
+                percent(self.effect),
+                percent(spec.aim)
+            ),
+        }
+    }
+}
+
+/// A share in per cent, two digits.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    if value >= 0.0995 { format!("{value:.1} %") } else { format!("{value:.0e} %") }
+}
+
+fn wedge(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: Fidelity, spec: &Spec) -> Decision {
+    if !motor.shear {
+        return Decision {
+            term: "wedge term",
+            key: None,
+            chosen: Wedge::Off.name(),
+            overruled: false,
+            effect: 0.0,
+            words: "left out: the scene says shear = false".to_owned(),
+        };
+    }
+    Reduction {
+        term: "wedge term",
+        key: "numerics.wedge",
+        values: [Wedge::On.name(), Wedge::Off.name()],
+        asked: match numerics.wedge {
+            Wedge::Auto => None,
+            Wedge::On => Some(false),
+            Wedge::Off => Some(true),
+        },
+        effect: WEDGE_EFFECT * numbers.bearing_to_squeeze,
+        words: ["solved", "left out"],
+        because: format!("Λ/σ = {:.1e}", numbers.bearing_to_squeeze),
+    }
+    .decide(fidelity, spec)
+}
+
+fn time(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: Fidelity, spec: &Spec) -> Decision {
+    let layer = numbers.boundary_layer;
+    Reduction {
+        term: "leaking",
+        key: "numerics.time",
+        values: [Time::March.name(), Time::Trapped.name()],
+        asked: match numerics.time {
+            Time::Auto => None,
+            Time::March => Some(false),
+            Time::Trapped => Some(true),
+        },
+        effect: leaks(motor, layer, motor.tooth_width)
+            + leaks(motor, layer, motor.contact_width)
+            + if motor.shear { WEDGE_EFFECT * numbers.bearing_to_squeeze } else { 0.0 },
+        words: ["marched in time", "none, the gas is trapped (σ → ∞)"],
+        because: format!(
+            "the boundary layer is {} of the shorter side",
+            percent(layer / motor.tooth_width.min(motor.contact_width))
+        ),
+    }
+    .decide(fidelity, spec)
+}
+
+fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: Fidelity, spec: &Spec) -> Decision {
+    let layer = numbers.boundary_layer;
+    let (ends, sides) = (leaks(motor, layer, motor.tooth_width), leaks(motor, layer, motor.contact_width));
+    // The longer side's leaks matter less.
+    let along = match numerics.flow {
+        Flow::Along => true,
+        Flow::Across => false,
+        Flow::Auto | Flow::Plane => motor.contact_width > motor.tooth_width,
+    };
+    Reduction {
+        term: "flow",
+        key: "numerics.flow",
+        values: [Flow::Plane.name(), if along { Flow::Along.name() } else { Flow::Across.name() }],
+        asked: match numerics.flow {
+            Flow::Auto => None,
+            Flow::Plane => Some(false),
+            Flow::Across | Flow::Along => Some(true),
+        },
+        effect: if along { sides } else { ends },
+        words: [
+            "in the plane of the film",
+            if along {
+                "along the tooth only, none at its sides"
+            } else {
+                "across the width only, none at the tooth's ends"
+            },
+        ],
+        because: if along {
+            format!("the boundary layer is {} of the contact width", percent(layer / motor.contact_width))
+        } else {
+            format!("the boundary layer is {} of the tooth width", percent(layer / motor.tooth_width))
+        },
+    }
+    .decide(fidelity, spec)
+}
+
+/// Effect of the leaks at two edges a `length` \[m\] apart, relative to α; `layer` \[m\] is that of the closed film.
+fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
+    LEAK_EFFECT * (1.0 + motor.normal_amplitude / motor.min_spacing) * layer / length
+}
+
+fn teeth(numerics: &Numerics, motor: &Motor) -> Decision {
+    let all = numerics.teeth == Teeth::All;
+    Decision {
+        term: "teeth",
+        key: Some("numerics.teeth"),
+        chosen: if all { Teeth::All.name() } else { Teeth::One.name() },
+        overruled: all,
+        effect: 0.0,
+        words: if all {
+            format!("all {} solved, as asked", motor.teeth)
+        } else if motor.teeth == 1 {
+            "the wave has one tooth, and it is solved".to_owned()
+        } else {
+            format!(
+                "one of {} solved; in the steady state tooth k at time t is tooth 0 at t + kT/{} (exact)",
+                motor.teeth, motor.teeth
+            )
+        },
+    }
+}
+
+fn width(numerics: &Numerics) -> Decision {
+    let full = numerics.width == Width::Full;
+    Decision {
+        term: "width",
+        key: Some("numerics.width"),
+        chosen: if full { Width::Full.name() } else { Width::Half.name() },
+        overruled: full,
+        effect: 0.0,
+        words: if full {
+            "all of it solved, as asked".to_owned()
+        } else {
+            "half of it solved; the gap does not depend on y, so the other half is its mirror (exact)".to_owned()
+        },
+    }
+}
+
+fn custom(numerics: &Numerics) -> bool {
+    numerics.film_nodes_along.or(numerics.film_nodes_across).or(numerics.steps_per_cycle).is_some()
+        || numerics.tolerance.is_some()
+}
+
 fn name(fidelity: Fidelity, numerics: &Numerics) -> String {
-    let custom = numerics.film_nodes_along.or(numerics.film_nodes_across).or(numerics.steps_per_cycle);
-    if custom.is_some() { "custom".to_owned() } else { fidelity.name().to_owned() }
+    if custom(numerics) { "custom".to_owned() } else { fidelity.name().to_owned() }
 }
 
 /// Rounded up so that it can be halved for the coarser grids.
@@ -174,10 +409,9 @@ fn nested(finest: Grid) -> Vec<Grid> {
         .collect()
 }
 
-/// Intervals over `length` and their clustering, so that the first is `edge_fraction` of the boundary `layer`. A thin
-/// layer gets more of them: the map stretches its interior by about ln(1/ratio)/2.
-fn graded(base: usize, asked: Option<usize>, length: f64, layer: f64, spec: &Spec) -> (usize, f64) {
-    let edge = spec.edge_fraction * layer;
+/// Intervals over `length` and their clustering, so that the first is `edge` \[m\]. A thin layer gets more of them: the map
+/// stretches its interior by about ln(1/ratio)/2.
+fn graded(base: usize, asked: Option<usize>, length: f64, edge: f64) -> (usize, f64) {
     let ratio = |intervals: usize| (edge * intervals as f64 / length).max(SMALLEST_RATIO);
     let intervals = match asked {
         Some(asked) => round_up(asked),

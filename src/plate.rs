@@ -58,7 +58,7 @@ pub fn periodic(
         stats.film_nodes = level.cycle.grid().len();
         stats.steps_per_cycle = grid.steps;
         if status == Status::Cancelled || number + 1 == plan.grids.len() {
-            recording = level.recording(plate);
+            recording = level.recording(plate, plan.maps);
         }
         if status == Status::Cancelled {
             break;
@@ -165,7 +165,7 @@ impl Level {
         x.copies() * sum / self.steps as f64
     }
 
-    fn recording(&self, plate: &Plate) -> Recording {
+    fn recording(&self, plate: &Plate, maps: bool) -> Recording {
         let grid = self.cycle.grid();
         let greatest: Vec<f64> = (0..self.steps)
             .map(|m| self.cycle.pressure(m).iter().fold(1.0, |top: f64, p| top.max(*p)) * self.ambient_pressure)
@@ -187,7 +187,7 @@ impl Level {
             map_y: grid.y.nodes.clone(),
             half_width: true,
             half_length: true,
-            pressure: self.cycle.full_pressure().iter().map(|p| p * self.ambient_pressure).collect(),
+            pressure: if maps { self.cycle.full_pressure(self.ambient_pressure) } else { Vec::new() },
             ..Recording::default()
         };
         recording.fill_series(&greatest);

@@ -4,17 +4,51 @@
 //! Every number in here is finite and inside its documented range, so no solver re-checks it.
 //! Symbols follow `docs/theory.md`.
 
-/// How gas slips at the walls: the factor Q by which the Poiseuille flow exceeds the continuum one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slip {
-    /// Q = 1: no slip.
-    None,
-    /// Q = 1 + 6 Kn (Burgdorfer 1959), the paper's.
-    FirstOrder,
-    /// Q = 1 + 6 Kn + 6 Kn² (Hsia and Domoto 1983).
-    SecondOrder,
-    /// The flow-rate fit to the linearised Boltzmann equation by Fukui and Kaneko (1988, 1990).
-    FukuiKaneko,
+/// A key whose value is one of a few names.
+pub trait Named {
+    /// The name of the value in presets.
+    fn name(&self) -> &'static str;
+    /// Takes the value of that name; whether there is one.
+    fn choose(&mut self, name: &str) -> bool;
+}
+
+macro_rules! named {
+    ($(#[$about:meta])* $Type:ident { $($(#[$meaning:meta])* $Value:ident = $name:literal),* $(,)? }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub enum $Type { $($(#[$meaning])* $Value),* }
+
+        impl $Type {
+            /// The names of all values.
+            pub const NAMES: &[&str] = &[$($name),*];
+        }
+
+        impl Named for $Type {
+            fn name(&self) -> &'static str {
+                match self { $(Self::$Value => $name),* }
+            }
+
+            fn choose(&mut self, name: &str) -> bool {
+                *self = match name { $($name => Self::$Value,)* _ => return false };
+                true
+            }
+        }
+    };
+}
+
+named! {
+    /// How gas slips at the walls: the factor Q by which the Poiseuille flow exceeds the continuum one.
+    Slip {
+        /// Q = 1: no slip.
+        #[default]
+        None = "none",
+        /// Q = 1 + 6 Kn (Burgdorfer 1959), the paper's.
+        FirstOrder = "first-order",
+        /// Q = 1 + 6 Kn + 6 Kn² (Hsia and Domoto 1983).
+        SecondOrder = "second-order",
+        /// The flow-rate fit to the linearised Boltzmann equation by Fukui and Kaneko (1988, 1990).
+        FukuiKaneko = "fukui-kaneko",
+    }
 }
 
 /// The gas between the faces.
@@ -146,8 +180,76 @@ impl Plate {
     }
 }
 
-/// Explicit numerics of a preset's optional `[numerics]` table; each `None` is left to the fidelity or the method.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+named! {
+    /// The wedge term.
+    Wedge {
+        /// As the scene needs.
+        #[default]
+        Auto = "auto",
+        /// Solved.
+        On = "on",
+        /// Left out.
+        Off = "off",
+    }
+}
+
+named! {
+    /// Teeth whose film is solved.
+    Teeth {
+        /// As the scene needs.
+        #[default]
+        Auto = "auto",
+        /// One, by lag symmetry.
+        One = "one",
+        /// Every one.
+        All = "all",
+    }
+}
+
+named! {
+    /// Width of the film that is solved.
+    Width {
+        /// As the scene needs.
+        #[default]
+        Auto = "auto",
+        /// Half of it, by symmetry.
+        Half = "half",
+        /// All of it.
+        Full = "full",
+    }
+}
+
+named! {
+    /// Directions in which the film flows.
+    Flow {
+        /// As the scene needs.
+        #[default]
+        Auto = "auto",
+        /// Both.
+        Plane = "plane",
+        /// Across the width only: long teeth.
+        Across = "across",
+        /// Along the teeth only: a wide rotor.
+        Along = "along",
+    }
+}
+
+named! {
+    /// The film in time.
+    Time {
+        /// As the scene needs.
+        #[default]
+        Auto = "auto",
+        /// Step by step.
+        March = "march",
+        /// The limit of high frequency: gas that has no time to move.
+        Trapped = "trapped",
+    }
+}
+
+/// Explicit numerics of a preset's optional `[numerics]` table; each `None` or `Auto` is left to the fidelity or the
+/// plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Numerics {
     /// Film nodes along a tooth (or plate), both ends counted.
     pub film_nodes_along: Option<usize>,
@@ -157,6 +259,18 @@ pub struct Numerics {
     pub contact_nodes: Option<usize>,
     /// Time steps in a cycle.
     pub steps_per_cycle: Option<usize>,
+    /// Relative change from round to round at which the cycle repeats.
+    pub tolerance: Option<f64>,
+    /// The wedge term.
+    pub wedge: Wedge,
+    /// Teeth whose film is solved.
+    pub teeth: Teeth,
+    /// Width of the film that is solved.
+    pub width: Width,
+    /// Directions in which the film flows.
+    pub flow: Flow,
+    /// The film in time.
+    pub time: Time,
 }
 
 /// What is to be solved.

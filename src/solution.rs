@@ -1,5 +1,6 @@
 //! What a solve returns: plain data, in SI units, that the command line, the window and the exports read.
 
+use crate::plan::Decision;
 use crate::recording::Recording;
 
 /// How a solve ended. None of these is an error: what was reached is always reported.
@@ -97,7 +98,7 @@ pub struct Stats {
 }
 
 /// What was modelled, in words for the user.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// `draft`, `standard`, … or `paper mesh`.
     pub fidelity: String,
@@ -111,6 +112,8 @@ pub struct Model {
     pub shear: bool,
     /// A sentence for each decision.
     pub why: Vec<String>,
+    /// The decisions of our own method.
+    pub decisions: Vec<Decision>,
 }
 
 /// Everything a solve returns.

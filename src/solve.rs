@@ -3,11 +3,12 @@
 use crate::control::{Cancel, Observer};
 use crate::fidelity::Fidelity;
 use crate::film::cycle::Interrupted;
-use crate::motor::{self, MotorError};
+use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::Plan;
 use crate::plate;
 use crate::problem::{Problem, Scenario};
+use crate::recording::Recording;
 use crate::solution::{Model, Outcome, Solution, Status};
 
 /// How to solve.
@@ -30,6 +31,16 @@ impl Method {
     }
 }
 
+/// What of the fields is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Record {
+    /// All of them.
+    #[default]
+    Everything,
+    /// None: the numbers only, as a sweep needs them.
+    Numbers,
+}
+
 /// What a caller chooses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Settings {
@@ -37,6 +48,8 @@ pub struct Settings {
     pub fidelity: Fidelity,
     /// Algorithm.
     pub method: Method,
+    /// What is kept.
+    pub record: Record,
 }
 
 /// Why there is no solution at all.
@@ -65,35 +78,55 @@ pub fn solve(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
-    match (&problem.scenario, settings.method) {
+    solve_from(&mut Warm::default(), problem, settings, observer, cancel)
+}
+
+/// As [`solve`], started from what a similar problem at the same fidelity left in `warm`: fewer rounds, the same result
+/// to the stated error.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_from(
+    warm: &mut Warm,
+    problem: &Problem,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Solution, SolveError> {
+    let maps = settings.record == Record::Everything;
+    let mut solution = match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
-            let plan = Plan::motor(motor, settings.fidelity, &problem.numerics);
-            let found = motor::periodic(motor, &plan, observer, cancel)?;
+            let plan = Plan { maps, ..Plan::motor(motor, settings.fidelity, &problem.numerics) };
+            let found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
-            Ok(Solution {
+            Solution {
                 warnings: warnings(&found.status),
                 status: found.status,
                 outcome: Outcome::Motor(found.result),
                 stats: found.stats,
                 model: model(&plan, teeth),
                 recording: found.recording,
-            })
+            }
         }
         (Scenario::Plate(plate), Method::Auto) => {
-            let plan = Plan::plate(plate, settings.fidelity, &problem.numerics);
+            let plan = Plan { maps, ..Plan::plate(plate, settings.fidelity, &problem.numerics) };
             let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
-            Ok(Solution {
+            Solution {
                 warnings: warnings(&found.status),
                 status: found.status,
                 outcome: Outcome::Plate(found.result),
                 stats: found.stats,
                 model: model(&plan, 1),
                 recording: found.recording,
-            })
+            }
         }
-        (Scenario::Motor(motor), Method::Paper) => Ok(paper::solve(motor, &problem.numerics, observer, cancel)),
-        (Scenario::Plate(_), Method::Paper) => Err(SolveError::PaperPlate),
+        (Scenario::Motor(motor), Method::Paper) => paper::solve(motor, &problem.numerics, observer, cancel),
+        (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
+    };
+    if settings.record == Record::Numbers {
+        solution.recording = Recording::default();
     }
+    Ok(solution)
 }
 
 fn model(plan: &Plan, teeth_solved: usize) -> Model {
@@ -103,7 +136,8 @@ fn model(plan: &Plan, teeth_solved: usize) -> Model {
         teeth_solved,
         half_width: plan.half_width,
         shear: plan.shear,
-        why: plan.why.clone(),
+        why: plan.why(),
+        decisions: plan.decisions.clone(),
     }
 }
 

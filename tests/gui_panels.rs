@@ -322,7 +322,7 @@ fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
 fn run(preset: &str) -> Run {
     let scene = presets::find(preset).unwrap();
     let problem = Problem::new(&scene).unwrap();
-    let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto };
+    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let mut history = Vec::new();
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();

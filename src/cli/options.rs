@@ -64,7 +64,7 @@ impl SolveOptions {
         if let (Method::Paper, Some(level)) = (method, self.fidelity) {
             terminal::warning(&format!("--fidelity {level} has no effect: method paper has its own meshes"));
         }
-        Ok(Settings { fidelity: self.fidelity.unwrap_or(fidelity), method })
+        Ok(Settings { fidelity: self.fidelity.unwrap_or(fidelity), method, ..Settings::default() })
     }
 }
 

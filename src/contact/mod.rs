@@ -35,6 +35,8 @@ pub struct Contact {
     ambient_pressure: f64,
     min_spacing: f64,
     load: f64,
+    /// Imbalance, relative to the sum of all forces, that is accepted.
+    tolerance: f64,
     // Workspace, one value a node:
     s: Vec<f64>,
     force: Vec<f64>,
@@ -109,10 +111,17 @@ impl Contact {
             ambient_pressure,
             min_spacing,
             load,
+            tolerance: ROUND_OFF,
             s: vec![0.0; nodes],
             force: vec![0.0; nodes],
             stiffness: vec![0.0; nodes],
         }
+    }
+
+    /// Accepts an imbalance of `tolerance` times the sum of all forces, for rounds whose trapped gas is not final yet; never
+    /// less than round-off. Complementarity stays exact.
+    pub fn accept(&mut self, tolerance: f64) {
+        self.tolerance = tolerance.max(ROUND_OFF);
     }
 
     /// Nodes in all.
@@ -150,7 +159,7 @@ impl Contact {
         let mut stalled = 0;
         let result = loop {
             let imbalance = self.modes.imbalance(&gradient) / total;
-            if imbalance < ROUND_OFF {
+            if imbalance < self.tolerance {
                 break Ok(iterations);
             }
             // At round-off Newton stops improving: a few orders above it, that is the answer too.
@@ -178,7 +187,9 @@ impl Contact {
                 }
                 total = self.gradient(stator, trapped, &trial, &mut gradient);
                 let slope = dot(&gradient, step.as_slice());
-                if slope.abs() <= 0.9 * slope0.abs() || self.modes.imbalance(&gradient) <= 1e3 * ROUND_OFF * total {
+                if slope.abs() <= 0.9 * slope0.abs()
+                    || self.modes.imbalance(&gradient) <= self.tolerance.max(1e3 * ROUND_OFF) * total
+                {
                     break;
                 }
                 if slope > 0.0 {

@@ -41,15 +41,18 @@ impl Modes {
         let local = rotor.at(k(harmonics));
         let count = harmonics - 1;
         let scale = (1..=count).map(|n| (2.0 * (rotor.at(k(n)) - local).max(0.0) / wavelength).sqrt()).collect();
-        let (mut cosines, mut sines) = (Vec::new(), Vec::new());
-        for n in 0..=2 * count {
-            for &x in x {
-                let (sin, cos) = (k(n) * x).sin_cos();
-                cosines.push(cos);
-                sines.push(sin);
+        // Harmonic by harmonic, every node's angle turned on by its first harmonic's.
+        let nodes = x.len();
+        let (mut cosines, mut sines) = (vec![1.0; nodes], vec![0.0; nodes]);
+        let first: Vec<(f64, f64)> = x.iter().map(|x| (k(1) * x).sin_cos()).collect();
+        for n in 1..=2 * count {
+            for (i, (sin, cos)) in first.iter().enumerate() {
+                let (c, s) = (cosines[(n - 1) * nodes + i], sines[(n - 1) * nodes + i]);
+                cosines.push(c * cos - s * sin);
+                sines.push(s * cos + c * sin);
             }
         }
-        Self { nodes: x.len(), count, local, scale, cosines, sines }
+        Self { nodes, count, local, scale, cosines, sines }
     }
 
     /// C_∞ \[m²/N\].

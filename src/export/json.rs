@@ -294,7 +294,7 @@ mod tests {
 
     fn solved(preset: &str) -> (Problem, Solution) {
         let problem = Problem::new(&presets::find(preset).unwrap()).unwrap();
-        let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto };
+        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         (problem, solution)
     }

@@ -13,9 +13,9 @@
 //! Anderson acceleration by the caller.
 
 use super::grid::FilmGrid;
-use super::stepper::{Film, FilmError, FilmState, FiveDiagonals};
+use super::stepper::{Film, FilmError, FilmState};
 use crate::control::Cancel;
-use crate::numerics::banded::Banded;
+use crate::numerics::five_point::{BlockSolver, FivePoint};
 use crate::problem::Gas;
 
 /// Why a cycle ended early.
@@ -54,8 +54,8 @@ pub struct FilmCycle {
     pressure: Vec<f64>,
     marched: bool,
     before: Vec<f64>,
-    leak: FiveDiagonals,
-    matrix: Banded,
+    leak: FivePoint,
+    solver: BlockSolver,
     shift: Vec<f64>,
 }
 
@@ -69,8 +69,8 @@ impl FilmCycle {
             pressure: vec![1.0; steps * unknowns],
             marched: false,
             before: vec![0.0; unknowns],
-            leak: FiveDiagonals::new(unknowns),
-            matrix: Banded::new(unknowns, columns),
+            leak: FivePoint::new(unknowns),
+            solver: BlockSolver::new(unknowns / columns, columns),
             shift: vec![0.0; unknowns],
         }
     }
@@ -83,6 +83,11 @@ impl FilmCycle {
     /// Accepts steps whose last Newton change is below `tolerance` ([`Film::accept`]).
     pub fn accept(&mut self, tolerance: f64) {
         self.film.accept(tolerance);
+    }
+
+    /// Lets nothing flow along x ([`Film::close_along`]).
+    pub fn close_along(&mut self) {
+        self.film.close_along();
     }
 
     /// Unknown P of step `m`.
@@ -144,17 +149,22 @@ impl FilmCycle {
         let x = self.grid().x.unknown();
         let jacobian = self.film.last_jacobian();
         let leak = &mut self.leak;
-        for (row, ix) in x.clone().enumerate() {
-            let here = 1.0 / h[ix];
-            let west = if ix > x.start { 1.0 / h[ix - 1] } else { 0.0 };
-            let east = if ix + 1 < x.end { 1.0 / h[ix + 1] } else { 0.0 };
-            for k in row * columns..(row + 1) * columns {
-                leak.centre[k] += jacobian.centre[k] * here;
-                leak.south[k] += jacobian.south[k] * here;
-                leak.north[k] += jacobian.north[k] * here;
-                leak.west[k] += jacobian.west[k] * west;
-                leak.east[k] += jacobian.east[k] * east;
+        let add = |sum: &mut [f64], terms: &[f64], factor: f64| {
+            for (sum, term) in sum.iter_mut().zip(terms) {
+                *sum += term * factor;
             }
+        };
+        // Beyond the first and the last row there is no unknown: whatever is added there is not looked at.
+        let (mut west, mut here) = (0.0, 1.0 / h[x.start]);
+        for (row, ix) in x.enumerate() {
+            let east = 1.0 / h[ix + 1];
+            let nodes = row * columns..(row + 1) * columns;
+            add(&mut leak.centre[nodes.clone()], &jacobian.centre[nodes.clone()], here);
+            add(&mut leak.south[nodes.clone()], &jacobian.south[nodes.clone()], here);
+            add(&mut leak.north[nodes.clone()], &jacobian.north[nodes.clone()], here);
+            add(&mut leak.west[nodes.clone()], &jacobian.west[nodes.clone()], west);
+            add(&mut leak.east[nodes.clone()], &jacobian.east[nodes], east);
+            (west, here) = (here, east);
         }
     }
 
@@ -164,8 +174,7 @@ impl FilmCycle {
         for k in 0..self.shift.len() {
             self.shift[k] = state.carried[k] - self.before[k];
         }
-        self.leak.fill(self.film.grid().y.unknown().len(), &mut self.matrix);
-        self.matrix.solve_in_place(&mut self.shift);
+        self.solver.solve(&self.leak, &self.leak.centre, &mut self.shift);
         for k in 0..self.shift.len() {
             state.trapped[k] = shifted(state.trapped[k], self.shift[k]);
             state.carried[k] = shifted(state.carried[k], self.shift[k]);
@@ -173,14 +182,15 @@ impl FilmCycle {
         &self.shift
     }
 
-    /// P of all steps at every node, edges included, `[step][ix][iy]`.
-    pub fn full_pressure(&self) -> Vec<f64> {
+    /// Pressure \[the unit of `ambient`\] of all steps at every node, edges included, `[step][ix][iy]`.
+    pub fn full_pressure(&self, ambient: f64) -> Vec<f64> {
         let grid = self.film.grid();
         let (nx, ny, columns) = (grid.x.len(), grid.y.len(), grid.y.unknown().len());
-        let mut full = vec![1.0; self.steps * nx * ny];
+        let mut full = vec![ambient; self.steps * nx * ny];
         for (m, map) in full.chunks_exact_mut(nx * ny).enumerate() {
             for (column, ix) in self.pressure(m).chunks_exact(columns).zip(grid.x.unknown()) {
-                map[ix * ny + grid.y.unknown().start..][..columns].copy_from_slice(column);
+                let target = &mut map[ix * ny + grid.y.unknown().start..][..columns];
+                target.iter_mut().zip(column).for_each(|(to, p)| *to = p * ambient);
             }
         }
         full

@@ -42,7 +42,12 @@ impl Axis {
 
     /// The single node of an infinitely wide film, standing for one metre.
     pub fn unit() -> Self {
-        Self { nodes: vec![0.0], lengths: vec![1.0], start: Start::Mirror }
+        Self::single(1.0)
+    }
+
+    /// The single node of a film that does not flow along this axis, standing for all of its `length` \[m\].
+    pub fn single(length: f64) -> Self {
+        Self { nodes: vec![0.0], lengths: vec![length], start: Start::Mirror }
     }
 
     /// Number of nodes.

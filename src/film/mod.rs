@@ -15,3 +15,4 @@ pub mod exact;
 pub mod grid;
 pub mod slip;
 pub mod stepper;
+pub mod trapped;

@@ -17,11 +17,12 @@
 //! M-function (|d ln ψ/d ln Z| ≤ 1, `slip`), hence Zⁿ⁺¹ > 0: for every step, every gap, every squeeze number. A telescoping
 //! sum over a cycle gives Σ div flux = 0 at every node of a periodic state: the mass balance, to round-off.
 //!
-//! Newton's method on P, unknown nodes ordered y fastest, banded LU. No allocation after construction.
+//! Newton's method on P, unknown nodes ordered y fastest, block LU. No allocation after construction.
 
 use super::grid::{FilmGrid, Start};
 use super::slip::{Mobility, SlipLaw};
-use crate::numerics::banded::Banded;
+use crate::numerics::five_point::{BlockSolver, FivePoint, with_columns};
+use crate::numerics::vectorised;
 use crate::problem::Gas;
 
 /// The film's state between steps, at unknown nodes `[ix][iy]`.
@@ -72,61 +73,6 @@ const LARGEST_CAREFUL_CHANGE: f64 = 0.8;
 /// W is kept above this fraction of Z.
 const CARRIED_FLOOR: f64 = 0.1;
 
-/// The five diagonals of the film's Jacobian, at unknown nodes: row k couples to k, to its x neighbours and y
-/// neighbours. Scaled so that time derivative terms are of the size of h.
-#[derive(Clone, Debug, Default)]
-pub struct FiveDiagonals {
-    /// Node itself.
-    pub centre: Vec<f64>,
-    /// Neighbour at smaller x.
-    pub west: Vec<f64>,
-    /// Neighbour at larger x.
-    pub east: Vec<f64>,
-    /// Neighbour at smaller y.
-    pub south: Vec<f64>,
-    /// Neighbour at larger y.
-    pub north: Vec<f64>,
-}
-
-impl FiveDiagonals {
-    /// All zero, for `unknowns` nodes.
-    pub fn new(unknowns: usize) -> Self {
-        let zero = vec![0.0; unknowns];
-        Self { centre: zero.clone(), west: zero.clone(), east: zero.clone(), south: zero.clone(), north: zero }
-    }
-
-    /// Sets every entry to zero.
-    pub fn clear(&mut self) {
-        for diagonal in [&mut self.centre, &mut self.west, &mut self.east, &mut self.south, &mut self.north] {
-            diagonal.fill(0.0);
-        }
-    }
-
-    /// Copies into a banded matrix whose half bandwidth is `columns` (unknown nodes across).
-    pub fn fill(&self, columns: usize, matrix: &mut Banded) {
-        matrix.clear();
-        let unknowns = self.centre.len();
-        for k in 0..unknowns {
-            let row = matrix.row_mut(k);
-            row[columns] = self.centre[k];
-            if columns > 1 {
-                if !k.is_multiple_of(columns) {
-                    row[columns - 1] = self.south[k];
-                }
-                if k % columns + 1 < columns {
-                    row[columns + 1] = self.north[k];
-                }
-            }
-            if k >= columns {
-                row[0] = self.west[k];
-            }
-            if k + columns < unknowns {
-                row[2 * columns] = self.east[k];
-            }
-        }
-    }
-}
-
 /// The film on one grid, with its workspace.
 #[derive(Clone, Debug)]
 pub struct Film {
@@ -136,6 +82,8 @@ pub struct Film {
     mobility: f64,
     columns: usize,
     tolerance: f64,
+    /// Nothing flows along x.
+    closed_along: bool,
     /// P at every node, edges included, `[ix][iy]`.
     pressure: Vec<f64>,
     theta: Vec<f64>,
@@ -143,12 +91,19 @@ pub struct Film {
     fitting: Vec<f64>,
     rhs: Vec<f64>,
     residual: Vec<f64>,
-    jacobian: FiveDiagonals,
-    matrix: Banded,
-    face: FaceRow,
+    jacobian: FivePoint,
+    /// Centre of Newton's matrix: the Jacobian's and the film's inertia.
+    pivots: Vec<f64>,
+    solver: BlockSolver,
+    /// Faces before and after the row being assembled.
+    faces: [FaceRow; 2],
+    across: AcrossRow,
+    /// 1/(Δy × node length) \[1/m²\] of the faces before and after each unknown node across; 0 where nothing flows.
+    south_scale: Vec<f64>,
+    north_scale: Vec<f64>,
 }
 
-/// Flux through one row of x faces and its derivatives by the pressures on either side.
+/// Δt × flux \[m²\] through one row of x faces and its derivatives by the pressures on either side.
 #[derive(Clone, Debug, Default)]
 struct FaceRow {
     flux: Vec<f64>,
@@ -156,24 +111,127 @@ struct FaceRow {
     by_east: Vec<f64>,
 }
 
+/// Coefficient Δt M h_f²/Δ \[m\] of the flux through the x face after node `face`, and the gap there \[m\].
+#[inline(always)]
+fn x_face(grid: &FilmGrid, mobility: f64, face: usize, h: &[f64], dt: f64) -> (f64, f64) {
+    let face_gap = 0.5 * (h[face] + h[face + 1]);
+    let spacing = grid.x.nodes[face + 1] - grid.x.nodes[face];
+    (dt * mobility * face_gap * face_gap / spacing, face_gap)
+}
+
+/// The faces across one row of nodes: face j is before node j.
+#[derive(Clone, Debug)]
+struct AcrossRow {
+    /// Pressure at the nodes, and beyond either end.
+    pressure: Vec<f64>,
+    /// ψ (P₁ − P₀) \[m\] of each face, P₀ before it and P₁ behind, and its derivatives by them.
+    flow: Vec<f64>,
+    by_south: Vec<f64>,
+    by_north: Vec<f64>,
+}
+
+impl AcrossRow {
+    fn new(columns: usize) -> Self {
+        let faces = vec![0.0; columns + 1];
+        Self { pressure: vec![0.0; columns + 2], flow: faces.clone(), by_south: faces.clone(), by_north: faces }
+    }
+
+    #[inline(always)]
+    fn of<L: Mobility, const B: usize>(&mut self, law: L, gap: f64, south: f64, own: &[f64], north: f64) {
+        let b = if B == 0 { own.len() } else { B };
+        let pressure = &mut self.pressure[..b + 2];
+        pressure[0] = south;
+        pressure[1..=b].copy_from_slice(own);
+        pressure[b + 1] = north;
+        let (flow, by_south, by_north) = (&mut self.flow[..=b], &mut self.by_south[..=b], &mut self.by_north[..=b]);
+        for j in 0..=b {
+            let (psi, slope) = law.at(gap * 0.5 * (pressure[j] + pressure[j + 1]));
+            let drop = pressure[j + 1] - pressure[j];
+            let variation = 0.5 * slope * gap * drop;
+            flow[j] = psi * drop;
+            by_south[j] = variation - psi;
+            by_north[j] = variation + psi;
+        }
+    }
+}
+
+impl FaceRow {
+    fn new(columns: usize) -> Self {
+        Self { flux: vec![0.0; columns], by_west: vec![0.0; columns], by_east: vec![0.0; columns] }
+    }
+
+    /// Pressure-driven flux through the faces between two rows of nodes.
+    #[inline(always)]
+    fn between<L: Mobility, const B: usize>(
+        &mut self,
+        law: L,
+        coefficient: f64,
+        face_gap: f64,
+        west: &[f64],
+        east: &[f64],
+    ) {
+        let b = if B == 0 { west.len() } else { B };
+        let (flux, by_west, by_east) = (&mut self.flux[..b], &mut self.by_west[..b], &mut self.by_east[..b]);
+        for j in 0..b {
+            let (psi, slope) = law.at(face_gap * 0.5 * (west[j] + east[j]));
+            let drop = east[j] - west[j];
+            let conductance = coefficient * psi;
+            let variation = 0.5 * coefficient * slope * face_gap * drop;
+            flux[j] = -conductance * drop;
+            by_west[j] = conductance - variation;
+            by_east[j] = -conductance - variation;
+        }
+    }
+
+    /// Adds the flux carried along by the sliding walls.
+    #[inline(always)]
+    fn slide<const B: usize>(&mut self, drift: f64, fitting: &[f64], west: &[f64], east: &[f64]) {
+        let b = if B == 0 { west.len() } else { B };
+        for j in 0..b {
+            self.flux[j] += drift * (west[j] + east[j]) - fitting[j] * (east[j] - west[j]);
+            self.by_west[j] += drift + fitting[j];
+            self.by_east[j] += drift - fitting[j];
+        }
+    }
+
+    fn close(&mut self) {
+        for values in [&mut self.flux, &mut self.by_west, &mut self.by_east] {
+            values.fill(0.0);
+        }
+    }
+}
+
 impl Film {
     /// The film of `gas` on `grid`.
     pub fn new(grid: FilmGrid, gas: &Gas) -> Self {
         let unknowns = grid.unknowns();
         let columns = grid.y.unknown().len();
+        let scale = |face: Option<usize>, node: usize| match face {
+            Some(face) if face + 1 < grid.y.len() => {
+                1.0 / ((grid.y.nodes[face + 1] - grid.y.nodes[face]) * grid.y.lengths[node])
+            }
+            _ => 0.0,
+        };
+        let south_scale = grid.y.unknown().map(|j| scale(j.checked_sub(1), j)).collect();
+        let north_scale = grid.y.unknown().map(|j| scale(Some(j), j)).collect();
         Self {
             law: SlipLaw::of(gas),
             mobility: gas.ambient_pressure / (12.0 * gas.viscosity),
             columns,
             tolerance: NEWTON_TOLERANCE,
+            closed_along: false,
             pressure: vec![1.0; grid.len()],
             theta: vec![1.0; unknowns],
             fitting: vec![0.0; grid.len()],
             rhs: vec![0.0; unknowns],
             residual: vec![0.0; unknowns],
-            jacobian: FiveDiagonals::new(unknowns),
-            matrix: Banded::new(unknowns, columns),
-            face: FaceRow { flux: vec![0.0; columns], by_west: vec![0.0; columns], by_east: vec![0.0; columns] },
+            jacobian: FivePoint::new(unknowns),
+            pivots: vec![0.0; unknowns],
+            solver: BlockSolver::new(unknowns / columns, columns),
+            across: AcrossRow::new(columns),
+            faces: [FaceRow::new(columns), FaceRow::new(columns)],
+            south_scale,
+            north_scale,
             grid,
         }
     }
@@ -181,6 +239,25 @@ impl Film {
     /// The nodes.
     pub fn grid(&self) -> &FilmGrid {
         &self.grid
+    }
+
+    /// Lets nothing flow along x from now on: every node along is a strip of its own.
+    pub fn close_along(&mut self) {
+        self.closed_along = true;
+    }
+
+    /// Sets P at the nodes on the ambient edges, which is 1 otherwise: `edge(ix)` at all y of an end, and at the side of
+    /// each node along x.
+    pub fn set_edges(&mut self, edge: impl Fn(usize) -> f64) {
+        let (ux, uy) = (self.grid.x.unknown(), self.grid.y.unknown());
+        let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
+        for ix in 0..nx {
+            for iy in 0..ny {
+                if !ux.contains(&ix) || !uy.contains(&iy) {
+                    self.pressure[ix * ny + iy] = edge(ix);
+                }
+            }
+        }
     }
 
     /// Accepts steps whose last Newton change is below `tolerance`, for rounds whose gap is not final yet.
@@ -193,8 +270,8 @@ impl Film {
         &self.pressure
     }
 
-    /// Jacobian of Δt·div flux by P in the last step (without the time derivative), and the matrix workspace.
-    pub fn last_jacobian(&self) -> &FiveDiagonals {
+    /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
+    pub fn last_jacobian(&self) -> &FivePoint {
         &self.jacobian
     }
 
@@ -229,7 +306,9 @@ impl Film {
         guess: Option<&[f64]>,
     ) -> Result<StepCost, FilmError> {
         let mut cost = StepCost::default();
-        self.load_pressure(h, &state.trapped);
+        if guess.is_none() || speed.is_some() {
+            self.load_pressure(h, &state.trapped);
+        }
         if let Some(speed) = speed {
             self.fit(law, h, speed, dt);
         }
@@ -255,17 +334,22 @@ impl Film {
             }
         }
         // Accept: Z = hP, W = Z + θ/2 (Z − Z_old).
-        let (ux, ny, columns) = (self.grid.x.unknown(), self.grid.y.len(), self.columns);
-        let y0 = self.grid.y.unknown().start;
-        for (row, ix) in ux.enumerate() {
-            for j in 0..columns {
-                let k = row * columns + j;
-                let trapped = h[ix] * self.pressure[ix * ny + y0 + j];
-                state.carried[k] = trapped + 0.5 * self.theta[k] * (trapped - state.trapped[k]);
-                state.trapped[k] = trapped;
+        for (row, (gap, pressure)) in self.rows(h).enumerate() {
+            let nodes = row * self.columns..(row + 1) * self.columns;
+            let (trapped, carried) = (&mut state.trapped[nodes.clone()], &mut state.carried[nodes.clone()]);
+            for (((z, w), p), theta) in trapped.iter_mut().zip(carried).zip(pressure).zip(&self.theta[nodes]) {
+                let now = gap * p;
+                *w = now + 0.5 * theta * (now - *z);
+                *z = now;
             }
         }
         Ok(cost)
+    }
+
+    /// Gap and unknown pressures of each row of nodes.
+    fn rows<'a>(&'a self, h: &'a [f64]) -> impl Iterator<Item = (f64, &'a [f64])> {
+        let (uy, ny) = (self.grid.y.unknown(), self.grid.y.len());
+        self.grid.x.unknown().map(move |ix| (h[ix], &self.pressure[ix * ny + uy.start..ix * ny + uy.end]))
     }
 
     /// P at the unknown nodes from Z and the gap; the edges hold 1 for good.
@@ -286,6 +370,11 @@ impl Film {
         }
     }
 
+    /// The slip law.
+    pub fn law(&self) -> SlipLaw {
+        self.law
+    }
+
     /// P at the unknown nodes.
     pub fn gather_pressure(&self, unknown: &mut [f64]) {
         let (ux, uy, ny) = (self.grid.x.unknown(), self.grid.y.unknown(), self.grid.y.len());
@@ -298,7 +387,7 @@ impl Film {
     fn fit<L: Mobility>(&mut self, law: L, h: &[f64], speed: &[f64], dt: f64) {
         let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
         for face in 0..nx - 1 {
-            let (coefficient, face_gap) = self.x_face(face, h, dt);
+            let (coefficient, face_gap) = x_face(&self.grid, self.mobility, face, h, dt);
             let drift = 0.25 * dt * face_gap * (speed[face] + speed[face + 1]);
             for j in 0..ny {
                 let mean = 0.5 * (self.pressure[face * ny + j] + self.pressure[(face + 1) * ny + j]);
@@ -317,105 +406,84 @@ impl Film {
     fn fit_upwind(&mut self, h: &[f64], speed: &[f64], dt: f64) {
         let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
         for face in 0..nx - 1 {
-            let (_, face_gap) = self.x_face(face, h, dt);
+            let face_gap = 0.5 * (h[face] + h[face + 1]);
             let drift = 0.125 * dt * face_gap * (speed[face] + speed[face + 1]);
             self.fitting[face * ny..(face + 1) * ny].fill(drift.abs());
         }
     }
 
-    /// Coefficient Δt M h_f²/Δ \[m\] of the flux through the x face after node `face`, and the gap there \[m\].
-    #[inline]
-    fn x_face(&self, face: usize, h: &[f64], dt: f64) -> (f64, f64) {
-        let face_gap = 0.5 * (h[face] + h[face + 1]);
-        let spacing = self.grid.x.nodes[face + 1] - self.grid.x.nodes[face];
-        (dt * self.mobility * face_gap * face_gap / spacing, face_gap)
-    }
-
-    /// Flux through the x faces after node `face`, at unknown y.
-    fn x_flux<L: Mobility>(&mut self, law: L, face: usize, h: &[f64], speed: Option<&[f64]>, dt: f64) {
-        let (coefficient, face_gap) = self.x_face(face, h, dt);
-        let ny = self.grid.y.len();
-        let y0 = self.grid.y.unknown().start;
-        let west = &self.pressure[face * ny + y0..][..self.columns];
-        let east = &self.pressure[(face + 1) * ny + y0..][..self.columns];
-        let FaceRow { flux, by_west, by_east } = &mut self.face;
-        for j in 0..self.columns {
-            let (psi, slope) = law.at(face_gap * 0.5 * (west[j] + east[j]));
-            let drop = east[j] - west[j];
-            let conductance = coefficient * psi;
-            let variation = 0.5 * coefficient * slope * face_gap * drop;
-            flux[j] = -conductance * drop;
-            by_west[j] = conductance - variation;
-            by_east[j] = -conductance - variation;
-        }
-        if let Some(speed) = speed {
-            let drift = 0.125 * dt * face_gap * (speed[face] + speed[face + 1]);
-            let fitting = &self.fitting[face * ny + y0..][..self.columns];
-            for j in 0..self.columns {
-                flux[j] += drift * (west[j] + east[j]) - fitting[j] * (east[j] - west[j]);
-                by_west[j] += drift + fitting[j];
-                by_east[j] += drift - fitting[j];
+    /// Δt·div flux and its Jacobian, the residual of the step, and the matrix of Newton's method with the diagonal raised
+    /// by `damping` times the flux's own. `B` is the number of unknown nodes across, or 0 to take it at run time.
+    #[inline(always)]
+    fn assemble<L: Mobility, const B: usize>(
+        &mut self,
+        law: L,
+        h: &[f64],
+        speed: Option<&[f64]>,
+        dt: f64,
+        damping: f64,
+    ) {
+        let b = if B == 0 { self.columns } else { B };
+        let (ux, y0, ny) = (self.grid.x.unknown(), self.grid.y.unknown().start, self.grid.y.len());
+        let first = if self.grid.x.start == Start::Mirror {
+            self.faces[0].close();
+            ux.start
+        } else {
+            ux.start - 1
+        };
+        let (south_scale, north_scale) = (&self.south_scale[..b], &self.north_scale[..b]);
+        for face in first..ux.end {
+            // The face after node `face`; the one before it was made in the last turn.
+            let (coefficient, face_gap) = x_face(&self.grid, self.mobility, face, h, dt);
+            let west = &self.pressure[face * ny + y0..][..b];
+            let east = &self.pressure[(face + 1) * ny + y0..][..b];
+            let [before, after] = &mut self.faces;
+            let coefficient = if self.closed_along { 0.0 } else { coefficient };
+            after.between::<L, B>(law, coefficient, face_gap, west, east);
+            if let (Some(speed), false) = (speed, self.closed_along) {
+                let drift = 0.125 * dt * face_gap * (speed[face] + speed[face + 1]);
+                after.slide::<B>(drift, &self.fitting[face * ny + y0..][..b], west, east);
             }
-        }
-    }
-
-    /// Δt·div flux into `residual` and its Jacobian into `jacobian`.
-    fn assemble_flux<L: Mobility>(&mut self, law: L, h: &[f64], speed: Option<&[f64]>, dt: f64) {
-        let (ux, uy) = (self.grid.x.unknown(), self.grid.y.unknown());
-        let (ny, columns) = (self.grid.y.len(), self.columns);
-        self.residual.fill(0.0);
-        self.jacobian.clear();
-        // Across: faces between y nodes, from the first unknown node to the ambient edge.
-        if ny > 1 {
-            for (row, ix) in ux.clone().enumerate() {
-                let gap = h[ix];
-                let first_face = if self.grid.y.start == Start::Mirror { uy.start } else { uy.start - 1 };
-                for j in first_face..uy.end {
-                    let spacing = self.grid.y.nodes[j + 1] - self.grid.y.nodes[j];
-                    let coefficient = dt * self.mobility * gap * gap / spacing;
-                    let (south, north) = (self.pressure[ix * ny + j], self.pressure[ix * ny + j + 1]);
-                    let (psi, slope) = law.at(gap * 0.5 * (south + north));
-                    let drop = north - south;
-                    let (conductance, variation) = (coefficient * psi, 0.5 * coefficient * slope * gap * drop);
-                    let flux = -conductance * drop;
-                    if j >= uy.start {
-                        let k = row * columns + j - uy.start;
-                        let inverse = 1.0 / self.grid.y.lengths[j];
-                        self.residual[k] += flux * inverse;
-                        self.jacobian.centre[k] += (conductance - variation) * inverse;
-                        self.jacobian.north[k] -= (conductance + variation) * inverse;
-                    }
-                    if j + 1 < uy.end {
-                        let k = row * columns + j + 1 - uy.start;
-                        let inverse = 1.0 / self.grid.y.lengths[j + 1];
-                        self.residual[k] -= flux * inverse;
-                        self.jacobian.centre[k] += (conductance + variation) * inverse;
-                        self.jacobian.south[k] -= (conductance - variation) * inverse;
-                    }
-                }
-            }
-        }
-        // Along: each row of faces serves the nodes on both of its sides.
-        let first_face = if self.grid.x.start == Start::Mirror { ux.start } else { ux.start - 1 };
-        for face in first_face..ux.end {
-            self.x_flux(law, face, h, speed, dt);
-            let FaceRow { flux, by_west, by_east } = &self.face;
             if face >= ux.start {
-                let (base, inverse) = ((face - ux.start) * columns, 1.0 / self.grid.x.lengths[face]);
-                for j in 0..columns {
-                    self.residual[base + j] += flux[j] * inverse;
-                    self.jacobian.centre[base + j] += by_west[j] * inverse;
-                    self.jacobian.east[base + j] += by_east[j] * inverse;
+                let (row, gap) = (face - ux.start, h[face]);
+                let nodes = row * b..(row + 1) * b;
+                let across = dt * self.mobility * gap * gap;
+                let inverse = 1.0 / self.grid.x.lengths[face];
+                let south_edge = if y0 > 0 { self.pressure[face * ny + y0 - 1] } else { west[0] };
+                let north_edge = if ny > 1 { self.pressure[face * ny + y0 + b] } else { west[b - 1] };
+                self.across.of::<L, B>(law, gap, south_edge, west, north_edge);
+                let own = &self.across.pressure[1..=b];
+                let (flow, by_south, by_north) =
+                    (&self.across.flow[..=b], &self.across.by_south[..=b], &self.across.by_north[..=b]);
+                let residual = &mut self.residual[nodes.clone()];
+                let (rhs, theta) = (&self.rhs[nodes.clone()], &self.theta[nodes.clone()]);
+                let jacobian = &mut self.jacobian;
+                let centre = &mut jacobian.centre[nodes.clone()];
+                let to_west = &mut jacobian.west[nodes.clone()];
+                let to_east = &mut jacobian.east[nodes.clone()];
+                let to_south = &mut jacobian.south[nodes.clone()];
+                let to_north = &mut jacobian.north[nodes.clone()];
+                let pivots = &mut self.pivots[nodes];
+                let (flux_west, west_by_west, west_by_east) =
+                    (&before.flux[..b], &before.by_west[..b], &before.by_east[..b]);
+                let (flux_east, east_by_west, east_by_east) =
+                    (&after.flux[..b], &after.by_west[..b], &after.by_east[..b]);
+                for j in 0..b {
+                    let (south, north) = (across * south_scale[j], across * north_scale[j]);
+                    let inertia = (1.0 + 0.5 * theta[j]) * gap;
+                    let divergence = south * flow[j] - north * flow[j + 1] + (flux_east[j] - flux_west[j]) * inverse;
+                    residual[j] = rhs[j] - inertia * own[j] - divergence;
+                    let here =
+                        south * by_north[j] - north * by_south[j + 1] + (east_by_west[j] - west_by_east[j]) * inverse;
+                    centre[j] = here;
+                    pivots[j] = inertia + (1.0 + damping) * here;
+                    to_south[j] = south * by_south[j];
+                    to_north[j] = -north * by_north[j + 1];
+                    to_west[j] = -west_by_west[j] * inverse;
+                    to_east[j] = east_by_east[j] * inverse;
                 }
             }
-            if face + 1 < ux.end {
-                let (base, inverse) = ((face + 1 - ux.start) * columns, 1.0 / self.grid.x.lengths[face + 1]);
-                for j in 0..columns {
-                    self.residual[base + j] -= flux[j] * inverse;
-                    self.jacobian.centre[base + j] -= by_east[j] * inverse;
-                    self.jacobian.west[base + j] -= by_west[j] * inverse;
-                }
-            }
+            self.faces.swap(0, 1);
         }
     }
 
@@ -436,72 +504,71 @@ impl Film {
         for k in 0..self.rhs.len() {
             self.rhs[k] = state.carried[k] + 0.5 * self.theta[k] * state.trapped[k];
         }
-        let mut change = f64::INFINITY;
         let mut damping = if careful { 1.0 } else { 0.0 };
         let limit = if careful { CAREFUL_LIMIT } else { NEWTON_LIMIT };
         for _ in 0..limit {
-            self.assemble_flux(law, h, speed, dt);
-            self.jacobian.fill(columns, &mut self.matrix);
-            for (row, ix) in ux.clone().enumerate() {
-                for j in 0..columns {
-                    let k = row * columns + j;
-                    let inertia = (1.0 + 0.5 * self.theta[k]) * h[ix];
-                    self.matrix.row_mut(k)[columns] += inertia + damping * self.jacobian.centre[k];
-                    let pressure = self.pressure[ix * ny + uy.start + j];
-                    self.residual[k] = self.rhs[k] - inertia * pressure - self.residual[k];
-                }
-            }
-            self.matrix.solve_in_place(&mut self.residual);
+            with_columns!(columns, B => vectorised(
+                #[inline(always)]
+                || self.assemble::<L, B>(law, h, speed, dt, damping)
+            ));
+            self.solver.solve(&self.jacobian, &self.pivots, &mut self.residual);
             cost.solves += 1;
-            change = 0.0;
-            for (column, ix) in self.residual.chunks_exact(columns).zip(ux.clone()) {
-                let values = &self.pressure[ix * ny + uy.start..ix * ny + uy.end];
-                for (p, step) in values.iter().zip(column) {
-                    let relative = (step / p).abs();
-                    if relative.is_nan() || relative > change {
-                        change = relative;
-                    }
-                }
-            }
-            if change.is_nan() {
-                break;
-            }
-            if careful && change > LARGEST_CAREFUL_CHANGE {
+            if careful && self.largest_change() > LARGEST_CAREFUL_CHANGE {
                 damping = f64::max(4.0 * damping, 1e-3);
                 continue;
             }
+            let (mut settled, mut sum) = (true, 0.0);
             for (column, ix) in self.residual.chunks_exact(columns).zip(ux.clone()) {
                 let values = &mut self.pressure[ix * ny + uy.start..ix * ny + uy.end];
                 for (p, step) in values.iter_mut().zip(column) {
+                    settled &= step.abs() <= self.tolerance * *p;
+                    sum += step;
                     // A Newton step from below may overshoot zero: it is cut, not refused.
                     *p = (*p + step).clamp(0.1 * *p, 10.0 * *p);
                 }
             }
-            if change < self.tolerance && damping == 0.0 {
+            if settled && damping == 0.0 {
                 return Ok(());
+            }
+            if sum.is_nan() {
+                break;
             }
             damping = if damping < 1e-6 { 0.0 } else { 0.25 * damping };
         }
+        let change = self.largest_change();
         // The caller gets a film that still holds the state it had.
         self.load_pressure(h, &state.trapped);
         Err(FilmError::Newton { iterations: limit, change })
     }
 
+    /// Largest relative change of a pressure in the last linear solve; infinite if one is not a number.
+    fn largest_change(&self) -> f64 {
+        let (ux, uy, ny) = (self.grid.x.unknown(), self.grid.y.unknown(), self.grid.y.len());
+        let mut change = 0.0_f64;
+        for (column, ix) in self.residual.chunks_exact(self.columns).zip(ux) {
+            for (p, step) in self.pressure[ix * ny + uy.start..ix * ny + uy.end].iter().zip(column) {
+                let relative = (step / p).abs();
+                change = if relative.is_nan() { f64::INFINITY } else { change.max(relative) };
+            }
+        }
+        change
+    }
+
     /// Lowers θ to 0 where W would fall too far; whether any was lowered.
     fn limit(&mut self, h: &[f64], state: &FilmState) -> bool {
-        let (ux, uy, ny) = (self.grid.x.unknown(), self.grid.y.unknown(), self.grid.y.len());
+        let mut theta = std::mem::take(&mut self.theta);
         let mut any = false;
-        for (row, ix) in ux.enumerate() {
-            for j in 0..self.columns {
-                let k = row * self.columns + j;
-                let trapped = h[ix] * self.pressure[ix * ny + uy.start + j];
-                let carried = trapped + 0.5 * self.theta[k] * (trapped - state.trapped[k]);
-                if self.theta[k] > 0.0 && carried < CARRIED_FLOOR * trapped {
-                    self.theta[k] = 0.0;
+        for (row, (gap, pressure)) in self.rows(h).enumerate() {
+            let nodes = row * self.columns..(row + 1) * self.columns;
+            for ((theta, z), p) in theta[nodes.clone()].iter_mut().zip(&state.trapped[nodes]).zip(pressure) {
+                let now = gap * p;
+                if *theta > 0.0 && now + 0.5 * *theta * (now - z) < CARRIED_FLOOR * now {
+                    *theta = 0.0;
                     any = true;
                 }
             }
         }
+        self.theta = theta;
         any
     }
 }

@@ -7,9 +7,10 @@ use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, FilmGrid, Start};
 use crate::film::stepper::{FilmState, NEWTON_TOLERANCE};
+use crate::film::trapped::TrappedFilm;
 use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
-use crate::problem::Motor;
+use crate::problem::{Flow, Motor};
 use crate::recording::Recording;
 use crate::solution::{Stats, Status};
 
@@ -17,6 +18,9 @@ use crate::solution::{Stats, Status};
 const DEPTH: usize = 16;
 /// Longest step of the acceleration in ln ζ.
 const LONGEST_STEP: f64 = 1.5;
+
+/// Imbalance of the contact problems, as a share of the residual of the round before.
+const CONTACT_SHARE: f64 = 1e-3;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
 pub(super) struct Level {
@@ -31,6 +35,8 @@ pub(super) struct Level {
     load: f64,
     contact: Contact,
     films: Vec<FilmCycle>,
+    /// In place of marching, if the gas is trapped.
+    trapped_film: Option<TrappedFilm>,
     states: Vec<FilmState>,
     shapes: Vec<Shape>,
     /// W_S, `[instant][tooth][ix]`.
@@ -43,6 +49,8 @@ pub(super) struct Level {
     film_thickness: Vec<f64>,
     /// c, lines.
     contact_load: Vec<f64>,
+    /// Residual of the last round.
+    residual: f64,
     /// ζ from the film's last cycle, lines.
     line: Vec<f64>,
     /// `line` moved by the slow shift: ζ for the next round.
@@ -52,7 +60,9 @@ pub(super) struct Level {
 impl Level {
     pub(super) fn new(motor: &Motor, plan: &Plan, grid: &Grid) -> Self {
         let x = Axis::clustered(0.5 * motor.tooth_width, Start::Ambient, grid.along, plan.clustering_along);
-        let y = if plan.half_width {
+        let y = if plan.flow == Flow::Along {
+            Axis::single(motor.contact_width)
+        } else if plan.half_width {
             Axis::clustered(0.5 * motor.contact_width, Start::Mirror, grid.across, plan.clustering_across)
         } else {
             Axis::clustered(0.5 * motor.contact_width, Start::Ambient, 2 * grid.across, plan.clustering_across)
@@ -93,6 +103,12 @@ impl Level {
         let gas = &motor.gas;
         let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load);
         let unknowns = film_grid.unknowns();
+        let closed_along = plan.flow == Flow::Across;
+        let trapped_film = plan.trapped.then(|| TrappedFilm::new(film_grid.clone(), gas, closed_along));
+        let mut film = FilmCycle::new(film_grid, gas, steps);
+        if closed_along {
+            film.close_along();
+        }
         Self {
             teeth,
             stored,
@@ -103,7 +119,8 @@ impl Level {
             interior_width,
             load: motor.load,
             contact,
-            films: vec![FilmCycle::new(film_grid, gas, steps); stored],
+            films: vec![film; stored],
+            trapped_film,
             states: vec![FilmState::at_rest(vec![motor.min_spacing; unknowns]); stored],
             shapes: vec![Shape::unknown(); instants],
             stator,
@@ -111,9 +128,14 @@ impl Level {
             trapped: vec![0.0; stored * steps * nx],
             film_thickness: vec![motor.min_spacing; stored * steps * nx],
             contact_load: vec![0.0; stored * steps * nx],
+            residual: f64::INFINITY,
             line: vec![0.0; stored * steps * nx],
             next: vec![0.0; stored * steps * nx],
         }
+    }
+
+    pub(super) fn residual(&self) -> f64 {
+        self.residual
     }
 
     pub(super) fn steps(&self) -> usize {
@@ -173,6 +195,13 @@ impl Level {
             }
             self.states[tooth].carried = self.states[tooth].trapped.clone();
         }
+    }
+
+    /// Whether a solve of `motor` by `plan` may start from this state.
+    pub(super) fn serves(&self, motor: &Motor, plan: &Plan) -> bool {
+        self.teeth == motor.teeth
+            && self.stored == if plan.every_tooth { motor.teeth } else { 1 }
+            && self.trapped_film.is_some() == plan.trapped
     }
 
     /// Starts from the state on another grid, interpolated linearly between its nodes and steps.
@@ -277,8 +306,36 @@ impl Level {
         Ok(())
     }
 
+    /// The trapped gas of every stored tooth under the present h: `line`, pressures and states.
+    fn trap(&mut self, stats: &mut Stats) -> Result<(), Stop> {
+        let Some(trapped_film) = &mut self.trapped_film else { return Ok(()) };
+        let (nx, size) = (self.nx, self.steps * self.nx);
+        for tooth in 0..self.stored {
+            let gaps = &self.film_thickness[tooth * size..(tooth + 1) * size];
+            let failed = |source| Stop::Failed(MotorError::Film { step: 0, source });
+            let trapped = trapped_film.solve(gaps).map_err(failed)?;
+            stats.film_solves += 1;
+            let (film, state) = (&mut self.films[tooth], &mut self.states[tooth]);
+            state.trapped.copy_from_slice(trapped);
+            state.carried.copy_from_slice(trapped);
+            let (columns, rows) = (film.grid().y.unknown().len(), film.grid().x.unknown());
+            let lines = self.line[tooth * size..(tooth + 1) * size].chunks_exact_mut(nx);
+            for (step, (line, gap)) in lines.zip(gaps.chunks_exact(nx)).enumerate() {
+                film.grid().line_integral(trapped, line);
+                let pressure = film.guess_mut(step);
+                for (k, (p, z)) in pressure.iter_mut().zip(trapped).enumerate() {
+                    *p = z / gap[rows.start + k / columns];
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Marches one cycle of every stored tooth through the present h; `line` and the states move on.
     fn march(&mut self, stats: &mut Stats, cancel: &Cancel) -> Result<(), Stop> {
+        if self.trapped_film.is_some() {
+            return self.trap(stats);
+        }
         let size = self.steps * self.nx;
         for tooth in 0..self.stored {
             let range = tooth * size..(tooth + 1) * size;
@@ -331,6 +388,9 @@ impl Level {
     /// Moves the states, and the film's lines into `next`, by the slow shift of the last cycle.
     fn shift(&mut self) {
         self.next.copy_from_slice(&self.line);
+        if self.trapped_film.is_some() {
+            return;
+        }
         let (nx, steps) = (self.nx, self.steps);
         let mut across = vec![0.0; nx];
         for (tooth, film) in self.films.iter_mut().enumerate() {
@@ -364,6 +424,7 @@ impl Level {
         self.pack(&self.trapped, &mut present);
         for round in 1..=rounds {
             self.films.iter_mut().for_each(|film| film.accept(step_tolerance(residual)));
+            self.contact.accept(CONTACT_SHARE * residual.min(1.0));
             self.solve_contacts(stats, cancel)?;
             self.march(stats, cancel)?;
             stats.coupling_iterations += 1;
@@ -372,6 +433,7 @@ impl Level {
             self.pack(&self.next, &mut image);
             let change = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             residual = change.max(imbalance);
+            self.residual = residual;
             report.round(round, residual, self.mean_film_load());
             if residual < plan.tolerance {
                 return Ok(Status::Converged);
@@ -410,12 +472,11 @@ impl Level {
         self.mean_film_load() / motor.load
     }
 
-    /// Largest |film load + contact load − L|/L of an instant, the film's load from its own pressure: how far film and
-    /// contact still disagree.
-    pub(super) fn imbalance(&self) -> f64 {
+    /// (film load + contact load − L)/L of each instant, the film's load from its own pressure: how far film and contact
+    /// still disagree.
+    fn imbalances(&self) -> impl Iterator<Item = f64> {
         let lengths = &self.grid().x.lengths;
-        let mut worst = 0.0_f64;
-        for s in 0..self.instants() {
+        (0..self.instants()).map(move |s| {
             let mut total = -self.load;
             for tooth in 0..self.teeth {
                 let line = self.line_of(tooth, s);
@@ -423,12 +484,21 @@ impl Level {
                     total += (self.film_line_load(line + ix) + self.contact_load[line + ix]) * length;
                 }
             }
-            worst = worst.max(total.abs() / self.load);
-        }
-        worst
+            total / self.load
+        })
     }
 
-    pub(super) fn recording(&self, motor: &Motor) -> Recording {
+    /// Largest imbalance of an instant.
+    fn imbalance(&self) -> f64 {
+        self.imbalances().fold(0.0, |worst, imbalance| worst.max(imbalance.abs()))
+    }
+
+    /// Cycle mean of the imbalance: by how much α would differ if it were taken from the contact load.
+    pub(super) fn mean_imbalance(&self) -> f64 {
+        self.imbalances().sum::<f64>().abs() / self.instants() as f64
+    }
+
+    pub(super) fn recording(&self, motor: &Motor, maps: bool) -> Recording {
         let grid = self.grid();
         let (nx, steps) = (self.nx, self.steps);
         let mut stator = vec![0.0; self.line.len()];
@@ -455,7 +525,7 @@ impl Level {
             map_y: grid.y.nodes.clone(),
             half_width: grid.y.start == Start::Mirror,
             half_length: false,
-            pressure: self.films[0].full_pressure().iter().map(|p| p * self.ambient_pressure).collect(),
+            pressure: if maps { self.films[0].full_pressure(self.ambient_pressure) } else { Vec::new() },
             ..Recording::default()
         };
         let greatest: Vec<f64> = (0..self.stored * steps)
@@ -470,9 +540,9 @@ impl Level {
 }
 
 /// How exactly a film step needs to be solved in a round that starts `residual` away from the periodic state: Newton's
-/// change leaves an error of about its square, a hundredth of the residual is enough until the last rounds.
+/// last change leaves an error of about its square, a hundredth of the residual.
 fn step_tolerance(residual: f64) -> f64 {
-    if residual > 1e-3 { 0.1 * residual.min(1.0).sqrt() } else { NEWTON_TOLERANCE }
+    (0.1 * residual.min(1.0).sqrt()).max(NEWTON_TOLERANCE)
 }
 
 /// Where node `i` of `fine` intervals lies between the nodes of `coarse` intervals.

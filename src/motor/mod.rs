@@ -43,6 +43,8 @@ pub enum MotorError {
     },
 }
 
+/// Rounds that a start from another motor's state is given.
+const WARM_ROUNDS: usize = 12;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
 
@@ -76,6 +78,20 @@ pub struct Periodic {
     pub recording: Recording,
 }
 
+/// The states that the last solve ended with, one of each grid: where the solve of a similar motor starts.
+///
+/// A start changes how many rounds a solve takes, and its result by no more than the stated error.
+#[derive(Default)]
+pub struct Warm {
+    levels: Vec<Level>,
+}
+
+impl std::fmt::Debug for Warm {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Warm").field("grids", &self.levels.len()).finish()
+    }
+}
+
 /// Solves for the periodic state on each of the plan's grids, each started from the one before.
 ///
 /// # Errors
@@ -86,13 +102,51 @@ pub fn periodic(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Periodic, MotorError> {
+    periodic_from(&mut Warm::default(), motor, plan, observer, cancel)
+}
+
+/// As [`periodic`], each grid started from that of the last solve where `warm` holds one, and left there for the next.
+///
+/// # Errors
+/// As [`periodic`].
+pub fn periodic_from(
+    warm: &mut Warm,
+    motor: &Motor,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let mut alphas = Vec::new();
-    let mut coarse: Option<Level> = None;
+    let mut levels: Vec<Level> = Vec::new();
     let mut status = Status::Cancelled;
     for (number, grid) in plan.grids.iter().enumerate() {
+        let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
+        let finest = number + 1 == plan.grids.len();
+        let rounds = if finest { plan.round_limit } else { plan.round_limit.min(COARSE_ROUNDS) };
+        // A motor too far from the last one is soon known, and started anew.
+        if let Some(similar) = warm.levels.get(number).filter(|last| last.serves(motor, plan)) {
+            let mut level = Level::new(motor, plan, grid);
+            level.start_from(similar);
+            let tried = level.converge(plan, WARM_ROUNDS, &mut stats, &mut report, cancel);
+            match tried {
+                Ok(Status::Converged) => {
+                    status = Status::Converged;
+                    alphas.push(level.alpha(motor));
+                    levels.push(level);
+                    continue;
+                }
+                Err(Stop::Cancelled) => {
+                    status = Status::Cancelled;
+                    alphas.push(level.alpha(motor));
+                    levels.push(level);
+                    break;
+                }
+                Ok(_) | Err(Stop::Failed(_)) => {}
+            }
+        }
         let mut level = Level::new(motor, plan, grid);
-        match &coarse {
+        match levels.last() {
             // A coarse grid without a periodic state says nothing about the next one.
             Some(coarse) if status == Status::Converged => level.start_from(coarse),
             _ => {
@@ -100,41 +154,54 @@ pub fn periodic(
                 level.start(motor);
             }
         }
-        let finest = number + 1 == plan.grids.len();
-        let rounds = if finest { plan.round_limit } else { plan.round_limit.min(COARSE_ROUNDS) };
-        let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
         status = match level.converge(plan, rounds, &mut stats, &mut report, cancel) {
             Ok(status) => status,
             Err(Stop::Cancelled) => Status::Cancelled,
             Err(Stop::Failed(error)) => return Err(error),
         };
         alphas.push(level.alpha(motor));
-        coarse = Some(level);
+        levels.push(level);
         if status == Status::Cancelled {
             break;
         }
     }
-    let Some(level) = coarse else {
-        return Ok(Periodic { status, result: MotorResult::default(), alphas, stats, recording: Recording::default() });
+    let found = finish(motor, plan, levels.last(), status, alphas, stats);
+    if status == Status::Converged {
+        warm.levels = levels;
+    }
+    Ok(found)
+}
+
+/// The numbers, their error and the fields, from the finest grid and what each grid gave.
+fn finish(
+    motor: &Motor,
+    plan: &Plan,
+    finest: Option<&Level>,
+    status: Status,
+    alphas: Vec<f64>,
+    mut stats: Stats,
+) -> Periodic {
+    let Some(level) = finest else {
+        return Periodic { status, result: MotorResult::default(), alphas, stats, recording: Recording::default() };
     };
-    let recording = level.recording(motor);
+    let recording = level.recording(motor, plan.maps);
     let mut result = summarise(motor, &recording);
     let estimate = extrapolate(&alphas);
     result.set_alpha(motor, estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)));
     let astray = if let Status::NotConverged { residual, .. } = status { residual.min(1.0) } else { 0.0 };
     let estimated = if estimate.error.is_finite() { estimate.error } else { 1.0 };
-    // The cycle repeats to a tolerance, relative in the trapped gas: its force is known to no more than that. What floats
-    // carries its load whatever that is, and whatever terms were left out; only the height changes.
+    // The trapped gas still changes by the residual, and its force with it; half of that is what was seen at most (docs/
+    // validation.md). What floats carries its load whatever that is, and whatever was left out; only the height changes.
     let (repeating, left_out) = if result.levitated {
         (0.0, 0.0)
     } else {
-        (plan.tolerance * level.gas_force() / motor.load, plan.shear_effect * estimate.value.abs())
+        (0.5 * level.residual().min(1.0) * level.gas_force() / motor.load, plan.left_out * estimate.value.abs())
     };
-    result.alpha_error = estimated + astray + level.imbalance() + repeating + left_out;
+    result.alpha_error = estimated + astray + level.mean_imbalance() + repeating + left_out;
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();
-    Ok(Periodic { status, result, alphas, stats, recording })
+    Periodic { status, result, alphas, stats, recording }
 }
 
 /// Cycle means and extremes of a recording.

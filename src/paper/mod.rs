@@ -177,6 +177,7 @@ fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March
         half_width: false,
         shear: motor.shear,
         why,
+        decisions: Vec::new(),
     }
 }
 

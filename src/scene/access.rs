@@ -5,8 +5,8 @@ use super::error::{SceneError, What};
 use super::nearest::{nearest, nearest_key};
 use super::parameter::{Belongs, PARAMETERS, Parameter, ParameterKind, TABLES};
 use super::value::{Value, show_text};
-use super::{Kind, RotorModel, Scene, blank_beam, compliance, parse, slip_name, slip_named};
-use crate::problem::Slip;
+use super::{Kind, RotorModel, Scene, blank_beam, compliance, parse};
+use crate::problem::Named;
 use std::path::Path;
 
 /// A field to read.
@@ -17,7 +17,7 @@ enum View<'a> {
     OptionalCount(&'a Option<usize>),
     Flag(&'a bool),
     Text(&'a String),
-    Slip(&'a Slip),
+    Choice(&'a dyn Named),
     Model(&'a RotorModel),
     Rows(&'a Vec<(f64, f64)>),
 }
@@ -30,7 +30,7 @@ enum Place<'a> {
     OptionalCount(&'a mut Option<usize>),
     Flag(&'a mut bool),
     Text(&'a mut String),
-    Slip(&'a mut Slip),
+    Choice(&'a mut dyn Named),
     Model(&'a mut RotorModel),
     Rows(&'a mut Vec<(f64, f64)>),
 }
@@ -54,6 +54,12 @@ macro_rules! locate {
             "numerics.steps_per_cycle" => {
                 return Some($Field::OptionalCount($($borrow)* scene.numerics.steps_per_cycle));
             }
+            "numerics.tolerance" => return Some($Field::OptionalNumber($($borrow)* scene.numerics.tolerance)),
+            "numerics.wedge" => return Some($Field::Choice($($borrow)* scene.numerics.wedge)),
+            "numerics.teeth" => return Some($Field::Choice($($borrow)* scene.numerics.teeth)),
+            "numerics.width" => return Some($Field::Choice($($borrow)* scene.numerics.width)),
+            "numerics.flow" => return Some($Field::Choice($($borrow)* scene.numerics.flow)),
+            "numerics.time" => return Some($Field::Choice($($borrow)* scene.numerics.time)),
             key if key.starts_with("film.") => {
                 let (Kind::Motor { film, .. } | Kind::Plate { film, .. }) = $($borrow)* scene.kind;
                 return match key {
@@ -61,7 +67,7 @@ macro_rules! locate {
                     "film.ambient_pressure_kpa" => Some($Field::Number($($borrow)* film.ambient_pressure_kpa)),
                     "film.viscosity_upa_s" => Some($Field::Number($($borrow)* film.viscosity_upa_s)),
                     "film.mean_free_path_nm" => Some($Field::Number($($borrow)* film.mean_free_path_nm)),
-                    "film.slip" => Some($Field::Slip($($borrow)* film.slip)),
+                    "film.slip" => Some($Field::Choice($($borrow)* film.slip)),
                     "film.shear" => Some($Field::Flag($($borrow)* film.shear)),
                     _ => None,
                 };
@@ -123,7 +129,7 @@ impl Scene {
             View::OptionalCount(count) => Value::Whole(i64::try_from((*count)?).unwrap_or(i64::MAX)),
             View::Flag(flag) => Value::Flag(*flag),
             View::Text(text) => Value::Text(text.clone()),
-            View::Slip(slip) => Value::Text(slip_name(*slip).to_owned()),
+            View::Choice(choice) => Value::Text(choice.name().to_owned()),
             View::Model(model) => Value::Text(model.name().to_owned()),
             View::Rows(rows) => Value::Rows(rows.clone()),
         })
@@ -319,7 +325,9 @@ impl Scene {
             (Some(Place::OptionalCount(place)), Value::Whole(value)) => *place = usize::try_from(value).ok(),
             (Some(Place::Flag(place)), Value::Flag(value)) => *place = value,
             (Some(Place::Text(place)), Value::Text(value)) => *place = value,
-            (Some(Place::Slip(place)), Value::Text(name)) => *place = slip_named(&name).unwrap_or(*place),
+            (Some(Place::Choice(place)), Value::Text(name)) => {
+                place.choose(&name);
+            }
             (Some(Place::Model(place)), Value::Text(name)) if name != place.name() => {
                 if name == "table" {
                     *place = RotorModel::Table { compliance: Vec::new() };
@@ -421,9 +429,15 @@ mod tests {
     }
 
     #[test]
-    fn slip_laws_have_their_names() {
-        for name in super::super::SLIP_LAWS {
-            assert_eq!(slip_named(name).map(slip_name), Some(*name));
+    fn every_choice_of_the_table_is_one_of_the_field() {
+        let mut scene = Scene::motor();
+        for parameter in PARAMETERS.iter().filter(|p| p.belongs != Belongs::Plate && p.key != "rotor.model") {
+            if let ParameterKind::Choice { options, .. } = parameter.kind {
+                for name in options {
+                    scene.set(parameter.key, name).unwrap();
+                    assert_eq!(scene.get(parameter.key), Some(Value::Text((*name).to_owned())), "{}", parameter.key);
+                }
+            }
         }
     }
 

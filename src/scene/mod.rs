@@ -35,8 +35,8 @@ mod write;
 pub use compliance::RowFault;
 pub use error::{Fault, SceneError, What};
 pub use parameter::{
-    Belongs, NARROWEST_TOOTH, PARAMETERS, Parameter, ParameterKind, ROTOR_MODELS, Range, SCENES, SLIP_LAWS, Scale,
-    TABLES, markdown,
+    Belongs, NARROWEST_TOOTH, PARAMETERS, Parameter, ParameterKind, ROTOR_MODELS, Range, SCENES, Scale, TABLES,
+    markdown,
 };
 pub use value::Value;
 
@@ -253,19 +253,4 @@ fn blank_film() -> Film {
         slip: Slip::None,
         shear: false,
     }
-}
-
-/// The name of a slip law in the file.
-pub fn slip_name(slip: Slip) -> &'static str {
-    match slip {
-        Slip::None => "none",
-        Slip::FirstOrder => "first-order",
-        Slip::SecondOrder => "second-order",
-        Slip::FukuiKaneko => "fukui-kaneko",
-    }
-}
-
-/// The slip law of a name in the file.
-fn slip_named(name: &str) -> Option<Slip> {
-    [Slip::None, Slip::FirstOrder, Slip::SecondOrder, Slip::FukuiKaneko].into_iter().find(|s| slip_name(*s) == name)
 }

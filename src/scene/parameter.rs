@@ -2,6 +2,7 @@
 //! check of a file, `--set`, the sliders and the documentation all read it.
 
 use super::value::show_number;
+use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::{self, Write as _};
 
 /// An interval of allowed values, both ends included.
@@ -185,9 +186,6 @@ pub const TABLES: &[&str] = &["motor", "stator", "rotor", "plate", "film", "nume
 /// The kinds of scene, the values of the key `scene`.
 pub const SCENES: &[&str] = &["motor", "plate"];
 
-/// The slip laws by name, in the order of [`crate::problem::Slip`].
-pub const SLIP_LAWS: &[&str] = &["none", "first-order", "second-order", "fukui-kaneko"];
-
 /// The rotor models that can be chosen.
 pub const ROTOR_MODELS: &[&str] = &["beam", "table"];
 
@@ -227,6 +225,10 @@ const fn whole(
 
 const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Parameter {
     Parameter { key, unit: "", belongs, absent: None, kind, about }
+}
+
+const fn choice(key: &'static str, options: &'static [&'static str], about: &'static str) -> Parameter {
+    other(key, Belongs::Motor, ParameterKind::Choice { options, default: "auto" }, about)
 }
 
 const fn optional(parameter: Parameter, meaning: &'static str) -> Parameter {
@@ -485,7 +487,7 @@ pub static PARAMETERS: &[Parameter] = &[
     other(
         "film.slip",
         Belongs::Any,
-        ParameterKind::Choice { options: SLIP_LAWS, default: "first-order" },
+        ParameterKind::Choice { options: Slip::NAMES, default: "first-order" },
         "How the gas slips at the walls",
     ),
     other(
@@ -519,6 +521,36 @@ pub static PARAMETERS: &[Parameter] = &[
         "Contact nodes on one wavelength for --method paper, both ends counted",
     ),
     whole("numerics.steps_per_cycle", Belongs::Any, (8, 100_000), 360, LEFT_OPEN, "Time steps in one cycle"),
+    optional(
+        number(
+            "numerics.tolerance",
+            "",
+            Belongs::Any,
+            (1e-9, 1e-2),
+            (1e-7, 1e-2),
+            Log,
+            1e-4,
+            "Relative change of the trapped gas at which the cycle counts as repeating",
+        ),
+        "left to the fidelity",
+    ),
+    choice(
+        "numerics.wedge",
+        Wedge::NAMES,
+        "The wedge term of sliding: solved (on), left out (off), or as the scene needs",
+    ),
+    choice(
+        "numerics.teeth",
+        Teeth::NAMES,
+        "Teeth whose film is solved: one by lag symmetry, or all; the result is the same",
+    ),
+    choice(
+        "numerics.width",
+        Width::NAMES,
+        "Width of the film that is solved: half by symmetry, or full; the result is the same",
+    ),
+    choice("numerics.flow", Flow::NAMES, "Where the film flows: in the plane, or only across or along a tooth"),
+    choice("numerics.time", Time::NAMES, "The film in time: marched step by step, or trapped, with no time to move"),
 ];
 
 /// All keys as a Markdown table, for the documentation.

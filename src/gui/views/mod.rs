@@ -35,7 +35,7 @@ mod tests {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
         let problem = Problem::new(&scene).unwrap();
-        let settings = Settings { fidelity: Fidelity::Draft, method };
+        let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
         Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, wall_s: 0.0, history: Vec::new() }
     }
