@@ -75,20 +75,20 @@ fn play_step_and_scrub_by_key_and_button() {
     window.step();
     assert!(!window.state().view().playing);
     let frames = window.state().shown().unwrap().solution.recording.frames;
-    let frame = |window: &Harness<'static, App>| {
+    let place = |window: &Harness<'static, App>| {
         let app = window.state();
-        app.view().frame(&app.shown().unwrap().solution.recording)
+        app.view().place(&app.shown().unwrap().solution.recording)
     };
     window.key_press(Key::Home);
     window.step();
-    assert_eq!(frame(&window), 0);
+    assert_eq!(place(&window), 0.0);
     window.key_press(Key::ArrowLeft);
     window.step();
-    assert_eq!(frame(&window), frames - 1);
+    assert_eq!(place(&window), (frames - 1) as f64);
     window.key_press(Key::ArrowRight);
     window.key_press(Key::ArrowRight);
     window.step();
-    assert_eq!(frame(&window), 1);
+    assert_eq!(place(&window), 1.0);
     window.key_press(Key::CloseBracket);
     window.step();
     assert_eq!(window.state().view().tooth, 1);

@@ -349,10 +349,8 @@ impl App {
             Command::TogglePlay => self.view.playing = !self.view.playing,
             Command::StepFrames(by) => {
                 if let Some(run) = &self.shown {
-                    let frames = run.solution.recording.frames.max(1) as i64;
-                    let frame = self.view.frame(&run.solution.recording) as i64 + by;
                     self.view.playing = false;
-                    self.view.phase = (frame.rem_euclid(frames) as f64 + 0.5) / frames as f64;
+                    self.view.phase = self.view.stepped(&run.solution.recording, by);
                 }
             }
             Command::Seek(phase) => {

@@ -15,7 +15,7 @@ const SPEEDS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 30.0];
 /// Play, step, scrub and speed.
 pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Command>) {
     let recording = &run.solution.recording;
-    let (frames, frame) = (recording.frames, view.frame(recording));
+    let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
     ui.horizontal(|ui| {
         let play = if view.playing { "Pause" } else { "Play" };
         if ui.add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play)).on_hover_text("Space").clicked()
@@ -40,14 +40,17 @@ pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Comman
                 }
             });
         name(&speed.response, "Speed");
-        let mut at = frame;
+        let mut at = place;
         ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
-        let scrub = ui.add(Slider::new(&mut at, 0..=frames.saturating_sub(1)).show_value(false));
+        let slider = Slider::new(&mut at, 0.0..=frames).clamping(egui::SliderClamping::Never).show_value(false);
+        let scrub = ui.add(slider.smart_aim(false));
         name(&scrub, "Time in the cycle");
         if scrub.changed() {
-            commands.push(Command::Seek((at as f64 + 0.5) / frames as f64));
+            // To a recorded frame; the end of the cycle is its start.
+            commands.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
         }
-        ui.label(format!("t = {}  ({:.0}°)", time(recording.time(frame)), 360.0 * frame as f64 / frames as f64));
+        let phase = place / frames;
+        ui.label(format!("t = {}  ({:.0}°)", time(recording.period * phase), (360.0 * phase).round() % 360.0));
     });
 }
 
