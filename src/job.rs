@@ -111,6 +111,14 @@ impl Solver {
     /// # Errors
     /// If the thread cannot be started.
     pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        Self::start_with_clock(Instant::now, wake)
+    }
+
+    /// As [`Self::start`], with the clock that measures the solves.
+    ///
+    /// # Errors
+    /// If the thread cannot be started.
+    pub fn start_with_clock(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let (sender, events) = channel();
         let theirs = Arc::clone(&shared);
@@ -120,7 +128,7 @@ impl Solver {
                 wake();
                 sent
             };
-            work(&theirs, &tell);
+            work(&theirs, now, &tell);
         })?;
         Ok(Self { shared, events: Some(events), worker: Some(worker), next: 0 })
     }
@@ -171,7 +179,7 @@ impl Drop for Solver {
     }
 }
 
-fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
+fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
     loop {
         let (number, request, cancel) = {
             let mut slot = shared.lock();
@@ -187,7 +195,7 @@ fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
                 slot = shared.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
             }
         };
-        let cancelled = !refine(number, &request, &cancel, tell);
+        let cancelled = !refine(number, &request, &cancel, now, tell);
         shared.lock().running = None;
         if !tell(Event::Done { number, cancelled }) {
             return;
@@ -196,20 +204,20 @@ fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
 }
 
 /// Solves at every fidelity of the request; false if cancelled.
-fn refine(number: u64, request: &Request, cancel: &Cancel, tell: &dyn Fn(Event) -> bool) -> bool {
+fn refine(number: u64, request: &Request, cancel: &Cancel, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) -> bool {
     for &fidelity in &request.fidelities {
         if cancel.is_cancelled() {
             return false;
         }
         let mut history = Vec::new();
-        let started = Instant::now();
+        let started = now();
         let mut listen = |progress: &Progress| {
             history.push(*progress);
             tell(Event::Progress { number, fidelity, progress: *progress });
         };
         let settings = Settings { fidelity, method: Method::Auto };
         let solved = catch_unwind(AssertUnwindSafe(|| solve(&request.problem, &settings, &mut listen, cancel)));
-        let wall_s = started.elapsed().as_secs_f64();
+        let wall_s = now().duration_since(started).as_secs_f64();
         let message = match solved {
             Ok(Ok(solution)) if solution.status == Status::Cancelled => return false,
             Ok(Ok(solution)) => {

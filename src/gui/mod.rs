@@ -7,11 +7,14 @@ pub mod app;
 pub mod command;
 pub mod dialogs;
 pub mod document;
+pub mod edit;
 pub mod keys;
+pub mod modal;
 pub mod panels;
 pub mod state;
 pub mod theme;
 pub mod views;
+pub mod world;
 
 use crate::scene::Scene;
 use eframe::egui;

@@ -20,6 +20,8 @@ pub struct Palette {
     pub quiet: Color32,
     /// Something is wrong.
     pub alarm: Color32,
+    /// Something is as it should be.
+    pub good: Color32,
     /// Background of drawings.
     pub canvas: Color32,
 }
@@ -35,6 +37,7 @@ pub fn palette(dark: bool) -> Palette {
             accent: Color32::from_rgb(0xf0, 0xe4, 0x42),
             quiet: Color32::from_rgb(0x9a, 0xa2, 0xad),
             alarm: Color32::from_rgb(0xff, 0x6b, 0x5e),
+            good: Color32::from_rgb(0x3f, 0xc7, 0x9a),
             canvas: Color32::from_rgb(0x16, 0x19, 0x1f),
         }
     } else {
@@ -46,6 +49,7 @@ pub fn palette(dark: bool) -> Palette {
             accent: Color32::from_rgb(0x9b, 0x2f, 0xae),
             quiet: Color32::from_rgb(0x60, 0x66, 0x70),
             alarm: Color32::from_rgb(0xb0, 0x1c, 0x10),
+            good: Color32::from_rgb(0x00, 0x75, 0x56),
             canvas: Color32::from_rgb(0xfb, 0xfb, 0xfd),
         }
     }
