@@ -13,7 +13,7 @@ use super::views;
 use super::world::World;
 use crate::fidelity::Fidelity;
 use crate::job::{Event, Request, Run, Solver};
-use crate::problem::{Problem, Scenario};
+use crate::problem::Problem;
 use crate::scene::{Kind, Parameter, Scene, SceneError, presets};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -27,6 +27,25 @@ const REFINEMENT: [Fidelity; 3] = [Fidelity::Draft, Fidelity::Standard, Fidelity
 const RECENT: usize = 10;
 /// Zoom of the lecture size.
 const LECTURE_ZOOM: f32 = 1.35;
+/// Width of a panel at the side of the views.
+struct Side {
+    default: f32,
+    least: f32,
+    /// The most of a narrow window that it takes.
+    share: f32,
+}
+
+const PARAMETERS: Side = Side { default: 300.0, least: 210.0, share: 0.3 };
+const RESULTS: Side = Side { default: 270.0, least: 190.0, share: 0.27 };
+
+impl Side {
+    /// Fits `panel` into a window of this width: what is in the middle stays the widest.
+    fn fit(&self, panel: egui::Panel, window: f32) -> egui::Panel {
+        let most = (self.share * window).max(self.least);
+        panel.default_size(self.default.min(most)).size_range(self.least..=most).resizable(true)
+    }
+}
+
 /// What a picture is called at first.
 const PICTURE_NAME: &str = "squeezefilm.png";
 /// Unsaved work is written away this often.
@@ -119,7 +138,7 @@ impl App {
         opened: Option<(Scene, Option<PathBuf>)>,
         world: World,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
-        theme::install_fonts(&context.egui_ctx);
+        theme::install(&context.egui_ctx);
         let wake = context.egui_ctx.clone();
         let solver = Solver::start_with_clock(world.now, move || wake.request_repaint())?;
         let stored = |key: &str| context.storage.and_then(|storage| storage.get_string(key));
@@ -414,6 +433,8 @@ impl App {
                     wake.request_repaint();
                 });
             }
+            Command::ToggleParameters => self.view.parameters = !self.view.parameters,
+            Command::ToggleResults => self.view.results = !self.view.results,
             Command::ToggleShortcuts => self.sheet = !self.sheet,
             Command::Quit => {
                 self.quitting = true;
@@ -495,19 +516,26 @@ impl eframe::App for App {
             }
             timeline::status(ui, shown.as_deref(), &self.activity, &palette, &mut commands);
         });
-        egui::Panel::left("parameters").default_size(300.0).min_size(250.0).resizable(true).show(ui, |ui| {
-            parameters::show(ui, self.document.scene(), &self.refusals, &mut commands);
-        });
-        egui::Panel::right("results").default_size(310.0).min_size(230.0).resizable(true).show(ui, |ui| {
-            if let Some(run) = &shown {
-                results::show(ui, run, self.dark);
-            }
-        });
+        let width = ui.available_width();
+        // Each size of text remembers its own widths.
+        let [left, right] =
+            if self.lecture { ["parameters, lecture", "results, lecture"] } else { ["parameters", "results"] };
+        if self.view.parameters {
+            PARAMETERS.fit(egui::Panel::left(left), width).show(ui, |ui| {
+                parameters::show(ui, self.document.scene(), &self.refusals, &mut commands);
+            });
+        }
+        if self.view.results {
+            RESULTS.fit(egui::Panel::right(right), width).show(ui, |ui| {
+                // As wide before the first result as after it.
+                ui.set_min_width(ui.available_width());
+                if let Some(run) = &shown {
+                    results::show(ui, run, self.dark);
+                }
+            });
+        }
         egui::CentralPanel::default().show(ui, |ui| match &shown {
-            Some(run) => match run.problem.scenario {
-                Scenario::Motor(_) => views::motor::show(ui, run, &mut self.view, &mut commands),
-                Scenario::Plate(_) => views::plate::show(ui, run, &mut self.view, &mut commands),
-            },
+            Some(run) => views::show(ui, run, &mut self.view, &mut commands),
             None => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
         });
         self.modals(&ctx, &mut commands);
@@ -519,6 +547,11 @@ impl eframe::App for App {
         for command in commands {
             self.carry_out(&ctx, command);
         }
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        // Seen between panels where their edges fall between pixels.
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {

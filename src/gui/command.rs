@@ -72,6 +72,10 @@ pub enum Command {
     ToggleTheme,
     /// Large text, for a lecture room, or the usual size.
     ToggleLecture,
+    /// Shows or hides the parameters: without panels the views have the whole window.
+    ToggleParameters,
+    /// Shows or hides the results.
+    ToggleResults,
     /// Takes a picture of the window and asks where to save it.
     Screenshot,
     /// Saves the picture that was taken to this file.

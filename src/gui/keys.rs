@@ -1,7 +1,7 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use super::command::Command;
-use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers};
+use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
 
 /// A shortcut, what it is called, and what it asks for.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +67,8 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         &[
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
+            always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
+            always(key(NONE, Key::F3), "Show or hide the results", || Command::ToggleResults),
             always(key(CTRL, Key::P), "Picture of the window", || Command::Screenshot),
             always(key(NONE, Key::F1), "This sheet", || Command::ToggleShortcuts),
         ],
@@ -77,9 +79,10 @@ fn all() -> impl Iterator<Item = &'static Shortcut> {
     GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter())
 }
 
-/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open, and the plain keys are its own.
+/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open. The plain keys are then its own, and
+/// those of an open menu.
 pub fn pressed(ctx: &Context, modal: bool, commands: &mut Vec<Command>) {
-    let typing = modal || ctx.egui_wants_keyboard_input();
+    let typing = modal || ctx.egui_wants_keyboard_input() || Popup::is_any_open(ctx);
     ctx.input_mut(|input| {
         // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
         for shift in [true, false] {

@@ -6,6 +6,8 @@ use super::theme::Palette;
 use eframe::egui::{self, Id, Key, RichText, Ui};
 use std::path::{Path, PathBuf};
 
+/// Around the contents.
+const MARGIN: i8 = 18;
 /// Widest text.
 const WIDTH: f32 = 460.0;
 
@@ -51,6 +53,11 @@ impl PathPrompt {
     }
 }
 
+/// The frame of all modals: as that of a popup, with room inside.
+pub fn frame(ctx: &egui::Context) -> egui::Frame {
+    egui::Frame::popup(&ctx.global_style()).inner_margin(MARGIN)
+}
+
 /// Shows a modal; false once it is answered. `file`: where the scene is saved already.
 pub fn show(
     ctx: &egui::Context,
@@ -59,7 +66,7 @@ pub fn show(
     palette: &Palette,
     commands: &mut Vec<Command>,
 ) -> bool {
-    let response = egui::Modal::new(Id::unique("question")).show(ctx, |ui| {
+    let response = egui::Modal::new(Id::unique("question")).frame(frame(ctx)).show(ctx, |ui| {
         ui.set_width(WIDTH.min(0.8 * ctx.content_rect().width()));
         match modal {
             Modal::Error(message) => error(ui, message),

@@ -13,6 +13,10 @@ pub struct View {
     pub seconds_per_cycle: f64,
     /// Tooth that is followed.
     pub tooth: usize,
+    /// Whether the parameters are shown.
+    pub parameters: bool,
+    /// Whether the results are shown.
+    pub results: bool,
     /// x under the pointer in any view \[m\], read out by all of them. Cleared at the start of a frame by the application.
     pub hover_x: Option<f64>,
     /// The same of the frame before, which views draw.
@@ -21,7 +25,16 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { phase: 0.0, playing: true, seconds_per_cycle: 6.0, tooth: 0, hover_x: None, cursor_x: None }
+        Self {
+            phase: 0.0,
+            playing: true,
+            seconds_per_cycle: 6.0,
+            tooth: 0,
+            parameters: true,
+            results: true,
+            hover_x: None,
+            cursor_x: None,
+        }
     }
 }
 

@@ -1,15 +1,14 @@
 //! Explanations on hover that do not cover the rows around them: beside the panel.
 
-use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui};
+use eframe::egui::{Rect, RectAlign, Response, Tooltip};
 
 /// Between the panel and the explanation.
 const GAP: f32 = 12.0;
 
-/// Shows `text` beside the panel that `ui` is in while the pointer rests on `response`.
-pub fn beside(ui: &Ui, response: Response, text: &str) -> Response {
+/// Shows `text` beside `panel` while the pointer rests on `response`, a widget in it.
+pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
     let mut tooltip = Tooltip::for_enabled(&response);
-    // As wide as the panel, as high as the widget.
-    let row = Rect::from_x_y_ranges(ui.clip_rect().x_range(), response.rect.y_range());
+    let row = Rect::from_x_y_ranges(panel.x_range(), response.rect.y_range());
     tooltip.popup = tooltip
         .popup
         .anchor(row)

@@ -1,5 +1,6 @@
 //! The menu bar.
 
+use super::hint::beside;
 use crate::gui::command::Command;
 use crate::gui::document::Document;
 use crate::gui::keys;
@@ -20,6 +21,10 @@ pub fn show(ui: &mut egui::Ui, document: &Document, recent: &[PathBuf], dark: bo
             let other = if dark { "Light theme" } else { "Dark theme" };
             item(ui, other, true, Command::ToggleTheme, commands);
             item(ui, "Lecture size", true, Command::ToggleLecture, commands);
+            ui.separator();
+            item(ui, "Parameters, show or hide", true, Command::ToggleParameters, commands);
+            item(ui, "Results, show or hide", true, Command::ToggleResults, commands);
+            ui.separator();
             item(ui, "Picture of the window…", true, Command::Screenshot, commands);
         });
         ui.menu_button("Help", |ui| {
@@ -61,12 +66,17 @@ fn file(ui: &mut egui::Ui, recent: &[PathBuf], commands: &mut Vec<Command>) {
 }
 
 fn built_in(ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-    egui::ScrollArea::vertical().max_height(560.0).show(ui, |ui| {
+    let room = 0.85 * ui.ctx().content_rect().height();
+    egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
+        let mut kind = "motor";
         for preset in presets::BUILT_IN {
             // Built-in presets parse: a test opens every one.
             let Ok(scene) = preset.scene() else { continue };
-            if ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name)).on_hover_text(&scene.about).clicked()
-            {
+            if std::mem::replace(&mut kind, scene.scene()) != kind {
+                ui.separator();
+            }
+            let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));
+            if beside(ui.max_rect(), entry, &scene.about).clicked() {
                 commands.push(Command::OpenBuiltIn(preset.name));
                 ui.close();
             }

@@ -170,7 +170,7 @@ impl Panel<'_> {
         let text = if is_main(self.scene, parameter) { text.strong() } else { text };
         self.beside_reset(ui, parameter, |ui, _| {
             let name = ui.add(egui::Label::new(text).wrap().selectable(false));
-            beside(ui, name, &explanation)
+            beside(ui.clip_rect(), name, &explanation)
         })
     }
 
@@ -215,7 +215,7 @@ impl Panel<'_> {
             let gaps = 2.0 * ui.spacing().item_spacing.x;
             ui.spacing_mut().slider_width = (ui.available_width() - field - self.units - gaps).max(SHORTEST_SLIDER);
             let slider = self.slider(ui, parameter, value);
-            let slider = beside(ui, slider, &explanation);
+            let slider = beside(ui.clip_rect(), slider, &explanation);
             match name {
                 Some(name) => slider.labelled_by(name.id),
                 None => slider.accessible_name(label(parameter)),
@@ -230,7 +230,7 @@ impl Panel<'_> {
                 wrapped: false,
             };
             let typed = typed.show(ui, &self.colours, self.commands);
-            beside(ui, typed, &explanation);
+            beside(ui.clip_rect(), typed, &explanation);
             ui.add(
                 egui::Label::new(RichText::new(parameter.unit).color(self.colours.quiet)).selectable(false).extend(),
             );
@@ -269,7 +269,7 @@ impl Panel<'_> {
         let mut on = present;
         let explanation = self.explanation(parameter);
         let checkbox = ui.checkbox(&mut on, switch(parameter));
-        if beside(ui, checkbox, &explanation).changed() {
+        if beside(ui.clip_rect(), checkbox, &explanation).changed() {
             self.commands.push(match (on, parameter.kind) {
                 (true, ParameterKind::Number { default, .. }) => {
                     Command::Set { key: parameter.key, value: Value::Number(default), dragging: false }
@@ -291,7 +291,7 @@ impl Panel<'_> {
         self.beside_reset(ui, parameter, |ui, commands| {
             let mut on = on;
             let checkbox = ui.checkbox(&mut on, label(parameter));
-            if beside(ui, checkbox, &explanation).changed() {
+            if beside(ui.clip_rect(), checkbox, &explanation).changed() {
                 commands.push(Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false });
             }
         });
@@ -329,12 +329,12 @@ impl Panel<'_> {
             wrapped: true,
         };
         let field = field.show(ui, &self.colours, self.commands);
-        beside(ui, field, parameter.about);
+        beside(ui.clip_rect(), field, parameter.about);
     }
 
     fn path_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
         let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false));
-        let name = beside(ui, name, &format!("{}\n{}", parameter.about, parameter.key));
+        let name = beside(ui.clip_rect(), name, &format!("{}\n{}", parameter.about, parameter.key));
         let field = Field {
             key: parameter.key,
             value: None,
@@ -345,14 +345,14 @@ impl Panel<'_> {
             wrapped: false,
         };
         let field = field.show(ui, &self.colours, self.commands).labelled_by(name.id);
-        beside(ui, field, "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n");
+        beside(ui.clip_rect(), field, "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n");
     }
 
     fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {
         let explanation = self.explanation(parameter);
         ui.horizontal_wrapped(|ui| {
             let name = ui.label(label(parameter));
-            beside(ui, name, &explanation);
+            beside(ui.clip_rect(), name, &explanation);
             ui.label(RichText::new(format!("{rows} {}", if rows == 1 { "row" } else { "rows" })).strong());
         });
         quiet(ui, &self.colours, "Edit the table in its file and give the file again");

@@ -312,13 +312,18 @@ fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {
 }
 
 fn shown(value: f64) -> String {
-    significant(value, DIGITS)
+    signed(&significant(value, DIGITS))
+}
+
+/// With a true minus sign.
+fn signed(text: &str) -> String {
+    text.strip_prefix('-').map_or_else(|| text.to_owned(), |size| format!("−{size}"))
 }
 
 /// A value with its error, an exponent raised. What is far below its error is 0.
 fn uncertain(value: f64, error: f64) -> String {
     let value = if value.abs() < NOTHING * error { 0.0 } else { value };
-    let text = with_error(value, error);
+    let text = signed(&with_error(value, error));
     match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
         Some((before, Ok(exponent))) => format!("{before}{}", convergence::power_of_ten(exponent)),
         _ => text,

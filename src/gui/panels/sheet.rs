@@ -1,6 +1,7 @@
 //! The sheet of keyboard shortcuts.
 
 use crate::gui::keys::{self, GROUPS, Shortcut};
+use crate::gui::modal::frame;
 use crate::gui::theme::palette;
 use eframe::egui::{self, RichText, TextStyle};
 
@@ -9,7 +10,7 @@ const GAP: f32 = 28.0;
 
 /// Shows the sheet; false once it is closed.
 pub fn show(ctx: &egui::Context) -> bool {
-    let response = egui::Modal::new(egui::Id::unique("shortcuts")).show(ctx, |ui| {
+    let response = egui::Modal::new(egui::Id::unique("shortcuts")).frame(frame(ctx)).show(ctx, |ui| {
         ui.heading("Keyboard shortcuts");
         ui.add_space(10.0);
         let columns = GROUPS.split_at(GROUPS.len() / 2);

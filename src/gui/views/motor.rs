@@ -85,7 +85,7 @@ impl Layout {
 }
 
 /// Draws `run` at the view's phase.
-pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
     let recording = &run.solution.recording;
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let Some(area) = super::paint::area(ui, recording) else { return };

@@ -36,7 +36,7 @@ impl Shown<'_> {
 }
 
 /// Draws `run` at the view's phase.
-pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
     let recording = &run.solution.recording;
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let Some(area) = super::paint::area(ui, recording) else { return };
@@ -112,7 +112,8 @@ fn draw_gap(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Axes
     scale_bar(painter, ink, rect, scale);
     let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
     let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(scale / along));
-    ink.title(painter, rect, &[&title], &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
+    let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
+    ink.title(painter, rect, &[&title, &short], &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
