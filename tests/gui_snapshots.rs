@@ -9,6 +9,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::print_stderr, reason = "says that it was skipped")]
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, default_wgpu_setup};
@@ -117,7 +118,7 @@ fn the_window_looks_as_it_did() {
         window.snapshot(name);
         results.extend_harness(&mut window);
     }
-    // What cannot be opened, in the smallest window and the largest text.
+    // A path to type, and what cannot be opened, in a small window with large text.
     let mut window = window("fundamental", small, &[lecture, open]);
     for _ in 0..200 {
         if window.query_all_by_label("Path").next().is_some() {
@@ -128,5 +129,10 @@ fn the_window_looks_as_it_did() {
     }
     settle(&mut window);
     window.snapshot("open-by-path");
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text("absent.toml");
+    window.step();
+    window.key_press(Key::Enter);
+    settle(&mut window);
+    window.snapshot("error");
     results.extend_harness(&mut window);
 }
