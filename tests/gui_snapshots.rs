@@ -22,11 +22,32 @@ use squeezefilm::scene::presets;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+const USUAL: [f32; 2] = [1400.0, 900.0];
+const SMALL: [f32; 2] = [1024.0, 700.0];
+const THEME: (Modifiers, Key) = (Modifiers::COMMAND, Key::T);
+const LECTURE: (Modifiers, Key) = (Modifiers::COMMAND, Key::L);
+const SHEET: (Modifiers, Key) = (Modifiers::NONE, Key::F1);
+const OPEN: (Modifiers, Key) = (Modifiers::COMMAND, Key::O);
+
+const LOOKS: &[Look] = &[
+    ("motor-dark", "fundamental", USUAL, &[]),
+    ("motor-light", "fundamental", USUAL, &[THEME]),
+    ("motor-lecture", "fundamental", USUAL, &[LECTURE]),
+    ("motor-small", "fundamental", SMALL, &[]),
+    ("levitating-small-light", "levitating", SMALL, &[THEME]),
+    ("plate-dark", "plate-crossover", USUAL, &[]),
+    ("plate-small-light", "plate-trapped", SMALL, &[THEME]),
+    ("shortcuts-lecture", "plate-viscous", USUAL, &[LECTURE, SHEET]),
+];
+
 /// A clock that stands: solves take no time, and the animation does not move by itself.
 fn standing() -> Instant {
     static MOMENT: OnceLock<Instant> = OnceLock::new();
     *MOMENT.get_or_init(Instant::now)
 }
+
+/// Name of the picture, preset, size of the window, keys that are pressed.
+type Look = (&'static str, &'static str, [f32; 2], &'static [(Modifiers, Key)]);
 
 /// Whether there is a driver to draw with.
 fn can_draw() -> bool {
@@ -97,29 +118,14 @@ fn the_window_looks_as_it_did() {
         eprintln!("skipped: there is no Vulkan driver (Debian: mesa-vulkan-drivers)");
         return;
     }
-    let theme = (Modifiers::COMMAND, Key::T);
-    let lecture = (Modifiers::COMMAND, Key::L);
-    let sheet = (Modifiers::NONE, Key::F1);
-    let open = (Modifiers::COMMAND, Key::O);
-    let (usual, small) = ([1400.0, 900.0], [1024.0, 700.0]);
     let mut results = SnapshotResults::new();
-    let looks: [(&str, &str, [f32; 2], &[(Modifiers, Key)]); 8] = [
-        ("motor-dark", "fundamental", usual, &[]),
-        ("motor-light", "fundamental", usual, &[theme]),
-        ("motor-lecture", "fundamental", usual, &[lecture]),
-        ("motor-small", "fundamental", small, &[]),
-        ("levitating-small-light", "levitating", small, &[theme]),
-        ("plate-dark", "plate-crossover", usual, &[]),
-        ("plate-small-light", "plate-trapped", small, &[theme]),
-        ("shortcuts-lecture", "plate-viscous", usual, &[lecture, sheet]),
-    ];
-    for (name, preset, size, keys) in looks {
+    for &(name, preset, size, keys) in LOOKS {
         let mut window = window(preset, size, keys);
         window.snapshot(name);
         results.extend_harness(&mut window);
     }
     // A path to type, and what cannot be opened, in a small window with large text.
-    let mut window = window("fundamental", small, &[lecture, open]);
+    let mut window = window("fundamental", SMALL, &[LECTURE, OPEN]);
     for _ in 0..200 {
         if window.query_all_by_label("Path").next().is_some() {
             break;
