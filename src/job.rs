@@ -113,6 +113,14 @@ impl Solver {
     /// # Errors
     /// If the thread cannot be started.
     pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        Self::start_with_clock(Instant::now, wake)
+    }
+
+    /// As [`Self::start`], with the clock that measures the solves.
+    ///
+    /// # Errors
+    /// If the thread cannot be started.
+    pub fn start_with_clock(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let (sender, events) = channel();
         let theirs = Arc::clone(&shared);
@@ -122,7 +130,7 @@ impl Solver {
                 wake();
                 sent
             };
-            work(&theirs, &tell);
+            work(&theirs, now, &tell);
         })?;
         Ok(Self { shared, events: Some(events), worker: Some(worker), next: 0 })
     }
@@ -173,7 +181,7 @@ impl Drop for Solver {
     }
 }
 
-fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
+fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
     // A slider moves in small steps: each solve starts from the last one of its fidelity.
     let mut warm = HashMap::new();
     loop {
@@ -191,7 +199,7 @@ fn work(shared: &Shared, tell: &dyn Fn(Event) -> bool) {
                 slot = shared.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
             }
         };
-        let cancelled = !refine(number, &request, &mut warm, &cancel, tell);
+        let cancelled = !refine(number, &request, &mut warm, &cancel, now, tell);
         shared.lock().running = None;
         if !tell(Event::Done { number, cancelled }) {
             return;
@@ -205,6 +213,7 @@ fn refine(
     request: &Request,
     warm: &mut HashMap<Fidelity, Warm>,
     cancel: &Cancel,
+    now: fn() -> Instant,
     tell: &dyn Fn(Event) -> bool,
 ) -> bool {
     for &fidelity in &request.fidelities {
@@ -212,7 +221,7 @@ fn refine(
             return false;
         }
         let mut history = Vec::new();
-        let started = Instant::now();
+        let started = now();
         let mut listen = |progress: &Progress| {
             history.push(*progress);
             tell(Event::Progress { number, fidelity, progress: *progress });
@@ -221,7 +230,7 @@ fn refine(
         let warm = warm.entry(fidelity).or_default();
         let solved =
             catch_unwind(AssertUnwindSafe(|| solve_from(warm, &request.problem, &settings, &mut listen, cancel)));
-        let wall_s = started.elapsed().as_secs_f64();
+        let wall_s = now().duration_since(started).as_secs_f64();
         let message = match solved {
             Ok(Ok(solution)) if solution.status == Status::Cancelled => return false,
             Ok(Ok(solution)) => {

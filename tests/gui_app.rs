@@ -8,6 +8,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
+use squeezefilm::gui::dialogs::{Answer, Purpose};
+use squeezefilm::gui::world::World;
 use squeezefilm::job::Run;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::Outcome;
@@ -16,10 +18,16 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 fn window(preset: &str) -> Harness<'static, App> {
+    window_asking(preset, |_, _| Answer::Cancelled)
+}
+
+/// A window whose file dialogs are answered by `ask`: a test never opens a real one.
+fn window_asking(preset: &str, ask: fn(Purpose, &str) -> Answer) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
+    let world = World { ask, ..World::default() };
     Harness::builder()
         .with_size(Vec2::new(1400.0, 900.0))
-        .build_eframe(move |context| App::new(context, Some((scene, None))).unwrap())
+        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap())
 }
 
 /// Steps until `ready`, at most a minute of waiting in all: the solver works on its own thread.
@@ -75,26 +83,142 @@ fn play_step_and_scrub_by_key_and_button() {
     window.step();
     assert!(!window.state().view().playing);
     let frames = window.state().shown().unwrap().solution.recording.frames;
-    let frame = |window: &Harness<'static, App>| {
+    let place = |window: &Harness<'static, App>| {
         let app = window.state();
-        app.view().frame(&app.shown().unwrap().solution.recording)
+        app.view().place(&app.shown().unwrap().solution.recording)
     };
     window.key_press(Key::Home);
     window.step();
-    assert_eq!(frame(&window), 0);
+    assert_eq!(place(&window), 0.0);
     window.key_press(Key::ArrowLeft);
     window.step();
-    assert_eq!(frame(&window), frames - 1);
+    assert_eq!(place(&window), (frames - 1) as f64);
     window.key_press(Key::ArrowRight);
     window.key_press(Key::ArrowRight);
     window.step();
-    assert_eq!(frame(&window), 1);
+    assert_eq!(place(&window), 1.0);
     window.key_press(Key::CloseBracket);
     window.step();
     assert_eq!(window.state().view().tooth, 1);
     window.key_press(Key::Space);
     window.step();
     assert!(window.state().view().playing);
+}
+
+#[test]
+fn motion_is_smooth_between_recorded_frames() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    let mut between = 0;
+    for _ in 0..10 {
+        std::thread::sleep(Duration::from_millis(5));
+        window.step();
+        let app = window.state();
+        between += usize::from(app.view().place(&app.shown().unwrap().solution.recording).fract() > 0.0);
+    }
+    assert!(between > 5, "{between} of 10 redraws are between two frames");
+}
+
+#[test]
+fn without_a_file_dialog_the_path_is_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("typed.toml");
+    let mut window = window_asking("fundamental", |_, _| Answer::NoDialog);
+    let prompt = |window: &mut Harness<'static, App>| {
+        for _ in 0..500 {
+            window.step();
+            if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("no path is asked for");
+    };
+    let type_path = |window: &mut Harness<'static, App>, text: &str| {
+        window.step();
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        window.get_by_role_and_label(Role::TextInput, "Path").type_text(text);
+        window.step();
+    };
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    prompt(&mut window);
+    window.get_by_label("Save the preset");
+    type_path(&mut window, path.to_str().unwrap());
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(window.state().document().path(), Some(path.as_path()));
+
+    // What is there already is not replaced by Enter, only by the button that says so.
+    let other = folder.path().join("other.toml");
+    std::fs::write(&other, "not a preset").unwrap();
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    prompt(&mut window);
+    type_path(&mut window, other.to_str().unwrap());
+    window.get_by_label("There is such a file already");
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), "not a preset");
+    window.get_by_label("Replace").click();
+    window.run_steps(3);
+    assert!(Scene::load(&other).is_ok());
+
+    // Opening: a bad file is explained, a good one is opened.
+    std::fs::write(&other, "not a preset").unwrap();
+    edit_spacing(&mut window, "90");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(2);
+    for (file, good) in [("absent.toml", false), ("typed.toml", true)] {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+        prompt(&mut window);
+        window.get_by_label("Open a preset");
+        type_path(&mut window, folder.path().join(file).to_str().unwrap());
+        window.key_press(Key::Enter);
+        window.run_steps(3);
+        assert_eq!(window.query_by_label("This did not work").is_none(), good, "{file}");
+        window.key_press(Key::Escape);
+        window.run_steps(3);
+    }
+    assert_eq!(window.state().document().path(), Some(path.as_path()));
+    assert_eq!(spacing(window.state()), Value::Number(200.0));
+}
+
+#[test]
+fn a_refusal_goes_with_its_cause() {
+    let mut window = window("fundamental");
+    type_into(&mut window, "Contact radius in mm", "5");
+    window.get_by_label_contains("of the tooth pitch");
+    type_into(&mut window, "Tooth width in mm", "0.3");
+    assert!(window.query_by_label_contains("of the tooth pitch").is_none());
+    assert_eq!(window.state().document().scene().get("motor.contact_radius_mm"), Some(Value::Number(29.0)));
+}
+
+#[test]
+fn escape_closes_a_menu_and_leaves_the_solver_alone() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("Presets").click();
+    window.run_steps(2);
+    window.get_by_label_contains("Levitating");
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("Levitating").is_none());
+}
+
+#[test]
+fn the_views_can_have_the_whole_window() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    let label = "Minimum spacing H_m";
+    assert!(window.query_all_by_label(label).next().is_some());
+    for key in [Key::F2, Key::F3] {
+        window.key_press(key);
+    }
+    window.run_steps(2);
+    assert!(window.query_all_by_label(label).next().is_none());
+    assert!(window.query_by_label("share of the load carried by air").is_none());
+    window.key_press(Key::F2);
+    window.run_steps(2);
+    assert!(window.query_all_by_label(label).next().is_some());
 }
 
 #[test]
@@ -189,9 +313,13 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     assert_eq!(&Scene::load(&path).unwrap(), window.state().document().scene());
 }
 
-/// Types a minimum spacing into the field of that name.
+/// Types a minimum spacing.
 fn edit_spacing(window: &mut Harness<'static, App>, text: &str) {
-    let field = "Minimum spacing H_m in nm";
+    type_into(window, "Minimum spacing H_m in nm", text);
+}
+
+/// Types into the field of a parameter.
+fn type_into(window: &mut Harness<'static, App>, field: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, field).click();
     window.step();
     window.step();

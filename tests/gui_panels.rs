@@ -9,7 +9,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::command::Command;
-use squeezefilm::gui::panels::parameters::Refusals;
+use squeezefilm::gui::edit::{Change, Refusals};
 use squeezefilm::gui::panels::{labels, parameters, results};
 use squeezefilm::gui::theme;
 use squeezefilm::job::Run;
@@ -28,25 +28,23 @@ struct Edited {
 
 impl Edited {
     fn of(scene: Scene) -> Self {
-        Self { scene, refusals: Refusals::new(), pushed: Vec::new(), size: 1.0 }
+        Self { scene, refusals: Refusals::default(), pushed: Vec::new(), size: 1.0 }
     }
 
     fn apply(&mut self, command: &Command) {
-        let mut next = self.scene.clone();
-        let (key, done) = match command.clone() {
-            Command::Set { key, value, .. } => (key, next.set_value(key, value)),
-            Command::SetText { key, text } => (key, next.set(key, &text)),
-            Command::Reset { key } => (key, next.unset(key)),
+        let (key, change) = match command.clone() {
+            Command::Set { key, value, .. } => (key, Change::Value(value)),
+            Command::SetText { key, text } => (key, Change::Text(text)),
+            Command::Reset { key } => (key, Change::Unset),
             other => panic!("{other:?} does not come from this panel"),
         };
-        match done.and_then(|()| next.check()) {
-            Ok(()) => {
-                self.refusals.remove(key);
+        match change.applied(&self.scene, key) {
+            Ok(next) => {
+                self.refusals.accept(key);
+                self.refusals.review(&next);
                 self.scene = next;
             }
-            Err(error) => {
-                self.refusals.insert(key, error.to_string());
-            }
+            Err(error) => self.refusals.refuse(key, change, error.to_string()),
         }
     }
 
@@ -230,7 +228,8 @@ fn a_refused_slider_says_why_and_escape_takes_the_message_away() {
 #[test]
 fn a_refusal_opens_the_group_it_is_in() {
     let mut edited = Edited::of(Scene::motor());
-    edited.refusals.insert("film.viscosity_upa_s", "film.viscosity_upa_s = 0 is out of range".into());
+    let (key, change) = ("film.viscosity_upa_s", Change::Text("0".into()));
+    edited.refusals.refuse(key, change, "film.viscosity_upa_s = 0 is out of range".into());
     panel(edited).get_by_label("0 is out of range");
 }
 

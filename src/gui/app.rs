@@ -1,16 +1,19 @@
 //! The application: drains events, carries out commands, lays out panels and views. It never solves.
 
 use super::command::Command;
-use super::dialogs::{Chosen, Dialogs, Purpose};
+use super::dialogs::{Answer, Dialogs, Purpose};
 use super::document::Document;
+use super::edit::{Change, Refusals};
 use super::keys;
+use super::modal::{self, Modal, PathPrompt};
 use super::panels::{menu, parameters, results, sheet, timeline};
 use super::state::View;
 use super::theme;
 use super::views;
+use super::world::World;
 use crate::fidelity::Fidelity;
 use crate::job::{Event, Request, Run, Solver};
-use crate::problem::{Problem, Scenario};
+use crate::problem::Problem;
 use crate::scene::{Kind, Parameter, Scene, SceneError, presets};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -24,6 +27,27 @@ const REFINEMENT: [Fidelity; 3] = [Fidelity::Draft, Fidelity::Standard, Fidelity
 const RECENT: usize = 10;
 /// Zoom of the lecture size.
 const LECTURE_ZOOM: f32 = 1.35;
+/// Width of a panel at the side of the views.
+struct Side {
+    default: f32,
+    least: f32,
+    /// The most of a narrow window that it takes.
+    share: f32,
+}
+
+const PARAMETERS: Side = Side { default: 300.0, least: 210.0, share: 0.3 };
+const RESULTS: Side = Side { default: 270.0, least: 190.0, share: 0.27 };
+
+impl Side {
+    /// Fits `panel` into a window of this width: what is in the middle stays the widest.
+    fn fit(&self, panel: egui::Panel, window: f32) -> egui::Panel {
+        let most = (self.share * window).max(self.least);
+        panel.default_size(self.default.min(most)).size_range(self.least..=most).resizable(true)
+    }
+}
+
+/// What a picture is called at first.
+const PICTURE_NAME: &str = "squeezefilm.png";
 /// Unsaved work is written away this often.
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
@@ -70,21 +94,11 @@ impl Activity {
     }
 }
 
-/// A modal in the way.
-#[derive(Clone, Debug)]
-enum Modal {
-    /// Something went wrong; nothing changed.
-    Error(String),
-    /// Unsaved changes before this command.
-    Unsaved(Box<Command>),
-    /// A path to open or save to.
-    Path(String),
-}
-
 /// The application.
 pub struct App {
     document: Document,
-    refusals: parameters::Refusals,
+    refusals: Refusals,
+    world: World,
     solver: Solver,
     shown: Option<Arc<Run>>,
     activity: Activity,
@@ -112,9 +126,21 @@ impl App {
         context: &eframe::CreationContext<'_>,
         opened: Option<(Scene, Option<PathBuf>)>,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
-        theme::install_fonts(&context.egui_ctx);
+        Self::in_world(context, opened, World::default())
+    }
+
+    /// As [`Self::new`], with a clock and file dialogs of the caller's.
+    ///
+    /// # Errors
+    /// If the solver's thread cannot be started.
+    pub fn in_world(
+        context: &eframe::CreationContext<'_>,
+        opened: Option<(Scene, Option<PathBuf>)>,
+        world: World,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        theme::install(&context.egui_ctx);
         let wake = context.egui_ctx.clone();
-        let solver = Solver::start(move || wake.request_repaint())?;
+        let solver = Solver::start_with_clock(world.now, move || wake.request_repaint())?;
         let stored = |key: &str| context.storage.and_then(|storage| storage.get_string(key));
         let document = match opened {
             Some((scene, path)) => Document::opened(scene, path),
@@ -125,12 +151,13 @@ impl App {
         };
         let mut app = Self {
             document,
-            refusals: parameters::Refusals::new(),
+            refusals: Refusals::default(),
+            world,
             solver,
             shown: None,
             activity: Activity::default(),
             view: View::default(),
-            dialogs: Dialogs::default(),
+            dialogs: Dialogs::new(world.ask),
             pictures: channel(),
             picture: None,
             modal: None,
@@ -208,20 +235,26 @@ impl App {
                 _ => {}
             }
         }
-        let chosen: Vec<Chosen> = self.dialogs.drain().collect();
-        for Chosen { purpose, path } in chosen {
-            match (purpose, path) {
-                (Purpose::Open, Some(path)) => self.carry_out(ctx, Command::OpenPath(path)),
-                (Purpose::Save, Some(path)) => self.carry_out(ctx, Command::SavePath(path)),
-                (Purpose::Screenshot, Some(path)) => self.write_picture(&path),
-                // Cancelled, or there is no file dialog on this machine: the path can be typed.
-                (Purpose::Save, None) => self.modal = Some(Modal::Path(self.suggested_name())),
-                (_, None) => self.after_save = None,
+        let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
+        for (purpose, answer) in answers {
+            match (purpose, answer) {
+                (Purpose::Open, Answer::Path(path)) => self.carry_out(ctx, Command::OpenPath(path)),
+                (Purpose::Save, Answer::Path(path)) => self.carry_out(ctx, Command::SavePath(path)),
+                (Purpose::Screenshot, Answer::Path(path)) => self.carry_out(ctx, Command::WritePicture(path)),
+                (_, Answer::Cancelled) => self.carry_out(ctx, Command::Dismissed),
+                (purpose, Answer::NoDialog) => {
+                    let path = match purpose {
+                        Purpose::Open => String::new(),
+                        Purpose::Save => self.suggested_name(),
+                        Purpose::Screenshot => PICTURE_NAME.to_owned(),
+                    };
+                    self.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));
+                }
             }
         }
         while let Ok(picture) = self.pictures.1.try_recv() {
             self.picture = Some(picture);
-            self.ask(ctx, Purpose::Screenshot, "squeezefilm.png");
+            self.ask(ctx, Purpose::Screenshot, PICTURE_NAME);
         }
     }
 
@@ -251,21 +284,18 @@ impl App {
     }
 
     /// An edit: the scene changes, everything depending on it is solved again.
-    fn edit(&mut self, key: &'static str, dragging: bool, change: impl FnOnce(&mut Scene) -> Result<(), SceneError>) {
-        let mut next = self.document.scene().clone();
-        let checked = change(&mut next).and_then(|()| next.check());
-        match checked {
-            Ok(()) => {
-                self.refusals.remove(key);
+    fn edit(&mut self, key: &'static str, dragging: bool, change: Change) {
+        match change.applied(self.document.scene(), key) {
+            Ok(next) => {
+                self.refusals.accept(key);
                 let changed = next != *self.document.scene();
                 self.document.edit(next, key, dragging);
                 if changed {
+                    self.refusals.review(self.document.scene());
                     self.solve(&REFINEMENT);
                 }
             }
-            Err(error) => {
-                self.refusals.insert(key, error.to_string());
-            }
+            Err(error) => self.refusals.refuse(key, change, error.to_string()),
         }
     }
 
@@ -289,7 +319,8 @@ impl App {
     fn would_lose(&mut self, command: &Command) -> bool {
         let loses = matches!(command, Command::OpenBuiltIn(_) | Command::OpenPath(_) | Command::Quit);
         if loses && self.document.is_dirty() && !self.quitting {
-            self.modal = Some(Modal::Unsaved(Box::new(command.clone())));
+            let name = self.document.scene().name.clone();
+            self.modal = Some(Modal::Unsaved { name, next: Box::new(command.clone()) });
             return true;
         }
         false
@@ -304,8 +335,8 @@ impl App {
 
     fn carry_out_now(&mut self, ctx: &egui::Context, command: Command) {
         match command {
-            Command::Set { key, value, dragging } => self.edit(key, dragging, |scene| scene.set_value(key, value)),
-            Command::SetText { key, text } => self.edit(key, false, |scene| scene.set(key, &text)),
+            Command::Set { key, value, dragging } => self.edit(key, dragging, Change::Value(value)),
+            Command::SetText { key, text } => self.edit(key, false, Change::Text(text)),
             Command::Reset { key } => self.reset(key),
             Command::Undo | Command::Redo => {
                 let changed = if command == Command::Undo { self.document.undo() } else { self.document.redo() };
@@ -316,7 +347,10 @@ impl App {
             }
             Command::OpenBuiltIn(name) => self.open(presets::find(name), None),
             Command::OpenDialog => self.ask(ctx, Purpose::Open, ""),
-            Command::OpenPathPrompt => self.modal = Some(Modal::Path(self.suggested_name())),
+            Command::OpenPathPrompt => {
+                let prompt = PathPrompt::asked(&[Purpose::Open, Purpose::Save], self.suggested_name());
+                self.modal = Some(Modal::Path(prompt));
+            }
             Command::OpenPath(path) => self.open(Scene::load(&path), Some(path)),
             Command::Save => match self.document.path().map(Path::to_path_buf) {
                 Some(path) => self.carry_out_now(ctx, Command::SavePath(path)),
@@ -341,6 +375,24 @@ impl App {
                     self.modal = Some(Modal::Error(error.to_string()));
                 }
             },
+            Command::SaveThen(next) => {
+                self.after_save = Some(*next);
+                self.carry_out_now(ctx, Command::Save);
+            }
+            Command::DiscardThen(next) => {
+                self.after_save = None;
+                if *next == Command::Quit {
+                    // The next window begins with what is saved. A file that is opened replaces the scene only if it is good.
+                    let (saved, path) = (self.document.saved().clone(), self.document.path().map(Path::to_path_buf));
+                    self.document = Document::opened(saved, path);
+                }
+                self.carry_out_now(ctx, *next);
+            }
+            Command::Dismissed => {
+                self.after_save = None;
+                self.picture = None;
+            }
+            Command::WritePicture(path) => self.write_picture(&path),
             Command::Refine(fidelity) => self.solve(&[fidelity]),
             Command::CancelSolve => {
                 self.solver.cancel();
@@ -349,10 +401,8 @@ impl App {
             Command::TogglePlay => self.view.playing = !self.view.playing,
             Command::StepFrames(by) => {
                 if let Some(run) = &self.shown {
-                    let frames = run.solution.recording.frames.max(1) as i64;
-                    let frame = self.view.frame(&run.solution.recording) as i64 + by;
                     self.view.playing = false;
-                    self.view.phase = (frame.rem_euclid(frames) as f64 + 0.5) / frames as f64;
+                    self.view.phase = self.view.stepped(&run.solution.recording, by);
                 }
             }
             Command::Seek(phase) => {
@@ -383,6 +433,8 @@ impl App {
                     wake.request_repaint();
                 });
             }
+            Command::ToggleParameters => self.view.parameters = !self.view.parameters,
+            Command::ToggleResults => self.view.results = !self.view.results,
             Command::ToggleShortcuts => self.sheet = !self.sheet,
             Command::Quit => {
                 self.quitting = true;
@@ -394,7 +446,7 @@ impl App {
     fn reset(&mut self, key: &'static str) {
         let Some(parameter) = Parameter::find(key) else { return };
         if parameter.absent.is_some() {
-            self.edit(key, false, |scene| scene.unset(key));
+            self.edit(key, false, Change::Unset);
             return;
         }
         let default = match self.document.scene().kind {
@@ -402,7 +454,7 @@ impl App {
             Kind::Plate { .. } => Scene::plate(),
         };
         if let Some(value) = default.get(key) {
-            self.edit(key, false, |scene| scene.set_value(key, value));
+            self.edit(key, false, Change::Value(value));
         }
     }
 
@@ -411,64 +463,8 @@ impl App {
             self.sheet = sheet::show(ctx);
         }
         let Some(mut modal) = self.modal.take() else { return };
-        let name = self.document.scene().name.clone();
-        let response = egui::Modal::new(egui::Id::unique("question")).show(ctx, |ui| {
-            ui.set_max_width(460.0);
-            let mut open = true;
-            match &mut modal {
-                Modal::Error(message) => {
-                    ui.heading("This did not work");
-                    ui.add_space(6.0);
-                    ui.add(egui::Label::new(message.as_str()).wrap());
-                    ui.add_space(10.0);
-                    open = !ui.button("Close").clicked();
-                }
-                Modal::Unsaved(next) => {
-                    ui.heading(format!("Save the changes to “{name}”?"));
-                    ui.add_space(10.0);
-                    ui.horizontal(|ui| {
-                        if ui.button("Save").clicked() {
-                            self.after_save = Some((**next).clone());
-                            commands.push(Command::Save);
-                            open = false;
-                        }
-                        if ui.button("Don't save").clicked() {
-                            // Carried out as it is: the changes are given up.
-                            self.after_save = None;
-                            self.document = Document::opened(
-                                self.document.saved().clone(),
-                                self.document.path().map(Path::to_path_buf),
-                            );
-                            commands.push((**next).clone());
-                            open = false;
-                        }
-                        open &= !ui.button("Keep editing").clicked();
-                    });
-                }
-                Modal::Path(path) => {
-                    ui.heading("Open or save a preset");
-                    ui.add_space(6.0);
-                    let label = ui.label("Path");
-                    ui.add(egui::TextEdit::singleline(path).desired_width(f32::INFINITY)).labelled_by(label.id);
-                    ui.add_space(10.0);
-                    ui.horizontal(|ui| {
-                        if ui.button("Open").clicked() {
-                            commands.push(Command::OpenPath(PathBuf::from(path.as_str())));
-                            open = false;
-                        }
-                        if ui.button("Save").clicked() {
-                            commands.push(Command::SavePath(PathBuf::from(path.as_str())));
-                            open = false;
-                        }
-                        open &= !ui.button("Cancel").clicked();
-                    });
-                }
-            }
-            open
-        });
-        if response.inner && !response.should_close() {
-            // Unless the modal's own button put another in its place.
-            self.modal.get_or_insert(modal);
+        if modal::show(ctx, &mut modal, self.document.path(), &theme::palette(self.dark), commands) {
+            self.modal = Some(modal);
         }
     }
 }
@@ -476,7 +472,7 @@ impl App {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.drain(ctx);
-        let now = Instant::now();
+        let now = (self.world.now)();
         if self.view.playing && self.shown.is_some() {
             // A frame after a pause must not leap.
             let elapsed = self.last_frame.map_or(0.0, |last| (now - last).as_secs_f64().min(0.1));
@@ -520,19 +516,26 @@ impl eframe::App for App {
             }
             timeline::status(ui, shown.as_deref(), &self.activity, &palette, &mut commands);
         });
-        egui::Panel::left("parameters").default_size(300.0).min_size(250.0).resizable(true).show(ui, |ui| {
-            parameters::show(ui, self.document.scene(), &self.refusals, &mut commands);
-        });
-        egui::Panel::right("results").default_size(310.0).min_size(230.0).resizable(true).show(ui, |ui| {
-            if let Some(run) = &shown {
-                results::show(ui, run, self.dark);
-            }
-        });
+        let width = ui.available_width();
+        // Each size of text remembers its own widths.
+        let [left, right] =
+            if self.lecture { ["parameters, lecture", "results, lecture"] } else { ["parameters", "results"] };
+        if self.view.parameters {
+            PARAMETERS.fit(egui::Panel::left(left), width).show(ui, |ui| {
+                parameters::show(ui, self.document.scene(), &self.refusals, &mut commands);
+            });
+        }
+        if self.view.results {
+            RESULTS.fit(egui::Panel::right(right), width).show(ui, |ui| {
+                // As wide before the first result as after it.
+                ui.set_min_width(ui.available_width());
+                if let Some(run) = &shown {
+                    results::show(ui, run, self.dark);
+                }
+            });
+        }
         egui::CentralPanel::default().show(ui, |ui| match &shown {
-            Some(run) => match run.problem.scenario {
-                Scenario::Motor(_) => views::motor::show(ui, run, &mut self.view, &mut commands),
-                Scenario::Plate(_) => views::plate::show(ui, run, &mut self.view, &mut commands),
-            },
+            Some(run) => views::show(ui, run, &mut self.view, &mut commands),
             None => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
         });
         self.modals(&ctx, &mut commands);
@@ -544,6 +547,11 @@ impl eframe::App for App {
         for command in commands {
             self.carry_out(&ctx, command);
         }
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        // Seen between panels where their edges fall between pixels.
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {

@@ -44,6 +44,12 @@ pub enum Command {
     SaveAs,
     /// Saves to this file.
     SavePath(PathBuf),
+    /// Saves, asking for a file if there is none, then does this.
+    SaveThen(Box<Command>),
+    /// Gives unsaved changes up, then does this.
+    DiscardThen(Box<Command>),
+    /// A question was left unanswered.
+    Dismissed,
     /// Refines the present scene up to this fidelity.
     Refine(Fidelity),
     /// Cancels the running solve.
@@ -66,8 +72,14 @@ pub enum Command {
     ToggleTheme,
     /// Large text, for a lecture room, or the usual size.
     ToggleLecture,
-    /// Saves a picture of the window.
+    /// Shows or hides the parameters: without panels the views have the whole window.
+    ToggleParameters,
+    /// Shows or hides the results.
+    ToggleResults,
+    /// Takes a picture of the window and asks where to save it.
     Screenshot,
+    /// Saves the picture that was taken to this file.
+    WritePicture(PathBuf),
     /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
     /// Closes the window.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
 
 /// What a dialog is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,55 +15,71 @@ pub enum Purpose {
     Screenshot,
 }
 
-/// A file chosen in a dialog.
+/// What came of a dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Chosen {
-    /// What for.
-    pub purpose: Purpose,
-    /// Which; `None`: cancelled, or no dialog could be shown.
-    pub path: Option<PathBuf>,
+pub enum Answer {
+    /// A file was chosen.
+    Path(PathBuf),
+    /// The dialog was closed.
+    Cancelled,
+    /// There was no dialog: the path has to be typed.
+    NoDialog,
+}
+
+/// Nobody closes a dialog this soon: it was never there.
+const TOO_SOON: Duration = Duration::from_millis(400);
+
+/// Asks the system's own dialog.
+pub fn native(purpose: Purpose, name: &str) -> Answer {
+    let started = Instant::now();
+    let dialog = match purpose {
+        Purpose::Screenshot => rfd::FileDialog::new().add_filter("Picture", &["png"]),
+        Purpose::Open | Purpose::Save => rfd::FileDialog::new().add_filter("Preset", &["toml"]),
+    };
+    let path = match purpose {
+        Purpose::Open => dialog.set_title("Open a preset").pick_file(),
+        Purpose::Save | Purpose::Screenshot => dialog.set_title("Save").set_file_name(name).save_file(),
+    };
+    // Without a portal and without zenity the library answers as if the dialog had been closed, but at once.
+    match path {
+        Some(path) => Answer::Path(path),
+        None if started.elapsed() < TOO_SOON => Answer::NoDialog,
+        None => Answer::Cancelled,
+    }
 }
 
 /// Runs dialogs and collects their answers.
 #[derive(Debug)]
 pub struct Dialogs {
-    sender: Sender<Chosen>,
-    receiver: Receiver<Chosen>,
-}
-
-impl Default for Dialogs {
-    fn default() -> Self {
-        let (sender, receiver) = channel();
-        Self { sender, receiver }
-    }
+    ask: fn(Purpose, &str) -> Answer,
+    sender: Sender<(Purpose, Answer)>,
+    receiver: Receiver<(Purpose, Answer)>,
 }
 
 impl Dialogs {
+    /// Dialogs that are shown by `ask`.
+    pub fn new(ask: fn(Purpose, &str) -> Answer) -> Self {
+        let (sender, receiver) = channel();
+        Self { ask, sender, receiver }
+    }
+
     /// Shows a dialog; its answer comes through [`Self::drain`], after a call of `wake`.
     ///
     /// # Errors
     /// If no thread can be started.
     pub fn show(&self, purpose: Purpose, name: &str, wake: impl Fn() + Send + 'static) -> std::io::Result<()> {
-        let sender = self.sender.clone();
+        let (ask, sender) = (self.ask, self.sender.clone());
         let name = name.to_owned();
         std::thread::Builder::new().name("squeezefilm-dialog".to_owned()).spawn(move || {
-            let dialog = match purpose {
-                Purpose::Screenshot => rfd::FileDialog::new().add_filter("Picture", &["png"]),
-                _ => rfd::FileDialog::new().add_filter("Preset", &["toml"]),
-            };
-            let path = match purpose {
-                Purpose::Open => dialog.set_title("Open a preset").pick_file(),
-                _ => dialog.set_title("Save").set_file_name(name).save_file(),
-            };
             // The window may be gone: then nobody waits for the answer.
-            let _ = sender.send(Chosen { purpose, path });
+            let _ = sender.send((purpose, ask(purpose, &name)));
             wake();
         })?;
         Ok(())
     }
 
     /// Answers that have come.
-    pub fn drain(&self) -> impl Iterator<Item = Chosen> + '_ {
+    pub fn drain(&self) -> impl Iterator<Item = (Purpose, Answer)> + '_ {
         self.receiver.try_iter()
     }
 }

@@ -1,9 +1,10 @@
-//! The keyboard: one table feeds both what keys do and the sheet that lists them.
+//! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use super::command::Command;
-use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
+use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
 
 /// A shortcut, what it is called, and what it asks for.
+#[derive(Clone, Copy, Debug)]
 pub struct Shortcut {
     /// The keys.
     pub keys: KeyboardShortcut,
@@ -31,35 +32,110 @@ const fn idle(keys: KeyboardShortcut, about: &'static str, command: fn() -> Comm
     Shortcut { keys, about, command, while_typing: false }
 }
 
-/// All shortcuts; the longer ones first where one contains another.
-pub const SHORTCUTS: &[Shortcut] = &[
-    idle(key(NONE, Key::Space), "Play or pause", || Command::TogglePlay),
-    idle(key(NONE, Key::ArrowRight), "One frame on", || Command::StepFrames(1)),
-    idle(key(NONE, Key::ArrowLeft), "One frame back", || Command::StepFrames(-1)),
-    idle(key(NONE, Key::Home), "Start of the cycle", || Command::Seek(0.0)),
-    idle(key(NONE, Key::CloseBracket), "Follow the next tooth", || Command::NextTooth(1)),
-    idle(key(NONE, Key::OpenBracket), "Follow the tooth before", || Command::NextTooth(-1)),
-    idle(key(NONE, Key::Escape), "Cancel the running solve", || Command::CancelSolve),
-    always(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo),
-    always(key(CTRL, Key::Z), "Undo", || Command::Undo),
-    always(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
-    always(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
-    always(key(CTRL, Key::S), "Save", || Command::Save),
-    always(key(CTRL, Key::P), "Picture of the window", || Command::Screenshot),
-    always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
-    always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
-    always(key(NONE, Key::F1), "This sheet", || Command::ToggleShortcuts),
-    always(key(CTRL, Key::Q), "Quit", || Command::Quit),
+/// All shortcuts, in the groups and the order in which the sheet lists them.
+pub const GROUPS: &[(&str, &[Shortcut])] = &[
+    (
+        "Motion",
+        &[
+            idle(key(NONE, Key::Space), "Play or pause", || Command::TogglePlay),
+            idle(key(NONE, Key::ArrowLeft), "One frame back", || Command::StepFrames(-1)),
+            idle(key(NONE, Key::ArrowRight), "One frame on", || Command::StepFrames(1)),
+            idle(key(NONE, Key::Home), "Start of the cycle", || Command::Seek(0.0)),
+            idle(key(NONE, Key::OpenBracket), "Follow the tooth before", || Command::NextTooth(-1)),
+            idle(key(NONE, Key::CloseBracket), "Follow the next tooth", || Command::NextTooth(1)),
+        ],
+    ),
+    (
+        "Scene",
+        &[
+            always(key(CTRL, Key::Z), "Undo", || Command::Undo),
+            always(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo),
+            idle(key(NONE, Key::Escape), "Stop solving", || Command::CancelSolve),
+        ],
+    ),
+    (
+        "File",
+        &[
+            always(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
+            always(key(CTRL, Key::S), "Save", || Command::Save),
+            always(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
+            always(key(CTRL, Key::Q), "Quit", || Command::Quit),
+        ],
+    ),
+    (
+        "Window",
+        &[
+            always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
+            always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
+            always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
+            always(key(NONE, Key::F3), "Show or hide the results", || Command::ToggleResults),
+            always(key(CTRL, Key::P), "Picture of the window", || Command::Screenshot),
+            always(key(NONE, Key::F1), "This sheet", || Command::ToggleShortcuts),
+        ],
+    ),
 ];
 
-/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open, and the plain keys are its own.
+fn all() -> impl Iterator<Item = &'static Shortcut> {
+    GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter())
+}
+
+/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open. The plain keys are then its own, and
+/// those of an open menu.
 pub fn pressed(ctx: &Context, modal: bool, commands: &mut Vec<Command>) {
-    let typing = modal || ctx.egui_wants_keyboard_input();
+    let typing = modal || ctx.egui_wants_keyboard_input() || Popup::is_any_open(ctx);
     ctx.input_mut(|input| {
-        for shortcut in SHORTCUTS {
-            if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {
-                commands.push((shortcut.command)());
+        // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
+        for shift in [true, false] {
+            for shortcut in all().filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
+                if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {
+                    commands.push((shortcut.command)());
+                }
             }
         }
     });
+}
+
+/// The keys as they are printed on a keyboard.
+pub fn name(keys: &KeyboardShortcut) -> String {
+    let key = match keys.logical_key {
+        Key::ArrowLeft => "←",
+        Key::ArrowRight => "→",
+        Key::ArrowUp => "↑",
+        Key::ArrowDown => "↓",
+        Key::Escape => "Esc",
+        other => other.symbol_or_name(),
+    };
+    let modifiers = ModifierNames::NAMES.format(&keys.modifiers, cfg!(target_os = "macos"));
+    if modifiers.is_empty() { key.to_owned() } else { format!("{modifiers}+{key}") }
+}
+
+/// The keys that ask for `command`; empty if none do.
+pub fn of(command: &Command) -> String {
+    all().find(|shortcut| (shortcut.command)() == *command).map(|shortcut| name(&shortcut.keys)).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_named_as_they_are_printed() {
+        assert_eq!(of(&Command::StepFrames(1)), "→");
+        assert_eq!(of(&Command::NextTooth(1)), "]");
+        assert_eq!(of(&Command::CancelSolve), "Esc");
+        assert_eq!(of(&Command::TogglePlay), "Space");
+        if cfg!(not(target_os = "macos")) {
+            assert_eq!(of(&Command::Redo), "Ctrl+Shift+Z");
+        }
+        assert_eq!(of(&Command::OpenPathPrompt), "");
+    }
+
+    #[test]
+    fn no_two_shortcuts_share_keys_or_words() {
+        for (i, a) in all().enumerate() {
+            for b in all().skip(i + 1) {
+                assert!(a.keys != b.keys && a.about != b.about, "{}", a.about);
+            }
+        }
+    }
 }

@@ -7,11 +7,14 @@ pub mod app;
 pub mod command;
 pub mod dialogs;
 pub mod document;
+pub mod edit;
 pub mod keys;
+pub mod modal;
 pub mod panels;
 pub mod state;
 pub mod theme;
 pub mod views;
+pub mod world;
 
 use crate::scene::Scene;
 use eframe::egui;
@@ -24,6 +27,8 @@ use std::path::PathBuf;
 pub fn open(opened: Option<(Scene, Option<PathBuf>)>) -> Result<(), eframe::Error> {
     let options = eframe::NativeOptions {
         renderer: eframe::Renderer::Glow,
+        // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.
+        dithering: false,
         viewport: egui::ViewportBuilder::default()
             .with_title("squeezefilm")
             .with_app_id("squeezefilm")

@@ -13,6 +13,10 @@ pub struct View {
     pub seconds_per_cycle: f64,
     /// Tooth that is followed.
     pub tooth: usize,
+    /// Whether the parameters are shown.
+    pub parameters: bool,
+    /// Whether the results are shown.
+    pub results: bool,
     /// x under the pointer in any view \[m\], read out by all of them. Cleared at the start of a frame by the application.
     pub hover_x: Option<f64>,
     /// The same of the frame before, which views draw.
@@ -21,14 +25,63 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { phase: 0.0, playing: true, seconds_per_cycle: 6.0, tooth: 0, hover_x: None, cursor_x: None }
+        Self {
+            phase: 0.0,
+            playing: true,
+            seconds_per_cycle: 6.0,
+            tooth: 0,
+            parameters: true,
+            results: true,
+            hover_x: None,
+            cursor_x: None,
+        }
     }
 }
 
+/// Part of a frame that is rounding.
+const ROUNDING: f64 = 1e-6;
+
 impl View {
-    /// The recorded frame at the present phase.
-    pub fn frame(&self, recording: &Recording) -> usize {
-        let frames = recording.frames.max(1);
-        ((self.phase * frames as f64) as usize).min(frames - 1)
+    /// The present instant in frames, 0 ≤ place < frames: whole on a recorded frame, between two of them otherwise.
+    pub fn place(&self, recording: &Recording) -> f64 {
+        let frames = recording.frames.max(1) as f64;
+        let place = self.phase.rem_euclid(1.0) * frames;
+        let whole = place.round();
+        (if (place - whole).abs() < ROUNDING { whole } else { place }).rem_euclid(frames)
+    }
+
+    /// The phase of the recorded frame `by` frames from here: from between two frames, the first step goes to the nearer
+    /// one in its direction.
+    pub fn stepped(&self, recording: &Recording, by: i64) -> f64 {
+        let frames = recording.frames.max(1) as i64;
+        let place = self.place(recording);
+        let here = if by < 0 { place.ceil() } else { place.floor() };
+        (here as i64 + by).rem_euclid(frames) as f64 / frames as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_land_on_frames() {
+        for frames in [1, 7, 72, 180, 49] {
+            let recording = Recording { frames, ..Recording::default() };
+            let mut view = View::default();
+            for by in [1, 1, -3, 5, -1] {
+                let before = view.place(&recording);
+                assert_eq!(before.fract(), 0.0, "{frames}");
+                view.phase = view.stepped(&recording, by);
+                let expected = (before as i64 + by).rem_euclid(frames as i64);
+                assert_eq!(view.place(&recording), expected as f64, "{frames}");
+            }
+        }
+        let recording = Recording { frames: 10, ..Recording::default() };
+        let between = View { phase: 0.34, ..View::default() };
+        assert!((between.place(&recording) - 3.4).abs() < 1e-12);
+        assert_eq!([between.stepped(&recording, -1), between.stepped(&recording, 1)], [0.3, 0.4]);
+        // A phase that rounding has carried to the end of the cycle is its start.
+        assert_eq!(View { phase: 1.0 - 1e-12, ..View::default() }.place(&recording), 0.0);
     }
 }

@@ -20,6 +20,8 @@ pub struct Palette {
     pub quiet: Color32,
     /// Something is wrong.
     pub alarm: Color32,
+    /// Something is as it should be.
+    pub good: Color32,
     /// Background of drawings.
     pub canvas: Color32,
 }
@@ -35,7 +37,8 @@ pub fn palette(dark: bool) -> Palette {
             accent: Color32::from_rgb(0xf0, 0xe4, 0x42),
             quiet: Color32::from_rgb(0x9a, 0xa2, 0xad),
             alarm: Color32::from_rgb(0xff, 0x6b, 0x5e),
-            canvas: Color32::from_rgb(0x16, 0x19, 0x1f),
+            good: Color32::from_rgb(0x3f, 0xc7, 0x9a),
+            canvas: Color32::from_rgb(0x14, 0x17, 0x1d),
         }
     } else {
         Palette {
@@ -46,7 +49,8 @@ pub fn palette(dark: bool) -> Palette {
             accent: Color32::from_rgb(0x9b, 0x2f, 0xae),
             quiet: Color32::from_rgb(0x60, 0x66, 0x70),
             alarm: Color32::from_rgb(0xb0, 0x1c, 0x10),
-            canvas: Color32::from_rgb(0xfb, 0xfb, 0xfd),
+            good: Color32::from_rgb(0x00, 0x75, 0x56),
+            canvas: Color32::from_rgb(0xff, 0xff, 0xff),
         }
     }
 }
@@ -55,6 +59,39 @@ pub fn palette(dark: bool) -> Palette {
 pub fn field_colour(value: f64) -> Color32 {
     let colour = colorous::VIRIDIS.eval_continuous(value.clamp(0.0, 1.0));
     Color32::from_rgb(colour.r, colour.g, colour.b)
+}
+
+/// Installs fonts and the colours of both themes.
+pub fn install(ctx: &egui::Context) {
+    install_fonts(ctx);
+    for theme in [egui::Theme::Dark, egui::Theme::Light] {
+        let dark = theme == egui::Theme::Dark;
+        ctx.style_mut_of(theme, |style| dress(&mut style.visuals, dark));
+    }
+}
+
+/// Greys with a little blue, so that panels and drawings are of one kind, and text that is read from the last row.
+fn dress(visuals: &mut egui::Visuals, dark: bool) {
+    let grey = |dark_value: [u8; 3], light_value: [u8; 3]| {
+        let [r, g, b] = if dark { dark_value } else { light_value };
+        Color32::from_rgb(r, g, b)
+    };
+    visuals.panel_fill = grey([0x1e, 0x21, 0x28], [0xf2, 0xf3, 0xf6]);
+    visuals.window_fill = grey([0x24, 0x28, 0x30], [0xfd, 0xfd, 0xfe]);
+    visuals.extreme_bg_color = grey([0x13, 0x15, 0x1a], [0xff, 0xff, 0xff]);
+    visuals.window_stroke.color = grey([0x3d, 0x43, 0x4f], [0xc2, 0xc7, 0xcf]);
+    visuals.selection.bg_fill = grey([0x1c, 0x67, 0x96], [0x9c, 0xcf, 0xee]);
+    let widgets = &mut visuals.widgets;
+    widgets.noninteractive.bg_stroke.color = grey([0x36, 0x3b, 0x46], [0xcf, 0xd3, 0xda]);
+    widgets.noninteractive.fg_stroke.color = grey([0xb8, 0xbe, 0xc8], [0x3c, 0x41, 0x4a]);
+    widgets.inactive.bg_fill = grey([0x3a, 0x40, 0x4c], [0xdd, 0xe0, 0xe6]);
+    widgets.inactive.weak_bg_fill = grey([0x32, 0x37, 0x42], [0xe1, 0xe4, 0xe9]);
+    widgets.hovered.bg_fill = grey([0x47, 0x4f, 0x5d], [0xcd, 0xd2, 0xda]);
+    widgets.hovered.weak_bg_fill = grey([0x3f, 0x46, 0x53], [0xd3, 0xd8, 0xdf]);
+    widgets.active.bg_fill = grey([0x50, 0x59, 0x69], [0xbf, 0xc6, 0xd0]);
+    widgets.active.weak_bg_fill = grey([0x47, 0x4f, 0x5d], [0xc6, 0xcc, 0xd5]);
+    widgets.open.weak_bg_fill = grey([0x2b, 0x30, 0x39], [0xdc, 0xe0, 0xe6]);
+    widgets.inactive.fg_stroke.color = grey([0xd2, 0xd7, 0xdf], [0x2e, 0x33, 0x3b]);
 }
 
 /// Installs the fonts: egui's own, and DejaVu Sans for the glyphs that they lack.

@@ -1,7 +1,9 @@
 //! The menu bar.
 
+use super::hint::beside;
 use crate::gui::command::Command;
 use crate::gui::document::Document;
+use crate::gui::keys;
 use crate::scene::presets;
 use eframe::egui::{self, Button};
 use std::path::PathBuf;
@@ -12,17 +14,21 @@ pub fn show(ui: &mut egui::Ui, document: &Document, recent: &[PathBuf], dark: bo
         ui.menu_button("File", |ui| file(ui, recent, commands));
         ui.menu_button("Presets", |ui| built_in(ui, commands));
         ui.menu_button("Edit", |ui| {
-            item(ui, "Undo", "Ctrl+Z", document.can_undo(), Command::Undo, commands);
-            item(ui, "Redo", "Ctrl+Shift+Z", document.can_redo(), Command::Redo, commands);
+            item(ui, "Undo", document.can_undo(), Command::Undo, commands);
+            item(ui, "Redo", document.can_redo(), Command::Redo, commands);
         });
         ui.menu_button("View", |ui| {
             let other = if dark { "Light theme" } else { "Dark theme" };
-            item(ui, other, "Ctrl+T", true, Command::ToggleTheme, commands);
-            item(ui, "Lecture size", "Ctrl+L", true, Command::ToggleLecture, commands);
-            item(ui, "Picture of the window…", "Ctrl+P", true, Command::Screenshot, commands);
+            item(ui, other, true, Command::ToggleTheme, commands);
+            item(ui, "Lecture size", true, Command::ToggleLecture, commands);
+            ui.separator();
+            item(ui, "Parameters, show or hide", true, Command::ToggleParameters, commands);
+            item(ui, "Results, show or hide", true, Command::ToggleResults, commands);
+            ui.separator();
+            item(ui, "Picture of the window…", true, Command::Screenshot, commands);
         });
         ui.menu_button("Help", |ui| {
-            item(ui, "Keyboard shortcuts", "F1", true, Command::ToggleShortcuts, commands);
+            item(ui, "Keyboard shortcuts", true, Command::ToggleShortcuts, commands);
         });
         ui.separator();
         let mark = if document.is_dirty() { " •" } else { "" };
@@ -34,38 +40,43 @@ pub fn show(ui: &mut egui::Ui, document: &Document, recent: &[PathBuf], dark: bo
     });
 }
 
-fn item(ui: &mut egui::Ui, text: &str, keys: &str, enabled: bool, command: Command, commands: &mut Vec<Command>) {
-    if ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked() {
+fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, commands: &mut Vec<Command>) {
+    if ui.add_enabled(enabled, Button::new(text).shortcut_text(keys::of(&command))).clicked() {
         commands.push(command);
         ui.close();
     }
 }
 
 fn file(ui: &mut egui::Ui, recent: &[PathBuf], commands: &mut Vec<Command>) {
-    item(ui, "Open…", "Ctrl+O", true, Command::OpenDialog, commands);
-    item(ui, "Open or save by path…", "", true, Command::OpenPathPrompt, commands);
+    item(ui, "Open…", true, Command::OpenDialog, commands);
+    item(ui, "Open or save by path…", true, Command::OpenPathPrompt, commands);
     ui.menu_button("Recent", |ui| {
         if recent.is_empty() {
             ui.weak("Nothing opened yet");
         }
         for path in recent {
-            item(ui, &path.display().to_string(), "", true, Command::OpenPath(path.clone()), commands);
+            item(ui, &path.display().to_string(), true, Command::OpenPath(path.clone()), commands);
         }
     });
     ui.separator();
-    item(ui, "Save", "Ctrl+S", true, Command::Save, commands);
-    item(ui, "Save as…", "Ctrl+Shift+S", true, Command::SaveAs, commands);
+    item(ui, "Save", true, Command::Save, commands);
+    item(ui, "Save as…", true, Command::SaveAs, commands);
     ui.separator();
-    item(ui, "Quit", "Ctrl+Q", true, Command::Quit, commands);
+    item(ui, "Quit", true, Command::Quit, commands);
 }
 
 fn built_in(ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-    egui::ScrollArea::vertical().max_height(560.0).show(ui, |ui| {
+    let room = 0.85 * ui.ctx().content_rect().height();
+    egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
+        let mut kind = "motor";
         for preset in presets::BUILT_IN {
             // Built-in presets parse: a test opens every one.
             let Ok(scene) = preset.scene() else { continue };
-            if ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name)).on_hover_text(&scene.about).clicked()
-            {
+            if std::mem::replace(&mut kind, scene.scene()) != kind {
+                ui.separator();
+            }
+            let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));
+            if beside(ui.max_rect(), entry, &scene.about).clicked() {
                 commands.push(Command::OpenBuiltIn(preset.name));
                 ui.close();
             }

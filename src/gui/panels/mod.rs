@@ -2,6 +2,7 @@
 
 pub mod convergence;
 pub mod field;
+pub mod hint;
 pub mod labels;
 pub mod menu;
 pub mod parameters;

@@ -1,15 +1,13 @@
 //! The left panel: every parameter of the scene. Reads the scene, pushes commands.
 
 use super::field::{self, Field};
+use super::hint::beside;
 use super::labels::{self, choice, field_name, label, switch};
 use crate::gui::command::Command;
+use crate::gui::edit::Refusals;
 use crate::gui::theme::{Palette, palette};
 use crate::scene::{Kind, Parameter, ParameterKind, Range, Scale, Scene, Value};
 use eframe::egui::{self, RichText, TextStyle};
-use std::collections::BTreeMap;
-
-/// Texts that were typed and refused, by key, with what is allowed.
-pub type Refusals = BTreeMap<&'static str, String>;
 
 /// What the eye meets first.
 const MAIN: &[&str] = &[
@@ -101,7 +99,7 @@ impl Panel<'_> {
                 continue;
             }
             self.measure_units(ui, &parameters);
-            let refused = parameters.iter().any(|parameter| self.refusals.contains_key(parameter.key));
+            let refused = parameters.iter().any(|parameter| self.refusals.of(parameter.key).is_some());
             egui::CollapsingHeader::new(RichText::new(title).strong())
                 .id_salt(table)
                 .default_open(open)
@@ -171,7 +169,8 @@ impl Panel<'_> {
         let text = RichText::new(label(parameter));
         let text = if is_main(self.scene, parameter) { text.strong() } else { text };
         self.beside_reset(ui, parameter, |ui, _| {
-            ui.add(egui::Label::new(text).wrap().selectable(false)).on_hover_text(explanation)
+            let name = ui.add(egui::Label::new(text).wrap().selectable(false));
+            beside(ui.clip_rect(), name, &explanation)
         })
     }
 
@@ -215,7 +214,8 @@ impl Panel<'_> {
             let field = FIELD_WIDTH * em;
             let gaps = 2.0 * ui.spacing().item_spacing.x;
             ui.spacing_mut().slider_width = (ui.available_width() - field - self.units - gaps).max(SHORTEST_SLIDER);
-            let slider = self.slider(ui, parameter, value).on_hover_text(&explanation);
+            let slider = self.slider(ui, parameter, value);
+            let slider = beside(ui.clip_rect(), slider, &explanation);
             match name {
                 Some(name) => slider.labelled_by(name.id),
                 None => slider.accessible_name(label(parameter)),
@@ -225,11 +225,12 @@ impl Panel<'_> {
                 value: Some(value),
                 name: &field_name(parameter),
                 hint: "",
-                refused: self.refusals.get(parameter.key).map(String::as_str),
+                refused: self.refusals.of(parameter.key),
                 width: field,
                 wrapped: false,
             };
-            typed.show(ui, &self.colours, self.commands).on_hover_text(&explanation);
+            let typed = typed.show(ui, &self.colours, self.commands);
+            beside(ui.clip_rect(), typed, &explanation);
             ui.add(
                 egui::Label::new(RichText::new(parameter.unit).color(self.colours.quiet)).selectable(false).extend(),
             );
@@ -267,7 +268,8 @@ impl Panel<'_> {
     fn switch_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, present: bool) {
         let mut on = present;
         let explanation = self.explanation(parameter);
-        if ui.checkbox(&mut on, switch(parameter)).on_hover_text(explanation).changed() {
+        let checkbox = ui.checkbox(&mut on, switch(parameter));
+        if beside(ui.clip_rect(), checkbox, &explanation).changed() {
             self.commands.push(match (on, parameter.kind) {
                 (true, ParameterKind::Number { default, .. }) => {
                     Command::Set { key: parameter.key, value: Value::Number(default), dragging: false }
@@ -288,7 +290,8 @@ impl Panel<'_> {
         let explanation = self.explanation(parameter);
         self.beside_reset(ui, parameter, |ui, commands| {
             let mut on = on;
-            if ui.checkbox(&mut on, label(parameter)).on_hover_text(explanation).changed() {
+            let checkbox = ui.checkbox(&mut on, label(parameter));
+            if beside(ui.clip_rect(), checkbox, &explanation).changed() {
                 commands.push(Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false });
             }
         });
@@ -321,36 +324,35 @@ impl Panel<'_> {
             value: Some(value),
             name: label(parameter),
             hint: label(parameter),
-            refused: self.refusals.get(parameter.key).map(String::as_str),
+            refused: self.refusals.of(parameter.key),
             width: f32::INFINITY,
             wrapped: true,
         };
-        field.show(ui, &self.colours, self.commands).on_hover_text(parameter.about);
+        let field = field.show(ui, &self.colours, self.commands);
+        beside(ui.clip_rect(), field, parameter.about);
     }
 
     fn path_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
-        let name = ui
-            .add(egui::Label::new(label(parameter)).wrap().selectable(false))
-            .on_hover_text(format!("{}\n{}", parameter.about, parameter.key));
+        let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false));
+        let name = beside(ui.clip_rect(), name, &format!("{}\n{}", parameter.about, parameter.key));
         let field = Field {
             key: parameter.key,
             value: None,
             name: label(parameter),
             hint: "path of the file, then Enter",
-            refused: self.refusals.get(parameter.key).map(String::as_str),
+            refused: self.refusals.of(parameter.key),
             width: f32::INFINITY,
             wrapped: false,
         };
-        field
-            .show(ui, &self.colours, self.commands)
-            .on_hover_text("Columns wavenumber_per_m or harmonic, and compliance_m2_per_n")
-            .labelled_by(name.id);
+        let field = field.show(ui, &self.colours, self.commands).labelled_by(name.id);
+        beside(ui.clip_rect(), field, "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n");
     }
 
     fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {
         let explanation = self.explanation(parameter);
         ui.horizontal_wrapped(|ui| {
-            ui.label(label(parameter)).on_hover_text(explanation);
+            let name = ui.label(label(parameter));
+            beside(ui.clip_rect(), name, &explanation);
             ui.label(RichText::new(format!("{rows} {}", if rows == 1 { "row" } else { "rows" })).strong());
         });
         quiet(ui, &self.colours, "Edit the table in its file and give the file again");
@@ -358,7 +360,7 @@ impl Panel<'_> {
 
     /// What is refused, and what has no effect.
     fn footnotes(&self, ui: &mut egui::Ui, parameter: &'static Parameter) {
-        if let Some(message) = self.refusals.get(parameter.key) {
+        if let Some(message) = self.refusals.of(parameter.key) {
             let prefix = format!("{} = ", parameter.key);
             let text = message.strip_prefix(&prefix).unwrap_or(message);
             ui.add(egui::Label::new(RichText::new(text).color(self.colours.alarm)).wrap());

@@ -30,7 +30,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, dark: bool) {
         // Room for the scroll bar, which floats.
         ui.set_max_width(ui.available_width() - 8.0);
         ui.add_space(8.0);
-        convergence_banner(ui, &run.solution.status, &colours);
+        convergence_banner(ui, run, &colours);
         match (&run.problem.scenario, &run.solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, motor, result, &colours),
             (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, run, plate, result, &colours),
@@ -161,9 +161,20 @@ fn reasons(ui: &mut egui::Ui, why: &[String]) {
     }
 }
 
-fn convergence_banner(ui: &mut egui::Ui, status: &Status, colours: &Palette) {
-    match status {
-        Status::Converged => {}
+fn convergence_banner(ui: &mut egui::Ui, run: &Run, colours: &Palette) {
+    match &run.solution.status {
+        Status::Converged => {
+            let last = run.history.last();
+            let text = last.map_or_else(String::new, |last| {
+                format!(": the last round changed {:.0e}, allowed {:.0e}", last.residual, last.tolerance)
+            });
+            let mut job = egui::text::LayoutJob::default();
+            let font = TextStyle::Body.resolve(ui.style());
+            job.append("✔ Converged", 0.0, egui::TextFormat::simple(font.clone(), colours.good));
+            job.append(&text, 0.0, egui::TextFormat::simple(font, colours.quiet));
+            ui.add(egui::Label::new(job).wrap());
+            ui.add_space(2.0);
+        }
         Status::NotConverged { residual, tolerance } => {
             let text = format!("The last round still changed by {residual:.1e}, allowed {tolerance:.0e}");
             banner(ui, colours.alarm, "Not converged", &text);
@@ -301,13 +312,18 @@ fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {
 }
 
 fn shown(value: f64) -> String {
-    significant(value, DIGITS)
+    signed(&significant(value, DIGITS))
+}
+
+/// With a true minus sign.
+fn signed(text: &str) -> String {
+    text.strip_prefix('-').map_or_else(|| text.to_owned(), |size| format!("−{size}"))
 }
 
 /// A value with its error, an exponent raised. What is far below its error is 0.
 fn uncertain(value: f64, error: f64) -> String {
     let value = if value.abs() < NOTHING * error { 0.0 } else { value };
-    let text = with_error(value, error);
+    let text = signed(&with_error(value, error));
     match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
         Some((before, Ok(exponent))) => format!("{before}{}", convergence::power_of_ten(exponent)),
         _ => text,

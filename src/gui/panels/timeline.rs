@@ -3,6 +3,7 @@
 use crate::fidelity::Fidelity;
 use crate::gui::app::Activity;
 use crate::gui::command::Command;
+use crate::gui::keys;
 use crate::gui::state::View;
 use crate::gui::theme::Palette;
 use crate::job::Run;
@@ -15,17 +16,21 @@ const SPEEDS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 30.0];
 /// Play, step, scrub and speed.
 pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Command>) {
     let recording = &run.solution.recording;
-    let (frames, frame) = (recording.frames, view.frame(recording));
+    let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
     ui.horizontal(|ui| {
         let play = if view.playing { "Pause" } else { "Play" };
-        if ui.add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play)).on_hover_text("Space").clicked()
+        if ui
+            .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
+            .on_hover_text(keys::of(&Command::TogglePlay))
+            .clicked()
         {
             commands.push(Command::TogglePlay);
         }
-        if ui.button("◀").on_hover_text("One frame back (←)").clicked() {
+        if ui.button("◀").on_hover_text(format!("One frame back ({})", keys::of(&Command::StepFrames(-1)))).clicked()
+        {
             commands.push(Command::StepFrames(-1));
         }
-        if ui.button("▶").on_hover_text("One frame on (→)").clicked() {
+        if ui.button("▶").on_hover_text(format!("One frame on ({})", keys::of(&Command::StepFrames(1)))).clicked() {
             commands.push(Command::StepFrames(1));
         }
         let slow = view.seconds_per_cycle / recording.period;
@@ -40,14 +45,17 @@ pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Comman
                 }
             });
         name(&speed.response, "Speed");
-        let mut at = frame;
+        let mut at = place;
         ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
-        let scrub = ui.add(Slider::new(&mut at, 0..=frames.saturating_sub(1)).show_value(false));
+        let slider = Slider::new(&mut at, 0.0..=frames).clamping(egui::SliderClamping::Never).show_value(false);
+        let scrub = ui.add(slider.smart_aim(false));
         name(&scrub, "Time in the cycle");
         if scrub.changed() {
-            commands.push(Command::Seek((at as f64 + 0.5) / frames as f64));
+            // To a recorded frame; the end of the cycle is its start.
+            commands.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
         }
-        ui.label(format!("t = {}  ({:.0}°)", time(recording.time(frame)), 360.0 * frame as f64 / frames as f64));
+        let phase = place / frames;
+        ui.label(format!("t = {}  ({:.0}°)", time(recording.period * phase), (360.0 * phase).round() % 360.0));
     });
 }
 
@@ -65,7 +73,8 @@ pub fn status(
                 Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha_error),
                 Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load_error),
             };
-            ui.label(format!("Shown: {}, {error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s));
+            let ended = if run.solution.status == Status::Converged { "converged, " } else { "" };
+            ui.label(format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s));
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(palette.alarm))),
                 _ if activity.stale(run) => drop(ui.label(RichText::new("of the scene before this edit").weak())),
@@ -79,7 +88,7 @@ pub fn status(
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if let Some(running) = &activity.running {
-                if ui.button("Cancel").on_hover_text("Esc").clicked() {
+                if ui.button("Cancel").on_hover_text(keys::of(&Command::CancelSolve)).clicked() {
                     commands.push(Command::CancelSolve);
                 }
                 ui.add(ProgressBar::new(running.fraction()).desired_width(120.0));

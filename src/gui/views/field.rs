@@ -16,8 +16,8 @@ const MOST_COLUMNS: usize = 2048;
 pub(super) struct Stamp {
     /// Number of the run and its fidelity.
     pub(super) run: (u64, Fidelity),
-    /// Frame shown.
-    pub(super) frame: usize,
+    /// Instant shown, in frames.
+    pub(super) place: f64,
     /// First tooth shown.
     pub(super) tooth: usize,
     /// x at the left and right edge \[m\].
@@ -73,7 +73,7 @@ fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2]) -> 
     for i in 0..columns {
         let x = stamp.x[0] + (i as f64 + 0.5) / columns as f64 * (stamp.x[1] - stamp.x[0]);
         let (tooth, xi) = sample::tooth_at(x, recording.pitch, recording.teeth.saturating_sub(stamp.tooth).max(1));
-        if !sample::column(recording, stamp.tooth + tooth, xi, stamp.frame, &mut values) {
+        if !sample::column(recording, stamp.tooth + tooth, xi, stamp.place, &mut values) {
             continue;
         }
         for (j, place) in places.iter().enumerate() {
@@ -104,7 +104,7 @@ mod tests {
             pressure: [[1.0, 0.0].repeat(3), [3.0, 0.0].repeat(3)].concat(),
             ..Recording::default()
         };
-        let stamp = Stamp { run: (0, Fidelity::Draft), frame: 0, tooth: 0, x: [-0.5, 1.5], range: [0.0, 3.0] };
+        let stamp = Stamp { run: (0, Fidelity::Draft), place: 0.0, tooth: 0, x: [-0.5, 1.5], range: [0.0, 3.0] };
         let (columns, rows) = (40, 9);
         let pixels = pixels(&recording, &stamp, [columns, rows]);
         let at = |i: usize, j: usize| pixels[j * columns + i];

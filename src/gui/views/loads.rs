@@ -22,19 +22,19 @@ pub(super) fn draw(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) 
     painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, ink.palette.quiet));
     let zero = axes.py(0.0);
     for tooth in 0..recording.teeth {
-        let line = recording.line_offset(tooth, shown.frame);
+        let line = shown.lines.of(tooth);
         let middle = tooth as f64 * recording.pitch;
         let curve = |field: &[f64]| -> Vec<Pos2> {
-            recording.x.iter().zip(&field[line..]).map(|(xi, load)| axes.at(middle + xi, load / width)).collect()
+            recording.x.iter().zip(&field[line.clone()]).map(|(xi, load)| axes.at(middle + xi, load / width)).collect()
         };
         let stroke = |colour: Color32| Stroke::new(1.8, colour);
-        let contact = curve(&recording.contact);
-        if recording.contact[line..line + recording.x.len()].iter().any(|load| *load != 0.0) {
+        let contact = curve(&shown.lines.contact);
+        if shown.lines.contact[line.clone()].iter().any(|load| *load != 0.0) {
             let fill = ink.palette.contact.gamma_multiply(0.35);
             band(painter, contact.iter().map(|at| (at.x, at.y, zero)), fill);
             painter.line(contact, stroke(ink.palette.contact));
         }
-        painter.line(curve(&recording.film), stroke(ink.palette.film));
+        painter.line(curve(&shown.lines.film), stroke(ink.palette.film));
     }
     axes.cursor(painter, ink, shown.cursor);
 }

@@ -13,7 +13,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, rect: Rect, shown: &Sh
     let axes = Axes::new(rect, shown.x_range(), [-half, half]);
     axes.canvas(painter, ink);
     let range = shown.scales.pressure;
-    let stamp = Stamp { run: shown.run, frame: shown.frame, tooth: 0, x: axes.x, range };
+    let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: axes.x, range };
     field::draw(ui, painter, &axes, recording, "all teeth", stamp);
     let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
     title_with_bar(painter, ink, rect, titles, range);

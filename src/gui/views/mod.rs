@@ -1,30 +1,43 @@
 //! Views: each draws one run at one phase of the cycle.
 //!
-//! A redraw touches the present frame only; what needs the whole recording is computed once for a run (`scales`).
+//! A redraw reads the two frames around the present instant only (`sample`); what needs the whole recording is computed once for a run (`scales`).
 //! Everything is drawn with the painter, on axes of our own (`paint`): one x axis is shared by all parts of a view.
 
 mod field;
 mod loads;
 mod map;
-pub mod motor;
+mod motor;
 mod paint;
-pub mod plate;
+mod plate;
 mod sample;
 mod scales;
 mod series;
 mod tooth;
 mod wave;
 
+use crate::gui::command::Command;
+use crate::gui::state::View;
+use crate::job::Run;
+use crate::problem::Scenario;
+use eframe::egui::Ui;
+
+/// Draws `run` in the middle of the window.
+pub fn show(ui: &mut Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+    match run.problem.scenario {
+        Scenario::Motor(_) => motor::show(ui, run, view, commands),
+        Scenario::Plate(_) => plate::show(ui, run, view, commands),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{motor, plate};
     use crate::control::{Cancel, Progress};
     use crate::fidelity::Fidelity;
     use crate::gui::command::Command;
     use crate::gui::state::View;
     use crate::gui::theme;
     use crate::job::Run;
-    use crate::problem::{Problem, Scenario};
+    use crate::problem::Problem;
     use crate::recording::Recording;
     use crate::scene::presets;
     use crate::solve::{Method, Settings, solve};
@@ -45,10 +58,7 @@ mod tests {
         let mut harness = Harness::builder().with_size(size).build_ui_state(
             |ui, (view, commands): &mut (View, Vec<Command>)| {
                 theme::install_fonts(ui.ctx());
-                match run.problem.scenario {
-                    Scenario::Motor(_) => motor::show(ui, run, view, commands),
-                    Scenario::Plate(_) => plate::show(ui, run, view, commands),
-                }
+                super::show(ui, run, view, commands);
             },
             (View::default(), Vec::new()),
         );

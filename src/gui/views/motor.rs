@@ -1,7 +1,7 @@
 //! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
 
 use super::paint::{Axes, Ink, number};
-use super::sample;
+use super::sample::{self, Lines, Touching};
 use super::scales::Scales;
 use super::{loads, map, tooth, wave};
 use crate::fidelity::Fidelity;
@@ -12,13 +12,19 @@ use crate::problem::{Motor, Scenario};
 use crate::recording::Recording;
 use eframe::egui::{self, CursorIcon, Painter, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 
+/// Wavenumber beyond all that a rotor resolves \[rad/m\]: what is left of its compliance is local.
+const LOCAL: f64 = 1e9;
+
 /// One run at one instant.
 pub(super) struct Shown<'a> {
     pub(super) run: (u64, Fidelity),
     pub(super) recording: &'a Recording,
     pub(super) motor: &'a Motor,
     pub(super) scales: &'a Scales,
-    pub(super) frame: usize,
+    /// The instant, in frames.
+    pub(super) place: f64,
+    /// The lines at that instant.
+    pub(super) lines: Lines,
     pub(super) tooth: usize,
     pub(super) cursor: Option<f64>,
 }
@@ -29,9 +35,9 @@ impl Shown<'_> {
         [-half, self.recording.length - half]
     }
 
-    /// Phase of the frame shown.
+    /// Phase of the instant.
     pub(super) fn phase(&self) -> f64 {
-        self.frame as f64 / self.recording.frames.max(1) as f64
+        self.place / self.recording.frames.max(1) as f64
     }
 
     /// A faint column behind the followed tooth.
@@ -79,17 +85,20 @@ impl Layout {
 }
 
 /// Draws `run` at the view's phase.
-pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
     let recording = &run.solution.recording;
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let Some(area) = super::paint::area(ui, recording) else { return };
     let scales = Scales::of(ui, run);
+    let place = view.place(recording);
+    let touching = Touching { min_spacing: motor.min_spacing, compliance: motor.rotor.at(LOCAL) };
     let shown = Shown {
         run: (run.number, run.fidelity),
         recording,
         motor,
         scales: &scales,
-        frame: view.frame(recording),
+        place,
+        lines: Lines::at(recording, place, touching),
         tooth: view.tooth.min(recording.teeth.saturating_sub(1)),
         cursor: view.cursor_x,
     };
@@ -165,21 +174,20 @@ impl Readout {
         };
         let (tooth, xi) = sample::tooth_at(x, recording.pitch, recording.teeth);
         let mut values = vec![format!("x {} mm", number(x * 1e3))];
-        let Some(place) = sample::locate(&recording.x, xi) else {
+        let Some(node) = sample::locate(&recording.x, xi) else {
             values.push("groove".to_owned());
             return Self { values };
         };
-        let line = recording.line_offset(tooth, shown.frame);
-        let nodes = recording.x.len();
-        let at = |field: &[f64]| sample::between(&field[line..line + nodes], place);
-        let thickness = at(&recording.film_thickness);
+        let lines = &shown.lines;
+        let at = |field: &[f64]| sample::between(&field[lines.of(tooth)], node);
+        let thickness = at(&lines.film_thickness);
         let width = shown.motor.contact_width;
         values.push(format!("tooth {tooth}"));
         values.push(format!("gap {} µm", number((thickness - shown.motor.min_spacing).max(0.0) * 1e6)));
         values.push(format!("film thickness {} µm", number(thickness * 1e6)));
-        values.push(format!("contact {} kPa", number(at(&recording.contact) / width / 1e3)));
-        values.push(format!("film {} kPa gauge", number(at(&recording.film) / width / 1e3)));
-        if let Some(pressure) = sample::middle_pressure(recording, tooth, xi, shown.frame) {
+        values.push(format!("contact {} kPa", number(at(&lines.contact) / width / 1e3)));
+        values.push(format!("film {} kPa gauge", number(at(&lines.film) / width / 1e3)));
+        if let Some(pressure) = sample::middle_pressure(recording, tooth, xi, shown.place) {
             values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
         }
         Self { values }

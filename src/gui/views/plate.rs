@@ -4,7 +4,7 @@ use super::field::{self, Stamp};
 use super::map::y_labels;
 use super::motor::{Readout, named, seek};
 use super::paint::{Axes, Ink, number, scale_bar, times, title_with_bar};
-use super::sample;
+use super::sample::{self, Lines, Touching};
 use super::scales::{Curve, Scales};
 use super::series::{Series, Trace};
 use crate::gui::command::Command;
@@ -18,8 +18,10 @@ struct Shown<'a> {
     recording: &'a Recording,
     plate: &'a Plate,
     scales: &'a Scales,
-    frame: usize,
+    /// The instant, in frames.
+    place: f64,
     phase: f64,
+    lines: Lines,
     cursor: Option<f64>,
 }
 
@@ -29,19 +31,20 @@ impl Shown<'_> {
     }
 
     fn thickness(&self) -> f64 {
-        self.recording.film_thickness[self.recording.line_offset(0, self.frame)]
+        self.lines.film_thickness[0]
     }
 }
 
 /// Draws `run` at the view's phase.
-pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
     let recording = &run.solution.recording;
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let Some(area) = super::paint::area(ui, recording) else { return };
     let scales = Scales::of(ui, run);
-    let frame = view.frame(recording);
-    let phase = frame as f64 / recording.frames.max(1) as f64;
-    let shown = Shown { recording, plate, scales: &scales, frame, phase, cursor: view.cursor_x };
+    let place = view.place(recording);
+    let phase = place / recording.frames.max(1) as f64;
+    let lines = Lines::at(recording, place, Touching::default());
+    let shown = Shown { recording, plate, scales: &scales, place, phase, lines, cursor: view.cursor_x };
     let ink = Ink::new(ui);
     let painter = ui.painter_at(area);
     let gutter = ink.width(&painter, "−0.000") + 6.0;
@@ -71,7 +74,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Co
         let axes = Axes::new(last, shown.x_range(), [-half, half]);
         axes.canvas(&painter, &ink);
         let range = scales.pressure;
-        let stamp = Stamp { run: (run.number, run.fidelity), frame, tooth: 0, x: axes.x, range };
+        let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: axes.x, range };
         field::draw(ui, &painter, &axes, recording, "plate", stamp);
         title_with_bar(&painter, &ink, last, ["Pressure map, kPa absolute", "Map, absolute"], range);
         y_labels(&painter, &ink, &axes);
@@ -109,7 +112,8 @@ fn draw_gap(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Axes
     scale_bar(painter, ink, rect, scale);
     let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
     let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(scale / along));
-    ink.title(painter, rect, &[&title], &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
+    let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
+    ink.title(painter, rect, &[&title, &short], &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
@@ -141,7 +145,7 @@ fn draw_profile(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     axes.x_grid(painter, ink, 1e-3);
     painter.hline(rect.x_range(), axes.py(ambient), Stroke::new(1.0, ink.palette.quiet));
-    let at = |x: f64| sample::middle_pressure(recording, 0, x, shown.frame).map(|pressure| axes.at(x, pressure));
+    let at = |x: f64| sample::middle_pressure(recording, 0, x, shown.place).map(|pressure| axes.at(x, pressure));
     let mirrored = recording.map_x.iter().rev().filter(|x| recording.half_length && **x > 0.0).map(|x| -x);
     let line: Vec<Pos2> = mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect();
     painter.line(line, Stroke::new(1.8, ink.palette.film));
@@ -206,11 +210,12 @@ fn readout(shown: &Shown<'_>) -> Readout {
         return Readout { values: vec!["Point at a view to read its values".to_owned()] };
     };
     let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
-    if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.frame) {
+    if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.place) {
         let place = if shown.plate.width.is_some() { "p at y = 0" } else { "p" };
         values.push(format!("{place} {} kPa absolute", number(pressure / 1e3)));
     }
-    if let Some(load) = shown.recording.film_load.get(shown.frame) {
+    if let Some((curves, lag)) = shown.scales.tooth(0) {
+        let load = curves.film.at(shown.phase + lag);
         let [low, high] = shown.scales.tooth_load;
         let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
         values.push(format!("load {} {name}", number(load / unit)));

@@ -1,6 +1,11 @@
-//! Reading values between nodes: no drawing in here.
+//! Reading values between nodes and between frames: no drawing in here.
+//!
+//! An instant is a *place*, counted in frames: 3.25 is a quarter of the way from frame 3 to frame 4, and after the last
+//! frame comes the first. By lag symmetry tooth k at a place is tooth 0 at place + k·frames/teeth, so that another tooth
+//! may lie between two frames where tooth 0 does not.
 
 use crate::recording::Recording;
+use std::ops::Range;
 
 /// Interval of ascending `nodes` around `x` and the weight of its right end; `None` outside. Rounding at either end
 /// is forgiven.
@@ -82,23 +87,133 @@ pub(super) fn half_width(recording: &Recording) -> f64 {
     recording.map_y.last().copied().unwrap_or(0.0)
 }
 
-/// The frame that shows tooth `tooth` in tooth 0's map, and the weight of the frame after it.
-pub(super) fn lagged(recording: &Recording, tooth: usize, frame: usize) -> (usize, f64) {
-    let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
-    let shift = tooth * frames;
-    ((frame + shift / teeth) % frames, (shift % teeth) as f64 / teeth as f64)
+/// Two neighbouring frames and the weight of the second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pair {
+    first: usize,
+    second: usize,
+    weight: f64,
+}
+
+impl Pair {
+    fn at(place: f64, frames: usize) -> Self {
+        let frames = frames.max(1);
+        let place = place.rem_euclid(frames as f64);
+        let first = (place as usize).min(frames - 1);
+        Self { first, second: (first + 1) % frames, weight: (place - first as f64).clamp(0.0, 1.0) }
+    }
+
+    /// That of tooth 0 which shows `tooth`.
+    fn lagged(recording: &Recording, tooth: usize, place: f64) -> Self {
+        let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
+        // Whole frames apart, so that a tooth a whole number of frames ahead is as exact as tooth 0.
+        let shift = tooth * frames;
+        Self::at(place + (shift / teeth) as f64 + (shift % teeth) as f64 / teeth as f64, frames)
+    }
+}
+
+/// How contact and gap exclude each other between two frames.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Touching {
+    /// Film thickness where the gap is closed \[m\].
+    pub(super) min_spacing: f64,
+    /// Local compliance of the rotor \[m²/N\].
+    pub(super) compliance: f64,
+}
+
+impl Touching {
+    /// Gap \[m\] and contact line load \[N/m\] between (gap, load) of two frames, `weight` of the second.
+    ///
+    /// Where a node opens or closes, −compliance·load and the gap are two sides of one number, which passes 0 once: until
+    /// then there is contact, from then on a gap, never both.
+    fn between(self, [gap_0, load_0]: [f64; 2], [gap_1, load_1]: [f64; 2], weight: f64) -> [f64; 2] {
+        let mix = |a: f64, b: f64, share: f64| a + share.clamp(0.0, 1.0) * (b - a);
+        let (closed_0, closed_1) = (load_0 > 0.0, load_1 > 0.0);
+        if closed_0 == closed_1 {
+            return [mix(gap_0, gap_1, weight), mix(load_0, load_1, weight)];
+        }
+        // Part of the way at which the node opens, or closes.
+        let passes = |pressed: f64, open: f64| {
+            let sum = self.compliance * pressed + open;
+            if sum > 0.0 { self.compliance * pressed / sum } else { 1.0 }
+        };
+        let part = |from: f64, to: f64| if to > from { (weight - from) / (to - from) } else { f64::from(weight >= to) };
+        if closed_0 {
+            let opens = passes(load_0, gap_1);
+            [mix(gap_0, gap_1, part(opens, 1.0)), mix(load_0, load_1, part(0.0, opens))]
+        } else {
+            let closes = 1.0 - passes(load_1, gap_0);
+            [mix(gap_0, gap_1, part(0.0, closes)), mix(load_0, load_1, part(closes, 1.0))]
+        }
+    }
+}
+
+/// The lines of all teeth at one instant, `[tooth][node]`, in the units of the recording.
+#[derive(Debug, Default)]
+pub(super) struct Lines {
+    nodes: usize,
+    pub(super) stator: Vec<f64>,
+    pub(super) film_thickness: Vec<f64>,
+    pub(super) contact: Vec<f64>,
+    pub(super) film: Vec<f64>,
+}
+
+impl Lines {
+    /// Reads two frames of each tooth at most; a recorded frame as it is.
+    pub(super) fn at(recording: &Recording, place: f64, touching: Touching) -> Self {
+        let nodes = recording.x.len();
+        let mut lines = Self { nodes, ..Self::default() };
+        let all_stored = recording.stored_teeth == recording.teeth;
+        for tooth in 0..recording.teeth {
+            let (stored, pair) = if all_stored {
+                (tooth, Pair::at(place, recording.frames))
+            } else {
+                (0, Pair::lagged(recording, tooth, place))
+            };
+            let line = |frame: usize| {
+                let start = (stored * recording.frames + frame) * nodes;
+                start..start + nodes
+            };
+            lines.read(recording, line(pair.first), line(pair.second), pair.weight, touching);
+        }
+        lines
+    }
+
+    fn read(&mut self, recording: &Recording, first: Range<usize>, second: Range<usize>, weight: f64, how: Touching) {
+        if weight == 0.0 {
+            self.stator.extend_from_slice(&recording.stator[first.clone()]);
+            self.film_thickness.extend_from_slice(&recording.film_thickness[first.clone()]);
+            self.contact.extend_from_slice(&recording.contact[first.clone()]);
+            self.film.extend_from_slice(&recording.film[first]);
+            return;
+        }
+        for (i, j) in first.zip(second) {
+            let mix = |field: &[f64]| field[i] + weight * (field[j] - field[i]);
+            let state = |index: usize| [recording.film_thickness[index] - how.min_spacing, recording.contact[index]];
+            let [gap, contact] = how.between(state(i), state(j), weight);
+            self.stator.push(mix(&recording.stator));
+            self.film_thickness.push(how.min_spacing + gap);
+            self.contact.push(contact);
+            self.film.push(mix(&recording.film));
+        }
+    }
+
+    /// Where the nodes of `tooth` are.
+    pub(super) fn of(&self, tooth: usize) -> Range<usize> {
+        tooth * self.nodes..(tooth + 1) * self.nodes
+    }
 }
 
 /// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth.
-pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, frame: usize, out: &mut [f64]) -> bool {
+pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, out: &mut [f64]) -> bool {
     out.fill(0.0);
-    let (frame, weight) = lagged(recording, tooth, frame);
-    let Some(plane) = Plane::of(recording, frame) else { return false };
+    let Pair { first, second, weight } = Pair::lagged(recording, tooth, place);
+    let Some(plane) = Plane::of(recording, first) else { return false };
     if !plane.column(xi, 1.0 - weight, out) {
         return false;
     }
     if weight > 0.0
-        && let Some(next) = Plane::of(recording, (frame + 1) % recording.frames)
+        && let Some(next) = Plane::of(recording, second)
     {
         next.column(xi, weight, out);
     }
@@ -106,10 +221,10 @@ pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, frame: usize,
 }
 
 /// Pressure \[Pa\] at y = 0.
-pub(super) fn middle_pressure(recording: &Recording, tooth: usize, xi: f64, frame: usize) -> Option<f64> {
+pub(super) fn middle_pressure(recording: &Recording, tooth: usize, xi: f64, place: f64) -> Option<f64> {
     let row = Plane::of(recording, 0)?.row(0.0)?;
     let mut values = vec![0.0; recording.map_y.len()];
-    column(recording, tooth, xi, frame, &mut values).then(|| between(&values, row))
+    column(recording, tooth, xi, place, &mut values).then(|| between(&values, row))
 }
 
 #[cfg(test)]
@@ -170,13 +285,93 @@ mod tests {
     #[test]
     fn other_teeth_are_read_with_their_lag() {
         let motor = recording(8, 4, false);
-        assert_eq!(lagged(&motor, 3, 4), (2, 0.0));
-        assert_eq!(middle_pressure(&motor, 3, 0.5, 4), Some(7.0));
-        assert_eq!(middle_pressure(&motor, 3, 1.5, 4), None);
+        assert_eq!(Pair::lagged(&motor, 3, 4.0), Pair { first: 2, second: 3, weight: 0.0 });
+        assert_eq!(middle_pressure(&motor, 3, 0.5, 4.0), Some(7.0));
+        assert_eq!(middle_pressure(&motor, 3, 1.5, 4.0), None);
         // 6 frames, 4 teeth: tooth 1 is a frame and a half ahead.
         let uneven = recording(6, 4, false);
-        assert_eq!(lagged(&uneven, 1, 0), (1, 0.5));
-        assert_eq!(middle_pressure(&uneven, 1, 0.0, 0), Some(1.5));
-        assert_eq!(middle_pressure(&Recording::default(), 0, 0.0, 0), None);
+        assert_eq!(Pair::lagged(&uneven, 1, 0.0), Pair { first: 1, second: 2, weight: 0.5 });
+        assert_eq!(middle_pressure(&uneven, 1, 0.0, 0.0), Some(1.5));
+        assert_eq!(middle_pressure(&uneven, 1, 0.0, 0.25), Some(1.75));
+        // Between the last frame, 5, and the first.
+        assert_eq!(middle_pressure(&uneven, 0, 0.0, 5.25), Some(3.75));
+        assert_eq!(middle_pressure(&Recording::default(), 0, 0.0, 0.0), None);
+    }
+
+    /// A wave that passes three teeth in six frames: all teeth stored, or one and its lag.
+    fn passing(stored_teeth: usize, frames: usize) -> Recording {
+        let teeth = 3;
+        let line = |tooth: usize, frame: usize| {
+            let phase = (frame as f64 / frames as f64 + tooth as f64 / 3.0).rem_euclid(1.0);
+            let wave = (std::f64::consts::TAU * phase).sin();
+            [(wave, 10.0 * wave), (2.0 * wave, 20.0 * wave)]
+        };
+        let lines = || (0..stored_teeth).flat_map(|t| (0..frames).flat_map(move |m| line(t, m)));
+        Recording {
+            frames,
+            teeth,
+            stored_teeth,
+            x: vec![-1.0, 1.0],
+            film_thickness: lines().map(|(wave, _)| 0.5 + wave.max(0.0)).collect(),
+            contact: lines().map(|(_, load)| (-load).max(0.0)).collect(),
+            stator: lines().map(|(wave, _)| -wave).collect(),
+            film: lines().map(|(_, load)| load).collect(),
+            ..Recording::default()
+        }
+    }
+
+    #[test]
+    fn a_recorded_frame_is_read_as_it_is() {
+        let recording = passing(1, 6);
+        let lines = Lines::at(&recording, 2.0, Touching { min_spacing: 0.5, compliance: 0.1 });
+        for tooth in 0..3 {
+            let offset = recording.line_offset(tooth, 2);
+            assert_eq!(lines.film_thickness[lines.of(tooth)], recording.film_thickness[offset..offset + 2]);
+            assert_eq!(lines.contact[lines.of(tooth)], recording.contact[offset..offset + 2]);
+        }
+    }
+
+    #[test]
+    fn between_frames_one_tooth_and_its_lag_are_what_all_teeth_stored_are() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let (one, all) = (passing(1, 6), passing(3, 6));
+        for place in [0.0, 0.3, 2.5, 5.9] {
+            let (a, b) = (Lines::at(&one, place, how), Lines::at(&all, place, how));
+            for (left, right) in [(&a.film_thickness, &b.film_thickness), (&a.contact, &b.contact), (&a.film, &b.film)]
+            {
+                assert_eq!(left.len(), 6);
+                assert!(left.iter().zip(right).all(|(x, y)| (x - y).abs() < 1e-12), "{place}: {left:?} {right:?}");
+            }
+        }
+        // Frames that the teeth do not divide: tooth 1 lies between two frames where tooth 0 lies on one.
+        let uneven = passing(1, 7);
+        let (place, lag) = (2.0, 7.0 / 3.0);
+        let (here, ahead) = (Lines::at(&uneven, place, how), Lines::at(&uneven, place + lag, how));
+        assert!(here.film[here.of(1)].iter().zip(&ahead.film[ahead.of(0)]).all(|(x, y)| (x - y).abs() < 1e-12));
+    }
+
+    #[test]
+    fn contact_and_gap_exclude_each_other_between_frames_too() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let recording = passing(1, 6);
+        let (mut opened, mut before) = (0, Lines::at(&recording, 0.0, how));
+        for step in 0..=600 {
+            let lines = Lines::at(&recording, f64::from(step) / 100.0, how);
+            for (i, (thickness, contact)) in lines.film_thickness.iter().zip(&lines.contact).enumerate() {
+                let gap = thickness - 0.5;
+                assert!(gap >= -1e-12 && *contact >= 0.0);
+                assert!(gap.abs() < 1e-12 || *contact == 0.0, "step {step}, node {i}: gap {gap}, contact {contact}");
+                opened += usize::from(*contact > 0.0) ^ usize::from(before.contact[i] > 0.0);
+                // Nothing jumps: over a hundredth of a frame, at most what the steepest frame changes.
+                assert!((gap - (before.film_thickness[i] - 0.5)).abs() < 0.05, "step {step}");
+                assert!((contact - before.contact[i]).abs() < 0.5, "step {step}");
+            }
+            before = lines;
+        }
+        // Every node of every tooth opens once and closes once.
+        assert_eq!(opened, 12);
+        // Nodes that pass on which side they are at the second frame exactly, and values that exclude nothing.
+        assert_eq!(how.between([0.0, 2.0], [0.0, 0.0], 1.0), [0.0, 0.0]);
+        assert_eq!(Touching::default().between([0.1, 0.0], [0.3, 0.0], 0.5), [0.2, 0.0]);
     }
 }

@@ -42,9 +42,12 @@ impl Series<'_> {
         ink.title(painter, rect, &[self.title], self.legend);
         let quiet = ink.palette.quiet;
         let top = rect.bottom() + 1.0;
-        ink.write(painter, pos2(rect.left(), top), Align2::LEFT_TOP, "0 µs", quiet);
-        let period = format!("{} µs", number(self.period * 1e6));
-        ink.write(painter, pos2(rect.right(), top), Align2::RIGHT_TOP, &period, quiet);
+        let (scale, unit) = if self.period < 1e-3 { (1e6, "µs") } else { (1e3, "ms") };
+        let (start, period) = (format!("0 {unit}"), format!("{} {unit}", number(self.period * scale)));
+        let last = ink.write(painter, pos2(rect.right(), top), Align2::RIGHT_TOP, &period, quiet);
+        if ink.width(painter, &start) + ink.row < last.left() - rect.left() {
+            ink.write(painter, pos2(rect.left(), top), Align2::LEFT_TOP, &start, quiet);
+        }
         let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
         inside.vline(axes.px(self.phase), rect.y_range(), Stroke::new(1.0, ink.palette.accent));
         let samples = (0.5 * rect.width()).clamp(24.0, 240.0) as usize;

@@ -32,7 +32,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, row: Rect, gutter: f32
     let axes = Axes::new(places[0], [-reach, reach], [-half, half]);
     axes.canvas(painter, ink);
     let stamp =
-        Stamp { run: shown.run, frame: shown.frame, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
+        Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
     field::draw(ui, painter, &axes, recording, "followed tooth", stamp);
     let long = format!("Tooth {}, x from its middle", shown.tooth);
     ink.title(painter, places[0], &[&long, &format!("Tooth {}", shown.tooth)], &[]);

@@ -53,10 +53,9 @@ fn stator(painter: &Painter, ink: &Ink, axes: &Axes, shown: &Shown<'_>) {
     let numbered = f64::from(axes.rect.width()) / recording.teeth.max(1) as f64 > 1.6 * f64::from(ink.row);
     painter.line((0..=samples).map(|i| pos2(axes.px(at(i)), body(at(i)))).collect(), Stroke::new(1.0, colour));
     for tooth in 0..recording.teeth {
-        let line = recording.line_offset(tooth, shown.frame);
         let middle = tooth as f64 * recording.pitch;
-        let top: Vec<Pos2> =
-            recording.x.iter().zip(&recording.stator[line..]).map(|(xi, w)| axes.at(middle + xi, *w)).collect();
+        let heights = &shown.lines.stator[shown.lines.of(tooth)];
+        let top: Vec<Pos2> = recording.x.iter().zip(heights).map(|(xi, w)| axes.at(middle + xi, *w)).collect();
         let (Some(first), Some(last)) = (recording.x.first(), recording.x.last()) else { continue };
         let feet = [body(middle + first), body(middle + last)];
         // A pixel below the body's edge, so that no seam shows.
@@ -80,17 +79,18 @@ fn stator(painter: &Painter, ink: &Ink, axes: &Axes, shown: &Shown<'_>) {
 fn rotor(painter: &Painter, ink: &Ink, axes: &Axes, shown: &Shown<'_>) {
     let recording = shown.recording;
     let nodes = recording.x.len();
-    let height = |index: usize| recording.stator[index] + recording.film_thickness[index] - shown.motor.min_spacing;
+    let lines = &shown.lines;
+    let height = |index: usize| lines.stator[index] + lines.film_thickness[index] - shown.motor.min_spacing;
     // The film, where there is any.
     let film = ink.palette.film.gamma_multiply(0.25);
     let mut underside = Vec::with_capacity(recording.teeth * nodes + 2);
     underside.push(Pos2::ZERO);
     for tooth in 0..recording.teeth {
-        let line = recording.line_offset(tooth, shown.frame);
+        let line = lines.of(tooth).start;
         let middle = tooth as f64 * recording.pitch;
         let columns = (0..nodes).map(|i| {
             let at = axes.at(middle + recording.x[i], height(line + i));
-            (at, axes.py(recording.stator[line + i]))
+            (at, axes.py(lines.stator[line + i]))
         });
         band(painter, columns.clone().map(|(at, stator)| (at.x, at.y, stator)), film);
         underside.extend(columns.map(|(at, _)| at));
@@ -111,12 +111,12 @@ fn touching(painter: &Painter, ink: &Ink, axes: &Axes, shown: &Shown<'_>) {
     let nodes = recording.x.len();
     let stroke = Stroke::new(4.0, ink.palette.contact);
     for tooth in 0..recording.teeth {
-        let line = recording.line_offset(tooth, shown.frame);
+        let line = shown.lines.of(tooth).start;
         let middle = tooth as f64 * recording.pitch;
         let mut run: Vec<Pos2> = Vec::new();
         for i in 0..=nodes {
-            if i < nodes && recording.contact[line + i] > 0.0 {
-                run.push(axes.at(middle + recording.x[i], recording.stator[line + i]));
+            if i < nodes && shown.lines.contact[line + i] > 0.0 {
+                run.push(axes.at(middle + recording.x[i], shown.lines.stator[line + i]));
                 continue;
             }
             if let [only] = run[..] {

@@ -1,0 +1,25 @@
+//! Explanations on hover that do not cover the rows around them: beside the panel.
+
+use eframe::egui::{Rect, RectAlign, Response, Tooltip};
+
+/// Between the panel and the explanation.
+const GAP: f32 = 12.0;
+
+/// Shows `text` beside `panel` while the pointer rests on `response`, a widget in it.
+pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
+    let mut tooltip = Tooltip::for_enabled(&response);
+    let row = Rect::from_x_y_ranges(panel.x_range(), response.rect.y_range());
+    tooltip.popup = tooltip
+        .popup
+        .anchor(row)
+        .align(RectAlign::RIGHT_START)
+        .align_alternatives(&[
+            RectAlign::RIGHT_END,
+            RectAlign::LEFT_START,
+            RectAlign::LEFT_END,
+            RectAlign::BOTTOM_START,
+        ])
+        .gap(GAP);
+    tooltip.show(|ui| ui.label(text));
+    response
+}
