@@ -290,7 +290,7 @@ mod tests {
     use crate::control::Cancel;
     use crate::fidelity::Fidelity;
     use crate::scene::presets;
-    use crate::solve::{Method, Settings, solve};
+    use crate::solve::{Settings, solve};
 
     fn solved(preset: &str) -> (Problem, Solution) {
         let problem = Problem::new(&presets::find(preset).unwrap()).unwrap();

@@ -190,14 +190,15 @@ fn finish(
     result.set_alpha(motor, estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)));
     let astray = if let Status::NotConverged { residual, .. } = status { residual.min(1.0) } else { 0.0 };
     let estimated = if estimate.error.is_finite() { estimate.error } else { 1.0 };
-    // The trapped gas still changes by the residual, and its force with it; half of that is what was seen at most (docs/
-    // validation.md). What floats carries its load whatever that is, and whatever was left out; only the height changes.
+    // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
+    // (Twice the latter: calibrated, docs/validation.md.) What floats carries its load whatever that is, and whatever was
+    // left out; only the height changes.
     let (repeating, left_out) = if result.levitated {
         (0.0, 0.0)
     } else {
-        (0.5 * level.residual().min(1.0) * level.gas_force() / motor.load, plan.left_out * estimate.value.abs())
+        (level.residual().min(1.0) * level.gas_force() / motor.load, plan.left_out * estimate.value.abs())
     };
-    result.alpha_error = estimated + astray + level.mean_imbalance() + repeating + left_out;
+    result.alpha_error = estimated + astray + 2.0 * level.mean_imbalance() + repeating + left_out;
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();
