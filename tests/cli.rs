@@ -155,6 +155,14 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["solve", "plate-viscous", "--method", "paper"], 2, &["paper", "motors"]);
     refused(&["table1", "--converged", "--set", "film.min_spacing_nm=3"], 2, &["5 to 10000 nm"]);
     refused(&["table1", "--converged", "--method", "paper"], 2, &["--converged"]);
+    let sweep = |vary: &'static str| ["sweep", "fundamental", "--vary", vary];
+    refused(&sweep("film.min_spacing_nm=3:200:3"), 2, &["film.min_spacing_nm", "= 3", "5 to 10000 nm"]);
+    refused(&sweep("film.min_spacing_nm=100:200"), 2, &["--vary", "key=from:to:count"]);
+    refused(&sweep("film.min_spacing_nm=100:200:1"), 2, &["count = 1", "2 to 10000"]);
+    refused(&sweep("film.slip=0:1:2"), 2, &["film.slip", "only a number"]);
+    refused(&sweep("stator.tooth_width_mm=1:3:5"), 2, &["stator.tooth_width_mm", "= 3", "tooth pitch"]);
+    refused(&["sweep", "fundamental"], 2, &["--vary"]);
+    refused(&["sweep", "plate-viscous", "--vary=plate.length_mm=1:2:2", "--method=paper"], 2, &["paper", "motors"]);
     refused(&["presets", "--set", "film.min_spacing_nm=100"], 2, &["PRESET"]);
 }
 
@@ -378,7 +386,10 @@ fn an_interrupt_ends_a_long_solve_at_once_and_leaves_no_file() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("out");
     let table = ["table1", "--converged", "--fidelity", "reference", "--threads", "1"];
-    for arguments in [&LONG[..], &table] {
+    let sweep = ["sweep", "fundamental", "--vary=motor.load_per_wave_n=1:5:5", "--fidelity=reference", "--threads=1"];
+    let sets: Vec<&str> = LONG[4..].to_vec();
+    let sweep = [&sweep[..], &sets].concat();
+    for arguments in [&LONG[..], &table, &sweep] {
         let child = squeezefilm(arguments)
             .args(["--json", "--out", folder.to_str().unwrap()])
             .stdout(Stdio::piped())

@@ -10,6 +10,7 @@ mod presets;
 mod progress;
 mod solve;
 mod summary;
+mod sweep;
 mod table1;
 mod terminal;
 
@@ -37,6 +38,7 @@ enum Command {
     #[cfg(feature = "gui")]
     Gui(gui::Arguments),
     Solve(solve::Arguments),
+    Sweep(sweep::Arguments),
     Table1(table1::Arguments),
     Presets(presets::Arguments),
 }
@@ -46,6 +48,7 @@ Examples:
   squeezefilm solve fundamental
   squeezefilm solve fundamental --set film.min_spacing_nm=100 --fidelity fine --json
   squeezefilm solve levitating --out results
+  squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
 
 Exit status:
@@ -75,6 +78,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         #[cfg(not(feature = "gui"))]
         None => Ok(exit::Exit::Solved),
         Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
+        Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };

@@ -30,6 +30,14 @@ impl Bar {
         Self::new(rows as u64, "{spinner} {bar:20} {pos}/{len} rows  {wide_msg}", "")
     }
 
+    /// For a number of points, of which some are done; with the time left.
+    pub(super) fn points(points: usize, done: usize) -> Self {
+        let bar = Self::new(points as u64, "{spinner} {bar:20} {pos}/{len}, {eta} left  {wide_msg}", "");
+        bar.bar.set_position(done as u64);
+        bar.bar.reset_eta();
+        bar
+    }
+
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
         let bar = if stderr().is_terminal() {
             let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());

@@ -1,7 +1,8 @@
-//! A solution as numbers for people, as JSON, as CSV files, and into a folder all at once.
+//! Results out of the program: the objects of `--json`, the tables of `--out`, and how files get into a folder.
 
 pub mod csv;
 pub mod digits;
 pub mod folder;
 pub mod json;
+pub mod sweep;
 pub mod table1;
