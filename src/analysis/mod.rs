@@ -8,3 +8,4 @@ pub mod quantity;
 pub mod regime;
 pub mod sweep;
 pub mod table1;
+pub mod tradeoff;

@@ -123,6 +123,11 @@ impl Quantity {
         TABLE[self as usize].2
     }
 
+    /// Whether it counts something: whole numbers.
+    pub fn is_count(self) -> bool {
+        matches!(self, FilmSteps | Cycles | Rounds | ContactSolves)
+    }
+
     /// The quantity that is this one's estimated numerical error, if it has one.
     pub fn error(self) -> Option<Self> {
         match self {

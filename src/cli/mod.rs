@@ -13,6 +13,7 @@ mod summary;
 mod sweep;
 mod table1;
 mod terminal;
+mod tradeoff;
 
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
@@ -40,6 +41,7 @@ enum Command {
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
     Table1(table1::Arguments),
+    Tradeoff(tradeoff::Arguments),
     Presets(presets::Arguments),
 }
 
@@ -80,6 +82,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
         Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),
+        Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };
     match ended {

@@ -38,6 +38,17 @@ impl Bar {
         bar
     }
 
+    /// For work of which a share is done; with the time left.
+    pub(super) fn share() -> Self {
+        Self::new(PARTS, "{spinner} {bar:20} {eta} left  {wide_msg}", "")
+    }
+
+    /// This much is done, 0 to 1.
+    pub(super) fn share_done(&self, share: f64, what: &str) {
+        self.bar.set_position((PARTS as f64 * share) as u64);
+        self.bar.set_message(what.to_owned());
+    }
+
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
         let bar = if stderr().is_terminal() {
             let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());

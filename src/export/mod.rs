@@ -6,3 +6,4 @@ pub mod folder;
 pub mod json;
 pub mod sweep;
 pub mod table1;
+pub mod tradeoff;

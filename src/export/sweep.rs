@@ -54,7 +54,8 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
         }
         writer.write_field(status(&row.ending))?;
         for quantity in &quantities {
-            writer.write_field(row.numbers.get(*quantity).map_or_else(String::new, digits))?;
+            let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
+            writer.write_field(row.numbers.get(*quantity).map_or_else(String::new, show))?;
         }
         writer.write_record(None::<&[u8]>)?;
     }
@@ -189,7 +190,12 @@ impl Serialize for RowObject<'_> {
         }
         map.serialize_entry(STATUS, &status(&self.row.ending))?;
         for quantity in &self.quantities {
-            map.serialize_entry(quantity.name(), &self.row.numbers.get(*quantity))?;
+            let value = self.row.numbers.get(*quantity);
+            if quantity.is_count() {
+                map.serialize_entry(quantity.name(), &value.map(|count| count as u64))?;
+            } else {
+                map.serialize_entry(quantity.name(), &value)?;
+            }
         }
         map.end()
     }
