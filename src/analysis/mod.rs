@@ -6,6 +6,7 @@
 pub mod attempt;
 pub mod quantity;
 pub mod regime;
+pub mod stability;
 pub mod sweep;
 pub mod table1;
 pub mod tradeoff;

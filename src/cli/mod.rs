@@ -9,6 +9,7 @@ mod options;
 mod presets;
 mod progress;
 mod solve;
+mod stability;
 mod summary;
 mod sweep;
 mod table1;
@@ -42,6 +43,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Table1(table1::Arguments),
     Tradeoff(tradeoff::Arguments),
+    Stability(stability::Arguments),
     Presets(presets::Arguments),
 }
 
@@ -83,6 +85,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
+        Some(Command::Stability(arguments)) => stability::run(&arguments, &command_line(words)),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };
     match ended {

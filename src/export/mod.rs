@@ -4,6 +4,7 @@ pub mod csv;
 pub mod digits;
 pub mod folder;
 pub mod json;
+pub mod stability;
 pub mod sweep;
 pub mod table1;
 pub mod tradeoff;
