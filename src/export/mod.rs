@@ -1,7 +1,8 @@
-//! A solution as numbers for people, as JSON, as CSV files, and into a folder all at once.
+//! A solution as numbers for people, as JSON, as CSV files, as figures, and into a folder all at once.
 
 pub mod csv;
 pub mod digits;
+pub mod figure;
 pub mod folder;
 pub mod json;
 pub mod table1;
