@@ -1,7 +1,8 @@
-//! Results out of the program: the objects of `--json`, the tables of `--out`, and how files get into a folder.
+//! Results out of the program: the objects of `--json`, the tables and figures of `--out`, and how files get into a folder.
 
 pub mod csv;
 pub mod digits;
+pub mod figure;
 pub mod folder;
 pub mod json;
 pub mod stability;
