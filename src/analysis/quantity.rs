@@ -69,33 +69,33 @@ use Quantity::{
 /// How many there are.
 pub const COUNT: usize = 25;
 
-/// In the order of the enum: name, what it is with its unit, scenes that have it.
-const TABLE: [(Quantity, &str, &str, Belongs); COUNT] = [
-    (Alpha, "alpha", "film share of the load α", Belongs::Motor),
-    (AlphaError, "alpha_error", "error of α", Belongs::Motor),
-    (FilmLoad, "film_load_n", "film load [N]", Belongs::Any),
-    (FilmLoadError, "film_load_error_n", "error of the film load [N]", Belongs::Any),
-    (FilmLoadMin, "film_load_min_n", "least film load [N]", Belongs::Any),
-    (FilmLoadMax, "film_load_max_n", "greatest film load [N]", Belongs::Any),
-    (ContactLoad, "contact_load_n", "contact load [N]", Belongs::Motor),
-    (MaxTorque, "max_torque_nm", "torque of the whole ring [N·m]", Belongs::Motor),
-    (MaxTorqueError, "max_torque_error_nm", "error of the torque [N·m]", Belongs::Motor),
-    (TeethInContact, "teeth_in_contact", "teeth in contact", Belongs::Motor),
-    (LoadRatio, "mean_load_ratio", "load over ambient pressure × area", Belongs::Plate),
-    (LoadRatioError, "mean_load_ratio_error", "error of the load ratio", Belongs::Plate),
-    (LoadRatioMin, "load_ratio_min", "least load ratio", Belongs::Plate),
-    (LoadRatioMax, "load_ratio_max", "greatest load ratio", Belongs::Plate),
-    (MinGap, "min_gap_nm", "least film thickness [nm]", Belongs::Any),
-    (MaxPressure, "max_pressure_kpa", "highest pressure [kPa]", Belongs::Any),
-    (SqueezeNumber, "squeeze_number", "squeeze number σ", Belongs::Any),
-    (BearingNumber, "bearing_number", "bearing number Λ", Belongs::Any),
-    (KnudsenNumber, "knudsen_number", "Knudsen number Kn", Belongs::Any),
-    (Residual, "residual", "change of the last round", Belongs::Any),
-    (Tolerance, "tolerance", "allowed change of the last round", Belongs::Any),
-    (FilmSteps, "film_steps", "film steps", Belongs::Any),
-    (Cycles, "cycles", "cycles marched", Belongs::Any),
-    (Rounds, "coupling_iterations", "rounds of film and contact", Belongs::Any),
-    (ContactSolves, "contact_solves", "contact problems solved", Belongs::Any),
+/// In the order of the enum: name, what it is, its unit, scenes that have it.
+const TABLE: [(Quantity, &str, &str, &str, Belongs); COUNT] = [
+    (Alpha, "alpha", "film share of the load α", "", Belongs::Motor),
+    (AlphaError, "alpha_error", "error of α", "", Belongs::Motor),
+    (FilmLoad, "film_load_n", "film load", "N", Belongs::Any),
+    (FilmLoadError, "film_load_error_n", "error of the film load", "N", Belongs::Any),
+    (FilmLoadMin, "film_load_min_n", "least film load", "N", Belongs::Any),
+    (FilmLoadMax, "film_load_max_n", "greatest film load", "N", Belongs::Any),
+    (ContactLoad, "contact_load_n", "contact load", "N", Belongs::Motor),
+    (MaxTorque, "max_torque_nm", "torque of the ring", "N·m", Belongs::Motor),
+    (MaxTorqueError, "max_torque_error_nm", "error of the torque", "N·m", Belongs::Motor),
+    (TeethInContact, "teeth_in_contact", "teeth in contact", "", Belongs::Motor),
+    (LoadRatio, "mean_load_ratio", "mean load ratio", "", Belongs::Plate),
+    (LoadRatioError, "mean_load_ratio_error", "error of the load ratio", "", Belongs::Plate),
+    (LoadRatioMin, "load_ratio_min", "least load ratio", "", Belongs::Plate),
+    (LoadRatioMax, "load_ratio_max", "greatest load ratio", "", Belongs::Plate),
+    (MinGap, "min_gap_nm", "least film thickness", "nm", Belongs::Any),
+    (MaxPressure, "max_pressure_kpa", "highest pressure", "kPa", Belongs::Any),
+    (SqueezeNumber, "squeeze_number", "squeeze number σ", "", Belongs::Any),
+    (BearingNumber, "bearing_number", "bearing number Λ", "", Belongs::Any),
+    (KnudsenNumber, "knudsen_number", "Knudsen number Kn", "", Belongs::Any),
+    (Residual, "residual", "change of the last round", "", Belongs::Any),
+    (Tolerance, "tolerance", "allowed change of the last round", "", Belongs::Any),
+    (FilmSteps, "film_steps", "film steps", "", Belongs::Any),
+    (Cycles, "cycles", "cycles marched", "", Belongs::Any),
+    (Rounds, "coupling_iterations", "rounds of film and contact", "", Belongs::Any),
+    (ContactSolves, "contact_solves", "contact problems solved", "", Belongs::Any),
 ];
 
 impl Quantity {
@@ -110,7 +110,7 @@ impl Quantity {
             Scenario::Motor(_) => Belongs::Motor,
             Scenario::Plate(_) => Belongs::Plate,
         };
-        TABLE.iter().filter(move |row| row.3 == Belongs::Any || row.3 == belongs).map(|row| row.0)
+        TABLE.iter().filter(move |row| row.4 == Belongs::Any || row.4 == belongs).map(|row| row.0)
     }
 
     /// The name in JSON and CSV, with its unit: `film_load_n`.
@@ -118,9 +118,19 @@ impl Quantity {
         TABLE[self as usize].1
     }
 
-    /// For an axis: what it is, with its unit in brackets.
-    pub fn label(self) -> &'static str {
+    /// What it is, in words.
+    pub fn words(self) -> &'static str {
         TABLE[self as usize].2
+    }
+
+    /// Its unit; empty for a pure number. Forces of a strip are per metre of width.
+    pub fn unit(self) -> &'static str {
+        TABLE[self as usize].3
+    }
+
+    /// For the head of a table: what it is, with its unit after a comma.
+    pub fn label(self) -> String {
+        if self.unit().is_empty() { self.words().to_owned() } else { format!("{}, {}", self.words(), self.unit()) }
     }
 
     /// Whether it counts something: whole numbers.

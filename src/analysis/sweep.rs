@@ -72,20 +72,6 @@ pub struct Axis {
     pub scale: Scale,
 }
 
-impl Axis {
-    /// For a plot: `min spacing [nm]`.
-    pub fn label(&self) -> String {
-        let Parameter { key, unit, .. } = self.parameter;
-        let leaf = key.split_once('.').map_or(*key, |(_, leaf)| leaf);
-        let stem = UNITS.iter().find_map(|ending| leaf.strip_suffix(ending)).filter(|_| !unit.is_empty());
-        let words = stem.unwrap_or(leaf).replace('_', " ");
-        if unit.is_empty() { words } else { format!("{words} [{unit}]") }
-    }
-}
-
-/// Units as they end a key, the longer before what they end in.
-const UNITS: [&str; 11] = ["_m2_per_n", "_um_per_n", "_upa_s", "_khz", "_kpa", "_rpm", "_mm", "_um", "_nm", "_m", "_n"];
-
 /// What cannot be swept. Found before anything is solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SweepError {
@@ -520,13 +506,6 @@ mod tests {
         assert_eq!(chunks.iter().cloned().flatten().collect::<Vec<_>>(), (0..18).collect::<Vec<_>>());
         assert!(chunks.iter().all(|chunk| chunk.start / 6 == (chunk.end - 1) / 6));
         assert_eq!((sweep.values(0), sweep.values(7)), (&[1.0, 100.0][..], &[2.0, 110.0][..]));
-    }
-
-    #[test]
-    fn labels_have_units() {
-        let sweep = sweep("fundamental", &["rotor.local_compliance_m2_per_n=0:1e-9:3", "motor.waves=1:3:3"]).unwrap();
-        let labels: Vec<String> = sweep.axes().iter().map(Axis::label).collect();
-        assert_eq!(labels, ["local compliance [m²/N]", "waves"]);
     }
 
     #[test]

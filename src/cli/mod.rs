@@ -2,6 +2,7 @@
 
 mod columns;
 mod exit;
+mod figures;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;

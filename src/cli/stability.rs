@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
+use super::figures::stage_figure;
 use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
@@ -11,7 +12,7 @@ use super::terminal;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
 use crate::export::folder::Staged;
 use crate::export::json;
-use crate::export::stability::{Object, detail, write_csv};
+use crate::export::stability::{Object, detail, figure, write_csv};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
 use crate::solve::Method;
@@ -101,6 +102,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             // What was cancelled does not pass for a map.
             let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
             staged.add(name, |out| write_csv(&cells, out))?;
+            if complete {
+                stage_figure(&mut staged, "stability", &figure(&scene.name, settings.fidelity, &cells))?;
+            }
             terminal::note(&written(folder, &staged.commit()?));
         }
         _ => {}

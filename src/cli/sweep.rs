@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
+use super::figures::stage_figure;
 use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
@@ -13,7 +14,7 @@ use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
 use crate::export::digits::{significant, with_error};
 use crate::export::folder::{Staged, WriteError};
 use crate::export::json;
-use crate::export::sweep::{Object, ReadError, read_csv, write_csv};
+use crate::export::sweep::{Object, ReadError, figure, read_csv, write_csv};
 use crate::fidelity::Fidelity;
 use crate::solve::Method;
 use clap::Args;
@@ -33,6 +34,7 @@ const FILES: &str = "\
 Files of --out:
   sweep.csv   a row for each point: its keys, its status and its numbers
   sweep.json  what --json prints
+  sweep.svg   curves, or a map with contours; and sweep.png
   scene.toml  the scene that is varied: a preset again
 A sweep that is cancelled (Ctrl-C), or killed, leaves sweep.incomplete.csv
 instead; the same command goes on from there, to the same result.";
@@ -166,6 +168,7 @@ impl<'a> Folder<'a> {
         let mut staged = Staged::new(self.path)?;
         staged.add("sweep.csv", |out| write_csv(self.sweep, rows, out))?;
         staged.add("sweep.json", |out| out.write_all(json::text(object).as_bytes()))?;
+        stage_figure(&mut staged, "sweep", &figure(self.sweep, rows))?;
         staged.add("scene.toml", |out| out.write_all(self.sweep.scene().to_toml().as_bytes()))?;
         let paths = staged.commit()?;
         let path = self.path.join(INCOMPLETE);
@@ -205,8 +208,11 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
     text.push('\n');
     let shown: Vec<Quantity> = SHOWN.into_iter().filter(|shown| sweep.quantities().contains(shown)).collect();
     let mut columns = Columns::new();
-    let head = keys.iter().copied().chain(shown.iter().map(|quantity| quantity.label())).chain([""]);
-    columns.row(head);
+    let labels = |quantities: &[Quantity]| {
+        let keys = keys.iter().map(ToString::to_string);
+        keys.chain(quantities.iter().map(|quantity| quantity.label())).chain([String::new()]).collect::<Vec<_>>()
+    };
+    columns.row(labels(&shown));
     for row in rows {
         let mut cells: Vec<String> = row.values.iter().map(f64::to_string).collect();
         cells.extend(shown.iter().map(|quantity| number(row, *quantity)));
@@ -223,7 +229,7 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
     if !published.is_empty() {
         text.push_str("\nPublished there (Table I):\n\n");
         let mut columns = Columns::new();
-        columns.row(keys.iter().copied().chain([Quantity::Alpha.label(), Quantity::FilmLoad.label(), ""]));
+        columns.row(labels(&[Quantity::Alpha, Quantity::FilmLoad]));
         for point in &published {
             let mut cells: Vec<String> = point.values.iter().map(f64::to_string).collect();
             cells.extend([format!("{:.3}", point.alpha), format!("{:.3}", point.film_load), point.row.clone()]);

@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
+use super::figures::stage_figure;
 use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions};
 use super::progress::Bar;
@@ -13,7 +14,7 @@ use crate::analysis::tradeoff::{Effort, Point, Tradeoff, Wish, candidates, measu
 use crate::export::digits::significant;
 use crate::export::folder::Staged;
 use crate::export::json;
-use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, settings, status, write_csv};
+use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
 use crate::problem::Problem;
 use clap::Args;
 use std::time::Instant;
@@ -120,6 +121,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let mut staged = Staged::new(folder)?;
         staged.add("tradeoff.csv", |out| write_csv(&tradeoff, out))?;
         staged.add("tradeoff.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+        let chosen: Vec<usize> = wishes.iter().filter_map(|wish| tradeoff.choose(*wish)).collect();
+        stage_figure(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
         terminal::note(&written(folder, &staged.commit()?));
     }
     // A wish that nothing fulfils is a failure for whoever asked.
@@ -175,7 +178,7 @@ fn text(name: &str, tradeoff: &Tradeoff) -> String {
         "time",
         "quartiles",
         "runs",
-        judged,
+        &judged,
         "error",
         "measured",
         "stated",

@@ -1,8 +1,10 @@
-//! Maps of where a method solves, as JSON and as CSV, with the same names.
+//! Maps of where a method solves, as JSON and as CSV, with the same names, and as a figure.
 
 use crate::analysis::quantity::Quantity;
-use crate::analysis::stability::{Cell, Verdict};
+use crate::analysis::stability::{Cell, Edge, VERDICTS, Verdict};
+use crate::export::figure::{Axis, Categories, Colour, Figure, Legend, Panel, Provenance, Width};
 use crate::fidelity::Fidelity;
+use crate::scene::{Parameter, Scale};
 use crate::solve::Method;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -128,4 +130,82 @@ pub fn write_csv(cells: &[Cell], out: &mut dyn Write) -> io::Result<()> {
         writer.serialize(CellObject::new(cell))?;
     }
     writer.flush()
+}
+
+/// Colours of the verdicts.
+const COLOURS: [Colour; VERDICTS.len()] = [
+    Colour(0x56, 0xb4, 0xe9),
+    Colour(0xe6, 0x9f, 0x00),
+    Colour(0xd5, 0x5e, 0x00),
+    Colour::BLACK,
+    Colour(0xbb, 0xbb, 0xbb),
+];
+
+/// The maps below each other, each method's beside the other's.
+pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
+    let mut methods: Vec<Method> = cells.iter().map(|cell| cell.method).collect();
+    methods.dedup();
+    let columns = if methods.iter().any(|method| *method != methods[0]) { 2 } else { 1 };
+    let provenance = Provenance {
+        preset: preset.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        fidelity: fidelity.name().to_owned(),
+        ..Provenance::default()
+    };
+    let width = if columns == 2 { Width::Page } else { Width::Column };
+    let mut figure = Figure { provenance, columns, width, ..Figure::default() };
+    // Cells come map by map and method by method.
+    for of_one in cells.chunk_by(|a, b| a.map.name == b.map.name && a.method == b.method) {
+        let first = &of_one[0];
+        let axes = [0, 1].map(|axis| {
+            places(first.map.axes[axis], of_one.iter().map(|cell| (cell.place[axis], cell.changes[axis].1)))
+        });
+        let [(x_axis, x), (y_axis, y)] = axes;
+        let mut values = vec![usize::MAX; x.len() * y.len()];
+        for cell in of_one {
+            values[cell.place[0] * y.len() + cell.place[1]] = cell.verdict.number();
+        }
+        let kinds = VERDICTS.iter().map(|name| (*name).to_owned()).zip(COLOURS).collect();
+        let method = match first.method {
+            Method::Auto => "ours",
+            Method::Paper => "the paper's method",
+        };
+        let title = format!("{}, {method}", first.map.name.replace('-', " and "));
+        let mut panel = Panel::new(title, x_axis, y_axis).height(38.0).layer(Categories { x, y, values, kinds });
+        panel.legend = if figure.panels.is_empty() { Legend::Above } else { Legend::None };
+        figure.panels.push(panel);
+    }
+    figure
+}
+
+/// An axis, and where its values are drawn. On a logarithmic axis zero has a place of its own, below the others.
+fn places(edge: Edge, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<f64>) {
+    let mut found: Vec<(usize, f64)> = values.collect();
+    found.sort_by_key(|(place, _)| *place);
+    found.dedup();
+    let mut values: Vec<f64> = found.into_iter().map(|(_, value)| value).collect();
+    let mut axis = match Parameter::find(edge.key) {
+        Some(parameter) => Axis::new(parameter.words(), parameter.unit),
+        None => Axis::new(edge.key, ""),
+    };
+    if edge.scale == Scale::Log {
+        axis = axis.log();
+        if let [zero, first, second, ..] = values[..]
+            && zero <= 0.0
+        {
+            let stand_in = first * first / second;
+            axis.names.push((stand_in, "0".to_owned()));
+            // Decades from the first of the others, which keep their values.
+            let decades = (0..=values.len()).map(|decade| first * 10f64.powi(decade as i32));
+            let last = values.iter().copied().fold(first, f64::max) * (1.0 + 1e-9);
+            axis.names.extend(decades.take_while(|at| *at <= last).map(|at| (at, short(at))));
+            values[0] = stand_in;
+        }
+    }
+    (axis, values)
+}
+
+/// Without what rounding left.
+fn short(value: f64) -> String {
+    format!("{value:.9e}").parse::<f64>().unwrap_or(value).to_string()
 }

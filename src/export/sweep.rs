@@ -1,11 +1,15 @@
-//! A sweep as JSON and as CSV, with the same names; and the CSV of one that was cancelled read back, to go on with it.
+//! A sweep as JSON and as CSV, with the same names, and as a figure; and the CSV of one that was cancelled read back, to go on with it.
 //!
 //! Numbers are written with the fewest digits that read back to the same bits, so that a sweep that was cancelled and
 //! gone on with is the same, byte by byte, as one that was not.
 
 use crate::analysis::quantity::{Numbers, Quantity};
-use crate::analysis::sweep::{Ending, Row, Sweep};
+use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep};
 use crate::analysis::table1::Published;
+use crate::export::figure::{
+    Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Shading, Shape,
+    Style,
+};
 use crate::scene::Scale;
 use crate::solve::Method;
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -255,6 +259,144 @@ impl<'a> Object<'a> {
     }
 }
 
+/// The sweep as a figure. Over one key: its first quantity with the error as a band, and a second one below. Over two: a
+/// map with lines of equal value. With the published points of Table I, and crosses where it did not converge.
+pub fn figure(sweep: &Sweep, rows: &[Row]) -> Figure {
+    let settings = sweep.settings();
+    let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
+    let missing = sweep.len() - rows.iter().filter(|row| row.ending == Ending::Converged).count();
+    let provenance = Provenance {
+        preset: sweep.scene().name.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        fidelity: match settings.method {
+            Method::Auto => settings.fidelity.name().to_owned(),
+            Method::Paper => "paper mesh".to_owned(),
+        },
+        error: format!("errors up to {worst:.1e}"),
+        note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
+    };
+    let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
+    match sweep.axes() {
+        [x, y] => figure.panels.push(map_panel(sweep, rows, x, y)),
+        [x, ..] => {
+            figure.panels.push(curve_panel(sweep, rows, x, primary(sweep)));
+            let below = if sweep.quantities().contains(&Quantity::MaxTorque) {
+                Quantity::MaxTorque
+            } else {
+                Quantity::MaxPressure
+            };
+            let mut lower = curve_panel(sweep, rows, x, below).height(30.0);
+            lower.legend = Legend::None;
+            figure.panels.push(lower);
+        }
+        [] => {}
+    }
+    figure
+}
+
+/// What a sweep is about: α of a motor, the load ratio of a plate.
+fn primary(sweep: &Sweep) -> Quantity {
+    if sweep.quantities().contains(&Quantity::Alpha) { Quantity::Alpha } else { Quantity::LoadRatio }
+}
+
+fn figure_axis(axis: &SweepAxis) -> Axis {
+    let drawn = Axis::new(axis.parameter.words(), axis.parameter.unit);
+    if axis.scale == Scale::Log { drawn.log() } else { drawn }
+}
+
+/// Up to this many points each has its marker.
+const FEW: usize = 40;
+
+fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -> Panel {
+    // In ascending order, with a gap where there is no value.
+    let mut rows: Vec<&Row> = rows.iter().collect();
+    rows.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
+    let sound = |row: &&&Row| row.ending == Ending::Converged;
+    let value = |row: &Row| match row.ending {
+        Ending::Converged => row.numbers.get(quantity).unwrap_or(f64::NAN),
+        _ => f64::NAN,
+    };
+    let colour = Colour::FILM;
+    let mut panel = Panel::new("", figure_axis(x), Axis::new(quantity.words(), quantity.unit()).including([0.0]));
+    if let Some(error) = quantity.error() {
+        let band = rows.iter().map(|row| {
+            let (value, error) = (value(row), row.numbers.get(error).unwrap_or(f64::NAN));
+            [row.values[0], value - error, value + error]
+        });
+        panel = panel.layer(Band::new("stated error", band, colour));
+    }
+    let curve: Vec<[f64; 2]> = rows.iter().map(|row| [row.values[0], value(row)]).collect();
+    panel = panel.layer(Line::new("computed", curve.clone(), Style::solid(colour)));
+    if rows.len() <= FEW {
+        let dot = Marker { size: 2.5, ..Marker::solid(Shape::Circle) };
+        panel = panel.layer(Points::new("", curve, colour, dot));
+    }
+    let unsound: Vec<[f64; 2]> = rows
+        .iter()
+        .filter(|row| !sound(row))
+        .filter_map(|row| Some([row.values[0], row.numbers.get(quantity)?]))
+        .collect();
+    if !unsound.is_empty() {
+        panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
+    }
+    let published: Vec<[f64; 2]> =
+        within(sweep).filter(|_| quantity == Quantity::Alpha).map(|point| [point.values[0], point.alpha]).collect();
+    if !published.is_empty() {
+        let marker = Marker::hollow(Shape::Square);
+        panel = panel.layer(Points::new("published (Table I)", published, Colour::BLACK, marker));
+    }
+    panel
+}
+
+/// Published points inside the range that is swept.
+fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
+    let inside = |point: &Published| {
+        sweep.axes().iter().zip(&point.values).all(|(axis, value)| {
+            let (least, most) = axis
+                .values
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(*value), most.max(*value)));
+            (least..=most).contains(value)
+        })
+    };
+    sweep.published().into_iter().filter(inside).collect::<Vec<_>>().into_iter()
+}
+
+fn map_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, y: &SweepAxis) -> Panel {
+    let ascending = |values: &[f64]| {
+        let mut values = values.to_vec();
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let quantity = primary(sweep);
+    let (xs, ys) = (ascending(&x.values), ascending(&y.values));
+    let mut values = vec![f64::NAN; xs.len() * ys.len()];
+    let mut unsound = Vec::new();
+    for row in rows {
+        let place = |axis: &[f64], value: f64| axis.iter().position(|at| *at == value);
+        let at = place(&xs, row.values[0]).zip(place(&ys, row.values[1]));
+        if let (Some((i, j)), Some(value)) = (at, row.numbers.get(quantity)) {
+            values[i * ys.len() + j] = value;
+        }
+        if row.ending != Ending::Converged {
+            unsound.push([row.values[0], row.values[1]]);
+        }
+    }
+    let grid = Grid { x: xs, y: ys, values };
+    let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0);
+    let map = Map { label: quantity.words().to_owned(), grid: grid.clone(), shading: Shading::Cells, ..Map::default() };
+    panel = panel.layer(map).layer(Contours { grid, labels: true, ..Contours::default() });
+    if !unsound.is_empty() {
+        panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
+    }
+    let published: Vec<[f64; 2]> = within(sweep).map(|point| [point.values[0], point.values[1]]).collect();
+    if !published.is_empty() {
+        let marker = Marker::hollow(Shape::Square);
+        panel = panel.layer(Points::new("rows of Table I", published, Colour::BLACK, marker));
+    }
+    panel
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -282,6 +424,32 @@ mod tests {
         let text = String::from_utf8(text).unwrap();
         assert_eq!(read_csv(&sweep, &text).unwrap(), rows(&sweep));
         assert!(text.starts_with("sweep,point,stator.frequency_khz,status,alpha,alpha_error,film_load_n,"), "{text}");
+    }
+
+    #[test]
+    fn figures_have_a_curve_or_a_map_and_the_published_points() {
+        use crate::export::figure::Layer;
+        let line = sweep("stator.frequency_khz=3:50:3:log");
+        let drawn = figure(&line, &rows(&line));
+        let points = |panel: &Panel| {
+            let points = |layer: &Layer| if let Layer::Points(points) = layer { Some(points.clone()) } else { None };
+            panel.layers.iter().filter_map(points).collect::<Vec<_>>()
+        };
+        assert_eq!(drawn.panels.len(), 2);
+        let [_, unsound, published] = &points(&drawn.panels[0])[..] else { panic!("{drawn:?}") };
+        assert_eq!((unsound.points.len(), published.points.len()), (2, 5));
+        assert!(drawn.provenance.note.contains("2 of 3 points not solved"), "{drawn:?}");
+
+        let vary = ["film.min_spacing_nm=200:100:3".parse().unwrap(), "stator.frequency_khz=3:50:2".parse().unwrap()];
+        let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
+        let mut numbers = Numbers::default();
+        numbers.set(Quantity::Alpha, 0.5);
+        let row = Row { point: 1, values: plane.values(1).to_vec(), ending: Ending::Converged, numbers };
+        let drawn = figure(&plane, &[row]);
+        let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
+        assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));
+        let known: Vec<usize> = (0..6).filter(|i| map.grid.values[*i].is_finite()).collect();
+        assert_eq!(known, [5]);
     }
 
     #[test]

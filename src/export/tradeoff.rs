@@ -1,9 +1,12 @@
-//! Error against time as JSON and as CSV, with the same names.
+//! Error against time as JSON and as CSV, with the same names, and as a figure.
 
 use super::sweep::status as sweep_status;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::Ending;
 use crate::analysis::tradeoff::{Ended, Family, Point, Tradeoff};
+use crate::export::figure::{
+    Anchor, Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text,
+};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -147,4 +150,51 @@ pub fn write_csv(tradeoff: &Tradeoff, out: &mut dyn Write) -> io::Result<()> {
         writer.serialize(setting)?;
     }
     writer.flush()
+}
+
+/// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
+/// names at the fidelities and the paper's meshes, and rings round the settings in `chosen`.
+pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
+    let place = |point: &Point| Some([point.median, 100.0 * point.error?]);
+    let of = |family: Family| {
+        let points = tradeoff.points.iter().filter(move |point| point.run.candidate.family == family);
+        points.filter_map(place).collect::<Vec<_>>()
+    };
+    let label = format!("error of {}", if tradeoff.judged == Quantity::Alpha { "α" } else { "the film load" });
+    // Room for points and names at the ends.
+    let times = || tradeoff.points.iter().map(|point| point.median).filter(|time| time.is_finite());
+    let room = [times().fold(f64::INFINITY, f64::min) / 1.5, times().fold(0.0, f64::max) * 3.0];
+    let time = Axis::new("solve time", "s").log().including(room.into_iter().filter(|end| *end > 0.0));
+    let mut panel = Panel::new("", time, Axis::new(label, "%").log()).height(60.0);
+    let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|point| point.best).filter_map(place).collect();
+    front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    panel = panel.layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)));
+    for (family, name, colour, shape) in [
+        (Family::Fidelity, "fidelities", Colour::FILM, Shape::Circle),
+        (Family::Grid, "other grids", Colour::CYCLE[2], Shape::Triangle),
+        (Family::Paper, "the paper's method", Colour::CONTACT, Shape::Square),
+    ] {
+        panel = panel.layer(Points::new(name, of(family), colour, Marker::solid(shape)));
+    }
+    let rings: Vec<[f64; 2]> = chosen.iter().filter_map(|i| tradeoff.points.get(*i)).filter_map(place).collect();
+    if !rings.is_empty() {
+        let ring = Marker { size: 9.0, ..Marker::hollow(Shape::Circle) };
+        // Under the points, so that they stay to be seen.
+        panel.layers.insert(1, Points::new("chosen", rings, Colour::BLACK, ring).into());
+    }
+    for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
+        if let Some([time, error]) = place(point) {
+            // A little above its point.
+            let text = Text::new([time, 1.45 * error], point.run.candidate.name.clone());
+            panel = panel.layer(Text { anchor: Anchor::Middle, ..text });
+        }
+    }
+    let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();
+    let provenance = Provenance {
+        preset: preset.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        note: format!("medians of {runs} runs"),
+        ..Provenance::default()
+    };
+    Figure { provenance, ..Figure::default() }.panel(panel)
 }
