@@ -184,8 +184,10 @@ pub enum Fault {
     Balance(f64),
 }
 
-/// Numbers need not agree any better than this.
+/// Lengths and forces need not agree any better than this.
 const ROUND_OFF: f64 = 1e-9;
+/// What a share of the load may be off by beside its stated error: no film has an effect as small as this.
+const SHARE: f64 = 1e-6;
 /// Share of the load that film and contact may miss at an instant, beside the stated error.
 const BALANCE: f64 = 1e-3;
 
@@ -207,7 +209,7 @@ pub fn faults(motor: &Motor, solution: &Solution) -> Vec<Fault> {
         }
     }
     let (alpha, error) = (result.alpha, result.alpha_error);
-    if alpha < -error - ROUND_OFF || alpha > 1.0 + error + ROUND_OFF {
+    if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
         faults.push(Fault::Share { alpha, error });
     }
     let recording = &solution.recording;
@@ -288,7 +290,9 @@ impl Cell {
 /// its own of 200 cycles, which where its rounds do not settle takes minutes.
 const PAPER_CYCLES: usize = 60;
 const PAPER_WORK: usize = 51 * 11 * 180 * PAPER_CYCLES;
-const FEWEST_CYCLES: usize = 5;
+const FEWEST_CYCLES: usize = 30;
+/// Where a cycle still changes by more than this after so many, the rounds do not settle, and none will.
+const ASTRAY: (usize, f64) = (12, 0.1);
 
 /// Solves `count` × `count` cells of each map by each method, several at a time on rayon's pool. In the order of maps,
 /// methods, y and x; if it is cancelled, without the cells that were not reached. `finished` is told of each as it ends, from
@@ -364,7 +368,8 @@ fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cance
     let cycles = most_cycles(&problem);
     let stop = Cancel::new();
     let mut watch = |progress: &Progress| {
-        let over = cell.method == Method::Paper && progress.iteration >= cycles;
+        let astray = progress.iteration >= ASTRAY.0 && progress.residual > ASTRAY.1;
+        let over = cell.method == Method::Paper && (astray || progress.iteration >= cycles);
         if over || cancel.is_cancelled() {
             stop.cancel();
         }

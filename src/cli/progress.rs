@@ -1,10 +1,11 @@
 //! Progress on standard error, only if that is a terminal.
 
+use super::summary::duration;
 use crate::control::{Observer, Progress};
 use crate::export::digits::significant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Parts of the bar.
 const PARTS: u64 = 1000;
@@ -17,6 +18,8 @@ pub(super) struct Bar {
     bar: ProgressBar,
     unit: &'static str,
     last: Option<Progress>,
+    started: Instant,
+    before: u64,
 }
 
 impl Bar {
@@ -32,21 +35,35 @@ impl Bar {
 
     /// For a number of points, of which some are done; with the time left.
     pub(super) fn points(points: usize, done: usize) -> Self {
-        let bar = Self::new(points as u64, "{spinner} {bar:20} {pos}/{len}, {eta} left  {wide_msg}", "");
-        bar.bar.set_position(done as u64);
-        bar.bar.reset_eta();
+        let mut bar = Self::new(points as u64, "{spinner} {bar:20} {pos}/{len}  {wide_msg}", "");
+        bar.before = done as u64;
+        bar.bar.set_position(bar.before);
         bar
+    }
+
+    /// One more point is done.
+    pub(super) fn point_done(&self, point: &str) {
+        self.bar.inc(1);
+        let (now, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
+        let share = now.saturating_sub(self.before) as f64 / all.saturating_sub(self.before).max(1) as f64;
+        self.bar.set_message(format!("{}{point}", self.left(share)));
     }
 
     /// For work of which a share is done; with the time left.
     pub(super) fn share() -> Self {
-        Self::new(PARTS, "{spinner} {bar:20} {eta} left  {wide_msg}", "")
+        Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", "")
     }
 
     /// This much is done, 0 to 1.
     pub(super) fn share_done(&self, share: f64, what: &str) {
         self.bar.set_position((PARTS as f64 * share) as u64);
-        self.bar.set_message(what.to_owned());
+        self.bar.set_message(format!("{}{what}", self.left(share)));
+    }
+
+    /// `2.10 min left, `, as if the rest went as what is done.
+    fn left(&self, share: f64) -> String {
+        let left = self.started.elapsed().as_secs_f64() * (1.0 - share) / share;
+        if left.is_finite() { format!("{} left, ", duration(left)) } else { String::new() }
     }
 
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
@@ -60,7 +77,7 @@ impl Bar {
         } else {
             ProgressBar::hidden()
         };
-        Self { bar, unit, last: None }
+        Self { bar, unit, last: None, started: Instant::now(), before: 0 }
     }
 
     /// One more row is done.

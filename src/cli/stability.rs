@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let bar = Bar::points(total, 0);
     let started = Instant::now();
     let solved = survey(&scene, &maps, &methods, count, &settings, &cancel, &|cell| {
-        bar.row_done(&format!("{}, method {}", cell.map.name, cell.method.name()));
+        bar.point_done(&format!("{}, method {}", cell.map.name, cell.method.name()));
     });
     let wall_s = started.elapsed().as_secs_f64();
     drop(bar);

@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let started = Instant::now();
     let saved = Mutex::new((done.clone(), Instant::now()));
     let rows = sweep.run(&done, &cancel, &|row| {
-        bar.row_done(&place(&sweep, row));
+        bar.point_done(&place(&sweep, row));
         let Some(folder) = &folder else { return };
         let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
         saved.0.push(row.clone());

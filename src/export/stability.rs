@@ -172,7 +172,7 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
         };
         let title = format!("{}, {method}", first.map.name.replace('-', " and "));
         let mut panel = Panel::new(title, x_axis, y_axis).height(38.0).layer(Categories { x, y, values, kinds });
-        panel.legend = if figure.panels.is_empty() { Legend::Above } else { Legend::None };
+        panel.legend = Legend::Above;
         figure.panels.push(panel);
     }
     figure
