@@ -1,5 +1,7 @@
 //! Exit status, and what ends a command early.
 
+use crate::export::animation::AnimationError;
+use crate::export::figure::FigureError;
 use crate::export::folder::WriteError;
 use crate::scene::SceneError;
 use crate::solution::Status;
@@ -56,6 +58,12 @@ pub(super) enum CliError {
     /// A file or folder of `--out`.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A figure of `--out`.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// An animation.
+    #[error(transparent)]
+    Animation(#[from] AnimationError),
     /// `--threads`.
     #[error("--threads {threads}: the threads cannot be started: {reason}")]
     Threads {
@@ -79,10 +87,19 @@ impl CliError {
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::Scene(_) | Self::Usage(_) | Self::Solve(SolveError::PaperPlate) => Exit::BadInput,
+            Self::Scene(_)
+            | Self::Usage(_)
+            | Self::Solve(SolveError::PaperPlate)
+            | Self::Figure(FigureError::Extension { .. })
+            | Self::Animation(AnimationError::Extension { .. }) => Exit::BadInput,
             #[cfg(feature = "gui")]
             Self::Window(_) => Exit::Other,
-            Self::Solve(_) | Self::Write(_) | Self::Threads { .. } | Self::Output(_) => Exit::Other,
+            Self::Solve(_)
+            | Self::Write(_)
+            | Self::Figure(_)
+            | Self::Animation(_)
+            | Self::Threads { .. }
+            | Self::Output(_) => Exit::Other,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The command line: one file per command. Data goes to standard output, everything else to standard error.
 
+mod animate;
 mod columns;
 mod exit;
 #[cfg(feature = "gui")]
@@ -38,6 +39,7 @@ enum Command {
     Gui(gui::Arguments),
     Solve(solve::Arguments),
     Table1(table1::Arguments),
+    Animate(animate::Arguments),
     Presets(presets::Arguments),
 }
 
@@ -46,6 +48,7 @@ Examples:
   squeezefilm solve fundamental
   squeezefilm solve fundamental --set film.min_spacing_nm=100 --fidelity fine --json
   squeezefilm solve levitating --out results
+  squeezefilm animate fundamental --out wave.gif
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
 
 Exit status:
@@ -76,6 +79,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         None => Ok(exit::Exit::Solved),
         Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),
+        Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };
     match ended {

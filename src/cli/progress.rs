@@ -16,7 +16,7 @@ const REDRAW: Duration = Duration::from_millis(100);
 pub(super) struct Bar {
     bar: ProgressBar,
     unit: &'static str,
-    last: Option<Progress>,
+    history: Vec<Progress>,
 }
 
 impl Bar {
@@ -30,6 +30,11 @@ impl Bar {
         Self::new(rows as u64, "{spinner} {bar:20} {pos}/{len} rows  {wide_msg}", "")
     }
 
+    /// For a number of pictures.
+    pub(super) fn frames(frames: usize) -> Self {
+        Self::new(frames as u64, "{spinner} {bar:20} {pos}/{len} frames, {eta} left", "")
+    }
+
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
         let bar = if stderr().is_terminal() {
             let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
@@ -41,7 +46,7 @@ impl Bar {
         } else {
             ProgressBar::hidden()
         };
-        Self { bar, unit, last: None }
+        Self { bar, unit, history: Vec::new() }
     }
 
     /// One more row is done.
@@ -50,9 +55,14 @@ impl Bar {
         self.bar.inc(1);
     }
 
+    /// The rounds so far.
+    pub(super) fn history(&self) -> &[Progress] {
+        &self.history
+    }
+
     /// How far the solve came.
     pub(super) fn reached(&self) -> String {
-        match &self.last {
+        match self.history.last() {
             None => "before the first round was complete".to_owned(),
             Some(last) => format!("after {}", describe(last, self.unit)),
         }
@@ -67,7 +77,7 @@ impl Drop for Bar {
 
 impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) {
-        self.last = Some(*progress);
+        self.history.push(*progress);
         if !self.bar.is_hidden() {
             self.bar.set_position((PARTS as f64 * fraction(progress)) as u64);
             self.bar.set_message(describe(progress, self.unit));
