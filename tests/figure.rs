@@ -141,7 +141,7 @@ fn decoded(bytes: &[u8]) -> (png::OutputInfo, Vec<u8>, Vec<(String, String)>) {
 }
 
 fn a_map() -> Figure {
-    let nodes = [0.0, 0.1, 0.4, 1.0];
+    let nodes = [0.0, 0.125, 0.5, 1.0];
     let values: Vec<f64> = nodes.iter().flat_map(|x| nodes.map(|y| 100.0 * (x + y))).collect();
     let grid = Grid { x: nodes.to_vec(), y: nodes.to_vec(), values };
     let map = Map { label: "pressure".into(), unit: "kPa".into(), grid: grid.clone(), ..Map::default() };
@@ -268,7 +268,10 @@ fn awkward_data_is_drawn_or_left_out_and_never_a_panic() {
             for log in [false, true] {
                 let figure = with_all_layers(x, y, log);
                 let svg = figure::to_svg(&figure);
-                assert!(!svg.contains("NaN") && !svg.contains("inf "), "{x:?} {y:?} {log}");
+                // Pixels are spelt in letters, and may spell anything.
+                let mut drawn = svg.lines().filter(|line| !line.starts_with("<image"));
+                let odd = drawn.find(|line| ["NaN", ">inf<", "\"inf"].iter().any(|word| line.contains(word)));
+                assert_eq!(odd, None, "{x:?} {y:?} {log}");
                 Document::parse(&svg).unwrap();
                 if (i + j) % 5 == 0 {
                     figure::to_png(&figure, 0.5).unwrap();

@@ -66,8 +66,8 @@ pub enum FigureError {
     /// The drawing is not understood by the program that turns it into pixels or a page.
     #[error("the figure cannot be drawn: {0}")]
     Draw(String),
-    /// It would have too many pixels.
-    #[error("a figure of {width:.0} × {height:.0} pixels is too large: at most {MOST} along a side")]
+    /// It would have too many pixels, or none.
+    #[error("a figure of {width:.0} × {height:.0} pixels cannot be drawn: 1 to {MOST} along a side")]
     Size {
         /// Pixels across.
         width: f64,
@@ -136,8 +136,8 @@ pub(in crate::export) struct Pixels {
 /// The figure in pixels, `scale` of them to the point.
 pub(in crate::export) fn pixels(figure: &Figure, scale: f64) -> Result<Pixels, FigureError> {
     let drawing = Drawing::new(figure);
-    let [width, height] = drawing.size.map(|length| (length * scale).round().max(1.0));
-    if !(width <= MOST && height <= MOST) {
+    let [width, height] = drawing.size.map(|length| (length * scale).round());
+    if !((1.0..=MOST).contains(&width) && (1.0..=MOST).contains(&height)) {
         return Err(FigureError::Size { width, height });
     }
     let failed = || FigureError::Size { width, height };
