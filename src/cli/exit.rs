@@ -1,6 +1,8 @@
 //! Exit status, and what ends a command early.
 
 use crate::analysis::sweep::SweepError;
+use crate::export::animation::AnimationError;
+use crate::export::figure::FigureError;
 use crate::export::folder::WriteError;
 use crate::export::sweep::ReadError;
 use crate::scene::SceneError;
@@ -70,6 +72,12 @@ pub(super) enum CliError {
     /// A file or folder of `--out`.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A figure of `--out`.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// An animation.
+    #[error(transparent)]
+    Animation(#[from] AnimationError),
     /// `--threads`.
     #[error("--threads {threads}: the threads cannot be started: {reason}")]
     Threads {
@@ -97,10 +105,17 @@ impl CliError {
             | Self::Sweep(_)
             | Self::Resume { .. }
             | Self::Usage(_)
-            | Self::Solve(SolveError::PaperPlate) => Exit::BadInput,
+            | Self::Solve(SolveError::PaperPlate)
+            | Self::Figure(FigureError::Extension { .. })
+            | Self::Animation(AnimationError::Extension { .. }) => Exit::BadInput,
             #[cfg(feature = "gui")]
             Self::Window(_) => Exit::Other,
-            Self::Solve(_) | Self::Write(_) | Self::Threads { .. } | Self::Output(_) => Exit::Other,
+            Self::Solve(_)
+            | Self::Write(_)
+            | Self::Figure(_)
+            | Self::Animation(_)
+            | Self::Threads { .. }
+            | Self::Output(_) => Exit::Other,
         }
     }
 }

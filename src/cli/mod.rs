@@ -1,5 +1,6 @@
 //! The command line: one file per command. Data goes to standard output, everything else to standard error.
 
+mod animate;
 mod columns;
 mod exit;
 mod figures;
@@ -45,6 +46,7 @@ enum Command {
     Table1(table1::Arguments),
     Tradeoff(tradeoff::Arguments),
     Stability(stability::Arguments),
+    Animate(animate::Arguments),
     Presets(presets::Arguments),
 }
 
@@ -54,6 +56,7 @@ Examples:
   squeezefilm solve fundamental --set film.min_spacing_nm=100 --fidelity fine --json
   squeezefilm solve levitating --out results
   squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
+  squeezefilm animate fundamental --out wave.gif
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
 
 Exit status:
@@ -87,6 +90,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Table1(arguments)) => table1::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
         Some(Command::Stability(arguments)) => stability::run(&arguments, &command_line(words)),
+        Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };
     match ended {

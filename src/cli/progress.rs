@@ -17,7 +17,7 @@ const REDRAW: Duration = Duration::from_millis(100);
 pub(super) struct Bar {
     bar: ProgressBar,
     unit: &'static str,
-    last: Option<Progress>,
+    history: Vec<Progress>,
     started: Instant,
     before: u64,
 }
@@ -66,6 +66,11 @@ impl Bar {
         if left.is_finite() { format!("{} left, ", duration(left)) } else { String::new() }
     }
 
+    /// For a number of pictures.
+    pub(super) fn frames(frames: usize) -> Self {
+        Self::new(frames as u64, "{spinner} {bar:20} {pos}/{len} frames, {eta} left", "")
+    }
+
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
         let bar = if stderr().is_terminal() {
             let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
@@ -77,7 +82,7 @@ impl Bar {
         } else {
             ProgressBar::hidden()
         };
-        Self { bar, unit, last: None, started: Instant::now(), before: 0 }
+        Self { bar, unit, history: Vec::new(), started: Instant::now(), before: 0 }
     }
 
     /// One more row is done.
@@ -86,9 +91,14 @@ impl Bar {
         self.bar.inc(1);
     }
 
+    /// The rounds so far.
+    pub(super) fn history(&self) -> &[Progress] {
+        &self.history
+    }
+
     /// How far the solve came.
     pub(super) fn reached(&self) -> String {
-        match &self.last {
+        match self.history.last() {
             None => "before the first round was complete".to_owned(),
             Some(last) => format!("after {}", describe(last, self.unit)),
         }
@@ -103,7 +113,7 @@ impl Drop for Bar {
 
 impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) {
-        self.last = Some(*progress);
+        self.history.push(*progress);
         if !self.bar.is_hidden() {
             self.bar.set_position((PARTS as f64 * fraction(progress)) as u64);
             self.bar.set_message(describe(progress, self.unit));

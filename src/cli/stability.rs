@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::stage_figure;
+use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
@@ -54,6 +54,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
 }
 
 fn map() -> ValueParser {
@@ -103,7 +106,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
             staged.add(name, |out| write_csv(&cells, out))?;
             if complete {
-                stage_figure(&mut staged, "stability", &figure(&scene.name, settings.fidelity, &cells))?;
+                arguments.figures.stage(&mut staged, "stability", &figure(&scene.name, settings.fidelity, &cells))?;
             }
             terminal::note(&written(folder, &staged.commit()?));
         }

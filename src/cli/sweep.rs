@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::stage_figure;
+use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
@@ -69,6 +69,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
@@ -124,7 +127,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::data(&if arguments.output.json { json::text(&object) } else { human })?;
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::note(&written(folder.path, &folder.save(&rows, &object)?));
+        terminal::note(&written(folder.path, &folder.save(&rows, &object, &arguments.figures)?));
     }
     Ok(exit(&rows))
 }
@@ -164,11 +167,11 @@ impl<'a> Folder<'a> {
         Ok(self.path.join(INCOMPLETE))
     }
 
-    fn save(&self, rows: &[Row], object: &Object<'_>) -> Result<Vec<PathBuf>, WriteError> {
+    fn save(&self, rows: &[Row], object: &Object<'_>, figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
         let mut staged = Staged::new(self.path)?;
         staged.add("sweep.csv", |out| write_csv(self.sweep, rows, out))?;
         staged.add("sweep.json", |out| out.write_all(json::text(object).as_bytes()))?;
-        stage_figure(&mut staged, "sweep", &figure(self.sweep, rows))?;
+        figures.stage(&mut staged, "sweep", &figure(self.sweep, rows))?;
         staged.add("scene.toml", |out| out.write_all(self.sweep.scene().to_toml().as_bytes()))?;
         let paths = staged.commit()?;
         let path = self.path.join(INCOMPLETE);

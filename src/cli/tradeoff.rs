@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::stage_figure;
+use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions};
 use super::progress::Bar;
@@ -54,6 +54,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
 }
 
 fn accuracy(text: &str) -> Result<f64, String> {
@@ -122,7 +125,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add("tradeoff.csv", |out| write_csv(&tradeoff, out))?;
         staged.add("tradeoff.json", |out| out.write_all(json::text(&object).as_bytes()))?;
         let chosen: Vec<usize> = wishes.iter().filter_map(|wish| tradeoff.choose(*wish)).collect();
-        stage_figure(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
+        arguments.figures.stage(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
         terminal::note(&written(folder, &staged.commit()?));
     }
     // A wish that nothing fulfils is a failure for whoever asked.

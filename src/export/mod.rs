@@ -1,8 +1,11 @@
-//! Results out of the program: the objects of `--json`, the tables and figures of `--out`, and how files get into a folder.
+//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, and how files get into
+//! a folder.
 
+pub mod animation;
 pub mod csv;
 pub mod digits;
 pub mod figure;
+pub mod figures;
 pub mod folder;
 pub mod json;
 pub mod stability;

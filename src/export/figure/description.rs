@@ -63,6 +63,11 @@ impl Width {
             Self::Millimetres(_) => 85.0,
         }
     }
+
+    /// In points, of which an inch has 72.
+    pub fn points(self) -> f64 {
+        self.millimetres() * 72.0 / 25.4
+    }
 }
 
 /// Where the numbers of a figure come from. What is empty is left out.
@@ -192,6 +197,8 @@ pub struct Axis {
     pub scale: Scale,
     /// What it covers.
     pub range: Range,
+    /// Only whole numbers are labelled: rounds, teeth.
+    pub whole: bool,
     /// Names at places instead of numbers; empty for numbers.
     pub names: Vec<(f64, String)>,
 }
@@ -206,6 +213,13 @@ impl Axis {
     #[must_use]
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
+        self
+    }
+
+    /// Only whole numbers are labelled.
+    #[must_use]
+    pub fn whole(mut self) -> Self {
+        self.whole = true;
         self
     }
 
@@ -270,6 +284,9 @@ pub enum Layer {
     Text(Text),
 }
 
+/// A line with at most this many points has a marker on each.
+pub(super) const MARKED: usize = 24;
+
 /// A curve. Points that are not finite, or not positive on a logarithmic axis, interrupt it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -288,6 +305,11 @@ impl Line {
     /// A curve read on the left axis.
     pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>, style: Style) -> Self {
         Self { name: name.into(), points: points.into_iter().collect(), style, right: false }
+    }
+
+    /// Whether every point has a marker.
+    pub(super) fn is_marked(&self) -> bool {
+        self.style.marker.is_some() && self.points.len() <= MARKED
     }
 }
 

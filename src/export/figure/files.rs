@@ -66,8 +66,8 @@ pub enum FigureError {
     /// The drawing is not understood by the program that turns it into pixels or a page.
     #[error("the figure cannot be drawn: {0}")]
     Draw(String),
-    /// It would have too many pixels.
-    #[error("a figure of {width:.0} × {height:.0} pixels is too large: at most {MOST} along a side")]
+    /// It would have too many pixels, or none.
+    #[error("a figure of {width:.0} × {height:.0} pixels cannot be drawn: 1 to {MOST} along a side")]
     Size {
         /// Pixels across.
         width: f64,
@@ -90,7 +90,7 @@ pub fn to_svg(figure: &Figure) -> String {
 /// [`FigureError::Size`], [`FigureError::Draw`].
 pub fn to_png(figure: &Figure, scale: f64) -> Result<Vec<u8>, FigureError> {
     let pixels = pixels(figure, scale)?;
-    png(&pixels, Some(scale), &facts(figure)).map_err(|error| FigureError::Draw(error.to_string()))
+    png_bytes(&pixels, Some(scale), &facts(figure)).map_err(|error| FigureError::Draw(error.to_string()))
 }
 
 /// The figure as a PDF of one page, its text as text.
@@ -126,18 +126,18 @@ pub fn write(figure: &Figure, path: &Path) -> Result<(), FigureError> {
 }
 
 /// A figure in pixels.
-pub(crate) struct Pixels {
-    pub(crate) width: u32,
-    pub(crate) height: u32,
+pub(in crate::export) struct Pixels {
+    pub(in crate::export) width: u32,
+    pub(in crate::export) height: u32,
     /// Red, green, blue, row by row from the top.
-    pub(crate) rgb: Vec<u8>,
+    pub(in crate::export) rgb: Vec<u8>,
 }
 
 /// The figure in pixels, `scale` of them to the point.
-pub(crate) fn pixels(figure: &Figure, scale: f64) -> Result<Pixels, FigureError> {
+pub(in crate::export) fn pixels(figure: &Figure, scale: f64) -> Result<Pixels, FigureError> {
     let drawing = Drawing::new(figure);
-    let [width, height] = drawing.size.map(|length| (length * scale).round().max(1.0));
-    if !(width <= MOST && height <= MOST) {
+    let [width, height] = drawing.size.map(|length| (length * scale).round());
+    if !((1.0..=MOST).contains(&width) && (1.0..=MOST).contains(&height)) {
         return Err(FigureError::Size { width, height });
     }
     let failed = || FigureError::Size { width, height };
@@ -184,7 +184,11 @@ fn facts(figure: &Figure) -> Vec<(&'static str, String)> {
 }
 
 /// Pixels as a PNG, with facts in it; `scale` pixels to the point.
-fn png(pixels: &Pixels, scale: Option<f64>, facts: &[(&str, String)]) -> Result<Vec<u8>, png::EncodingError> {
+pub(in crate::export) fn png_bytes(
+    pixels: &Pixels,
+    scale: Option<f64>,
+    facts: &[(&str, String)],
+) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixels.width, pixels.height);
     encoder.set_color(png::ColorType::Rgb);
@@ -258,7 +262,7 @@ impl Drawing {
 fn image(svg: &mut String, picture: &Picture) {
     let [width, height] = picture.size.map(|count| u32::try_from(count).unwrap_or(u32::MAX));
     let pixels = Pixels { width, height, rgb: picture.rgb.clone() };
-    let Ok(bytes) = png(&pixels, None, &[]) else { return };
+    let Ok(bytes) = png_bytes(&pixels, None, &[]) else { return };
     let Rect { x, y, width, height } = picture.rect;
     let [x, y, width, height] = [x, y, width, height].map(coordinate);
     let _ = writeln!(

@@ -93,7 +93,7 @@ pub(super) fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
 
 impl Layout {
     pub(super) fn new(figure: &Figure) -> Self {
-        let width = figure.width.millimetres() * MM;
+        let width = figure.width.points();
         let count = figure.panels.len();
         let columns = figure.columns.clamp(1, count.max(1));
         let ranges = ranges(figure, columns);
@@ -153,7 +153,9 @@ fn ranges(figure: &Figure, columns: usize) -> Vec<Ranges> {
                 x_values(other, panel.x.scale, &mut values);
             }
         }
-        let margin = !(fills(panel) || panel.layers.iter().any(|layer| matches!(layer, Layer::Line(_))));
+        // Curves run from end to end; markers stand clear of the axes.
+        let curve = |layer: &Layer| matches!(layer, Layer::Line(line) if !line.is_marked());
+        let margin = !(fills(panel) || panel.layers.iter().any(curve));
         Scaled::new(&panel.x.range, panel.x.scale, values.into_iter(), margin)
     };
     let y = |panel: &Panel, axis: &Axis, right: bool| {
@@ -222,7 +224,7 @@ pub(super) fn map_range(map: &Map) -> Scaled {
 
 fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
     if axis.names.is_empty() {
-        return Ticks::new(range, most);
+        return Ticks::new(range, most, axis.whole);
     }
     let named = axis.names.iter().filter(|(at, _)| range.holds(*at));
     let ticks = named.map(|(at, name)| super::scale::Tick { at: *at, label: Some(name.clone()) }).collect();
@@ -231,7 +233,7 @@ fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
 
 /// Ticks of an upright axis: as many as its height has room for.
 fn upright_ticks(axis: &Axis, range: &Scaled, height: f64) -> Ticks {
-    ticks(axis, range, ((height / (2.4 * TICK)) as usize).clamp(2, 7))
+    ticks(axis, range, ((height / (2.0 * TICK)) as usize).clamp(2, 7))
 }
 
 /// Ticks of a level axis whose labels do not touch.
@@ -277,7 +279,8 @@ impl Placed {
         let bar = first_map(panel).map(|map| {
             let range = map_range(map);
             let upright = height >= LOW;
-            let ticks = Ticks::new(&range, if upright { ((height / (2.4 * TICK)) as usize).clamp(2, 7) } else { 4 });
+            let most = if upright { ((height / (2.0 * TICK)) as usize).clamp(2, 7) } else { 4 };
+            let ticks = Ticks::new(&range, most, false);
             let label = axis_label(&map.label, &map.unit, ticks.power);
             Bar { rect: Rect::default(), upright, range, ticks, label }
         });
@@ -321,12 +324,17 @@ impl Placed {
 
     /// What stands above the plotting area: title, legend, colour bar.
     fn above(&self, panel: &Panel) -> f64 {
-        let lines = legend::rows(self, panel);
-        let text = lines as f64 * LEADING * NOTE + if lines > 0 { 2.5 } else { 0.0 };
+        let text = legend::height(self, panel);
         let bar = if self.bar.as_ref().is_some_and(|bar| !bar.upright) { BAR_ABOVE } else { 0.0 };
         let title = if self.title_line(panel) { HEAD * LEADING + 2.0 } else { 0.0 };
-        // A title and a colour bar share their line.
-        text + if bar > 0.0 { bar.max(title) } else { title }.max(0.5 * TICK)
+        // A title and a colour bar share their line if there is room for both.
+        let stacked = text::width(&panel.title, HEAD) + 8.0 + self.bar_above() > self.rect.width;
+        text + if bar == 0.0 || stacked { bar + title } else { bar.max(title) }.max(0.5 * TICK)
+    }
+
+    /// Width of a colour bar above the axes, its label included.
+    fn bar_above(&self) -> f64 {
+        self.bar.as_ref().map_or(0.0, |bar| level_bar(&self.rect) + 5.0 + text::width(&bar.label, NOTE))
     }
 
     /// Whether there is a line for the title.
@@ -347,7 +355,7 @@ impl Placed {
     fn lower(&mut self, panel: &Panel, row: f64, top: f64) {
         self.rect.y = top;
         let rect = self.rect;
-        let above = self.above(panel);
+        let legend = legend::height(self, panel);
         if self.title_line(panel) {
             self.title = Some([rect.x, row + HEAD]);
         }
@@ -356,11 +364,16 @@ impl Placed {
             bar.rect = if bar.upright {
                 Rect { x: rect.right() + BAR_GAP, y: rect.y, width: BAR, height: rect.height }
             } else {
-                let width = (0.42 * rect.width).clamp(0.0, 150.0);
-                Rect { x: rect.right() - width, y: top - above + 1.0, width, height: 4.5 }
+                let width = level_bar(&rect);
+                Rect { x: rect.right() - width, y: top - BAR_ABOVE - legend + 1.0, width, height: 4.5 }
             };
         }
     }
+}
+
+/// Width of a colour bar above the axes.
+fn level_bar(rect: &Rect) -> f64 {
+    (0.42 * rect.width).clamp(0.0, 150.0)
 }
 
 /// Gives every panel its left edge and width: plotting areas of a column have the same.

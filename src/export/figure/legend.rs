@@ -86,14 +86,15 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     if width + 2.0 * INSET > area.width || width * height > MOST * area.width * area.height || height > area.height {
         return;
     }
-    let drawn = drawn(placed, panel, &area);
+    let drawn = drawn(placed, panel, &area, true);
     let (left, right) = (INSET, area.width - INSET - width);
     let (top, bottom) = (INSET, area.height - INSET - height);
-    let corners = [[right, top], [left, top], [right, bottom], [left, bottom], [0.5 * (left + right), top]];
-    let free = corners.into_iter().map(|[x, y]| Rect { x, y, width, height }).find(|rect| {
-        let wide = Rect { x: rect.x - 2.0, y: rect.y - 2.0, width: width + 4.0, height: height + 4.0 };
-        !drawn.iter().any(|point| wide.holds(*point))
-    });
+    // Corners first, then along the sides, then anywhere.
+    let heights = [top, bottom, 0.5 * (top + bottom), 0.25 * bottom + 0.75 * top, 0.75 * bottom + 0.25 * top];
+    let places = [right, left, 0.5 * (left + right)].into_iter().flat_map(|x| heights.map(|y| [x, y]));
+    let mut places: Vec<[f64; 2]> = places.collect();
+    places.sort_by_key(|[_, y]| *y != top && *y != bottom);
+    let free = places.into_iter().map(|[x, y]| Rect { x, y, width, height }).find(|rect| is_free(rect, &drawn));
     if let Some(rect) = free {
         placed.legend_box = Some(rect);
         placed.legend = entries
@@ -104,10 +105,20 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     }
 }
 
-/// Points all along what is drawn, close together, relative to the plotting area.
-fn drawn(placed: &Placed, panel: &Panel, area: &Rect) -> Vec<[f64; 2]> {
+/// Whether none of the points is in or near a rectangle.
+pub(super) fn is_free(rect: &Rect, points: &[[f64; 2]]) -> bool {
+    let near = 2.0;
+    let wide =
+        Rect { x: rect.x - near, y: rect.y - near, width: rect.width + 2.0 * near, height: rect.height + 2.0 * near };
+    !points.iter().any(|point| wide.holds(*point))
+}
+
+/// Points all along what is drawn, close together, in `area`; marks on request.
+pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
-    let at = |y: &Scaled, p: [f64; 2]| [placed.x.fraction(p[0]) * area.width, (1.0 - y.fraction(p[1])) * area.height];
+    let at = |y: &Scaled, p: [f64; 2]| {
+        [area.x + placed.x.fraction(p[0]) * area.width, area.bottom() - y.fraction(p[1]) * area.height]
+    };
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
         for part in super::geometry::clipped_line(line, area) {
             for pair in part.windows(2) {
@@ -144,7 +155,7 @@ fn drawn(placed: &Placed, panel: &Panel, area: &Rect) -> Vec<[f64; 2]> {
                 let width = text::width(&words.text, NOTE);
                 path(&mut [[x, y], [x + width, y]].into_iter());
             }
-            Layer::Mark(mark) => {
+            Layer::Mark(mark) if marks => {
                 let [from, to] = super::panel::mark_ends(placed, mark, area);
                 path(&mut [from, to].into_iter());
             }
@@ -173,12 +184,13 @@ fn in_rows(entries: Vec<Entry>, width: f64) -> Vec<Vec<(Entry, f64)>> {
     rows
 }
 
-/// Rows that a legend above the axes takes.
-pub(super) fn rows(placed: &Placed, panel: &Panel) -> usize {
+/// Height that a legend above the axes takes.
+pub(super) fn height(placed: &Placed, panel: &Panel) -> f64 {
     if placed.legend_box.is_some() || panel.legend == Legend::None {
-        return 0;
+        return 0.0;
     }
-    in_rows(entries(panel), placed.rect.width).len()
+    let rows = in_rows(entries(panel), placed.rect.width).len();
+    rows as f64 * LEADING * NOTE + if rows > 0 { 2.5 } else { 0.0 }
 }
 
 /// Places the legend now that the plotting area has its place.

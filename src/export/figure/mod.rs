@@ -21,7 +21,7 @@
 //! | description | `description`, `colour` |
 //! | values to places, ticks | `scale` |
 //! | plotting areas that line up, legends | `layout`, `legend` |
-//! | lines, areas, contours, cut to the axes | `geometry` |
+//! | lines, areas, contours, cut to the axes | `geometry`, `isoline` |
 //! | fields as pictures | `plane` |
 //! | one panel as SVG | `panel`, `svg`, `text` |
 //! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `files` |
@@ -35,6 +35,7 @@ mod colour;
 mod description;
 mod files;
 mod geometry;
+mod isoline;
 mod layout;
 mod legend;
 mod panel;
@@ -49,6 +50,8 @@ pub use description::{
     Panel, Points, Provenance, Range, Scale, Shading, Shape, Style, Text, Width,
 };
 pub use files::{FigureError, Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
+
+pub(super) use files::{Pixels, pixels, png_bytes};
 
 use layout::{FOOT, Layout, TITLE};
 use svg::{Picture, Svg, Type};

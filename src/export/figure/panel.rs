@@ -2,9 +2,10 @@
 
 use super::colour::{Colour, Colours};
 use super::description::{
-    Anchor, Band, Contours, Direction, Grid, Layer, Line, Map, Mark, Panel, Points, Scale, Style,
+    Anchor, Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Panel, Points, Scale, Style,
 };
 use super::geometry::{clipped_area, clipped_line, contour};
+use super::isoline::{self, Isoline};
 use super::layout::{
     BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, TICK, axis_label, fills, first_map, map_range,
 };
@@ -16,8 +17,6 @@ use super::text;
 
 /// Width of axes and ticks \[pt\].
 const THIN: f64 = 0.6;
-/// A line with at most this many points has a marker on each.
-const MARKED: usize = 24;
 /// Markers on a line with more.
 const MARKERS: usize = 7;
 /// From the baseline to half the height of a digit, of the size.
@@ -181,21 +180,38 @@ impl On<'_> {
         }
         svg.open(&named("mark", &mark.label));
         svg.polyline(&[from, to], &pen(&mark.style));
-        let style = Type { colour: mark.style.colour, ..Type::new(NOTE, "start") };
-        let width = text::width(&mark.label, NOTE);
-        match mark.direction {
-            // Beside the upper end, on the side with room.
-            Direction::Vertical if from[0] + width + 3.0 > rect.right() => {
-                svg.text([from[0] - 2.5, rect.y + NOTE], &mark.label, &Type { anchor: "end", ..style });
-            }
-            Direction::Vertical => svg.text([from[0] + 2.5, rect.y + NOTE], &mark.label, &style),
-            // Above the right end, or below it at the top.
-            Direction::Horizontal => {
-                let y = if from[1] - NOTE < rect.y { from[1] + NOTE } else { from[1] - 2.0 };
-                svg.text([rect.right() - 2.0, y], &mark.label, &Type { anchor: "end", ..style });
-            }
+        if !mark.label.trim().is_empty() {
+            let words = self.place_of_words(mark, from);
+            let style = Type { colour: mark.style.colour, ..Type::new(NOTE, "start") };
+            svg.text([words.x, words.y + 0.8 * NOTE], &mark.label, &style);
         }
         svg.close();
+    }
+
+    /// Where a mark's words stand: along it, on the first side and end where nothing else is drawn.
+    fn place_of_words(&self, mark: &Mark, from: [f64; 2]) -> Rect {
+        let area = &self.placed.rect;
+        let (width, height) = (text::width(&mark.label, NOTE), NOTE);
+        let legend = self.placed.legend_box.into_iter();
+        let place = |x: f64, y: f64| Rect { x, y, width, height };
+        let places: Vec<Rect> = match mark.direction {
+            Direction::Vertical => {
+                let sides = [from[0] + 2.5, from[0] - 2.5 - width];
+                let heights = [area.y + 1.0, area.bottom() - height - 3.0, area.y + 0.5 * area.height];
+                heights.into_iter().flat_map(|y| sides.map(|x| place(x, y))).collect()
+            }
+            Direction::Horizontal => {
+                let ends = [area.right() - width - 2.0, area.x + 4.0, area.x + 0.5 * (area.width - width)];
+                let sides = [from[1] - height - 2.2, from[1] + 2.6];
+                ends.into_iter().flat_map(|x| sides.map(|y| place(x, y))).collect()
+            }
+        };
+        let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
+        let drawn = super::legend::drawn(self.placed, self.panel, area, false);
+        let corners = legend.flat_map(|r| [[r.x, r.y], [r.right(), r.y], [r.x, r.bottom()], [r.right(), r.bottom()]]);
+        let taken: Vec<[f64; 2]> = drawn.into_iter().chain(corners).collect();
+        let found = places.iter().filter(inside).find(|rect| super::legend::is_free(rect, &taken));
+        found.or_else(|| places.iter().find(inside)).or(places.first()).copied().unwrap_or_default()
     }
 
     fn text(&self, svg: &mut Svg, words: &super::description::Text) {
@@ -221,17 +237,22 @@ impl On<'_> {
         let px: Vec<f64> = x.iter().map(|x| self.px(*x)).collect();
         let py: Vec<f64> = y.iter().map(|y| self.py(*y, false)).collect();
         svg.open(r#"class="contours""#);
-        let mut taken: Vec<[f64; 2]> = Vec::new();
+        let map = first_map(self.panel);
+        let mut lines = Vec::new();
         for level in levels {
-            let colour = contours.colour.unwrap_or_else(|| contrast(first_map(self.panel), level));
-            let pen = Pen { colour, width: 0.7, dash: contours.dash };
+            let pen = Pen {
+                colour: contours.colour.unwrap_or_else(|| contrast(map, level)),
+                width: 0.7,
+                dash: contours.dash,
+            };
             let label = if contours.labels { short(level, step) } else { String::new() };
             for line in contour(&px, &py, values, level) {
                 for part in clipped_line(line.into_iter(), &self.placed.rect) {
-                    labelled(svg, &part, &label, &pen, &mut taken);
+                    lines.push(Isoline::new(part, &label, pen));
                 }
             }
         }
+        isoline::draw(svg, &lines);
         svg.close();
     }
 
@@ -408,7 +429,7 @@ fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
     let values = finite(&contours.grid.values);
     let scale = map.map_or(Scale::Linear, |map| map.scale);
     let range = Scaled::new(&super::description::Range::Auto, scale, values.into_iter(), false);
-    let ticks = Ticks::new(&range, 10).ticks;
+    let ticks = Ticks::new(&range, 10, false).ticks;
     let labelled = ticks.into_iter().filter(|tick| tick.label.is_some()).map(|tick| tick.at).collect();
     (labelled, round_step(range.to - range.from, 10).0)
 }
@@ -417,64 +438,6 @@ fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
 fn contrast(map: Option<&Map>, value: f64) -> Colour {
     let under = map.and_then(|map| Colours::of(map.colours, value, &map_range(map)));
     if under.is_some_and(|colour| colour.lightness() < 0.55) { Colour::WHITE } else { Colour::BLACK }
-}
-
-/// Draws a contour with its value written into a gap where it is straight, if there is room and no other value near.
-fn labelled(svg: &mut Svg, line: &[[f64; 2]], label: &str, pen: &Pen, taken: &mut Vec<[f64; 2]>) {
-    let size = 7.0;
-    let need = text::width(label, size) + 4.0;
-    let Some((from, to)) = (!label.is_empty()).then(|| straightest(line, need, taken)).flatten() else {
-        svg.polyline(line, pen);
-        return;
-    };
-    let (a, b) = (line[from], line[to]);
-    svg.polyline(&line[..=from], pen);
-    svg.polyline(&line[to..], pen);
-    let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-    taken.push(middle);
-    let mut angle = (b[1] - a[1]).atan2(b[0] - a[0]);
-    if angle.cos() < 0.0 {
-        angle += std::f64::consts::PI;
-    }
-    let (sin, cos) = angle.sin_cos();
-    let drop = HALF_HEIGHT * size;
-    let at = [middle[0] - drop * sin, middle[1] + drop * cos];
-    svg.text(at, label, &Type { colour: pen.colour, angle: angle.to_degrees(), ..Type::new(size, "middle") });
-}
-
-/// The stretch of a line, `need` long, that is straightest, away from the line's ends and from what is `taken`.
-fn straightest(line: &[[f64; 2]], need: f64, taken: &[[f64; 2]]) -> Option<(usize, usize)> {
-    let far = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-    let total: f64 = line.windows(2).map(|w| far(w[0], w[1])).sum();
-    if total < 3.0 * need {
-        return None;
-    }
-    let mut best: Option<(f64, usize, usize)> = None;
-    let (mut to, mut length, mut walked) = (0, 0.0, 0.0);
-    for from in 0..line.len() {
-        while to + 1 < line.len() && length < need {
-            length += far(line[to], line[to + 1]);
-            to += 1;
-        }
-        if length < need {
-            break;
-        }
-        let chord = far(line[from], line[to]);
-        let middle = [0.5 * (line[from][0] + line[to][0]), 0.5 * (line[from][1] + line[to][1])];
-        let clear = taken.iter().all(|other| far(*other, middle) > 1.2 * need);
-        let centred = ((walked + 0.5 * need) / total - 0.5).abs();
-        let score = (length - chord) / need + 0.15 * centred;
-        let inside = walked > 0.1 * total && walked + length < 0.9 * total;
-        if clear && inside && chord > 0.8 * need && best.is_none_or(|(known, ..)| score < known) {
-            best = Some((score, from, to));
-        }
-        if from + 1 < line.len() {
-            let step = far(line[from], line[from + 1]);
-            length -= step;
-            walked += step;
-        }
-    }
-    best.map(|(_, from, to)| (from, to))
 }
 
 #[cfg(test)]

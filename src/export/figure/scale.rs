@@ -46,8 +46,9 @@ impl Scaled {
         if !margin || low >= high {
             return range;
         }
-        // What was asked to be included may be an end: there the axis stops, as at zero.
-        let room = |end: f64, outwards: f64| if end == extra.0 || end == extra.1 { 0.0 } else { outwards * MARGIN };
+        // Where zero was asked for and is an end, the axis stops.
+        let stops = |end: f64| end == 0.0 && (extra.0 == 0.0 || extra.1 == 0.0);
+        let room = |end: f64, outwards: f64| if stops(end) { 0.0 } else { outwards * MARGIN };
         let (from, to) = (range.value(-room(low, 1.0)), range.value(1.0 + room(high, 1.0)));
         if from.is_finite() && to.is_finite() && (scale == Scale::Linear || from > 0.0) {
             Self { from, to, scale }
@@ -113,11 +114,14 @@ pub(super) struct Ticks {
 }
 
 impl Ticks {
-    /// About `most` labelled ticks, never many more.
-    pub(super) fn new(range: &Scaled, most: usize) -> Self {
+    /// About `most` labelled ticks, never many more, but at least two. `whole`: only at whole numbers.
+    pub(super) fn new(range: &Scaled, most: usize, whole: bool) -> Self {
         let most = most.max(2);
         match range.scale {
-            Scale::Linear => linear(range, most),
+            Scale::Linear => (most..most + 6)
+                .map(|most| linear(range, most, whole))
+                .find(|ticks| ticks.ticks.iter().filter(|tick| tick.label.is_some()).count() > 1)
+                .unwrap_or_else(|| linear(range, most, whole)),
             Scale::Log => logarithmic(range, most),
         }
     }
@@ -137,9 +141,12 @@ pub(super) fn round_step(span: f64, most: usize) -> (f64, usize) {
     (10.0 * size, 5)
 }
 
-fn linear(range: &Scaled, most: usize) -> Ticks {
+fn linear(range: &Scaled, most: usize, whole: bool) -> Ticks {
     let span = range.to - range.from;
-    let (step, minor) = round_step(span, most);
+    let (step, minor) = match round_step(span, most) {
+        (step, _) if whole && step <= 1.0 => (1.0, 1),
+        found => found,
+    };
     if !(step.is_finite() && step > 0.0) {
         return Ticks::default();
     }
@@ -155,11 +162,16 @@ fn linear(range: &Scaled, most: usize) -> Ticks {
             let number = first + i as f64;
             let at = number * small;
             let major = (number / minor as f64).round() * minor as f64 == number;
-            Tick { at, label: major.then(|| fixed(at / 10f64.powi(power), places)) }
+            Tick { at, label: major.then(|| fixed(without(at, power), places)) }
         })
         .filter(|tick| range.holds(tick.at))
         .collect();
     Ticks { ticks, power }
+}
+
+/// The value without a power of ten, which alone may be too large or too small for a number.
+fn without(value: f64, power: i32) -> f64 {
+    value / 10f64.powi(power / 2) / 10f64.powi(power - power / 2)
 }
 
 /// A power of a thousand below `size`.
@@ -184,7 +196,7 @@ fn logarithmic(range: &Scaled, most: usize) -> Ticks {
     // Too short for a decade's labels: values as on a linear axis.
     if decades < 0.5 {
         let plain = Scaled { scale: Scale::Linear, ..*range };
-        return linear(&plain, most.min(4));
+        return Ticks::new(&plain, most.min(4), false);
     }
     let every = ((decades / most_f).ceil() as i32).max(1);
     // Between decades there is room for 2 and 5 only on a short axis.
@@ -193,6 +205,10 @@ fn logarithmic(range: &Scaled, most: usize) -> Ticks {
     let mut ticks = Vec::new();
     for exponent in first..=last {
         let major = exponent.rem_euclid(every) == 0;
+        // So many decades that a tick for each would be a bar.
+        if !major && decades > 40.0 {
+            continue;
+        }
         let digits: &[i32] = if every == 1 { &[1, 2, 3, 4, 5, 6, 7, 8, 9] } else { &[1] };
         for digit in digits {
             // The literal's value, not a product's.
@@ -228,7 +244,7 @@ pub(super) fn short(value: f64, step: f64) -> String {
     }
     if !(1e-3..1e5).contains(&size) {
         let exponent = size.log10().floor() as i32;
-        let mantissa = format!("{:.2}", value / 10f64.powi(exponent));
+        let mantissa = format!("{:.2}", without(value, exponent));
         let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.').replace('-', "−");
         return if mantissa == "1" { power(exponent) } else { format!("{mantissa}×{}", power(exponent)) };
     }
@@ -241,7 +257,7 @@ mod tests {
     use super::*;
 
     fn labels(from: f64, to: f64, scale: Scale, most: usize) -> (Vec<String>, i32) {
-        let ticks = Ticks::new(&Scaled { from, to, scale }, most);
+        let ticks = Ticks::new(&Scaled { from, to, scale }, most, false);
         (ticks.ticks.into_iter().filter_map(|tick| tick.label).collect(), ticks.power)
     }
 
@@ -261,7 +277,7 @@ mod tests {
         assert_eq!(labels(3e3, 1e5, Scale::Log, 5).0, ["5×10^{3}", "10^{4}", "2×10^{4}", "5×10^{4}", "10^{5}"]);
         assert_eq!(labels(1e3, 1e9, Scale::Log, 3).0, ["10^{4}", "10^{6}", "10^{8}"]);
         assert_eq!(labels(1.0, 1.5, Scale::Log, 5).0, ["1.0", "1.2", "1.4"]);
-        let ticks = Ticks::new(&Scaled { from: 1.0, to: 100.0, scale: Scale::Log }, 4).ticks;
+        let ticks = Ticks::new(&Scaled { from: 1.0, to: 100.0, scale: Scale::Log }, 4, false).ticks;
         let minor: Vec<f64> = ticks.iter().filter(|tick| tick.label.is_none()).map(|tick| tick.at).collect();
         assert_eq!(minor.len(), 16);
         assert!(minor.contains(&30.0) && !minor.contains(&10.0));
@@ -276,10 +292,10 @@ mod tests {
                     for range in [Range::Auto, Range::Fixed(from, to), Range::Including(vec![0.0])] {
                         let scaled = Scaled::new(&range, scale, [from, f64::NAN, to].into_iter(), true);
                         assert!(scaled.to > scaled.from, "{from} {to} {scaled:?}");
-                        let ticks = Ticks::new(&scaled, 5);
+                        let ticks = Ticks::new(&scaled, 5, false);
                         let labelled = ticks.ticks.iter().filter(|tick| tick.label.is_some()).count();
                         assert!((1..=8).contains(&labelled), "{from} {to} {scaled:?}: {ticks:?}");
-                        assert!(ticks.ticks.len() < 60);
+                        assert!(ticks.ticks.len() < 60, "{scaled:?}: {} ticks, {labelled} labelled", ticks.ticks.len());
                     }
                 }
             }
