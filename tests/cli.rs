@@ -155,6 +155,14 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&["solve", "plate-viscous", "--method", "paper"], 2, &["paper", "motors"]);
     refused(&["table1", "--converged", "--set", "film.min_spacing_nm=3"], 2, &["5 to 10000 nm"]);
     refused(&["table1", "--converged", "--method", "paper"], 2, &["--converged"]);
+    let sweep = |vary: &'static str| ["sweep", "fundamental", "--vary", vary];
+    refused(&sweep("film.min_spacing_nm=3:200:3"), 2, &["film.min_spacing_nm", "= 3", "5 to 10000 nm"]);
+    refused(&sweep("film.min_spacing_nm=100:200"), 2, &["--vary", "key=from:to:count"]);
+    refused(&sweep("film.min_spacing_nm=100:200:1"), 2, &["count = 1", "2 to 10000"]);
+    refused(&sweep("film.slip=0:1:2"), 2, &["film.slip", "only a number"]);
+    refused(&sweep("stator.tooth_width_mm=1:3:5"), 2, &["stator.tooth_width_mm", "= 3", "tooth pitch"]);
+    refused(&["sweep", "fundamental"], 2, &["--vary"]);
+    refused(&["sweep", "plate-viscous", "--vary=plate.length_mm=1:2:2", "--method=paper"], 2, &["paper", "motors"]);
     refused(&["presets", "--set", "film.min_spacing_nm=100"], 2, &["PRESET"]);
 }
 
@@ -212,7 +220,12 @@ fn files_of_a_motor_agree_with_the_summary() {
 
     let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["fields.csv", "pressure.csv", "scene.toml", "series.csv", "summary.json"]);
+    let figures =
+        ["convergence", "loads", "map", "wave"].iter().flat_map(|f| ["png", "svg"].map(|e| format!("{f}.{e}")));
+    let data = ["fields.csv", "pressure.csv", "scene.toml", "series.csv", "summary.json"].map(str::to_owned);
+    let mut expected: Vec<String> = figures.chain(data).collect();
+    expected.sort();
+    assert!(names.iter().eq(expected.iter().map(String::as_str)), "{names:?}");
     let summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap();
     assert_eq!(summary, serde_json::from_slice::<Value>(&output.stdout).unwrap());
     assert_eq!(summary["command"][0], "squeezefilm");
@@ -278,6 +291,48 @@ fn files_of_a_strip_are_per_metre() {
     let loads = fields["film_n_per_m2"].iter().zip(&fields["length_m"]).map(|(load, length)| load * length);
     assert!(close(loads.sum::<f64>() / steps as f64, mean(&series["film_load_n_per_m"])));
     assert!(!fields.contains_key("contact_n_per_m"));
+}
+
+#[test]
+fn figures_are_written_in_the_formats_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    for (formats, expected) in
+        [("none", vec![]), ("pdf", vec!["loads.pdf"]), ("svg,pdf", vec!["loads.pdf", "loads.svg"])]
+    {
+        let out = folder.path().join(formats);
+        let arguments =
+            ["solve", "plate-viscous", "--fidelity", "draft", "--figures", formats, "--out", out.to_str().unwrap()];
+        assert_eq!(run(&arguments).status.code(), Some(0));
+        let names = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.filter(|name| name.starts_with("loads.")).collect();
+        names.sort();
+        assert_eq!(names, expected, "{formats}");
+    }
+    refused(&["solve", "plate-viscous", "--figures", "jpg", "--out", "x"], 2, &["jpg", "svg, png, pdf, none"]);
+    refused(&["solve", "plate-viscous", "--figures", "svg"], 2, &["--out"]);
+}
+
+#[test]
+fn a_cycle_is_animated() {
+    let folder = tempfile::tempdir().unwrap();
+    let animate = |out: &Path| {
+        let arguments = ["animate", "plate-crossover", "--fidelity", "draft", "--width", "200", "--frames", "3"];
+        run(&[&arguments[..], &["--out", out.to_str().unwrap()]].concat())
+    };
+    for (name, begins) in [("a.gif", b"GIF89a".as_slice()), ("a.png", b"\x89PNG")] {
+        let path = folder.path().join(name);
+        let output = animate(&path);
+        assert_eq!((output.status.code(), out(&output)), (Some(0), ""), "{}", err(&output));
+        assert!(err(&output).contains("3 frames"), "{}", err(&output));
+        assert!(fs::read(&path).unwrap().starts_with(begins));
+    }
+    assert_eq!(animate(&folder.path().join("frames")).status.code(), Some(0));
+    assert_eq!(fs::read_dir(folder.path().join("frames")).unwrap().count(), 3);
+    let nowhere = animate(&folder.path().join("no/a.gif"));
+    assert_eq!(nowhere.status.code(), Some(1));
+    assert!(err(&nowhere).contains("a.gif: cannot be written"), "{}", err(&nowhere));
+    refused(&["animate", "plate-crossover", "--out", "a.mp4"], 2, &["a.mp4", ".gif", ".png"]);
+    refused(&["animate", "plate-crossover", "--out", "a.gif", "--seconds", "0"], 2, &["0.2 to 120"]);
 }
 
 #[test]
@@ -378,7 +433,10 @@ fn an_interrupt_ends_a_long_solve_at_once_and_leaves_no_file() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("out");
     let table = ["table1", "--converged", "--fidelity", "reference", "--threads", "1"];
-    for arguments in [&LONG[..], &table] {
+    let sweep = ["sweep", "fundamental", "--vary=motor.load_per_wave_n=1:5:5", "--fidelity=reference", "--threads=1"];
+    let sets: Vec<&str> = LONG[4..].to_vec();
+    let sweep = [&sweep[..], &sets].concat();
+    for arguments in [&LONG[..], &table, &sweep] {
         let child = squeezefilm(arguments)
             .args(["--json", "--out", folder.to_str().unwrap()])
             .stdout(Stdio::piped())

@@ -1,4 +1,12 @@
-//! What is done with solves: published results beside computed ones, and what the numbers mean in words.
+//! What is done with solves: one parameter varied, error against time, where a method fails, published results beside
+//! computed ones, and what the numbers mean in words.
+//!
+//! Plain data out. No file, no terminal; where time is what is measured, the caller hands in the clock.
 
+pub mod attempt;
+pub mod quantity;
 pub mod regime;
+pub mod stability;
+pub mod sweep;
 pub mod table1;
+pub mod tradeoff;

@@ -6,7 +6,7 @@
 use crate::control::Cancel;
 use crate::problem::{Numerics, Problem, Scenario};
 use crate::scene::table1::{PublishedRow, published};
-use crate::scene::{SceneError, presets};
+use crate::scene::{Scene, SceneError, Value, presets};
 use crate::solution::{MotorResult, Outcome, Status};
 use crate::solve::{Method, Settings, SolveError, solve};
 use rayon::prelude::*;
@@ -81,6 +81,42 @@ pub fn rows(
         row
     });
     Ok(solved.collect())
+}
+
+/// Rows whose scene is `scene` but for `keys`, at the values they have there. What the rows say about themselves and their
+/// meshes does not count: a published value stands for the model.
+pub fn published_at(scene: &Scene, keys: &[&str]) -> Vec<Published> {
+    let mut points = Vec::new();
+    for row in published() {
+        let Ok(theirs) = presets::find(&row.preset) else { continue };
+        let values: Option<Vec<f64>> = keys.iter().map(|key| theirs.get(key)?.as_number()).collect();
+        let Some(values) = values else { continue };
+        let mut ours = scene.clone();
+        (ours.name, ours.about, ours.numerics) = (theirs.name.clone(), theirs.about.clone(), theirs.numerics);
+        let set = keys.iter().zip(&values).all(|(key, value)| ours.set_value(key, Value::Number(*value)).is_ok());
+        if set && ours == theirs {
+            points.push(Published {
+                row: row.row,
+                values,
+                film_load: row.published_load_n,
+                alpha: row.published_alpha,
+            });
+        }
+    }
+    points
+}
+
+/// A published value, and where it lies on some keys.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Published {
+    /// Name of the row.
+    pub row: String,
+    /// The value of each key there, in its unit.
+    pub values: Vec<f64>,
+    /// Film load as published \[N\].
+    pub film_load: f64,
+    /// α as published.
+    pub alpha: f64,
 }
 
 fn compute(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<Computed, SolveError> {

@@ -1,10 +1,15 @@
 //! Exit status, and what ends a command early.
 
+use crate::analysis::sweep::SweepError;
+use crate::export::animation::AnimationError;
+use crate::export::figure::FigureError;
 use crate::export::folder::WriteError;
+use crate::export::sweep::ReadError;
 use crate::scene::SceneError;
 use crate::solution::Status;
 use crate::solve::SolveError;
 use std::io;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// How a command ended.
@@ -50,12 +55,29 @@ pub(super) enum CliError {
     /// The solver.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// A sweep that cannot be made.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
+    /// What a cancelled sweep left cannot be gone on with.
+    #[error("{}: cannot be gone on with: {source}; give another folder, or --restart to begin anew", path.display())]
+    Resume {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: ReadError,
+    },
     /// Options that do not go together.
     #[error("{0}")]
     Usage(&'static str),
     /// A file or folder of `--out`.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A figure of `--out`.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// An animation.
+    #[error(transparent)]
+    Animation(#[from] AnimationError),
     /// `--threads`.
     #[error("--threads {threads}: the threads cannot be started: {reason}")]
     Threads {
@@ -79,10 +101,21 @@ impl CliError {
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::Scene(_) | Self::Usage(_) | Self::Solve(SolveError::PaperPlate) => Exit::BadInput,
+            Self::Scene(_)
+            | Self::Sweep(_)
+            | Self::Resume { .. }
+            | Self::Usage(_)
+            | Self::Solve(SolveError::PaperPlate)
+            | Self::Figure(FigureError::Extension { .. })
+            | Self::Animation(AnimationError::Extension { .. }) => Exit::BadInput,
             #[cfg(feature = "gui")]
             Self::Window(_) => Exit::Other,
-            Self::Solve(_) | Self::Write(_) | Self::Threads { .. } | Self::Output(_) => Exit::Other,
+            Self::Solve(_)
+            | Self::Write(_)
+            | Self::Figure(_)
+            | Self::Animation(_)
+            | Self::Threads { .. }
+            | Self::Output(_) => Exit::Other,
         }
     }
 }

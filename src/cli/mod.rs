@@ -1,7 +1,9 @@
 //! The command line: one file per command. Data goes to standard output, everything else to standard error.
 
+mod animate;
 mod columns;
 mod exit;
+mod figures;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;
@@ -9,9 +11,12 @@ mod options;
 mod presets;
 mod progress;
 mod solve;
+mod stability;
 mod summary;
+mod sweep;
 mod table1;
 mod terminal;
+mod tradeoff;
 
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
@@ -37,7 +42,11 @@ enum Command {
     #[cfg(feature = "gui")]
     Gui(gui::Arguments),
     Solve(solve::Arguments),
+    Sweep(sweep::Arguments),
     Table1(table1::Arguments),
+    Tradeoff(tradeoff::Arguments),
+    Stability(stability::Arguments),
+    Animate(animate::Arguments),
     Presets(presets::Arguments),
 }
 
@@ -46,6 +55,8 @@ Examples:
   squeezefilm solve fundamental
   squeezefilm solve fundamental --set film.min_spacing_nm=100 --fidelity fine --json
   squeezefilm solve levitating --out results
+  squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
+  squeezefilm animate fundamental --out wave.gif
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
 
 Exit status:
@@ -75,7 +86,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         #[cfg(not(feature = "gui"))]
         None => Ok(exit::Exit::Solved),
         Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
+        Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),
+        Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
+        Some(Command::Stability(arguments)) => stability::run(&arguments, &command_line(words)),
+        Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };
     match ended {

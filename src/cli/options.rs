@@ -2,6 +2,7 @@
 
 use super::exit::CliError;
 use super::terminal;
+use crate::export::figure::Format;
 use crate::fidelity::Fidelity;
 use crate::scene::{Scene, presets};
 use crate::solve::{Method, Settings};
@@ -78,6 +79,21 @@ pub(super) struct OutputOptions {
     /// Writes files into this folder, made if need be; files of the same name are replaced
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+}
+
+/// A format of figures, or that there are to be none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct FigureFormat(pub(super) Option<Format>);
+
+impl FigureFormat {
+    const NONE: &'static str = "none";
+}
+
+/// Parses a format of figures.
+pub(super) fn figure_format() -> ValueParser {
+    let names = Format::ALL.map(Format::name).into_iter().chain([FigureFormat::NONE]);
+    let format = |name: String| FigureFormat(Format::ALL.into_iter().find(|format| format.name() == name));
+    PossibleValuesParser::new(names).map(format).into()
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {

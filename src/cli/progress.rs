@@ -1,10 +1,11 @@
 //! Progress on standard error, only if that is a terminal.
 
+use super::summary::duration;
 use crate::control::{Observer, Progress};
 use crate::export::digits::significant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Parts of the bar.
 const PARTS: u64 = 1000;
@@ -16,7 +17,9 @@ const REDRAW: Duration = Duration::from_millis(100);
 pub(super) struct Bar {
     bar: ProgressBar,
     unit: &'static str,
-    last: Option<Progress>,
+    history: Vec<Progress>,
+    started: Instant,
+    before: u64,
 }
 
 impl Bar {
@@ -30,6 +33,44 @@ impl Bar {
         Self::new(rows as u64, "{spinner} {bar:20} {pos}/{len} rows  {wide_msg}", "")
     }
 
+    /// For a number of points, of which some are done; with the time left.
+    pub(super) fn points(points: usize, done: usize) -> Self {
+        let mut bar = Self::new(points as u64, "{spinner} {bar:20} {pos}/{len}  {wide_msg}", "");
+        bar.before = done as u64;
+        bar.bar.set_position(bar.before);
+        bar
+    }
+
+    /// One more point is done.
+    pub(super) fn point_done(&self, point: &str) {
+        self.bar.inc(1);
+        let (now, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
+        let share = now.saturating_sub(self.before) as f64 / all.saturating_sub(self.before).max(1) as f64;
+        self.bar.set_message(format!("{}{point}", self.left(share)));
+    }
+
+    /// For work of which a share is done; with the time left.
+    pub(super) fn share() -> Self {
+        Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", "")
+    }
+
+    /// This much is done, 0 to 1.
+    pub(super) fn share_done(&self, share: f64, what: &str) {
+        self.bar.set_position((PARTS as f64 * share) as u64);
+        self.bar.set_message(format!("{}{what}", self.left(share)));
+    }
+
+    /// `2.10 min left, `, as if the rest went as what is done.
+    fn left(&self, share: f64) -> String {
+        let left = self.started.elapsed().as_secs_f64() * (1.0 - share) / share;
+        if left.is_finite() { format!("{} left, ", duration(left)) } else { String::new() }
+    }
+
+    /// For a number of pictures.
+    pub(super) fn frames(frames: usize) -> Self {
+        Self::new(frames as u64, "{spinner} {bar:20} {pos}/{len} frames, {eta} left", "")
+    }
+
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
         let bar = if stderr().is_terminal() {
             let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
@@ -41,7 +82,7 @@ impl Bar {
         } else {
             ProgressBar::hidden()
         };
-        Self { bar, unit, last: None }
+        Self { bar, unit, history: Vec::new(), started: Instant::now(), before: 0 }
     }
 
     /// One more row is done.
@@ -50,9 +91,14 @@ impl Bar {
         self.bar.inc(1);
     }
 
+    /// The rounds so far.
+    pub(super) fn history(&self) -> &[Progress] {
+        &self.history
+    }
+
     /// How far the solve came.
     pub(super) fn reached(&self) -> String {
-        match &self.last {
+        match self.history.last() {
             None => "before the first round was complete".to_owned(),
             Some(last) => format!("after {}", describe(last, self.unit)),
         }
@@ -67,7 +113,7 @@ impl Drop for Bar {
 
 impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) {
-        self.last = Some(*progress);
+        self.history.push(*progress);
         if !self.bar.is_hidden() {
             self.bar.set_position((PARTS as f64 * fraction(progress)) as u64);
             self.bar.set_message(describe(progress, self.unit));

@@ -2,12 +2,14 @@
 
 use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::{FigureFormat, OutputOptions, SceneOptions, SolveOptions, figure_format};
 use super::progress::Bar;
 use super::{summary, terminal};
-use crate::control::Cancel;
+use crate::control::{Cancel, Progress};
 use crate::export::csv;
-use crate::export::folder::{Staged, WriteError};
+use crate::export::figure::{FigureError, Format, to_bytes};
+use crate::export::figures;
+use crate::export::folder::Staged;
 use crate::export::json::{Summary, force_unit};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
@@ -15,6 +17,7 @@ use crate::scene::Scene;
 use crate::solution::{Solution, Status};
 use crate::solve::{Method, solve};
 use clap::Args;
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -35,6 +38,12 @@ Files of --out, with the unit in every column's name:
                  every tooth, over one cycle; a line load × length_m,
                  summed over one time_s, is the load in series.csv
   pressure.csv   pressure under one tooth, over one cycle
+  wave, loads, map, convergence (.svg .png)
+                 figures of a motor: surfaces and pressures along the
+                 wave, loads over the cycle, pressure map, rounds of the
+                 solve
+  profile, loads, loop, map, convergence (.svg .png)
+                 figures of a plate
 Of a symmetric film only the half that was solved is there: y_m >= 0,
 and of a plate x_m >= 0 as well.";
 
@@ -54,6 +63,10 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     output: OutputOptions,
+
+    /// Formats of the figures in --out: svg, png, pdf; none for no figures
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_format())]
+    figures: Vec<FigureFormat>,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
@@ -66,7 +79,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let started = Instant::now();
     let solved = solve(&problem, &settings, &mut bar, &cancel);
     let wall_s = started.elapsed().as_secs_f64();
-    let reached = bar.reached();
+    let (reached, history) = (bar.reached(), bar.history().to_vec());
     drop(bar);
     let solution = solved?;
     if solution.status == Status::Cancelled {
@@ -80,7 +93,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     terminal::data(&if arguments.output.json { result.to_text() } else { summary::text(&scene, &problem, &result) })?;
     if let Some(folder) = &arguments.output.out {
-        match write(folder, &scene, &problem, &solution, &result, &cancel)? {
+        let figures = Figures { formats: &arguments.figures, history: &history };
+        match write(folder, &scene, &problem, &solution, &result, &figures, &cancel)? {
             Some(paths) => terminal::note(&written(folder, &paths)),
             None => {
                 terminal::note("cancelled; no file was written");
@@ -98,18 +112,57 @@ fn write(
     problem: &Problem,
     solution: &Solution,
     summary: &Summary,
+    figures: &Figures<'_>,
     cancel: &Cancel,
-) -> Result<Option<Vec<PathBuf>>, WriteError> {
+) -> Result<Option<Vec<PathBuf>>, CliError> {
     let mut staged = Staged::new(folder)?;
     staged.add("summary.json", |out| out.write_all(summary.to_text().as_bytes()))?;
     staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
     staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
     staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
     staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
+    for (name, bytes) in figures.drawn(problem, solution, cancel)? {
+        staged.add(&name, |out| out.write_all(&bytes))?;
+    }
     if cancel.is_cancelled() {
         return Ok(None);
     }
-    staged.commit().map(Some)
+    Ok(Some(staged.commit()?))
+}
+
+/// Which figures are to be written.
+struct Figures<'a> {
+    formats: &'a [FigureFormat],
+    history: &'a [Progress],
+}
+
+impl Figures<'_> {
+    /// Names and contents of the files; fewer if it was cancelled meanwhile.
+    fn drawn(
+        &self,
+        problem: &Problem,
+        solution: &Solution,
+        cancel: &Cancel,
+    ) -> Result<Vec<(String, Vec<u8>)>, FigureError> {
+        let mut formats: Vec<_> = self.formats.iter().filter_map(|format| format.0).collect();
+        formats.sort_unstable();
+        formats.dedup();
+        if formats.is_empty() {
+            return Ok(Vec::new());
+        }
+        let figures = figures::of(problem, solution, self.history);
+        let files: Vec<_> =
+            figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
+        let draw = |((name, figure), format): &(&(&str, _), _)| {
+            let format: Format = *format;
+            if cancel.is_cancelled() {
+                return Ok(None);
+            }
+            Ok(Some((format!("{name}.{}", format.name()), to_bytes(figure, format)?)))
+        };
+        let drawn: Result<Vec<_>, FigureError> = files.par_iter().map(draw).collect();
+        Ok(drawn?.into_iter().flatten().collect())
+    }
 }
 
 /// `wrote results: summary.json, scene.toml, …`

@@ -16,6 +16,18 @@ pub struct WriteError {
     pub source: io::Error,
 }
 
+/// Writes one file, first in full under a temporary name beside it. The folder has to be there.
+///
+/// # Errors
+/// [`WriteError`]; then an older file of that name is as it was.
+pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
+    let failed = |source| WriteError { path: path.to_owned(), source };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = stage(folder, write).map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
 /// Files staged for a folder. Dropped without [`Staged::commit`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct Staged {
@@ -42,28 +54,13 @@ impl Staged {
     /// [`WriteError`] with the file's final path.
     pub fn add(&mut self, name: &str, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
         let path = self.folder.join(name);
-        match self.stage(write) {
+        match stage(&self.folder, write) {
             Ok(file) => {
                 self.files.push((path, file));
                 Ok(())
             }
             Err(source) => Err(WriteError { path, source }),
         }
-    }
-
-    fn stage(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<NamedTempFile> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".squeezefilm-").suffix(".tmp");
-        // A temporary file is private by default; a result is as readable as the umask says.
-        #[cfg(unix)]
-        let builder = {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(fs::Permissions::from_mode(0o666))
-        };
-        let file = builder.tempfile_in(&self.folder)?;
-        let mut buffered = BufWriter::new(file);
-        write(&mut buffered)?;
-        buffered.into_inner().map_err(io::IntoInnerError::into_error)
     }
 
     /// Gives every file its name, replacing older ones, and returns the paths.
@@ -79,6 +76,21 @@ impl Staged {
         }
         Ok(paths)
     }
+}
+
+fn stage(folder: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".squeezefilm-").suffix(".tmp");
+    // A temporary file is private by default; a result is as readable as the umask says.
+    #[cfg(unix)]
+    let builder = {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666))
+    };
+    let file = builder.tempfile_in(folder)?;
+    let mut buffered = BufWriter::new(file);
+    write(&mut buffered)?;
+    buffered.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
 impl Drop for Staged {

@@ -1,7 +1,14 @@
-//! A solution as numbers for people, as JSON, as CSV files, and into a folder all at once.
+//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, and how files get into
+//! a folder.
 
+pub mod animation;
 pub mod csv;
 pub mod digits;
+pub mod figure;
+pub mod figures;
 pub mod folder;
 pub mod json;
+pub mod stability;
+pub mod sweep;
 pub mod table1;
+pub mod tradeoff;

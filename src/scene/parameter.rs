@@ -135,6 +135,15 @@ impl Parameter {
         self.key.split_once('.').map_or(self.key, |(_, leaf)| leaf)
     }
 
+    /// The key within its table in words, without its unit: `min spacing`.
+    pub fn words(&self) -> String {
+        // The longer endings before what they end in.
+        const UNITS: [&str; 11] =
+            ["_m2_per_n", "_um_per_n", "_upa_s", "_khz", "_kpa", "_rpm", "_mm", "_um", "_nm", "_m", "_n"];
+        let stem = UNITS.iter().find_map(|ending| self.leaf().strip_suffix(ending));
+        stem.filter(|_| !self.unit.is_empty()).unwrap_or(self.leaf()).replace('_', " ")
+    }
+
     /// The range of a number or a whole number.
     pub fn range(&self) -> Option<Range> {
         match self.kind {
@@ -624,6 +633,19 @@ mod tests {
         ];
         for p in PARAMETERS.iter().filter(|p| !p.unit.is_empty()) {
             assert!(endings.iter().any(|(ending, unit)| p.key.ends_with(ending) && p.unit == *unit), "{}", p.key);
+        }
+    }
+
+    #[test]
+    fn keys_are_put_into_words() {
+        for (key, words) in [
+            ("rotor.local_compliance_m2_per_n", "local compliance"),
+            ("rotor.point_compliance_um_per_n", "point compliance"),
+            ("motor.load_per_wave_n", "load per wave"),
+            ("film.min_spacing_nm", "min spacing"),
+            ("motor.waves", "waves"),
+        ] {
+            assert_eq!(Parameter::find(key).unwrap().words(), words);
         }
     }
 

@@ -1,0 +1,45 @@
+//! One solve among many: whatever becomes of it, the others go on.
+
+use crate::control::{Cancel, Observer};
+use crate::problem::Problem;
+use crate::solution::Solution;
+use crate::solve::{Settings, solve};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Solves; an error, and a panic of the solver, is told in words.
+///
+/// # Errors
+/// Why there is no solution.
+pub fn attempt(
+    problem: &Problem,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Solution, String> {
+    match catch_unwind(AssertUnwindSafe(|| solve(problem, settings, observer, cancel))) {
+        Ok(solved) => solved.map_err(|error| error.to_string()),
+        Err(panic) => {
+            let text = panic.downcast_ref::<&str>().copied();
+            let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+            Err(format!("the solver failed: {}", text.unwrap_or("no reason given")))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Scenario;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_panic_is_told_in_words() {
+        let mut broken = Problem::new(&Scene::motor()).unwrap();
+        // No scene can make this problem: the solver divides by the number of teeth.
+        if let Scenario::Motor(motor) = &mut broken.scenario {
+            motor.teeth = 0;
+        }
+        let error = attempt(&broken, &Settings::default(), &mut (), &Cancel::new()).unwrap_err();
+        assert!(error.starts_with("the solver failed: "), "{error}");
+    }
+}

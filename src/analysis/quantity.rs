@@ -1,0 +1,247 @@
+//! The numbers of one solve under their names in JSON and CSV, so that any of them can be put on an axis.
+
+use crate::dimensionless::Dimensionless;
+use crate::problem::{Problem, Scenario};
+use crate::scene::Belongs;
+use crate::solution::{MotorResult, Outcome, PlateResult, Solution, Status};
+
+/// One number of a solve. Units are in the names; those of a strip's forces are per metre of width.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// The film's share of the load.
+    Alpha,
+    /// Estimated numerical error of α, absolute.
+    AlphaError,
+    /// Cycle mean of the film's net gauge force.
+    FilmLoad,
+    /// Its estimated numerical error, absolute.
+    FilmLoadError,
+    /// Its least value in the cycle.
+    FilmLoadMin,
+    /// Its greatest value in the cycle.
+    FilmLoadMax,
+    /// Cycle mean of the contact force.
+    ContactLoad,
+    /// Greatest torque of the whole ring.
+    MaxTorque,
+    /// Its estimated numerical error, absolute.
+    MaxTorqueError,
+    /// Cycle mean of the number of teeth that touch; 0: the rotor floats.
+    TeethInContact,
+    /// Film load over ambient pressure × area.
+    LoadRatio,
+    /// Its estimated numerical error, absolute.
+    LoadRatioError,
+    /// Its least value in the cycle.
+    LoadRatioMin,
+    /// Its greatest value in the cycle.
+    LoadRatioMax,
+    /// Least film thickness, H_m included.
+    MinGap,
+    /// Greatest absolute pressure.
+    MaxPressure,
+    /// σ.
+    SqueezeNumber,
+    /// Λ.
+    BearingNumber,
+    /// Kn.
+    KnudsenNumber,
+    /// Relative change of the last round, if it did not converge …
+    Residual,
+    /// … and what it had to fall below.
+    Tolerance,
+    /// Time steps of one tooth's film.
+    FilmSteps,
+    /// Cycles of the vibration marched.
+    Cycles,
+    /// Rounds of the film–contact coupling.
+    Rounds,
+    /// Contact problems solved.
+    ContactSolves,
+}
+
+use Quantity::{
+    Alpha, AlphaError, BearingNumber, ContactLoad, ContactSolves, Cycles, FilmLoad, FilmLoadError, FilmLoadMax,
+    FilmLoadMin, FilmSteps, KnudsenNumber, LoadRatio, LoadRatioError, LoadRatioMax, LoadRatioMin, MaxPressure,
+    MaxTorque, MaxTorqueError, MinGap, Residual, Rounds, SqueezeNumber, TeethInContact, Tolerance,
+};
+
+/// How many there are.
+pub const COUNT: usize = 25;
+
+/// In the order of the enum: name, what it is, its unit, scenes that have it.
+const TABLE: [(Quantity, &str, &str, &str, Belongs); COUNT] = [
+    (Alpha, "alpha", "film share of the load α", "", Belongs::Motor),
+    (AlphaError, "alpha_error", "error of α", "", Belongs::Motor),
+    (FilmLoad, "film_load_n", "film load", "N", Belongs::Any),
+    (FilmLoadError, "film_load_error_n", "error of the film load", "N", Belongs::Any),
+    (FilmLoadMin, "film_load_min_n", "least film load", "N", Belongs::Any),
+    (FilmLoadMax, "film_load_max_n", "greatest film load", "N", Belongs::Any),
+    (ContactLoad, "contact_load_n", "contact load", "N", Belongs::Motor),
+    (MaxTorque, "max_torque_nm", "torque of the ring", "N·m", Belongs::Motor),
+    (MaxTorqueError, "max_torque_error_nm", "error of the torque", "N·m", Belongs::Motor),
+    (TeethInContact, "teeth_in_contact", "teeth in contact", "", Belongs::Motor),
+    (LoadRatio, "mean_load_ratio", "mean load ratio", "", Belongs::Plate),
+    (LoadRatioError, "mean_load_ratio_error", "error of the load ratio", "", Belongs::Plate),
+    (LoadRatioMin, "load_ratio_min", "least load ratio", "", Belongs::Plate),
+    (LoadRatioMax, "load_ratio_max", "greatest load ratio", "", Belongs::Plate),
+    (MinGap, "min_gap_nm", "least film thickness", "nm", Belongs::Any),
+    (MaxPressure, "max_pressure_kpa", "highest pressure", "kPa", Belongs::Any),
+    (SqueezeNumber, "squeeze_number", "squeeze number σ", "", Belongs::Any),
+    (BearingNumber, "bearing_number", "bearing number Λ", "", Belongs::Any),
+    (KnudsenNumber, "knudsen_number", "Knudsen number Kn", "", Belongs::Any),
+    (Residual, "residual", "change of the last round", "", Belongs::Any),
+    (Tolerance, "tolerance", "allowed change of the last round", "", Belongs::Any),
+    (FilmSteps, "film_steps", "film steps", "", Belongs::Any),
+    (Cycles, "cycles", "cycles marched", "", Belongs::Any),
+    (Rounds, "coupling_iterations", "rounds of film and contact", "", Belongs::Any),
+    (ContactSolves, "contact_solves", "contact problems solved", "", Belongs::Any),
+];
+
+impl Quantity {
+    /// All, in the order of the columns.
+    pub fn all() -> impl Iterator<Item = Self> {
+        TABLE.iter().map(|row| row.0)
+    }
+
+    /// Those that a scene of this problem has.
+    pub fn of(problem: &Problem) -> impl Iterator<Item = Self> {
+        let belongs = match problem.scenario {
+            Scenario::Motor(_) => Belongs::Motor,
+            Scenario::Plate(_) => Belongs::Plate,
+        };
+        TABLE.iter().filter(move |row| row.4 == Belongs::Any || row.4 == belongs).map(|row| row.0)
+    }
+
+    /// The name in JSON and CSV, with its unit: `film_load_n`.
+    pub fn name(self) -> &'static str {
+        TABLE[self as usize].1
+    }
+
+    /// What it is, in words.
+    pub fn words(self) -> &'static str {
+        TABLE[self as usize].2
+    }
+
+    /// Its unit; empty for a pure number. Forces of a strip are per metre of width.
+    pub fn unit(self) -> &'static str {
+        TABLE[self as usize].3
+    }
+
+    /// For the head of a table: what it is, with its unit after a comma.
+    pub fn label(self) -> String {
+        if self.unit().is_empty() { self.words().to_owned() } else { format!("{}, {}", self.words(), self.unit()) }
+    }
+
+    /// Whether it counts something: whole numbers.
+    pub fn is_count(self) -> bool {
+        matches!(self, FilmSteps | Cycles | Rounds | ContactSolves)
+    }
+
+    /// The quantity that is this one's estimated numerical error, if it has one.
+    pub fn error(self) -> Option<Self> {
+        match self {
+            Alpha => Some(AlphaError),
+            // The load is shared: what one has too much the other has too little.
+            FilmLoad | ContactLoad => Some(FilmLoadError),
+            MaxTorque => Some(MaxTorqueError),
+            LoadRatio => Some(LoadRatioError),
+            _ => None,
+        }
+    }
+}
+
+/// All numbers of one solve. What a scene does not have, and what is not finite, is not there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Numbers([Option<f64>; COUNT]);
+
+impl Numbers {
+    /// Of a solution of `problem`.
+    pub fn of(problem: &Problem, solution: &Solution) -> Self {
+        let mut numbers = Self::default();
+        let groups = Dimensionless::of(problem);
+        numbers.set(SqueezeNumber, groups.squeeze_number);
+        numbers.set(BearingNumber, groups.bearing_number);
+        numbers.set(KnudsenNumber, groups.knudsen_number);
+        if let Status::NotConverged { residual, tolerance } = solution.status {
+            numbers.set(Residual, residual);
+            numbers.set(Tolerance, tolerance);
+        }
+        let stats = &solution.stats;
+        let counts = [stats.film_steps, stats.cycles, stats.coupling_iterations, stats.contact_solves];
+        for (quantity, count) in [FilmSteps, Cycles, Rounds, ContactSolves].into_iter().zip(counts) {
+            numbers.set(quantity, count as f64);
+        }
+        match (&problem.scenario, &solution.outcome) {
+            (Scenario::Motor(motor), Outcome::Motor(result)) => {
+                let dry = motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius;
+                numbers.motor(result, motor.load, dry);
+            }
+            (Scenario::Plate(plate), Outcome::Plate(result)) => {
+                numbers.plate(result, |load| PlateResult::ratio(load, plate));
+            }
+            // A solver answers in kind.
+            _ => {}
+        }
+        numbers
+    }
+
+    fn motor(&mut self, result: &MotorResult, load: f64, dry_torque: f64) {
+        self.set(Alpha, result.alpha);
+        self.set(AlphaError, result.alpha_error);
+        self.set(FilmLoad, result.film_load);
+        self.set(FilmLoadError, result.alpha_error * load);
+        self.set(FilmLoadMin, result.film_load_min);
+        self.set(FilmLoadMax, result.film_load_max);
+        self.set(ContactLoad, result.contact_load);
+        self.set(MaxTorque, result.max_torque);
+        self.set(MaxTorqueError, result.alpha_error * dry_torque);
+        self.set(TeethInContact, result.teeth_in_contact);
+        self.set(MinGap, result.min_gap * 1e9);
+        self.set(MaxPressure, result.max_pressure * 1e-3);
+    }
+
+    fn plate(&mut self, result: &PlateResult, ratio: impl Fn(f64) -> f64) {
+        self.set(FilmLoad, result.film_load);
+        self.set(FilmLoadError, result.film_load_error);
+        self.set(FilmLoadMin, result.film_load_min);
+        self.set(FilmLoadMax, result.film_load_max);
+        self.set(LoadRatio, ratio(result.film_load));
+        self.set(LoadRatioError, ratio(result.film_load_error));
+        self.set(LoadRatioMin, ratio(result.film_load_min));
+        self.set(LoadRatioMax, ratio(result.film_load_max));
+        self.set(MinGap, result.min_gap * 1e9);
+        self.set(MaxPressure, result.max_pressure * 1e-3);
+    }
+
+    /// One of them.
+    pub fn get(&self, quantity: Quantity) -> Option<f64> {
+        self.0[quantity as usize]
+    }
+
+    /// Sets one of them; a value that is not finite removes it.
+    pub fn set(&mut self, quantity: Quantity, value: f64) {
+        self.0[quantity as usize] = value.is_finite().then_some(value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_in_the_order_of_the_enum() {
+        for (i, quantity) in Quantity::all().enumerate() {
+            assert_eq!(quantity as usize, i);
+            assert!(quantity.error().is_none_or(|error| error.name().contains("_error")));
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_is_not_there() {
+        let mut numbers = Numbers::default();
+        numbers.set(Alpha, 0.25);
+        numbers.set(AlphaError, f64::INFINITY);
+        assert_eq!((numbers.get(Alpha), numbers.get(AlphaError)), (Some(0.25), None));
+    }
+}

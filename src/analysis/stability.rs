@@ -1,0 +1,499 @@
+//! Where a method solves, and where it does not: maps of a motor's parameters to the edges of their ranges.
+//!
+//! Each cell of a map is one scene, solved by itself and judged: what a solver says of itself (converged or not), and
+//! what physics says of its numbers ([`Fault`]). Cells are solved on rayon's pool and do not depend on its threads.
+
+use super::attempt::attempt;
+use super::quantity::Numbers;
+use super::sweep::spaced;
+use crate::control::{Cancel, Progress};
+use crate::problem::{Motor, Problem, Scenario};
+use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, SceneError, Value};
+use crate::solution::{Outcome, Solution, Status};
+use crate::solve::{Method, Settings};
+use rayon::prelude::*;
+
+/// A plane through the parameters of a motor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Map {
+    /// Its name on the command line and in files.
+    pub name: &'static str,
+    /// What it shows.
+    pub about: &'static str,
+    /// Key along x, and key along y.
+    pub axes: [Edge; 2],
+}
+
+/// A key from one edge of its range to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// Dotted key.
+    pub key: &'static str,
+    /// Equal steps or equal ratios.
+    pub scale: Scale,
+    /// Mapped up to here only, where a finer grid is no other problem but takes longer.
+    pub up_to: Option<f64>,
+}
+
+const fn edge(key: &'static str, scale: Scale) -> Edge {
+    Edge { key, scale, up_to: None }
+}
+
+const SPACING: &str = "film.min_spacing_nm";
+const NODES: &str = "numerics.film_nodes_along";
+/// From zero by equal ratios: zero itself, and then this many decades below the other end.
+const DECADES_FROM_ZERO: i32 = 3;
+
+/// The maps.
+pub const MAPS: [Map; 5] = [
+    Map {
+        name: "spacing-frequency",
+        about: "stiffness of the film against its squeeze number",
+        axes: [edge(SPACING, Scale::Log), edge("stator.frequency_khz", Scale::Log)],
+    },
+    Map {
+        name: "load-amplitude",
+        about: "from a floating rotor to one pressed flat",
+        axes: [edge("motor.load_per_wave_n", Scale::Log), edge("stator.normal_amplitude_um", Scale::Log)],
+    },
+    Map {
+        name: "pressure-width",
+        about: "from a vacuum to a film that dwarfs the load",
+        axes: [edge("film.ambient_pressure_kpa", Scale::Log), edge("rotor.contact_width_mm", Scale::Log)],
+    },
+    Map {
+        name: "steps-spacing",
+        about: "steps in time against the stiffness of the film",
+        axes: [
+            Edge { key: "numerics.steps_per_cycle", scale: Scale::Log, up_to: Some(720.0) },
+            edge(SPACING, Scale::Log),
+        ],
+    },
+    Map {
+        name: "grid-tooth",
+        about: "nodes along a tooth (across it and of the contact in proportion) against its width",
+        axes: [Edge { key: NODES, scale: Scale::Log, up_to: Some(201.0) }, edge("stator.tooth_width_mm", Scale::Log)],
+    },
+];
+
+impl Map {
+    /// The map of a name.
+    pub fn find(name: &str) -> Option<&'static Self> {
+        MAPS.iter().find(|map| map.name == name)
+    }
+
+    /// The values of one axis (0: x, 1: y): `count` of them, over the range that `scene` leaves the key. Fewer of a key
+    /// of whole numbers that has no more.
+    pub fn values(&self, axis: usize, scene: &Scene, count: usize) -> Vec<f64> {
+        let Edge { key, scale, up_to } = self.axes[axis];
+        let Some(Range { min, max }) = scene.range(key) else { return Vec::new() };
+        let max = up_to.unwrap_or(max).min(max);
+        let mut values = match scale {
+            Scale::Log if min <= 0.0 => {
+                let mut values = vec![min];
+                values.extend(spaced(max * 10f64.powi(-DECADES_FROM_ZERO), max, count.saturating_sub(1), scale));
+                values
+            }
+            _ => spaced(min, max, count, scale),
+        };
+        if matches!(Parameter::find(key).map(|p| p.kind), Some(ParameterKind::Whole { .. })) {
+            values.iter_mut().for_each(|value| *value = value.round());
+            values.dedup();
+        }
+        values
+    }
+
+    /// What makes the scene of a cell: keys and values. Other meshes go with the nodes along a tooth.
+    fn changes(&self, values: [f64; 2]) -> Vec<(&'static str, f64)> {
+        let mut changes = vec![(self.axes[0].key, values[0]), (self.axes[1].key, values[1])];
+        if self.axes[0].key == NODES {
+            let intervals = values[0] - 1.0;
+            changes.push(("numerics.film_nodes_across", (2.0 * (0.1 * intervals).round()).max(2.0) + 1.0));
+            changes.push(("numerics.contact_nodes", (3.6 * intervals).round().max(18.0) + 1.0));
+        }
+        changes
+    }
+}
+
+/// What became of a cell.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Converged, with numbers that can be.
+    Solved,
+    /// A limit was reached first; the solver says so.
+    NotConverged,
+    /// Converged, with numbers that cannot be.
+    NonPhysical,
+    /// There is no solution, and why.
+    Failed(String),
+    /// The scene is not allowed, and why.
+    Refused(String),
+}
+
+impl Verdict {
+    /// Its name, without a reason.
+    pub fn name(&self) -> &'static str {
+        VERDICTS[self.number()]
+    }
+
+    /// Its place in [`VERDICTS`].
+    pub fn number(&self) -> usize {
+        match self {
+            Self::Solved => 0,
+            Self::NotConverged => 1,
+            Self::NonPhysical => 2,
+            Self::Failed(_) => 3,
+            Self::Refused(_) => 4,
+        }
+    }
+}
+
+/// The names of all verdicts.
+pub const VERDICTS: [&str; 5] = ["solved", "not converged", "non-physical", "failed", "refused"];
+
+/// What cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// A result that is no number.
+    #[error("{0} is not a finite number")]
+    NotFinite(&'static str),
+    /// The film carries less than nothing, or more than the load.
+    #[error("α = {alpha:.4} ± {error:.1e} is outside 0 … 1")]
+    Share {
+        /// α.
+        alpha: f64,
+        /// Its stated error.
+        error: f64,
+    },
+    /// A pressure that no gas has.
+    #[error("the pressure falls to {0:.2e} Pa")]
+    Pressure(f64),
+    /// Rotor and stator closer than roughness lets them.
+    #[error("the film is {thickness:.3e} m thin, with a minimum spacing of {spacing:.3e} m")]
+    Overlap {
+        /// Least film thickness \[m\].
+        thickness: f64,
+        /// H_m \[m\].
+        spacing: f64,
+    },
+    /// The rotor is pulled by the contact.
+    #[error("the contact pulls with {0:.2e} N/m")]
+    Pull(f64),
+    /// Film and contact do not carry the load.
+    #[error("film and contact together are off the load by {0:.2e} of it")]
+    Balance(f64),
+}
+
+/// Lengths and forces need not agree any better than this.
+const ROUND_OFF: f64 = 1e-9;
+/// What a share of the load may be off by beside its stated error: no film has an effect as small as this.
+const SHARE: f64 = 1e-6;
+/// Share of the load that film and contact may miss at an instant, beside the stated error.
+const BALANCE: f64 = 1e-3;
+
+/// What cannot be of a motor's solution.
+pub fn faults(motor: &Motor, solution: &Solution) -> Vec<Fault> {
+    let Outcome::Motor(result) = &solution.outcome else { return vec![Fault::NotFinite("α")] };
+    let mut faults = Vec::new();
+    for (name, value) in [
+        ("α", result.alpha),
+        ("the error of α", result.alpha_error),
+        ("the film load", result.film_load),
+        ("the contact load", result.contact_load),
+        ("the torque", result.max_torque),
+        ("the least film thickness", result.min_gap),
+        ("the highest pressure", result.max_pressure),
+    ] {
+        if !value.is_finite() {
+            faults.push(Fault::NotFinite(name));
+        }
+    }
+    let (alpha, error) = (result.alpha, result.alpha_error);
+    if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
+        faults.push(Fault::Share { alpha, error });
+    }
+    let recording = &solution.recording;
+    // One NaN makes the least value NaN, which is at fault everywhere.
+    let least =
+        |values: &[f64]| values.iter().copied().fold(f64::INFINITY, |a, b| if a.is_nan() || b >= a { a } else { b });
+    let pressure = least(&recording.pressure);
+    if pressure <= 0.0 || pressure.is_nan() {
+        faults.push(Fault::Pressure(pressure));
+    }
+    let thickness = least(&[least(&recording.film_thickness), result.min_gap]);
+    if thickness < motor.min_spacing * (1.0 - ROUND_OFF) || thickness.is_nan() {
+        faults.push(Fault::Overlap { thickness, spacing: motor.min_spacing });
+    }
+    let contact = least(&recording.contact);
+    if contact < -ROUND_OFF * motor.load / motor.wavelength() || contact.is_nan() {
+        faults.push(Fault::Pull(contact));
+    }
+    let missed = recording
+        .film_load
+        .iter()
+        .zip(&recording.contact_load)
+        .map(|(film, contact)| ((film + contact) / motor.load - 1.0).abs())
+        .fold(0.0, |a: f64, b| if a.is_nan() || b <= a { a } else { b });
+    if missed > error + BALANCE || missed.is_nan() {
+        faults.push(Fault::Balance(missed));
+    }
+    faults
+}
+
+/// What a solve comes to, and what about it cannot be.
+pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<Fault>) {
+    match solved {
+        Err(reason) => (Verdict::Failed(reason.clone()), Vec::new()),
+        Ok(solution) => {
+            let faults = faults(motor, solution);
+            let verdict = match solution.status {
+                Status::Converged if faults.is_empty() => Verdict::Solved,
+                Status::Converged => Verdict::NonPhysical,
+                Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,
+            };
+            (verdict, faults)
+        }
+    }
+}
+
+/// One cell of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// The map.
+    pub map: &'static Map,
+    /// How it was solved.
+    pub method: Method,
+    /// Where it is: which value along x, and along y.
+    pub place: [usize; 2],
+    /// Keys and values that make its scene, those of the axes first.
+    pub changes: Vec<(&'static str, f64)>,
+    /// What became of it.
+    pub verdict: Verdict,
+    /// What about its numbers cannot be.
+    pub faults: Vec<Fault>,
+    /// Its numbers; none if it failed or was refused.
+    pub numbers: Numbers,
+}
+
+impl Cell {
+    /// The options of the command line that solve it by itself.
+    pub fn options(&self) -> String {
+        let mut options: Vec<String> = self.changes.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
+        if self.method == Method::Paper {
+            options.push("--method paper".to_owned());
+        }
+        options.join(" ")
+    }
+}
+
+/// Cycles after which the paper's method is stopped on its own mesh, and on finer ones in proportion: it has a limit of
+/// its own of 200 cycles, which where its rounds do not settle takes minutes.
+const PAPER_CYCLES: usize = 60;
+const PAPER_WORK: usize = 51 * 11 * 180 * PAPER_CYCLES;
+const FEWEST_CYCLES: usize = 30;
+/// Where a cycle still changes by more than this after so many, the rounds do not settle, and none will.
+const ASTRAY: (usize, f64) = (12, 0.1);
+
+/// Solves `count` × `count` cells of each map by each method, several at a time on rayon's pool. In the order of maps,
+/// methods, y and x; if it is cancelled, without the cells that were not reached. `finished` is told of each as it ends, from
+/// whichever thread.
+///
+/// # Errors
+/// Faults of `scene`. A cell that fails is a [`Cell`] that says so.
+pub fn survey(
+    scene: &Scene,
+    maps: &[&'static Map],
+    methods: &[Method],
+    count: usize,
+    settings: &Settings,
+    cancel: &Cancel,
+    finished: &(dyn Fn(&Cell) + Sync),
+) -> Result<Vec<Cell>, SceneError> {
+    Problem::new(scene)?;
+    let cells = places(scene, maps, methods, count);
+    // One at a time: some cells take a thousand times as long as others.
+    let solved = cells.into_par_iter().with_max_len(1).map(|cell| {
+        let cell = solve_cell(scene, cell, settings, cancel)?;
+        finished(&cell);
+        Some(cell)
+    });
+    Ok(solved.collect::<Vec<_>>().into_iter().flatten().collect())
+}
+
+/// Number of cells of a survey.
+pub fn number_of_cells(scene: &Scene, maps: &[&'static Map], methods: &[Method], count: usize) -> usize {
+    places(scene, maps, methods, count).len()
+}
+
+/// The cells, yet to be solved.
+fn places(scene: &Scene, maps: &[&'static Map], methods: &[Method], count: usize) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for map in maps {
+        let (along, up) = (map.values(0, scene, count), map.values(1, scene, count));
+        for method in methods {
+            for (j, y) in up.iter().enumerate() {
+                for (i, x) in along.iter().enumerate() {
+                    cells.push(Cell {
+                        map,
+                        method: *method,
+                        place: [i, j],
+                        changes: map.changes([*x, *y]),
+                        verdict: Verdict::Refused(String::new()),
+                        faults: Vec::new(),
+                        numbers: Numbers::default(),
+                    });
+                }
+            }
+        }
+    }
+    cells
+}
+
+/// Solves one cell; `None` if it was cancelled.
+fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cancel) -> Option<Cell> {
+    if cancel.is_cancelled() {
+        return None;
+    }
+    let problem = match changed(scene, &cell.changes) {
+        Ok(problem) => problem,
+        Err(error) => {
+            cell.verdict = Verdict::Refused(error.to_string());
+            return Some(cell);
+        }
+    };
+    let Scenario::Motor(motor) = &problem.scenario else {
+        cell.verdict = Verdict::Refused("the maps are of a motor".to_owned());
+        return Some(cell);
+    };
+    let cycles = most_cycles(&problem);
+    let stop = Cancel::new();
+    let mut watch = |progress: &Progress| {
+        let astray = progress.iteration >= ASTRAY.0 && progress.residual > ASTRAY.1;
+        let over = cell.method == Method::Paper && (astray || progress.iteration >= cycles);
+        if over || cancel.is_cancelled() {
+            stop.cancel();
+        }
+    };
+    let settings = Settings { method: cell.method, ..*settings };
+    let solved = attempt(&problem, &settings, &mut watch, &stop);
+    if cancel.is_cancelled() {
+        return None;
+    }
+    (cell.verdict, cell.faults) = judge(motor, &solved);
+    if let Ok(solution) = &solved {
+        cell.numbers = Numbers::of(&problem, solution);
+    }
+    Some(cell)
+}
+
+fn changed(scene: &Scene, changes: &[(&str, f64)]) -> Result<Problem, SceneError> {
+    let mut scene = scene.clone();
+    for (key, value) in changes {
+        scene.set_value(key, Value::Number(*value))?;
+    }
+    Problem::new(&scene)
+}
+
+fn most_cycles(problem: &Problem) -> usize {
+    let numerics = &problem.numerics;
+    let work = numerics.film_nodes_along.unwrap_or(51)
+        * numerics.film_nodes_across.unwrap_or(11)
+        * numerics.steps_per_cycle.unwrap_or(180);
+    (PAPER_WORK / work.max(1)).clamp(FEWEST_CYCLES, 2 * PAPER_CYCLES)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::Recording;
+    use crate::solution::{Model, MotorResult, Stats};
+
+    fn motor() -> Motor {
+        let Scenario::Motor(motor) = Problem::new(&Scene::motor()).unwrap().scenario else { unreachable!() };
+        motor
+    }
+
+    /// A solution in which all is well, and one change to it.
+    fn solution(change: impl FnOnce(&mut Solution, &mut MotorResult)) -> Result<Solution, String> {
+        let mut result = MotorResult {
+            alpha: 0.25,
+            alpha_error: 1e-3,
+            film_load: 0.6125,
+            contact_load: 1.8375,
+            max_torque: 0.26,
+            min_gap: 2e-7,
+            max_pressure: 5e5,
+            ..MotorResult::default()
+        };
+        let recording = Recording {
+            pressure: vec![1e5, 5e5],
+            film_thickness: vec![2e-7, 1e-6],
+            contact: vec![0.0, 100.0],
+            film_load: vec![0.6, 0.625],
+            contact_load: vec![1.85, 1.825],
+            ..Recording::default()
+        };
+        let mut solution = Solution {
+            status: Status::Converged,
+            outcome: Outcome::Motor(result),
+            stats: Stats::default(),
+            model: Model::default(),
+            warnings: Vec::new(),
+            recording,
+        };
+        change(&mut solution, &mut result);
+        solution.outcome = Outcome::Motor(result);
+        Ok(solution)
+    }
+
+    #[test]
+    fn outcomes_are_judged() {
+        let motor = motor();
+        let limit = Status::NotConverged { residual: 1e-2, tolerance: 1e-6 };
+        let verdict = |solved| judge(&motor, &solved);
+        assert_eq!(verdict(solution(|_, _| ())), (Verdict::Solved, vec![]));
+        assert_eq!(verdict(solution(|s, _| s.status = limit)).0, Verdict::NotConverged);
+        assert_eq!(verdict(solution(|s, _| s.status = Status::Cancelled)).0, Verdict::NotConverged);
+        assert_eq!(verdict(Err("no".to_owned())), (Verdict::Failed("no".to_owned()), vec![]));
+        // Within its error, a share may be a little out of range.
+        assert_eq!(verdict(solution(|_, r| r.alpha = 1.0005)).0, Verdict::Solved);
+        let share = |alpha: f64| Fault::Share { alpha, error: 1e-3 };
+        type Change = fn(&mut Solution, &mut MotorResult);
+        let wrong: [(Change, Fault); 9] = [
+            (|_, r| r.alpha = 1.2, share(1.2)),
+            (|_, r| r.alpha = -0.2, share(-0.2)),
+            (|_, r| r.max_torque = f64::NAN, Fault::NotFinite("the torque")),
+            (|_, r| r.alpha_error = f64::INFINITY, Fault::NotFinite("the error of α")),
+            (|s, _| s.recording.pressure[1] = -3.0, Fault::Pressure(-3.0)),
+            (|s, _| s.recording.film_thickness[1] = 1e-7, Fault::Overlap { thickness: 1e-7, spacing: 2e-7 }),
+            (|_, r| r.min_gap = 0.0, Fault::Overlap { thickness: 0.0, spacing: 2e-7 }),
+            (|s, _| s.recording.contact[0] = -1.0, Fault::Pull(-1.0)),
+            (|s, _| s.recording.contact_load[1] = 4.275, Fault::Balance(1.0)),
+        ];
+        for (change, expected) in wrong {
+            assert_eq!(verdict(solution(change)), (Verdict::NonPhysical, vec![expected]));
+        }
+        let (verdict, faults) = verdict(solution(|s, _| s.recording.pressure[0] = f64::NAN));
+        assert!(
+            verdict == Verdict::NonPhysical && matches!(faults[..], [Fault::Pressure(p)] if p.is_nan()),
+            "{faults:?}"
+        );
+    }
+
+    #[test]
+    fn maps_reach_the_edges_of_the_ranges_and_every_cell_is_a_scene() {
+        let scene = Scene::motor();
+        for map in &MAPS {
+            for axis in 0..2 {
+                let (values, range) = (map.values(axis, &scene, 5), scene.range(map.axes[axis].key).unwrap());
+                let last = map.axes[axis].up_to.unwrap_or(range.max);
+                assert_eq!((values.first(), values.last()), (Some(&range.min), Some(&last)), "{}", map.name);
+                assert!(values.windows(2).all(|pair| pair[0] < pair[1]) && values.len() == 5);
+            }
+            for cell in places(&scene, &[map], &[Method::Auto], 4) {
+                assert!(changed(&scene, &cell.changes).is_ok(), "{}", cell.options());
+            }
+        }
+        assert_eq!(number_of_cells(&scene, &[&MAPS[0], &MAPS[4]], &[Method::Auto, Method::Paper], 3), 36);
+    }
+}

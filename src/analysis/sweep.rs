@@ -1,0 +1,534 @@
+//! One scene over a range of one key, or of two: numbers only, no fields are kept.
+//!
+//! The points of a sweep are solved on rayon's pool, a chunk of neighbours at a time. Chunks follow from the points
+//! alone, so that the results do not depend on the number of threads, to the last bit, and each equals a single solve of
+//! its scene. A point that fails or does not converge says so in its row, and the others go on.
+//!
+//! A cancelled sweep keeps the rows it has; handed to [`Sweep::run`] again, it goes on with what is missing, and ends
+//! as one that was never cancelled. [`Sweep::fingerprint`] tells whether rows on disk are of the same sweep.
+
+use super::attempt::attempt;
+use super::quantity::{Numbers, Quantity};
+use super::table1::{Published, published_at};
+use crate::control::Cancel;
+use crate::problem::{Problem, Scenario};
+use crate::scene::{Fault, Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use crate::solution::Status;
+use crate::solve::{Method, Settings, SolveError};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::str::FromStr;
+
+/// Most values of one key.
+pub const MOST_VALUES: usize = 10_000;
+/// Most points of a sweep.
+pub const MOST_POINTS: usize = 100_000;
+/// Neighbours along the last axis that one thread solves one after the other.
+const CHUNK: usize = 4;
+
+/// What to vary: `key=from:to:count` or `key=from:to:count:log`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vary {
+    /// Dotted key, as in `--set`.
+    pub key: String,
+    /// First value, in the unit of the key.
+    pub from: f64,
+    /// Last value, in the unit of the key.
+    pub to: f64,
+    /// How many values, both ends counted.
+    pub count: usize,
+    /// Equal steps or equal ratios.
+    pub scale: Scale,
+}
+
+impl FromStr for Vary {
+    type Err = SweepError;
+
+    fn from_str(text: &str) -> Result<Self, SweepError> {
+        let syntax = || SweepError::Syntax { found: text.to_owned() };
+        let (key, range) = text.split_once('=').ok_or_else(syntax)?;
+        let parts: Vec<&str> = range.split(':').map(str::trim).collect();
+        let (ends, scale) = match parts[..] {
+            [from, to, count] | [from, to, count, "lin"] => ([from, to, count], Scale::Linear),
+            [from, to, count, "log"] => ([from, to, count], Scale::Log),
+            _ => return Err(syntax()),
+        };
+        let number = |text: &str| text.parse::<f64>().map_err(|_| syntax());
+        let (from, to) = (number(ends[0])?, number(ends[1])?);
+        let key = key.trim().to_owned();
+        let count = ends[2].parse().map_err(|_| SweepError::Count { key: key.clone(), found: ends[2].to_owned() })?;
+        Ok(Self { key, from, to, count, scale })
+    }
+}
+
+/// One axis of a sweep: a key and its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The key.
+    pub parameter: &'static Parameter,
+    /// Its values in the unit of the key, in the order they were asked for.
+    pub values: Vec<f64>,
+    /// Equal steps or equal ratios.
+    pub scale: Scale,
+}
+
+/// What cannot be swept. Found before anything is solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SweepError {
+    /// Not of the form asked for.
+    #[error(
+        "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log"
+    )]
+    Syntax {
+        /// What was given.
+        found: String,
+    },
+    /// Too few values, or too many.
+    #[error("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}")]
+    Count {
+        /// The key.
+        key: String,
+        /// The count given.
+        found: String,
+    },
+    /// Both ends are the same.
+    #[error("vary {key}: from {at} to {at} is no range: the ends have to differ")]
+    Nothing {
+        /// The key.
+        key: String,
+        /// Both ends.
+        at: f64,
+    },
+    /// Equal ratios from or to zero or below.
+    #[error("vary {key}: from {from} to {to} cannot be spaced by equal ratios: for :log both ends have to be above 0")]
+    Log {
+        /// The key.
+        key: String,
+        /// First value.
+        from: f64,
+        /// Last value.
+        to: f64,
+    },
+    /// A key whose values are not numbers.
+    #[error("vary {}: it accepts {}, and only a number can be varied", parameter.key, parameter.accepts())]
+    NotANumber {
+        /// The key.
+        parameter: &'static Parameter,
+    },
+    /// No axis, or more than two.
+    #[error("vary: {found} keys given: allowed 1 or 2")]
+    Axes {
+        /// How many.
+        found: usize,
+    },
+    /// Two axes with one key.
+    #[error("vary {key}: given twice: the two keys have to differ")]
+    Twice {
+        /// The key.
+        key: String,
+    },
+    /// More points than anyone waits for.
+    #[error("vary: {found} points: allowed up to {MOST_POINTS}")]
+    Points {
+        /// How many.
+        found: usize,
+    },
+    /// A value outside its range, or a key that does not exist.
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// A method that does not apply.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// How a point ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The cycle repeats to the tolerance.
+    Converged,
+    /// A limit was reached first; the numbers are what was reached.
+    NotConverged,
+    /// There is no solution, and why.
+    Failed(String),
+}
+
+/// One point of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Which point, from 0; the last axis varies fastest.
+    pub point: usize,
+    /// The value of each axis there.
+    pub values: Vec<f64>,
+    /// How it ended.
+    pub ending: Ending,
+    /// The numbers; none if it failed.
+    pub numbers: Numbers,
+}
+
+/// A sweep, checked: every point is a scene that can be solved.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    scene: Scene,
+    settings: Settings,
+    axes: Vec<Axis>,
+    points: Vec<(Vec<f64>, Problem)>,
+}
+
+impl Sweep {
+    /// A sweep of `scene` over one key or two. A key of whole numbers takes the nearest ones, each once.
+    ///
+    /// # Errors
+    /// [`SweepError`], which names the key, the value and what is allowed; of the points, for the first that is not.
+    pub fn new(scene: &Scene, vary: &[Vary], settings: &Settings) -> Result<Self, SweepError> {
+        if !(1..=2).contains(&vary.len()) {
+            return Err(SweepError::Axes { found: vary.len() });
+        }
+        let axes = vary.iter().map(|vary| axis(scene, vary)).collect::<Result<Vec<_>, _>>()?;
+        if axes.len() == 2 && axes[0].parameter.key == axes[1].parameter.key {
+            return Err(SweepError::Twice { key: vary[0].key.clone() });
+        }
+        let count: usize = axes.iter().map(|axis| axis.values.len()).product();
+        if count > MOST_POINTS {
+            return Err(SweepError::Points { found: count });
+        }
+        let mut points = Vec::with_capacity(count);
+        for point in 0..count {
+            let values = values_at(&axes, point);
+            let problem = Problem::new(&varied(scene, &axes, &values)?)?;
+            if matches!(problem.scenario, Scenario::Plate(_)) && settings.method == Method::Paper {
+                return Err(SolveError::PaperPlate.into());
+            }
+            points.push((values, problem));
+        }
+        Ok(Self { scene: scene.clone(), settings: *settings, axes, points })
+    }
+
+    /// The axes; the last varies fastest.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The scene that is varied.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// How it is solved.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Never: a sweep has points.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// The value of each axis at a point.
+    pub fn values(&self, point: usize) -> &[f64] {
+        &self.points[point].0
+    }
+
+    /// The scene of a point, for solving it alone.
+    ///
+    /// # Errors
+    /// None: [`Sweep::new`] has made every one of them.
+    pub fn scene_at(&self, point: usize) -> Result<Scene, SceneError> {
+        varied(&self.scene, &self.axes, self.values(point))
+    }
+
+    /// The quantities its rows have.
+    pub fn quantities(&self) -> Vec<Quantity> {
+        // All points are of one kind of scene.
+        self.points.first().map_or_else(Vec::new, |(_, problem)| Quantity::of(problem).collect())
+    }
+
+    /// Sixteen digits that differ if anything differs that the results depend on: scene, axes, settings or version.
+    pub fn fingerprint(&self) -> String {
+        let mut hash = Fnv::default();
+        hash.text(env!("CARGO_PKG_VERSION"));
+        hash.text(&self.scene.to_toml());
+        hash.text(self.settings.method.name());
+        // The paper's method has no fidelity.
+        hash.text(if self.settings.method == Method::Auto { self.settings.fidelity.name() } else { "" });
+        hash.text(&CHUNK.to_string());
+        for axis in &self.axes {
+            hash.text(axis.parameter.key);
+            axis.values.iter().for_each(|value| hash.bytes(&value.to_bits().to_le_bytes()));
+        }
+        format!("{:016x}", hash.0)
+    }
+
+    /// Published points of Table I whose scene is one of this sweep's but for the keys that are varied, at any value of
+    /// those.
+    pub fn published(&self) -> Vec<Published> {
+        let keys: Vec<&str> = self.axes.iter().map(|axis| axis.parameter.key).collect();
+        published_at(&self.scene, &keys)
+    }
+
+    /// Solves every point that is not in `done`, several at a time on rayon's pool, and returns all rows there are, those
+    /// in `done` included, in the order of the points: if it was cancelled, fewer than [`Sweep::len`]. `finished` is
+    /// told of each new row, from whichever thread.
+    pub fn run(&self, done: &[Row], cancel: &Cancel, finished: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
+        let mut rows: Vec<Option<Row>> = vec![None; self.len()];
+        for row in done {
+            if let Some(place) = rows.get_mut(row.point) {
+                *place = Some(row.clone());
+            }
+        }
+        let solved: Vec<Vec<Row>> = self
+            .chunks()
+            .into_par_iter()
+            .map(|chunk| {
+                if rows[chunk.clone()].iter().all(Option::is_some) {
+                    return Vec::new();
+                }
+                self.solve_chunk(chunk, cancel, &|row| {
+                    if rows[row.point].is_none() {
+                        finished(row);
+                    }
+                })
+            })
+            .collect();
+        for row in solved.into_iter().flatten() {
+            let place = row.point;
+            rows[place] = Some(row);
+        }
+        rows.into_iter().flatten().collect()
+    }
+
+    /// The points in runs of neighbours along the last axis, none across its end.
+    fn chunks(&self) -> Vec<Range<usize>> {
+        let line = self.axes.last().map_or(1, |axis| axis.values.len());
+        let mut chunks = Vec::new();
+        for start in (0..self.len()).step_by(line.max(1)) {
+            for from in (start..start + line).step_by(CHUNK) {
+                chunks.push(from..(from + CHUNK).min(start + line));
+            }
+        }
+        chunks
+    }
+
+    /// Solves the points of a chunk one after the other; ends early if cancelled.
+    ///
+    /// This is the one place where a point may be started from its neighbour: the solution of the point before is at hand
+    /// here, the first point of a chunk starts cold, and a chunk that was cut short is solved again from its first
+    /// point, so that neither threads nor a cancelled run change a result. At present every point starts cold.
+    fn solve_chunk(&self, chunk: Range<usize>, cancel: &Cancel, finished: &dyn Fn(&Row)) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for point in chunk {
+            if cancel.is_cancelled() {
+                break;
+            }
+            let (values, problem) = &self.points[point];
+            let (ending, numbers) = match attempt(problem, &self.settings, &mut (), cancel) {
+                Ok(solution) => {
+                    let ending = match solution.status {
+                        Status::Converged => Ending::Converged,
+                        Status::NotConverged { .. } => Ending::NotConverged,
+                        Status::Cancelled => break,
+                    };
+                    (ending, Numbers::of(problem, &solution))
+                }
+                Err(reason) => (Ending::Failed(reason), Numbers::default()),
+            };
+            let row = Row { point, values: values.clone(), ending, numbers };
+            finished(&row);
+            rows.push(row);
+        }
+        rows
+    }
+}
+
+/// Checks one axis against the scene and spaces its values.
+fn axis(scene: &Scene, vary: &Vary) -> Result<Axis, SweepError> {
+    let Vary { key, from, to, count, scale } = vary;
+    let parameter = match Parameter::find(key) {
+        Some(parameter) => parameter,
+        // Setting it tells what is wrong with it.
+        None => {
+            return match scene.clone().set(key, "0") {
+                Err(error) => Err(error.into()),
+                Ok(()) => Err(SweepError::Syntax { found: key.clone() }),
+            };
+        }
+    };
+    let whole = match parameter.kind {
+        ParameterKind::Number { .. } => false,
+        ParameterKind::Whole { .. } => true,
+        _ => return Err(SweepError::NotANumber { parameter }),
+    };
+    for end in [from, to] {
+        scene.clone().set_value(key, Value::Number(*end))?;
+    }
+    if !(2..=MOST_VALUES).contains(count) {
+        return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
+    }
+    if from == to {
+        return Err(SweepError::Nothing { key: key.clone(), at: *from });
+    }
+    if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
+        return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
+    }
+    let mut values = spaced(*from, *to, *count, *scale);
+    if whole {
+        values.iter_mut().for_each(|value| *value = value.round());
+        values.dedup();
+    }
+    Ok(Axis { parameter, values, scale: *scale })
+}
+
+/// `count` values from `from` to `to`, both exact; those between to ten digits, so that they can be written down.
+pub fn spaced(from: f64, to: f64, count: usize, scale: Scale) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1);
+    let value = |i: usize| {
+        let share = i as f64 / last as f64;
+        match (i, scale) {
+            (0, _) => from,
+            (i, _) if i == last => to,
+            (_, Scale::Linear) => short(from * (1.0 - share) + to * share),
+            (_, Scale::Log) => short((from.ln() * (1.0 - share) + to.ln() * share).exp()),
+        }
+    };
+    (0..count).map(value).collect()
+}
+
+fn short(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
+fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
+    let (mut rest, mut values) = (point, Vec::new());
+    for axis in axes.iter().rev() {
+        values.push(axis.values[rest % axis.values.len()]);
+        rest /= axis.values.len();
+    }
+    values.reverse();
+    values
+}
+
+/// The scene with the varied keys at these values.
+fn varied(scene: &Scene, axes: &[Axis], values: &[f64]) -> Result<Scene, SceneError> {
+    let mut scene = scene.clone();
+    let mut faults: Vec<Fault> = Vec::new();
+    for (axis, value) in axes.iter().zip(values) {
+        if let Err(error) = scene.set_value(axis.parameter.key, Value::Number(*value)) {
+            faults.extend_from_slice(error.faults());
+        }
+    }
+    match faults.into_iter().next() {
+        Some(fault) => Err(fault.into()),
+        None => Ok(scene),
+    }
+}
+
+/// The hash FNV-1a of 64 bits: the same on every machine and in every version of the compiler.
+struct Fnv(u64);
+
+impl Default for Fnv {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fnv {
+    fn bytes(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn text(&mut self, text: &str) {
+        self.bytes(text.as_bytes());
+        // Ends the text, as no byte of UTF-8 is this.
+        self.bytes(&[0xff]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fidelity::Fidelity;
+    use crate::scene::presets;
+
+    fn sweep(preset: &str, vary: &[&str]) -> Result<Sweep, SweepError> {
+        let vary = vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
+        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+        Sweep::new(&presets::find(preset).unwrap(), &vary, &settings)
+    }
+
+    #[test]
+    fn values_are_spaced_and_short() {
+        assert_eq!(spaced(10.0, 40.0, 4, Scale::Linear), [10.0, 20.0, 30.0, 40.0]);
+        assert_eq!(spaced(0.1, 0.3, 3, Scale::Linear), [0.1, 0.2, 0.3]);
+        assert_eq!(spaced(1.0, 1000.0, 4, Scale::Log), [1.0, 10.0, 100.0, 1000.0]);
+        assert_eq!(spaced(5.0, -5.0, 3, Scale::Linear), [5.0, 0.0, -5.0]);
+        let teeth = sweep("fundamental", &["motor.waves=1:8:40:log"]).unwrap();
+        assert_eq!(teeth.axes()[0].values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+    }
+
+    #[test]
+    fn what_cannot_be_swept_is_told() {
+        for (vary, words) in [
+            (&["film.min_spacing_nm"][..], "expected key=from:to:count"),
+            (&["film.min_spacing_nm=1:2"], "expected key=from:to:count"),
+            (&["film.min_spacing_nm=100:x:3"], "expected key=from:to:count"),
+            (&["film.min_spacing_nm=100:200:3:cubic"], "expected key=from:to:count"),
+            (&["film.min_spacing_nm=3:200:3"], "film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"),
+            (&["film.min_spacing_nm=100:NaN:3"], "film.min_spacing_nm = NaN is not finite"),
+            (&["film.min_spacing_nm=100:200:1"], "count = 1 is out of range: allowed 2 to 10000"),
+            (&["film.min_spacing_nm=100:200:-4"], "count = -4 is out of range"),
+            (&["film.min_spacing_nm=100:100:3"], "the ends have to differ"),
+            (&["stator.normal_amplitude_um=0:1:3:log"], "both ends have to be above 0"),
+            (&["film.slip=0:1:3"], "film.slip: it accepts one of \"none\""),
+            (&["film.min_spacing=100:200:3"], "did you mean film.min_spacing_nm?"),
+            (&["scene=1:2:3"], "scene cannot be changed"),
+            (&["plate.length_mm=1:2:3"], "plate.length_mm belongs to scene = \"plate\""),
+            (&["motor.waves=1.5:3:2"], "motor.waves = 1.5 is of the wrong type"),
+            (&["stator.tooth_width_mm=1:3:3"], "stator.tooth_width_mm = 3 is out of range"),
+            (&["motor.waves=1:4:2", "motor.waves=1:4:2"], "given twice"),
+            (&[], "0 keys given"),
+            (&["motor.load_per_wave_n=1:2:400", "film.min_spacing_nm=10:20:400"], "160000 points"),
+        ] {
+            let error = sweep("fundamental", vary).unwrap_err().to_string();
+            assert!(error.contains(words), "{vary:?}: {error}");
+        }
+    }
+
+    #[test]
+    fn chunks_cover_every_point_once_and_stay_on_a_line() {
+        let sweep = sweep("fundamental", &["motor.waves=1:3:3", "film.min_spacing_nm=100:150:6"]).unwrap();
+        let chunks = sweep.chunks();
+        assert_eq!(chunks.iter().cloned().flatten().collect::<Vec<_>>(), (0..18).collect::<Vec<_>>());
+        assert!(chunks.iter().all(|chunk| chunk.start / 6 == (chunk.end - 1) / 6));
+        assert_eq!((sweep.values(0), sweep.values(7)), (&[1.0, 100.0][..], &[2.0, 110.0][..]));
+    }
+
+    #[test]
+    fn the_fingerprint_knows_scene_axes_and_settings() {
+        let of = |preset, vary| sweep(preset, &[vary]).unwrap().fingerprint();
+        let this = of("fundamental", "stator.frequency_khz=3:100:5");
+        assert_eq!(this, of("fundamental", "stator.frequency_khz=3:100:5:lin"));
+        assert_ne!(this, of("fundamental", "stator.frequency_khz=3:100:6"));
+        assert_ne!(this, of("fundamental", "stator.frequency_khz=3:100:5:log"));
+        assert_ne!(this, of("min-spacing-100nm", "stator.frequency_khz=3:100:5"));
+    }
+
+    #[test]
+    fn published_points_are_those_in_the_plane_of_the_sweep() {
+        let frequencies = |sweep: &Sweep| sweep.published().iter().map(|p| p.values[0]).collect::<Vec<_>>();
+        let over = sweep("fundamental", &["stator.frequency_khz=3:100:5"]).unwrap();
+        assert_eq!(frequencies(&over), [30.0, 30.0, 3.0, 20.0, 40.0, 60.0, 100.0]);
+        assert_eq!(frequencies(&sweep("min-spacing-100nm", &["stator.frequency_khz=3:100:5"]).unwrap()), [30.0]);
+        assert!(sweep("levitating", &["stator.frequency_khz=3:100:5"]).unwrap().published().is_empty());
+        let crowned = sweep("fundamental", &["stator.tooth_radius_m=1:20:5"]).unwrap();
+        assert_eq!(frequencies(&crowned), [3.0, 6.5, 10.0]);
+        let both = sweep("fundamental", &["film.min_spacing_nm=50:400:3", "stator.frequency_khz=3:100:3"]).unwrap();
+        assert_eq!(both.published().len(), 8);
+        assert!(sweep("plate-viscous", &["plate.length_mm=1:2:3"]).unwrap().published().is_empty());
+    }
+}

@@ -1,0 +1,92 @@
+//! `squeezefilm animate`: one cycle as moving pictures.
+
+use super::exit::{CliError, Exit};
+use super::interrupt::cancel_on_interrupt;
+use super::options::{SceneOptions, SolveOptions};
+use super::progress::Bar;
+use super::terminal;
+use crate::export::animation::{AnimationError, Format, Options, cycle};
+use crate::export::json::force_unit;
+use crate::fidelity::Fidelity;
+use crate::problem::Problem;
+use crate::solution::Status;
+use crate::solve::{Method, solve};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Solves a preset and writes one cycle as an animation: GIF, animated PNG, or a folder of PNG
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  squeezefilm animate fundamental --out wave.gif
+  squeezefilm animate levitating --out levitating.png --seconds 6
+  squeezefilm animate plate-crossover --out frames --width 1920")]
+pub(super) struct Arguments {
+    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: String,
+
+    /// The file, .gif or .png (animated), or a folder for the frames, one PNG each
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+
+    /// Pixels across
+    #[arg(long, value_name = "PIXELS", default_value_t = Options::default().width, value_parser = clap::value_parser!(u32).range(100..=4000))]
+    width: u32,
+
+    /// How long the cycle takes on screen
+    #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = seconds)]
+    seconds: f64,
+
+    /// Frames of the cycle; never more than the solve has time steps
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u16).range(2..=1000))]
+    frames: u16,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let allowed = 0.2..=120.0;
+    match text.parse::<f64>() {
+        Ok(seconds) if allowed.contains(&seconds) => Ok(seconds),
+        _ => Err(format!("expected {} to {} seconds", allowed.start(), allowed.end())),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    // A wrong extension is told before the work, not after it.
+    Format::of(&arguments.out)?;
+    let scene = arguments.scene.scene(&arguments.preset)?;
+    let problem = Problem::new(&scene)?;
+    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let cancel = cancel_on_interrupt();
+
+    let mut bar = Bar::solve(force_unit(&problem));
+    let solved = solve(&problem, &settings, &mut bar, &cancel);
+    let reached = bar.reached();
+    drop(bar);
+    let solution = solved?;
+    if solution.status == Status::Cancelled {
+        terminal::note(&format!("cancelled {reached}; no file was written"));
+        return Ok(Exit::Other);
+    }
+    solution.warnings.iter().for_each(|warning| terminal::warning(warning));
+
+    let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
+    let bar = Bar::frames(options.frames.min(solution.recording.frames));
+    let written = cycle(&problem, &solution, &options, &|| bar.row_done(""), &cancel)
+        .and_then(|movie| movie.write(&arguments.out, &cancel).map(|_| movie.len()));
+    drop(bar);
+    match written {
+        Ok(frames) => terminal::note(&format!("wrote {}: {frames} frames", arguments.out.display())),
+        Err(AnimationError::Cancelled) => {
+            terminal::note(&AnimationError::Cancelled.to_string());
+            return Ok(Exit::Other);
+        }
+        Err(error) => return Err(error.into()),
+    }
+    Ok(Exit::of(&solution.status))
+}

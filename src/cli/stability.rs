@@ -1,0 +1,145 @@
+//! `squeezefilm stability`: where each method solves, to the edges of the ranges.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::figures::FigureOptions;
+use super::interrupt::cancel_on_interrupt;
+use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::progress::Bar;
+use super::solve::written;
+use super::summary::duration;
+use super::terminal;
+use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
+use crate::export::folder::Staged;
+use crate::export::json;
+use crate::export::stability::{Object, detail, figure, write_csv};
+use crate::fidelity::Fidelity;
+use crate::problem::{Problem, Scenario};
+use crate::solve::Method;
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm stability --out results
+  squeezefilm stability --map spacing-frequency --cells 15 --method auto
+  squeezefilm stability levitating --fidelity draft";
+
+/// Maps where a motor is solved to the edges of the ranges, by our method and by the paper's
+///
+/// Every cell is solved by itself and judged: solved, not converged, non-physical (a share outside 0 … 1 beyond its error,
+/// a pressure or contact force below 0, loads that do not add up), failed or refused. Some minutes on two cores, nearly all
+/// of them the paper's method.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Arguments {
+    /// The motor whose parameters are mapped: a built-in preset or a path
+    #[arg(value_name = "PRESET", default_value = "fundamental")]
+    preset: String,
+
+    /// Which map; may be repeated [default: all]
+    #[arg(long = "map", value_name = "NAME", value_parser = map())]
+    maps: Vec<&'static Map>,
+
+    /// Cells along each axis of a map
+    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u16).range(2..=200))]
+    cells: u16,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+
+    #[command(flatten)]
+    output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+fn map() -> ValueParser {
+    // The names are those of the maps: the first is never taken for want of another.
+    PossibleValuesParser::new(MAPS.map(|map| map.name)).map(|name| Map::find(&name).unwrap_or(&MAPS[0])).into()
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scene = arguments.scene.scene(&arguments.preset)?;
+    if matches!(Problem::new(&scene)?.scenario, Scenario::Plate(_)) {
+        return Err(CliError::Usage("stability maps the parameters of a motor, and this preset is a plate"));
+    }
+    if let Some(folder) = &arguments.output.out {
+        // Finds out whether it can be written before minutes are spent.
+        Staged::new(folder)?.add("stability.csv", |_| Ok(()))?;
+    }
+    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let methods = arguments.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
+    let maps: Vec<&'static Map> =
+        if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
+    let count = usize::from(arguments.cells);
+    let cancel = cancel_on_interrupt();
+
+    let total = number_of_cells(&scene, &maps, &methods, count);
+    let bar = Bar::points(total, 0);
+    let started = Instant::now();
+    let solved = survey(&scene, &maps, &methods, count, &settings, &cancel, &|cell| {
+        bar.point_done(&format!("{}, method {}", cell.map.name, cell.method.name()));
+    });
+    let wall_s = started.elapsed().as_secs_f64();
+    drop(bar);
+    let cells = solved?;
+
+    let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells);
+    let complete = cells.len() == total;
+    if complete {
+        let object = || Object::new(&scene.name, settings.fidelity, &cells, command);
+        terminal::data(&if arguments.output.json { json::text(&object()) } else { human })?;
+        terminal::note(&format!("{total} cells in {}", duration(wall_s)));
+    } else {
+        terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
+    }
+    match &arguments.output.out {
+        Some(folder) if !cells.is_empty() => {
+            let mut staged = Staged::new(folder)?;
+            // What was cancelled does not pass for a map.
+            let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
+            staged.add(name, |out| write_csv(&cells, out))?;
+            if complete {
+                arguments.figures.stage(&mut staged, "stability", &figure(&scene.name, settings.fidelity, &cells))?;
+            }
+            terminal::note(&written(folder, &staged.commit()?));
+        }
+        _ => {}
+    }
+    Ok(if complete { Exit::Solved } else { Exit::Other })
+}
+
+/// How many of each verdict, and every cell that our method does not solve.
+fn text(name: &str, fidelity: Fidelity, maps: &[&'static Map], methods: &[Method], cells: &[Cell]) -> String {
+    let title = format!("{name}: where it is solved, to the edges of the ranges; method auto at fidelity {fidelity}");
+    let mut text = paragraph(&title, "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row(["map", "method", "cells"].into_iter().chain(VERDICTS));
+    for map in maps {
+        for method in methods {
+            let of = |cell: &&Cell| cell.map.name == map.name && cell.method == *method;
+            let mut counts = [0_usize; VERDICTS.len()];
+            cells.iter().filter(of).for_each(|cell| counts[cell.verdict.number()] += 1);
+            let mut row = vec![map.name.to_owned(), method.name().to_owned(), counts.iter().sum::<usize>().to_string()];
+            row.extend(counts.iter().map(usize::to_string));
+            columns.row(row);
+        }
+    }
+    text.push_str(&columns.text("  ", &[2, 3, 4, 5, 6, 7]));
+    let ours = |cell: &&Cell| cell.method == Method::Auto && cell.verdict != Verdict::Solved;
+    let unsolved: Vec<&Cell> = cells.iter().filter(ours).collect();
+    if !unsolved.is_empty() {
+        text.push_str("\nNot solved by method auto:\n");
+        for cell in unsolved {
+            text.push_str(&format!("  {}: {}\n    {}\n", cell.verdict.name(), cell.options(), detail(cell)));
+        }
+    }
+    text
+}

@@ -1,0 +1,295 @@
+//! `squeezefilm sweep`: one key of a scene varied, or two.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::figures::FigureOptions;
+use super::interrupt::cancel_on_interrupt;
+use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::progress::Bar;
+use super::solve::written;
+use super::summary::duration;
+use super::terminal;
+use crate::analysis::quantity::Quantity;
+use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
+use crate::export::digits::{significant, with_error};
+use crate::export::folder::{Staged, WriteError};
+use crate::export::json;
+use crate::export::sweep::{Object, ReadError, figure, read_csv, write_csv};
+use crate::fidelity::Fidelity;
+use crate::solve::Method;
+use clap::Args;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
+  squeezefilm sweep fundamental --vary film.min_spacing_nm=20:500:30:log --fidelity fine --out results
+  squeezefilm sweep fundamental --vary motor.load_per_wave_n=0.5:5:12 --vary film.min_spacing_nm=50:400:12:log --out map
+  squeezefilm sweep plate-crossover --vary plate.frequency_khz=0.1:1000:40:log --json";
+
+const FILES: &str = "\
+Files of --out:
+  sweep.csv   a row for each point: its keys, its status and its numbers
+  sweep.json  what --json prints
+  sweep.svg   curves, or a map with contours; and sweep.png
+  scene.toml  the scene that is varied: a preset again
+A sweep that is cancelled (Ctrl-C), or killed, leaves sweep.incomplete.csv
+instead; the same command goes on from there, to the same result.";
+
+/// Solves a preset over a range of one key, or of two
+///
+/// All cores are used, and the results do not depend on how many there are. A point that fails or does not converge is
+/// marked, and the others go on.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: String,
+
+    /// What to vary, in the unit of the key; given twice: a map
+    ///
+    /// Any key that is a number, as in the file: --vary film.min_spacing_nm=50:400:8:log has 8 values of equal ratio,
+    /// without :log of equal steps. A key of whole numbers takes the nearest ones.
+    #[arg(long, value_name = "KEY=FROM:TO:COUNT[:log]", required = true)]
+    vary: Vec<Vary>,
+
+    /// Begins anew: forgets what an earlier sweep, cancelled, left in the folder of --out
+    #[arg(long, requires = "out")]
+    restart: bool,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+
+    #[command(flatten)]
+    output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scene = arguments.scene.scene(&arguments.preset)?;
+    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let sweep = Sweep::new(&scene, &arguments.vary, &settings)?;
+    let folder = arguments.output.out.as_deref().map(|path| Folder::open(path, &sweep)).transpose()?;
+    let done = match &folder {
+        Some(folder) if !arguments.restart => folder.left_over()?,
+        _ => Vec::new(),
+    };
+    let cancel = cancel_on_interrupt();
+    if !done.is_empty() {
+        terminal::note(&format!("going on: {} of {} points were solved before", done.len(), sweep.len()));
+    }
+
+    let bar = Bar::points(sweep.len(), done.len());
+    let started = Instant::now();
+    let saved = Mutex::new((done.clone(), Instant::now()));
+    let rows = sweep.run(&done, &cancel, &|row| {
+        bar.point_done(&place(&sweep, row));
+        let Some(folder) = &folder else { return };
+        let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
+        saved.0.push(row.clone());
+        if saved.1.elapsed() > SAVE_EVERY {
+            // If it fails now it may succeed at the end, and there it is told.
+            let _ = folder.save_incomplete(&saved.0);
+            saved.1 = Instant::now();
+        }
+    });
+    let wall_s = started.elapsed().as_secs_f64();
+    drop(bar);
+
+    let human = text(&sweep, &rows);
+    if rows.len() < sweep.len() {
+        terminal::note(&format!("cancelled: {} of {} points are solved", rows.len(), sweep.len()));
+        match &folder {
+            Some(_) if rows.is_empty() => {}
+            Some(folder) => {
+                let path = folder.save_incomplete(&rows)?;
+                terminal::note(&format!("they are kept in {}; the same command goes on from there", path.display()));
+            }
+            None => terminal::note(&format!("reached was\n\n{human}")),
+        }
+        return Ok(Exit::Other);
+    }
+    for row in &rows {
+        if let Ending::Failed(reason) = &row.ending {
+            terminal::error(&format!("{}: {reason}", place(&sweep, row)));
+        }
+    }
+    let object = Object::new(&sweep, &rows, command);
+    terminal::data(&if arguments.output.json { json::text(&object) } else { human })?;
+    terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
+    if let Some(folder) = &folder {
+        terminal::note(&written(folder.path, &folder.save(&rows, &object, &arguments.figures)?));
+    }
+    Ok(exit(&rows))
+}
+
+/// How often what is solved is saved while the rest goes on.
+const SAVE_EVERY: Duration = Duration::from_secs(5);
+const INCOMPLETE: &str = "sweep.incomplete.csv";
+
+/// The folder of `--out`.
+struct Folder<'a> {
+    path: &'a Path,
+    sweep: &'a Sweep,
+}
+
+impl<'a> Folder<'a> {
+    /// Finds out whether it can be written before anything is solved.
+    fn open(path: &'a Path, sweep: &'a Sweep) -> Result<Self, WriteError> {
+        Staged::new(path)?.add("sweep.csv", |_| Ok(()))?;
+        Ok(Self { path, sweep })
+    }
+
+    /// The rows that a cancelled sweep left.
+    fn left_over(&self) -> Result<Vec<Row>, CliError> {
+        let path = self.path.join(INCOMPLETE);
+        let fault = |source| CliError::Resume { path: path.clone(), source };
+        match std::fs::read_to_string(&path) {
+            Ok(text) => read_csv(self.sweep, &text).map_err(fault),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+            Err(error) => Err(fault(ReadError::Damaged { line: 1, fault: error.to_string() })),
+        }
+    }
+
+    fn save_incomplete(&self, rows: &[Row]) -> Result<PathBuf, WriteError> {
+        let mut staged = Staged::new(self.path)?;
+        staged.add(INCOMPLETE, |out| write_csv(self.sweep, rows, out))?;
+        staged.commit()?;
+        Ok(self.path.join(INCOMPLETE))
+    }
+
+    fn save(&self, rows: &[Row], object: &Object<'_>, figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
+        let mut staged = Staged::new(self.path)?;
+        staged.add("sweep.csv", |out| write_csv(self.sweep, rows, out))?;
+        staged.add("sweep.json", |out| out.write_all(json::text(object).as_bytes()))?;
+        figures.stage(&mut staged, "sweep", &figure(self.sweep, rows))?;
+        staged.add("scene.toml", |out| out.write_all(self.sweep.scene().to_toml().as_bytes()))?;
+        let paths = staged.commit()?;
+        let path = self.path.join(INCOMPLETE);
+        match std::fs::remove_file(&path) {
+            Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),
+            _ => Ok(paths),
+        }
+    }
+}
+
+/// The worst of the rows decides.
+fn exit(rows: &[Row]) -> Exit {
+    if rows.iter().any(|row| matches!(row.ending, Ending::Failed(_))) {
+        Exit::Other
+    } else if rows.iter().any(|row| row.ending == Ending::NotConverged) {
+        Exit::NotConverged
+    } else {
+        Exit::Solved
+    }
+}
+
+/// `film.min_spacing_nm = 100`: where a row is.
+fn place(sweep: &Sweep, row: &Row) -> String {
+    let at = |(axis, value): (&Axis, &f64)| format!("{} = {value}", axis.parameter.key);
+    sweep.axes().iter().zip(&row.values).map(at).collect::<Vec<_>>().join(", ")
+}
+
+/// The table for people.
+fn text(sweep: &Sweep, rows: &[Row]) -> String {
+    let keys: Vec<&str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
+    let how = match sweep.settings().method {
+        Method::Auto => format!("fidelity {}", sweep.settings().fidelity),
+        Method::Paper => "the paper's algorithm".to_owned(),
+    };
+    let title = format!("{}, {} points over {}, {how}", sweep.scene().name, rows.len(), keys.join(" and "));
+    let mut text = paragraph(&title, "", "");
+    text.push('\n');
+    let shown: Vec<Quantity> = SHOWN.into_iter().filter(|shown| sweep.quantities().contains(shown)).collect();
+    let mut columns = Columns::new();
+    let labels = |quantities: &[Quantity]| {
+        let keys = keys.iter().map(ToString::to_string);
+        keys.chain(quantities.iter().map(|quantity| quantity.label())).chain([String::new()]).collect::<Vec<_>>()
+    };
+    columns.row(labels(&shown));
+    for row in rows {
+        let mut cells: Vec<String> = row.values.iter().map(f64::to_string).collect();
+        cells.extend(shown.iter().map(|quantity| number(row, *quantity)));
+        cells.push(match &row.ending {
+            Ending::Converged => String::new(),
+            Ending::NotConverged => "NOT CONVERGED".to_owned(),
+            Ending::Failed(_) => "FAILED".to_owned(),
+        });
+        columns.row(cells);
+    }
+    let numbers: Vec<usize> = (0..keys.len() + shown.len()).collect();
+    text.push_str(&columns.text("  ", &numbers));
+    let published = sweep.published();
+    if !published.is_empty() {
+        text.push_str("\nPublished there (Table I):\n\n");
+        let mut columns = Columns::new();
+        columns.row(labels(&[Quantity::Alpha, Quantity::FilmLoad]));
+        for point in &published {
+            let mut cells: Vec<String> = point.values.iter().map(f64::to_string).collect();
+            cells.extend([format!("{:.3}", point.alpha), format!("{:.3}", point.film_load), point.row.clone()]);
+            columns.row(cells);
+        }
+        text.push_str(&columns.text("  ", &numbers[..keys.len() + 2]));
+    }
+    text
+}
+
+/// What the table for people shows; all is in the files.
+const SHOWN: [Quantity; 7] = [
+    Quantity::Alpha,
+    Quantity::FilmLoad,
+    Quantity::LoadRatio,
+    Quantity::MaxTorque,
+    Quantity::TeethInContact,
+    Quantity::MinGap,
+    Quantity::FilmSteps,
+];
+
+fn number(row: &Row, quantity: Quantity) -> String {
+    let Some(value) = row.numbers.get(quantity) else { return String::new() };
+    match quantity.error() {
+        // Of two numbers that say the same only the first shows its error.
+        Some(error) if matches!(quantity, Quantity::Alpha | Quantity::LoadRatio) => {
+            with_error(value, row.numbers.get(error).unwrap_or(f64::INFINITY))
+        }
+        _ if quantity == Quantity::FilmSteps => value.to_string(),
+        _ => significant(value, 4),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::quantity::Numbers;
+    use crate::scene::presets;
+    use crate::solve::Settings;
+
+    #[test]
+    fn the_worst_row_decides_and_is_marked() {
+        let scene = presets::find("fundamental").unwrap();
+        let vary: Vary = "film.min_spacing_nm=100:200:3".parse().unwrap();
+        let sweep = Sweep::new(&scene, &[vary], &Settings::default()).unwrap();
+        let mut numbers = Numbers::default();
+        numbers.set(Quantity::Alpha, 0.25);
+        let row = |point: usize, ending: Ending| Row { point, values: sweep.values(point).to_vec(), ending, numbers };
+        let mut rows = vec![row(0, Ending::Converged)];
+        assert_eq!(exit(&rows), Exit::Solved);
+        rows.push(row(1, Ending::NotConverged));
+        assert_eq!(exit(&rows), Exit::NotConverged);
+        rows.push(row(2, Ending::Failed("no".to_owned())));
+        assert_eq!(exit(&rows), Exit::Other);
+        let shown = text(&sweep, &rows);
+        assert!(shown.lines().any(|line| line.contains("150 ") && line.ends_with("NOT CONVERGED")), "{shown}");
+        assert!(shown.lines().any(|line| line.contains("200 ") && line.ends_with("FAILED")), "{shown}");
+        assert!(shown.contains("0.2500 (error not estimated)") && shown.contains("0.481"), "{shown}");
+    }
+}

@@ -1,0 +1,252 @@
+//! `squeezefilm tradeoff`: error against time, measured now, on this machine.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::figures::FigureOptions;
+use super::interrupt::cancel_on_interrupt;
+use super::options::{OutputOptions, SceneOptions};
+use super::progress::Bar;
+use super::solve::written;
+use super::summary::duration;
+use super::terminal;
+use crate::analysis::quantity::Quantity;
+use crate::analysis::tradeoff::{Effort, Point, Tradeoff, Wish, candidates, measure};
+use crate::export::digits::significant;
+use crate::export::folder::Staged;
+use crate::export::json;
+use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
+use crate::problem::Problem;
+use clap::Args;
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm tradeoff fundamental
+  squeezefilm tradeoff fundamental --accuracy 1% --budget 16ms
+  squeezefilm tradeoff levitating --repeats 9 --out results";
+
+/// Measures error against solve time of every fidelity, of some grids and of the paper's method, now, on this machine
+///
+/// Runs are interleaved and medians are reported. Errors are shares of α (of a plate: of the film load). A setting is
+/// judged by the greater of two: its distance from the most accurate one plus that one's own stated error, and the error it
+/// states of itself. Takes about a minute.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Arguments {
+    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: String,
+
+    /// Recommends the cheapest setting with at most this error: 1% or 0.01
+    #[arg(long, value_name = "SHARE", value_parser = accuracy)]
+    accuracy: Option<f64>,
+
+    /// Recommends the most accurate setting within this time: 16ms, 2s or 1min
+    #[arg(long, value_name = "TIME", value_parser = budget)]
+    budget: Option<f64>,
+
+    /// Runs of every setting [default: as many as fit into about a minute, 1 to 31]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    repeats: Option<u16>,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+fn accuracy(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 1e-2),
+        None => (text, 1.0),
+    };
+    positive(number, unit).ok_or_else(|| "expected a share above 0, as in 1% or 0.01".to_owned())
+}
+
+fn budget(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0)];
+    let split = units.iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, *unit)));
+    split
+        .and_then(|(number, unit)| positive(number, unit))
+        .ok_or_else(|| "expected a time above 0 with its unit, as in 16ms, 2s or 1min".to_owned())
+}
+
+fn positive(number: &str, unit: f64) -> Option<f64> {
+    let value = number.trim().parse::<f64>().ok()? * unit;
+    (value.is_finite() && value > 0.0).then_some(value)
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scene = arguments.scene.scene(&arguments.preset)?;
+    let problem = Problem::new(&scene)?;
+    if let Some(folder) = &arguments.output.out {
+        // Finds out whether it can be written before a minute is spent.
+        Staged::new(folder)?.add("tradeoff.csv", |_| Ok(()))?;
+    }
+    let effort = Effort { repeats: arguments.repeats.map(usize::from), ..Effort::default() };
+    let cancel = cancel_on_interrupt();
+    let bar = Bar::share();
+    let started = Instant::now();
+    let clock = || started.elapsed().as_secs_f64();
+    let runs = measure(&problem, candidates(&problem), &effort, &clock, &cancel, &mut |runs, share| {
+        let last = runs.iter().filter(|run| !run.times.is_empty()).min_by_key(|run| run.times.len());
+        bar.share_done(share, last.map_or("", |run| &run.candidate.name));
+    });
+    let wall_s = clock();
+    drop(bar);
+    let tradeoff = Tradeoff::of(&runs);
+    let human = text(&scene.name, &tradeoff);
+    if cancel.is_cancelled() {
+        terminal::note(&format!("cancelled; measured was\n\n{human}"));
+        return Ok(Exit::Other);
+    }
+    let wishes = [arguments.accuracy.map(Wish::Accuracy), arguments.budget.map(Wish::Budget)];
+    let wishes: Vec<Wish> = wishes.into_iter().flatten().collect();
+    let object = Object {
+        schema: SCHEMA,
+        preset: &scene.name,
+        judged: tradeoff.judged.name(),
+        reference: tradeoff.reference.map(|i| tradeoff.points[i].run.candidate.name.as_str()),
+        settings: settings(&tradeoff),
+        chosen: wishes.iter().map(|wish| choice(&tradeoff, *wish)).collect(),
+        version: env!("CARGO_PKG_VERSION"),
+        command,
+    };
+    let advice: String = wishes.iter().map(|wish| advice(&tradeoff, *wish)).collect();
+    terminal::data(&if arguments.output.json { json::text(&object) } else { human + &advice })?;
+    terminal::note(&format!("measured in {}", duration(wall_s)));
+    if let Some(folder) = &arguments.output.out {
+        let mut staged = Staged::new(folder)?;
+        staged.add("tradeoff.csv", |out| write_csv(&tradeoff, out))?;
+        staged.add("tradeoff.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+        let chosen: Vec<usize> = wishes.iter().filter_map(|wish| tradeoff.choose(*wish)).collect();
+        arguments.figures.stage(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
+        terminal::note(&written(folder, &staged.commit()?));
+    }
+    // A wish that nothing fulfils is a failure for whoever asked.
+    let fulfilled = wishes.iter().all(|wish| tradeoff.choose(*wish).is_some());
+    Ok(if fulfilled { Exit::Solved } else { Exit::Other })
+}
+
+fn choice(tradeoff: &Tradeoff, wish: Wish) -> ChoiceObject {
+    let chosen = tradeoff.choose(wish).map(|i| &tradeoff.points[i].run.candidate);
+    let (name, value) = match wish {
+        Wish::Accuracy(share) => ("accuracy", share),
+        Wish::Budget(seconds) => ("budget_s", seconds),
+    };
+    ChoiceObject {
+        wish: name,
+        value,
+        setting: chosen.map(|candidate| candidate.name.clone()),
+        options: chosen.map(|candidate| candidate.options()),
+    }
+}
+
+/// A recommendation in words.
+fn advice(tradeoff: &Tradeoff, wish: Wish) -> String {
+    let asked = match wish {
+        Wish::Accuracy(share) => format!("For an error of at most {}", percent(share)),
+        Wish::Budget(seconds) => format!("Within {}", duration(seconds)),
+    };
+    let Some(point) = tradeoff.choose(wish).map(|i| &tradeoff.points[i]) else {
+        return format!("\n{asked}: none of these.\n");
+    };
+    // The command is kept on one line, to be copied.
+    format!(
+        "\n{asked}: {}, {}, off by at most {}:\n  squeezefilm solve PRESET {}\n",
+        point.run.candidate.name,
+        duration(point.median),
+        point.error.map_or_else(String::new, percent),
+        point.run.candidate.options()
+    )
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", significant(100.0 * share, 2))
+}
+
+/// The table for people.
+fn text(name: &str, tradeoff: &Tradeoff) -> String {
+    let judged = tradeoff.judged.label();
+    let mut text = paragraph(&format!("{name}: error against solve time, measured now on this machine"), "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    let head = [
+        "setting",
+        "time",
+        "quartiles",
+        "runs",
+        &judged,
+        "error",
+        "measured",
+        "stated",
+        "film steps",
+        "rounds",
+        "contacts",
+        "",
+    ];
+    columns.row(head);
+    for (i, point) in tradeoff.points.iter().enumerate() {
+        columns.row(cells(point, tradeoff.judged, tradeoff.reference == Some(i)));
+    }
+    text.push_str(&columns.text("  ", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
+    text.push('\n');
+    text.push_str(&paragraph(
+        "measured: distance from the reference plus the reference's own stated error, a share of the value; stated: what \
+         the run says of itself; error: the greater of the two. best: no other is at once as fast and as accurate. Grids are film nodes along × across × \
+         steps in a cycle, rounded up to what can be halved twice.",
+        "  ",
+        "  ",
+    ));
+    text
+}
+
+fn cells(point: &Point, judged: Quantity, reference: bool) -> Vec<String> {
+    let run = &point.run;
+    let shown = |value: Option<f64>, show: &dyn Fn(f64) -> String| value.map_or_else(String::new, show);
+    let count = |quantity: Quantity| shown(run.numbers.get(quantity), &|count| count.to_string());
+    let time = |seconds: f64| if seconds.is_finite() { duration(seconds) } else { String::new() };
+    let mark = match (&run.ended, reference, point.best) {
+        (_, true, _) => "reference".to_owned(),
+        (crate::analysis::tradeoff::Ended::Converged, _, true) => "best".to_owned(),
+        (crate::analysis::tradeoff::Ended::Converged, _, false) => String::new(),
+        (ended, ..) => status(ended).to_uppercase(),
+    };
+    vec![
+        run.candidate.name.clone(),
+        time(point.median),
+        format!("{} … {}", time(point.quartiles.0), time(point.quartiles.1)),
+        run.times.len().to_string(),
+        shown(run.numbers.get(judged), &|value| significant(value, 5)),
+        shown(point.error, &percent),
+        shown(point.measured, &percent),
+        shown(point.stated, &percent),
+        count(Quantity::FilmSteps),
+        count(Quantity::Rounds),
+        count(Quantity::ContactSolves),
+        mark,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_and_times_are_read_with_their_units() {
+        let near = |found: Result<f64, String>, expected: f64| (found.unwrap() / expected - 1.0).abs() < 1e-12;
+        assert!(near(accuracy("1%"), 0.01) && near(accuracy("0.5 %"), 0.005) && near(accuracy("0.01"), 0.01));
+        assert!(near(budget("16ms"), 0.016) && near(budget(" 2 s"), 2.0) && near(budget("1.5min"), 90.0));
+        for wrong in ["", "%", "-1%", "0", "nan", "inf%", "one"] {
+            assert!(accuracy(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["", "16", "0ms", "-1s", "16 hours", "ms"] {
+            assert!(budget(wrong).is_err(), "{wrong}");
+        }
+    }
+}

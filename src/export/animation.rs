@@ -1,0 +1,379 @@
+//! One cycle as moving pictures: GIF, APNG, or a folder of PNG.
+//!
+//! Every frame is a [`Figure`], drawn as for print; its axes have to stay where they are from frame to frame. A GIF has one
+//! palette for all frames, so that nothing flickers: the commonest colours as they are, the rest by neural quantisation
+//! (Dekker 1994). From frame to frame only what has changed is stored, in both formats.
+
+use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
+use super::figures;
+use super::folder::{Staged, WriteError, write_file};
+use crate::control::Cancel;
+use crate::problem::{Problem, Scenario};
+use crate::recording::Recording;
+use crate::solution::Solution;
+use color_quant::NeuQuant;
+use rayon::prelude::*;
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// What an animation is to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Pixels across.
+    pub width: u32,
+    /// How long the cycle takes on screen \[s\].
+    pub seconds: f64,
+    /// Frames; never more than the solve has time steps.
+    pub frames: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { width: 720, seconds: 4.0, frames: 60 }
+    }
+}
+
+/// Frames of one cycle, to be repeated.
+#[derive(Clone, Debug)]
+pub struct Movie {
+    width: u32,
+    height: u32,
+    seconds: f64,
+    /// Red, green, blue, row by row from the top.
+    frames: Vec<Vec<u8>>,
+}
+
+/// An animation that cannot be made or written.
+#[derive(Debug, thiserror::Error)]
+pub enum AnimationError {
+    /// The caller cancelled; no file was written.
+    #[error("cancelled; no file was written")]
+    Cancelled,
+    /// The extension is none of those known.
+    #[error("{}: animations are written as .gif, as .png (animated), or into a folder, whose name has no extension", path.display())]
+    Extension {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// The solve has no fields of a cycle.
+    #[error("there is no cycle to animate")]
+    NoCycle,
+    /// Frames differ in size.
+    #[error("frame {frame} has another size than the first")]
+    Size {
+        /// Which frame, from 0.
+        frame: usize,
+    },
+    /// A frame cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// The format of an animation, by its path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Shown everywhere, 256 colours.
+    Gif,
+    /// An animated PNG: all colours, shown by browsers.
+    Apng,
+    /// A PNG for each frame in a folder, for makers of films.
+    Folder,
+}
+
+impl Format {
+    /// The format of a path: `.gif`, `.png`, `.apng`, or without extension a folder.
+    ///
+    /// # Errors
+    /// [`AnimationError::Extension`].
+    pub fn of(path: &Path) -> Result<Self, AnimationError> {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("gif") => Ok(Self::Gif),
+            Some("png" | "apng") => Ok(Self::Apng),
+            None => Ok(Self::Folder),
+            Some(_) if path.is_dir() => Ok(Self::Folder),
+            Some(_) => Err(AnimationError::Extension { path: path.to_owned() }),
+        }
+    }
+}
+
+/// Draws the cycle of a solve. `done` is called after each frame, from several threads.
+///
+/// # Errors
+/// [`AnimationError`]: cancelled, no cycle, or a frame that cannot be drawn.
+pub fn cycle(
+    problem: &Problem,
+    solution: &Solution,
+    options: &Options,
+    done: &(dyn Fn() + Sync),
+    cancel: &Cancel,
+) -> Result<Movie, AnimationError> {
+    let recording = &solution.recording;
+    let count = options.frames.min(recording.frames);
+    let slower = slow_motion(recording, options.seconds);
+    let figure = |frame: usize| {
+        let frame = frame * recording.frames / count.max(1);
+        let mut figure = match &problem.scenario {
+            Scenario::Motor(motor) => figures::motor::moving(motor, recording, frame),
+            Scenario::Plate(plate) => figures::plate::moving(plate, recording, frame),
+        };
+        figure.title =
+            format!("{} · t/T = {:.2} · {slower}", problem.name, frame as f64 / recording.frames.max(1) as f64);
+        figure.provenance = Provenance::of(problem, solution);
+        figure
+    };
+    Movie::of(count, options, &figure, done, cancel)
+}
+
+/// `slowed down 91 000 times`
+fn slow_motion(recording: &Recording, seconds: f64) -> String {
+    let factor = seconds / recording.period;
+    if !(factor.is_finite() && factor > 0.0) {
+        return String::new();
+    }
+    // Two digits are enough to know what one sees.
+    let size = 10f64.powf(factor.log10().floor() - 1.0);
+    let rounded = (factor / size).round() * size;
+    if rounded < 1e4 {
+        return format!("slowed down {rounded:.0} times");
+    }
+    let thousands = rounded / 1e3;
+    if thousands < 1e3 {
+        format!("slowed down {thousands:.0} 000 times")
+    } else {
+        format!("slowed down {rounded:.1e} times")
+    }
+}
+
+impl Movie {
+    /// Draws `count` frames that `figure` describes. `done` is called after each, from several threads.
+    ///
+    /// # Errors
+    /// [`AnimationError`]: cancelled, no frames, frames of several sizes, or one that cannot be drawn.
+    pub fn of(
+        count: usize,
+        options: &Options,
+        figure: &(dyn Fn(usize) -> Figure + Sync),
+        done: &(dyn Fn() + Sync),
+        cancel: &Cancel,
+    ) -> Result<Self, AnimationError> {
+        if count == 0 {
+            return Err(AnimationError::NoCycle);
+        }
+        let draw = |frame: usize| {
+            if cancel.is_cancelled() {
+                return Err(AnimationError::Cancelled);
+            }
+            let figure = figure(frame);
+            let scale = f64::from(options.width.max(1)) / figure.width.points();
+            let pixels = pixels(&figure, scale)?;
+            done();
+            Ok(pixels)
+        };
+        let drawn = (0..count).into_par_iter().map(draw).collect::<Result<Vec<Pixels>, _>>()?;
+        let (width, height) = (drawn[0].width, drawn[0].height);
+        if let Some(frame) = drawn.iter().position(|pixels| (pixels.width, pixels.height) != (width, height)) {
+            return Err(AnimationError::Size { frame });
+        }
+        let seconds = if options.seconds.is_finite() { options.seconds.clamp(0.02, 600.0) } else { 4.0 };
+        Ok(Self { width, height, seconds, frames: drawn.into_iter().map(|pixels| pixels.rgb).collect() })
+    }
+
+    /// How many frames there are.
+    pub fn len(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// Never: a movie has frames.
+    pub fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+
+    /// Writes the movie in the format of its path. A file has its name only when it is complete.
+    ///
+    /// # Errors
+    /// [`AnimationError`]; then no file is left, and an older one of that name is as it was.
+    pub fn write(&self, path: &Path, cancel: &Cancel) -> Result<Vec<PathBuf>, AnimationError> {
+        let stopped = |error: WriteError| {
+            if cancel.is_cancelled() { AnimationError::Cancelled } else { error.into() }
+        };
+        match Format::of(path)? {
+            Format::Gif => write_file(path, |out| self.gif(out, cancel)).map_err(stopped)?,
+            Format::Apng => write_file(path, |out| self.apng(out, cancel)).map_err(stopped)?,
+            Format::Folder => {
+                let mut staged = Staged::new(path)?;
+                for (i, rgb) in self.frames.iter().enumerate() {
+                    let pixels = Pixels { width: self.width, height: self.height, rgb: rgb.clone() };
+                    let write = |out: &mut dyn Write| {
+                        check(cancel)?;
+                        out.write_all(&png_bytes(&pixels, None, &[]).map_err(io::Error::other)?)
+                    };
+                    staged.add(&format!("frame-{:04}.png", i + 1), write).map_err(stopped)?;
+                }
+                return Ok(staged.commit()?);
+            }
+        }
+        Ok(vec![path.to_owned()])
+    }
+
+    /// Writes a GIF that repeats for ever.
+    ///
+    /// # Errors
+    /// Those of the writer; an interruption if it was cancelled.
+    pub fn gif(&self, out: &mut dyn Write, cancel: &Cancel) -> io::Result<()> {
+        let (width, height) = (side(self.width)?, side(self.height)?);
+        let mut palette = Palette::new(&self.frames);
+        let mut encoder = gif::Encoder::new(out, width, height, &palette.bytes()).map_err(io::Error::other)?;
+        encoder.set_repeat(gif::Repeat::Infinite).map_err(io::Error::other)?;
+        for (i, rgb) in self.frames.iter().enumerate() {
+            check(cancel)?;
+            let before = i.checked_sub(1).map(|i| self.frames[i].as_slice());
+            let [left, top, right, bottom] = self.changed(before, rgb);
+            let mut buffer = Vec::with_capacity((right - left) * (bottom - top));
+            for y in top..bottom {
+                for x in left..right {
+                    let at = 3 * (y * self.width as usize + x);
+                    let same = before.is_some_and(|before| before[at..at + 3] == rgb[at..at + 3]);
+                    buffer.push(if same { TRANSPARENT } else { palette.index([rgb[at], rgb[at + 1], rgb[at + 2]]) });
+                }
+            }
+            let frame = gif::Frame {
+                delay: self.delay(i),
+                dispose: gif::DisposalMethod::Keep,
+                transparent: Some(TRANSPARENT),
+                left: left as u16,
+                top: top as u16,
+                width: (right - left) as u16,
+                height: (bottom - top) as u16,
+                buffer: Cow::Owned(buffer),
+                ..gif::Frame::default()
+            };
+            encoder.write_frame(&frame).map_err(io::Error::other)?;
+        }
+        Ok(())
+    }
+
+    /// How long a frame stays, in hundredths of a second: together they last as long as they should.
+    fn delay(&self, frame: usize) -> u16 {
+        let until = |frame: usize| (100.0 * self.seconds * frame as f64 / self.len() as f64).round();
+        (until(frame + 1) - until(frame)).clamp(2.0, 60_000.0) as u16
+    }
+
+    /// Writes an animated PNG that repeats for ever.
+    ///
+    /// # Errors
+    /// Those of the writer; an interruption if it was cancelled.
+    pub fn apng(&self, out: &mut dyn Write, cancel: &Cancel) -> io::Result<()> {
+        let count = u32::try_from(self.len()).map_err(io::Error::other)?;
+        let mut encoder = png::Encoder::new(out, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_animated(count, 0)?;
+        encoder.set_frame_delay((1000.0 * self.seconds / f64::from(count)).round().clamp(1.0, 6e4) as u16, 1000)?;
+        let mut writer = encoder.write_header()?;
+        for (i, rgb) in self.frames.iter().enumerate() {
+            check(cancel)?;
+            let before = i.checked_sub(1).map(|i| self.frames[i].as_slice());
+            let [left, top, right, bottom] = self.changed(before, rgb);
+            if i > 0 {
+                writer.reset_frame_position()?;
+                writer.set_frame_dimension((right - left) as u32, (bottom - top) as u32)?;
+                writer.set_frame_position(left as u32, top as u32)?;
+            }
+            let rows = (top..bottom).flat_map(|y| {
+                let row = 3 * y * self.width as usize;
+                rgb[row + 3 * left..row + 3 * right].iter().copied()
+            });
+            writer.write_image_data(&rows.collect::<Vec<u8>>())?;
+        }
+        writer.finish()?;
+        Ok(())
+    }
+
+    /// Left, top, right and bottom of what differs from the frame before: at least one pixel.
+    fn changed(&self, before: Option<&[u8]>, rgb: &[u8]) -> [usize; 4] {
+        let (width, height) = (self.width as usize, self.height as usize);
+        let Some(before) = before else { return [0, 0, width, height] };
+        let mut edges = [width, height, 0, 0];
+        for (y, (old, new)) in before.chunks_exact(3 * width).zip(rgb.chunks_exact(3 * width)).enumerate() {
+            let differs = |x: &usize| old[3 * x..3 * x + 3] != new[3 * x..3 * x + 3];
+            let (Some(first), Some(last)) = ((0..width).find(differs), (0..width).rev().find(differs)) else {
+                continue;
+            };
+            edges = [edges[0].min(first), edges[1].min(y), edges[2].max(last + 1), y + 1];
+        }
+        if edges[2] == 0 { [0, 0, 1, 1] } else { edges }
+    }
+}
+
+fn check(cancel: &Cancel) -> io::Result<()> {
+    if cancel.is_cancelled() { Err(io::ErrorKind::Interrupted.into()) } else { Ok(()) }
+}
+
+fn side(length: u32) -> io::Result<u16> {
+    u16::try_from(length).map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
+}
+
+/// The palette's colour for what has not changed.
+const TRANSPARENT: u8 = 255;
+/// Colours that are kept as they are.
+const EXACT: usize = 96;
+/// Pixels looked at to find a palette.
+const SAMPLES: usize = 400_000;
+
+/// 255 colours for all frames.
+struct Palette {
+    colours: Vec<[u8; 3]>,
+    known: HashMap<[u8; 3], u8>,
+}
+
+impl Palette {
+    fn new(frames: &[Vec<u8>]) -> Self {
+        let pixels: usize = frames.iter().map(|frame| frame.len() / 3).sum();
+        let step = (pixels / SAMPLES).max(1);
+        let mut counts: HashMap<[u8; 3], usize> = HashMap::new();
+        let all = frames.iter().flat_map(|frame| frame.chunks_exact(3));
+        for pixel in all.step_by(step) {
+            *counts.entry([pixel[0], pixel[1], pixel[2]]).or_default() += 1;
+        }
+        let mut common: Vec<([u8; 3], usize)> = counts.into_iter().collect();
+        // Ties by colour: the file is the same every time.
+        common.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+        let exact = if common.len() <= usize::from(TRANSPARENT) { common.len() } else { EXACT };
+        let mut colours: Vec<[u8; 3]> = common[..exact].iter().map(|(colour, _)| *colour).collect();
+        if exact < common.len() {
+            // Rare colours count too, or gradients would have steps: by the root of how often they are.
+            let weighted = common[exact..].iter().flat_map(|(colour, count)| {
+                let times = (*count as f64).sqrt().ceil() as usize;
+                std::iter::repeat_n([colour[0], colour[1], colour[2], 255], times)
+            });
+            let rest: Vec<u8> = weighted.flatten().collect();
+            let network = NeuQuant::new(3, usize::from(TRANSPARENT) - exact, &rest);
+            colours.extend(network.color_map_rgb().chunks_exact(3).map(|c| [c[0], c[1], c[2]]));
+        }
+        let known = colours.iter().zip(0..TRANSPARENT).map(|(colour, index)| (*colour, index)).collect();
+        Self { colours, known }
+    }
+
+    /// For the file: 256 colours.
+    fn bytes(&self) -> Vec<u8> {
+        let mut bytes: Vec<u8> = self.colours.iter().flatten().copied().collect();
+        bytes.resize(768, 0);
+        bytes
+    }
+
+    /// The nearest colour.
+    fn index(&mut self, colour: [u8; 3]) -> u8 {
+        let colours = &self.colours;
+        *self.known.entry(colour).or_insert_with(|| {
+            let far = |other: &[u8; 3]| -> u32 { (0..3).map(|k| u32::from(colour[k].abs_diff(other[k])).pow(2)).sum() };
+            let nearest = colours.iter().zip(0..TRANSPARENT).min_by_key(|(other, _)| far(other));
+            nearest.map_or(0, |(_, index)| index)
+        })
+    }
+}

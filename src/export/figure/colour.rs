@@ -1,0 +1,82 @@
+//! Colours of figures: few, with a meaning, told apart with the common colour deficiencies.
+
+use super::description::Scale;
+use super::scale::Scaled;
+use serde::{Deserialize, Serialize};
+
+/// Red, green, blue.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Colour(pub u8, pub u8, pub u8);
+
+impl Colour {
+    /// Black.
+    pub const BLACK: Self = Self(0, 0, 0);
+    /// White.
+    pub const WHITE: Self = Self(0xff, 0xff, 0xff);
+    /// Secondary text and thin lines.
+    pub const QUIET: Self = Self(0x60, 0x66, 0x70);
+    /// The stator and its teeth.
+    pub const STATOR: Self = Self(0x6b, 0x77, 0x88);
+    /// The rotor.
+    pub const ROTOR: Self = Self(0xa9, 0x8a, 0x5c);
+    /// Film pressure and film load.
+    pub const FILM: Self = Self(0x00, 0x72, 0xb2);
+    /// Contact pressure and contact load.
+    pub const CONTACT: Self = Self(0xd5, 0x5e, 0x00);
+    /// Curves of several, in turn (Okabe–Ito, without the yellow that vanishes on white).
+    pub const CYCLE: [Self; 7] = [
+        Self(0x00, 0x72, 0xb2),
+        Self(0xd5, 0x5e, 0x00),
+        Self(0x00, 0x9e, 0x73),
+        Self(0xcc, 0x79, 0xa7),
+        Self(0xe6, 0x9f, 0x00),
+        Self(0x56, 0xb4, 0xe9),
+        Self(0x00, 0x00, 0x00),
+    ];
+
+    /// `#0072b2`.
+    pub fn hex(self) -> String {
+        format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
+    }
+
+    /// Perceived lightness, 0 black to 1 white.
+    pub fn lightness(self) -> f64 {
+        let part = |channel: u8| (f64::from(channel) / 255.0).powf(2.2);
+        (0.2126 * part(self.0) + 0.7152 * part(self.1) + 0.0722 * part(self.2)).powf(1.0 / 2.2)
+    }
+}
+
+/// How values become colours. All are perceptually uniform.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Colours {
+    /// From dark to light, for quantities: viridis.
+    #[default]
+    Field,
+    /// From dark to light through red, for a second quantity beside the first: magma.
+    Heat,
+    /// From blue over white to red, for differences; give it a range symmetric about zero.
+    Signed,
+}
+
+impl Colours {
+    /// The colour of a fraction of the range, clamped to 0 … 1.
+    pub fn at(self, fraction: f64) -> Colour {
+        let gradient = match self {
+            Self::Field => colorous::VIRIDIS,
+            Self::Heat => colorous::MAGMA,
+            Self::Signed => colorous::RED_BLUE,
+        };
+        let fraction = if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 };
+        let colour = gradient.eval_continuous(if self == Self::Signed { 1.0 - fraction } else { fraction });
+        Colour(colour.r, colour.g, colour.b)
+    }
+
+    /// The colour of a value over a range; none for what cannot be shown on it.
+    pub(super) fn of(self, value: f64, range: &Scaled) -> Option<Colour> {
+        if !value.is_finite() || (range.scale == Scale::Log && value <= 0.0) {
+            return None;
+        }
+        Some(self.at(range.fraction(value)))
+    }
+}

@@ -1,0 +1,137 @@
+//! Lines of equal value with their values written into them.
+
+use super::svg::{Pen, Svg, Type};
+use super::text;
+
+/// Size of the values \[pt\].
+const SIZE: f64 = 7.0;
+/// Distance between places on a line that are looked at.
+const STEP: f64 = 1.0;
+/// A value stands at least this far, of its size, from other lines.
+const CLEAR: f64 = 0.75;
+/// A line is at least this many times as long as its value.
+const LONGER: f64 = 3.0;
+
+/// One piece of a line of equal value.
+pub(super) struct Isoline {
+    /// Points close together, and whether each was a point of the line before.
+    points: Vec<([f64; 2], bool)>,
+    label: String,
+    pen: Pen,
+}
+
+impl Isoline {
+    /// A line that carries a value; an empty one is not written.
+    pub(super) fn new(line: Vec<[f64; 2]>, label: &str, pen: Pen) -> Self {
+        let mut points = Vec::new();
+        for pair in line.windows(2) {
+            let steps = (far(pair[0], pair[1]) / STEP).ceil().max(1.0);
+            for i in 0..steps as usize {
+                let t = i as f64 / steps;
+                points.push(([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])), i == 0));
+            }
+        }
+        points.extend(line.last().map(|last| (*last, true)));
+        Self { points, label: label.to_owned(), pen }
+    }
+
+    /// The stretch for the value: straight, clear of other lines and values, as near the middle as may be.
+    fn stretch(&self, index: usize, lines: &[Self], values: &[[f64; 2]]) -> Option<(usize, usize)> {
+        let need = text::width(&self.label, SIZE) + 4.0;
+        let length = |from: usize, to: usize| (to - from) as f64 * STEP;
+        let count = self.points.len();
+        if self.label.is_empty() || length(0, count) < LONGER * need {
+            return None;
+        }
+        let span = (need / STEP).ceil() as usize;
+        let mut places: Vec<(f64, usize)> = (0..count.saturating_sub(span))
+            .step_by(3)
+            .filter_map(|from| {
+                let (a, b) = (self.points[from].0, self.points[from + span].0);
+                let bent = 1.0 - far(a, b) / length(from, from + span);
+                let off = ((from as f64 + 0.5 * span as f64) / count as f64 - 0.5).abs();
+                // Across the page rather than up it: values are read without turning the head.
+                let steep = (b[1] - a[1]).abs() / far(a, b).max(1e-9);
+                (bent < 0.15).then_some((4.0 * bent + 0.3 * off + 0.3 * steep, from))
+            })
+            .collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let free = |from: usize| {
+            let (a, b) = (self.points[from].0, self.points[from + span].0);
+            let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+            let others = lines.iter().enumerate().filter(|(other, _)| *other != index);
+            values.iter().all(|value| far(*value, middle) > 1.3 * need)
+                && others.flat_map(|(_, line)| &line.points).all(|(p, _)| off_segment(*p, a, b) > CLEAR * SIZE)
+        };
+        places.into_iter().map(|(_, from)| from).take(150).find(|from| free(*from)).map(|from| (from, from + span))
+    }
+
+    /// The points of the line before, from one place to another, both included.
+    fn between(&self, from: usize, to: usize) -> Vec<[f64; 2]> {
+        let kept = |i: &usize| *i == from || *i == to || self.points[*i].1;
+        (from..=to).filter(kept).map(|i| self.points[i].0).collect()
+    }
+}
+
+fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Distance of a point from a segment.
+fn off_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let square = dx * dx + dy * dy;
+    let t = if square > 0.0 { (((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
+    far(p, [a[0] + t * dx, a[1] + t * dy])
+}
+
+/// Draws lines, each with its value in a gap where there is room for it.
+pub(super) fn draw(svg: &mut Svg, lines: &[Isoline]) {
+    let mut values: Vec<[f64; 2]> = Vec::new();
+    for (index, line) in lines.iter().enumerate() {
+        let Some(last) = line.points.len().checked_sub(1) else { continue };
+        let Some((from, to)) = line.stretch(index, lines, &values) else {
+            svg.polyline(&line.between(0, last), &line.pen);
+            continue;
+        };
+        svg.polyline(&line.between(0, from), &line.pen);
+        svg.polyline(&line.between(to, last), &line.pen);
+        let (a, b) = (line.points[from].0, line.points[to].0);
+        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+        values.push(middle);
+        let mut angle = (b[1] - a[1]).atan2(b[0] - a[0]);
+        if angle.cos() < 0.0 {
+            angle += std::f64::consts::PI;
+        }
+        let (sin, cos) = angle.sin_cos();
+        let drop = 0.35 * SIZE;
+        let at = [middle[0] - drop * sin, middle[1] + drop * cos];
+        let style = Type { colour: line.pen.colour, angle: angle.to_degrees(), ..Type::new(SIZE, "middle") };
+        svg.text(at, &line.label, &style);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::figure::Colour;
+
+    fn level(y: f64) -> Isoline {
+        Isoline::new(vec![[0.0, y], [100.0, y]], "12", Pen::solid(Colour::BLACK, 0.7))
+    }
+
+    #[test]
+    fn a_value_stands_in_a_gap_of_its_own_width() {
+        let mut svg = Svg::default();
+        draw(&mut svg, &[level(10.0), level(40.0)]);
+        assert_eq!((svg.body.matches("<polyline").count(), svg.body.matches(">12<").count()), (4, 2));
+    }
+
+    #[test]
+    fn there_is_no_value_where_lines_are_close() {
+        let mut svg = Svg::default();
+        draw(&mut svg, &[level(10.0), level(12.0)]);
+        assert_eq!((svg.body.matches("<polyline").count(), svg.body.matches("<text").count()), (2, 0));
+        draw(&mut svg, &[Isoline::new(Vec::new(), "1", Pen::solid(Colour::BLACK, 1.0))]);
+    }
+}

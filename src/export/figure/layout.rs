@@ -1,0 +1,404 @@
+//! Where everything stands on the paper: plotting areas that line up, with room for what is round them.
+
+use super::description::{Axis, Figure, Layer, Legend, Map, Panel, Scale, Shading};
+use super::legend::{self, Entry};
+use super::plane;
+use super::scale::{Scaled, Ticks, power};
+use super::svg::Rect;
+use super::text;
+
+/// Points in a millimetre.
+pub(super) const MM: f64 = 72.0 / 25.4;
+/// Sizes of type \[pt\].
+pub(super) const TITLE: f64 = 9.5;
+pub(super) const HEAD: f64 = 8.5;
+pub(super) const LABEL: f64 = 8.5;
+pub(super) const TICK: f64 = 8.0;
+pub(super) const NOTE: f64 = 7.5;
+pub(super) const FOOT: f64 = 6.0;
+/// Height of a line, of its type's size.
+pub(super) const LEADING: f64 = 1.25;
+/// Length of a major and of a minor tick.
+pub(super) const MAJOR: f64 = 2.8;
+pub(super) const MINOR: f64 = 1.6;
+/// Gap between a tick and its label.
+pub(super) const GAP: f64 = 2.2;
+/// Round the figure.
+const MARGIN: f64 = 3.0;
+/// Between rows and between columns of panels.
+const ROW_GAP: f64 = 9.0;
+const COLUMN_GAP: f64 = 11.0;
+/// Width of an upright colour bar, and what is between it and the map.
+pub(super) const BAR: f64 = 7.0;
+pub(super) const BAR_GAP: f64 = 6.0;
+/// Maps lower than this \[pt\] have their colour bar above.
+const LOW: f64 = 75.0;
+/// Height that a colour bar takes above a map.
+pub(super) const BAR_ABOVE: f64 = 19.0;
+/// Never smaller than this: a panel too narrow for its labels is still a panel.
+const LEAST: f64 = 24.0;
+
+/// A colour bar's place.
+#[derive(Clone, Debug)]
+pub(super) struct Bar {
+    pub(super) rect: Rect,
+    pub(super) upright: bool,
+    pub(super) range: Scaled,
+    pub(super) ticks: Ticks,
+    pub(super) label: String,
+}
+
+/// A panel's place.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub(super) rect: Rect,
+    pub(super) x: Scaled,
+    pub(super) y: Scaled,
+    pub(super) right: Option<Scaled>,
+    pub(super) x_ticks: Ticks,
+    pub(super) y_ticks: Ticks,
+    pub(super) right_ticks: Ticks,
+    /// Whether labels stand below the x axis.
+    pub(super) x_labels: bool,
+    /// How far the labels of the y axes reach out, for the quantity beyond them.
+    pub(super) y_reach: f64,
+    pub(super) right_reach: f64,
+    pub(super) bar: Option<Bar>,
+    pub(super) legend: Vec<(Entry, [f64; 2])>,
+    /// A legend inside has a background.
+    pub(super) legend_box: Option<Rect>,
+    pub(super) title: Option<[f64; 2]>,
+}
+
+/// A figure's place for everything.
+#[derive(Clone, Debug)]
+pub(super) struct Layout {
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) title: Vec<([f64; 2], String)>,
+    pub(super) panels: Vec<Placed>,
+    pub(super) foot: Vec<([f64; 2], String)>,
+}
+
+/// `gap (10^{−9} m)`
+pub(super) fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
+    let factor = if exponent == 0 { String::new() } else { power(exponent) };
+    let gap = if factor.is_empty() || unit.is_empty() { "" } else { " " };
+    match (label.is_empty(), factor.is_empty() && unit.is_empty()) {
+        (_, true) => label.to_owned(),
+        (true, false) => format!("{factor}{gap}{unit}"),
+        (false, false) => format!("{label} ({factor}{gap}{unit})"),
+    }
+}
+
+impl Layout {
+    pub(super) fn new(figure: &Figure) -> Self {
+        let width = figure.width.points();
+        let count = figure.panels.len();
+        let columns = figure.columns.clamp(1, count.max(1));
+        let ranges = ranges(figure, columns);
+        let mut panels: Vec<Placed> = Vec::with_capacity(count);
+        for (index, (panel, range)) in figure.panels.iter().zip(ranges).enumerate() {
+            let lowest = index + columns >= count;
+            panels.push(Placed::beside(panel, range, !figure.share_x || lowest));
+        }
+        place_columns(figure, &mut panels, columns, width);
+
+        let mut y = MARGIN;
+        let mut title = Vec::new();
+        for line in text::wrapped(&figure.title, TITLE, width - 2.0 * MARGIN) {
+            y += TITLE * LEADING;
+            title.push(([MARGIN, y - 0.25 * TITLE], line));
+        }
+        if !title.is_empty() {
+            y += 5.0;
+        }
+        for start in (0..count).step_by(columns) {
+            let row = start..(start + columns).min(count);
+            let above: Vec<f64> = row.clone().map(|i| panels[i].above(&figure.panels[i])).collect();
+            let top = y + above.iter().copied().fold(0.0, f64::max);
+            let mut bottom = top;
+            for i in row {
+                let height = panels[i].rect.height;
+                panels[i].lower(&figure.panels[i], y, top);
+                bottom = bottom.max(top + height + panels[i].below(&figure.panels[i]));
+            }
+            y = bottom + ROW_GAP;
+        }
+        if count > 0 {
+            y -= ROW_GAP;
+        }
+        let mut foot = Vec::new();
+        let lines = text::wrapped(&figure.provenance.line(), FOOT, width - 2.0 * MARGIN);
+        if !lines.is_empty() {
+            y += 4.0;
+        }
+        for line in lines {
+            y += FOOT * LEADING;
+            foot.push(([MARGIN, y - 0.25 * FOOT], line));
+        }
+        Self { width, height: y + MARGIN, title, panels, foot }
+    }
+}
+
+/// Ranges of a panel's axes: x, y and right.
+type Ranges = (Scaled, Scaled, Option<Scaled>);
+
+fn ranges(figure: &Figure, columns: usize) -> Vec<Ranges> {
+    let x = |index: usize, panel: &Panel| {
+        let column = index % columns;
+        let mut values = Vec::new();
+        for (i, other) in figure.panels.iter().enumerate() {
+            if i == index || (figure.share_x && i % columns == column) {
+                x_values(other, panel.x.scale, &mut values);
+            }
+        }
+        // Curves run from end to end; markers stand clear of the axes.
+        let curve = |layer: &Layer| matches!(layer, Layer::Line(line) if !line.is_marked());
+        let margin = !(fills(panel) || panel.layers.iter().any(curve));
+        Scaled::new(&panel.x.range, panel.x.scale, values.into_iter(), margin)
+    };
+    let y = |panel: &Panel, axis: &Axis, right: bool| {
+        let mut values = Vec::new();
+        y_values(panel, axis.scale, right, &mut values);
+        Scaled::new(&axis.range, axis.scale, values.into_iter(), right || !fills(panel))
+    };
+    let of = |(index, panel): (usize, &Panel)| {
+        (x(index, panel), y(panel, &panel.y, false), panel.right.as_ref().map(|axis| y(panel, axis, true)))
+    };
+    figure.panels.iter().enumerate().map(of).collect()
+}
+
+/// Whether a panel is a map, whose axes end where it ends.
+pub(super) fn fills(panel: &Panel) -> bool {
+    panel.layers.iter().any(|layer| matches!(layer, Layer::Map(_) | Layer::Categories(_)))
+}
+
+fn x_values(panel: &Panel, scale: Scale, values: &mut Vec<f64>) {
+    let log = scale == Scale::Log;
+    for layer in &panel.layers {
+        match layer {
+            Layer::Line(line) => values.extend(line.points.iter().map(|p| p[0])),
+            Layer::Band(band) => values.extend(band.points.iter().map(|p| p[0])),
+            Layer::Points(points) => values.extend(points.points.iter().map(|p| p[0])),
+            Layer::Map(map) => values.extend(plane::ends(&map.grid.x, map.shading == Shading::Cells, log)),
+            Layer::Contours(contours) => values.extend(plane::ends(&contours.grid.x, false, log)),
+            Layer::Categories(kinds) => values.extend(plane::ends(&kinds.x, true, log)),
+            Layer::Mark(_) | Layer::Text(_) => {}
+        }
+    }
+}
+
+fn y_values(panel: &Panel, scale: Scale, right: bool, values: &mut Vec<f64>) {
+    let log = scale == Scale::Log;
+    for layer in &panel.layers {
+        match layer {
+            Layer::Line(line) if line.right == right => values.extend(line.points.iter().map(|p| p[1])),
+            Layer::Band(band) if band.right == right => values.extend(band.points.iter().flat_map(|p| [p[1], p[2]])),
+            Layer::Points(points) if points.right == right => {
+                for (i, [_, y]) in points.points.iter().enumerate() {
+                    let error = points.errors.get(i).copied().filter(|e| e.is_finite()).unwrap_or(0.0).abs();
+                    values.extend([*y, y - error, y + error]);
+                }
+            }
+            Layer::Map(map) if !right => values.extend(plane::ends(&map.grid.y, map.shading == Shading::Cells, log)),
+            Layer::Contours(contours) if !right => values.extend(plane::ends(&contours.grid.y, false, log)),
+            Layer::Categories(kinds) if !right => values.extend(plane::ends(&kinds.y, true, log)),
+            _ => {}
+        }
+    }
+}
+
+/// The map whose colours the bar explains.
+pub(super) fn first_map(panel: &Panel) -> Option<&Map> {
+    panel.layers.iter().find_map(|layer| match layer {
+        Layer::Map(map) => Some(map),
+        _ => None,
+    })
+}
+
+/// The range of a map's colours.
+pub(super) fn map_range(map: &Map) -> Scaled {
+    Scaled::new(&map.range, map.scale, map.grid.values.iter().copied(), false)
+}
+
+fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
+    if axis.names.is_empty() {
+        return Ticks::new(range, most, axis.whole);
+    }
+    let named = axis.names.iter().filter(|(at, _)| range.holds(*at));
+    let ticks = named.map(|(at, name)| super::scale::Tick { at: *at, label: Some(name.clone()) }).collect();
+    Ticks { ticks, power: 0 }
+}
+
+/// Ticks of an upright axis: as many as its height has room for.
+fn upright_ticks(axis: &Axis, range: &Scaled, height: f64) -> Ticks {
+    ticks(axis, range, ((height / (2.0 * TICK)) as usize).clamp(2, 7))
+}
+
+/// Ticks of a level axis whose labels do not touch.
+fn level_ticks(axis: &Axis, range: &Scaled, width: f64) -> Ticks {
+    let mut most = ((width / 26.0) as usize).clamp(2, 9);
+    loop {
+        let ticks = ticks(axis, range, most);
+        if most <= 2 || !touch(&ticks, range, width) {
+            return ticks;
+        }
+        most -= 1;
+    }
+}
+
+fn touch(ticks: &Ticks, range: &Scaled, width: f64) -> bool {
+    let mut end = f64::NEG_INFINITY;
+    for tick in &ticks.ticks {
+        let Some(label) = &tick.label else { continue };
+        let (at, half) = (range.fraction(tick.at) * width, 0.5 * text::width(label, TICK));
+        if at - half < end {
+            return true;
+        }
+        end = at + half + 4.0;
+    }
+    false
+}
+
+/// The widest label.
+fn widest(ticks: &Ticks) -> f64 {
+    ticks.ticks.iter().filter_map(|tick| tick.label.as_deref()).map(|l| text::width(l, TICK)).fold(0.0, f64::max)
+}
+
+impl Placed {
+    /// What is known before the width is: ranges, and what stands beside the axes.
+    fn beside(panel: &Panel, (x, y, right): Ranges, x_labels: bool) -> Self {
+        let height = if panel.height.is_finite() { panel.height.clamp(5.0, 1000.0) } else { 45.0 } * MM;
+        let y_ticks = upright_ticks(&panel.y, &y, height);
+        let right_ticks = match (&panel.right, &right) {
+            (Some(axis), Some(range)) => upright_ticks(axis, range, height),
+            _ => Ticks::default(),
+        };
+        let reach = |ticks: &Ticks| MAJOR + GAP + widest(ticks);
+        let bar = first_map(panel).map(|map| {
+            let range = map_range(map);
+            let upright = height >= LOW;
+            let most = if upright { ((height / (2.0 * TICK)) as usize).clamp(2, 7) } else { 4 };
+            let ticks = Ticks::new(&range, most, false);
+            let label = axis_label(&map.label, &map.unit, ticks.power);
+            Bar { rect: Rect::default(), upright, range, ticks, label }
+        });
+        Self {
+            rect: Rect { height, ..Rect::default() },
+            y_reach: reach(&y_ticks),
+            right_reach: if right.is_some() { reach(&right_ticks) } else { 0.0 },
+            x,
+            y,
+            right,
+            x_ticks: Ticks::default(),
+            y_ticks,
+            right_ticks,
+            x_labels,
+            bar,
+            legend: Vec::new(),
+            legend_box: None,
+            title: None,
+        }
+    }
+
+    /// What stands left of the plotting area.
+    fn left(&self, panel: &Panel) -> f64 {
+        let label = axis_label(&panel.y.label, &panel.y.unit, self.y_ticks.power);
+        self.y_reach + if label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
+    }
+
+    /// What stands right of it.
+    fn right_side(&self, panel: &Panel) -> f64 {
+        let axis = panel.right.as_ref().map_or(0.0, |axis| {
+            let label = axis_label(&axis.label, &axis.unit, self.right_ticks.power);
+            self.right_reach + if label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 }
+        });
+        let bar = self.bar.as_ref().filter(|bar| bar.upright).map_or(0.0, |bar| {
+            let label = if bar.label.is_empty() { 0.0 } else { GAP + LABEL * 1.05 };
+            BAR_GAP + BAR + MAJOR + GAP + widest(&bar.ticks) + label
+        });
+        // Half of the last label of the x axis.
+        (axis + bar).max(7.0)
+    }
+
+    /// What stands above the plotting area: title, legend, colour bar.
+    fn above(&self, panel: &Panel) -> f64 {
+        let text = legend::height(self, panel);
+        let bar = if self.bar.as_ref().is_some_and(|bar| !bar.upright) { BAR_ABOVE } else { 0.0 };
+        let title = if self.title_line(panel) { HEAD * LEADING + 2.0 } else { 0.0 };
+        // A title and a colour bar share their line if there is room for both.
+        let stacked = text::width(&panel.title, HEAD) + 8.0 + self.bar_above() > self.rect.width;
+        text + if bar == 0.0 || stacked { bar + title } else { bar.max(title) }.max(0.5 * TICK)
+    }
+
+    /// Width of a colour bar above the axes, its label included.
+    fn bar_above(&self) -> f64 {
+        self.bar.as_ref().map_or(0.0, |bar| level_bar(&self.rect) + 5.0 + text::width(&bar.label, NOTE))
+    }
+
+    /// Whether there is a line for the title.
+    fn title_line(&self, panel: &Panel) -> bool {
+        !panel.title.trim().is_empty()
+    }
+
+    /// What stands below it.
+    fn below(&self, panel: &Panel) -> f64 {
+        if !self.x_labels {
+            return MAJOR;
+        }
+        let label = axis_label(&panel.x.label, &panel.x.unit, self.x_ticks.power);
+        MAJOR + GAP + TICK + if label.is_empty() { 0.0 } else { GAP + LABEL * 1.15 }
+    }
+
+    /// Sets the plotting area's top and places what is above it; titles of a row are at one height, at its top.
+    fn lower(&mut self, panel: &Panel, row: f64, top: f64) {
+        self.rect.y = top;
+        let rect = self.rect;
+        let legend = legend::height(self, panel);
+        if self.title_line(panel) {
+            self.title = Some([rect.x, row + HEAD]);
+        }
+        legend::place(self, panel);
+        if let Some(bar) = &mut self.bar {
+            bar.rect = if bar.upright {
+                Rect { x: rect.right() + BAR_GAP, y: rect.y, width: BAR, height: rect.height }
+            } else {
+                let width = level_bar(&rect);
+                Rect { x: rect.right() - width, y: top - BAR_ABOVE - legend + 1.0, width, height: 4.5 }
+            };
+        }
+    }
+}
+
+/// Width of a colour bar above the axes.
+fn level_bar(rect: &Rect) -> f64 {
+    (0.42 * rect.width).clamp(0.0, 150.0)
+}
+
+/// Gives every panel its left edge and width: plotting areas of a column have the same.
+fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: f64) {
+    let sides: Vec<[f64; 2]> = (0..columns)
+        .map(|column| {
+            let of_column = || (column..panels.len()).step_by(columns);
+            let left = of_column().map(|i| panels[i].left(&figure.panels[i])).fold(0.0, f64::max);
+            let right = of_column().map(|i| panels[i].right_side(&figure.panels[i])).fold(0.0, f64::max);
+            [left, right]
+        })
+        .collect();
+    let taken: f64 = sides.iter().flatten().sum::<f64>() + 2.0 * MARGIN + COLUMN_GAP * (columns - 1) as f64;
+    let plot = ((width - taken) / columns as f64).max(LEAST);
+    let mut x = MARGIN;
+    for (column, [left, right]) in sides.iter().enumerate() {
+        for i in (column..panels.len()).step_by(columns) {
+            let placed = &mut panels[i];
+            placed.rect.x = x + left;
+            placed.rect.width = plot;
+            placed.x_ticks = level_ticks(&figure.panels[i].x, &placed.x, plot);
+            if figure.panels[i].legend != Legend::None {
+                legend::choose(placed, &figure.panels[i]);
+            }
+        }
+        x += left + plot + right + COLUMN_GAP;
+    }
+}

@@ -1,0 +1,216 @@
+//! The names of the layers: which there are, and where they stand.
+
+use super::colour::Colour;
+use super::description::{Band, Layer, Legend, Line, Marker, Panel, Style};
+use super::layout::{LEADING, MAJOR, NOTE, Placed, fills};
+use super::scale::Scaled;
+use super::svg::Rect;
+use super::text;
+
+/// Length of the sample of a line.
+pub(super) const SAMPLE: f64 = 17.0;
+/// Between a sample and its name, and between names in a row.
+pub(super) const SPACE: f64 = 3.5;
+const APART: f64 = 10.0;
+/// Between the axes and a legend inside.
+const INSET: f64 = 4.0;
+/// A legend inside may cover this part of the plotting area.
+const MOST: f64 = 0.45;
+
+/// What stands for a layer in the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Sign {
+    Line(Style),
+    Patch(Colour, f64),
+    Point(Marker, Colour),
+}
+
+/// One name.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    pub(super) sign: Sign,
+    pub(super) name: String,
+}
+
+impl Entry {
+    /// Width of its sign.
+    pub(super) fn sample(&self) -> f64 {
+        match self.sign {
+            Sign::Line(_) => SAMPLE,
+            Sign::Patch(..) => 9.0,
+            Sign::Point(..) => 6.0,
+        }
+    }
+
+    fn width(&self) -> f64 {
+        self.sample() + SPACE + text::width(&self.name, NOTE)
+    }
+}
+
+/// The names of a panel, in the order of its layers.
+pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut push = |sign: Sign, name: &str| {
+        let entry = Entry { sign, name: name.to_owned() };
+        if !name.trim().is_empty() && !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    };
+    for layer in &panel.layers {
+        match layer {
+            Layer::Line(Line { name, style, .. }) => push(Sign::Line(*style), name),
+            Layer::Band(Band { name, colour, opacity, .. }) => push(Sign::Patch(*colour, *opacity), name),
+            Layer::Points(points) => push(Sign::Point(points.marker, points.colour), &points.name),
+            Layer::Categories(kinds) => {
+                let used = |kind: usize| kinds.values.contains(&kind);
+                let shown = kinds.kinds.iter().enumerate().filter(|(kind, _)| used(*kind));
+                shown.for_each(|(_, (name, colour))| push(Sign::Patch(*colour, 1.0), name));
+            }
+            _ => {}
+        }
+    }
+    entries
+}
+
+/// Decides where the legend goes. A legend inside is placed at once, relative to the plotting area; one above when the
+/// area has its top.
+pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
+    let entries = entries(panel);
+    if entries.is_empty() || panel.legend != Legend::Auto || fills(panel) {
+        return;
+    }
+    let line = LEADING * NOTE;
+    let (width, height) =
+        (entries.iter().map(Entry::width).fold(0.0, f64::max) + 2.0 * SPACE, entries.len() as f64 * line + SPACE);
+    let area = Rect { x: 0.0, y: 0.0, ..placed.rect };
+    if width + 2.0 * INSET > area.width || width * height > MOST * area.width * area.height || height > area.height {
+        return;
+    }
+    let drawn = drawn(placed, panel, &area, true);
+    let (left, right) = (INSET, area.width - INSET - width);
+    let (top, bottom) = (INSET, area.height - INSET - height);
+    // Corners first, then along the sides, then anywhere.
+    let heights = [top, bottom, 0.5 * (top + bottom), 0.25 * bottom + 0.75 * top, 0.75 * bottom + 0.25 * top];
+    let places = [right, left, 0.5 * (left + right)].into_iter().flat_map(|x| heights.map(|y| [x, y]));
+    let mut places: Vec<[f64; 2]> = places.collect();
+    places.sort_by_key(|[_, y]| *y != top && *y != bottom);
+    let free = places.into_iter().map(|[x, y]| Rect { x, y, width, height }).find(|rect| is_free(rect, &drawn));
+    if let Some(rect) = free {
+        placed.legend_box = Some(rect);
+        placed.legend = entries
+            .into_iter()
+            .enumerate()
+            .map(|(i, entry)| (entry, [rect.x + SPACE, rect.y + 0.5 * SPACE + (i as f64 + 0.5) * line]))
+            .collect();
+    }
+}
+
+/// Whether none of the points is in or near a rectangle.
+pub(super) fn is_free(rect: &Rect, points: &[[f64; 2]]) -> bool {
+    let near = 2.0;
+    let wide =
+        Rect { x: rect.x - near, y: rect.y - near, width: rect.width + 2.0 * near, height: rect.height + 2.0 * near };
+    !points.iter().any(|point| wide.holds(*point))
+}
+
+/// Points all along what is drawn, close together, in `area`; marks on request.
+pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    let at = |y: &Scaled, p: [f64; 2]| {
+        [area.x + placed.x.fraction(p[0]) * area.width, area.bottom() - y.fraction(p[1]) * area.height]
+    };
+    let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
+        for part in super::geometry::clipped_line(line, area) {
+            for pair in part.windows(2) {
+                let length = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+                let steps = (length / 3.0).ceil().max(1.0);
+                for i in 0..=steps as usize {
+                    let t = i as f64 / steps;
+                    points.push([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])));
+                }
+            }
+        }
+    };
+    let axis = |right: bool| if right { placed.right.unwrap_or(placed.y) } else { placed.y };
+    let mut single = Vec::new();
+    for layer in &panel.layers {
+        match layer {
+            Layer::Line(line) => path(&mut line.points.iter().map(|p| at(&axis(line.right), *p))),
+            Layer::Band(band) => {
+                let y = axis(band.right);
+                for [x, low, high] in &band.points {
+                    path(&mut [at(&y, [*x, *low]), at(&y, [*x, *high])].into_iter());
+                }
+            }
+            Layer::Points(cloud) => {
+                let y = axis(cloud.right);
+                for (i, [x, value]) in cloud.points.iter().enumerate() {
+                    let error = cloud.errors.get(i).copied().unwrap_or(0.0);
+                    single.push(at(&y, [*x, *value]));
+                    path(&mut [at(&y, [*x, value - error]), at(&y, [*x, value + error])].into_iter());
+                }
+            }
+            Layer::Text(words) => {
+                let [x, y] = at(&placed.y, words.at);
+                let width = text::width(&words.text, NOTE);
+                path(&mut [[x, y], [x + width, y]].into_iter());
+            }
+            Layer::Mark(mark) if marks => {
+                let [from, to] = super::panel::mark_ends(placed, mark, area);
+                path(&mut [from, to].into_iter());
+            }
+            _ => {}
+        }
+    }
+    points.extend(single);
+    points
+}
+
+/// The names in rows as wide as the plotting area.
+fn in_rows(entries: Vec<Entry>, width: f64) -> Vec<Vec<(Entry, f64)>> {
+    let mut rows: Vec<Vec<(Entry, f64)>> = Vec::new();
+    let mut x = 0.0;
+    for entry in entries {
+        let wide = entry.width();
+        match rows.last_mut() {
+            Some(row) if x + wide <= width => row.push((entry, x)),
+            _ => {
+                x = 0.0;
+                rows.push(vec![(entry, 0.0)]);
+            }
+        }
+        x += wide + APART;
+    }
+    rows
+}
+
+/// Height that a legend above the axes takes.
+pub(super) fn height(placed: &Placed, panel: &Panel) -> f64 {
+    if placed.legend_box.is_some() || panel.legend == Legend::None {
+        return 0.0;
+    }
+    let rows = in_rows(entries(panel), placed.rect.width).len();
+    rows as f64 * LEADING * NOTE + if rows > 0 { 2.5 } else { 0.0 }
+}
+
+/// Places the legend now that the plotting area has its place.
+pub(super) fn place(placed: &mut Placed, panel: &Panel) {
+    let area = placed.rect;
+    if let Some(rect) = &mut placed.legend_box {
+        rect.x += area.x;
+        rect.y += area.y;
+        for (_, at) in &mut placed.legend {
+            *at = [at[0] + area.x, at[1] + area.y];
+        }
+        return;
+    }
+    if panel.legend == Legend::None {
+        return;
+    }
+    let rows = in_rows(entries(panel), area.width);
+    let (count, line) = (rows.len(), LEADING * NOTE);
+    for (i, row) in rows.into_iter().enumerate() {
+        let y = area.y - MAJOR - (count - i) as f64 * line + 0.5 * line;
+        placed.legend.extend(row.into_iter().map(|(entry, x)| (entry, [area.x + x, y])));
+    }
+}

@@ -1,0 +1,462 @@
+//! One panel drawn at its place: layers, axes, legend, colour bar.
+
+use super::colour::{Colour, Colours};
+use super::description::{
+    Anchor, Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Panel, Points, Scale, Style,
+};
+use super::geometry::{clipped_area, clipped_line, contour};
+use super::isoline::{self, Isoline};
+use super::layout::{
+    BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, TICK, axis_label, fills, first_map, map_range,
+};
+use super::legend::Sign;
+use super::plane;
+use super::scale::{Scaled, Ticks, round_step, short};
+use super::svg::{Pen, Picture, Rect, Svg, Type, escaped};
+use super::text;
+
+/// Width of axes and ticks \[pt\].
+const THIN: f64 = 0.6;
+/// Markers on a line with more.
+const MARKERS: usize = 7;
+/// From the baseline to half the height of a digit, of the size.
+const HALF_HEIGHT: f64 = 0.35;
+
+/// Draws the panel's pictures: they lie under everything else.
+pub(super) fn pictures(placed: &Placed, panel: &Panel) -> Vec<Picture> {
+    let Placed { rect, x, y, .. } = placed;
+    let of = |layer: &Layer| match layer {
+        Layer::Map(map) => plane::map(map, rect, x, y, &map_range(map)),
+        Layer::Categories(kinds) => plane::categories(kinds, rect, x, y),
+        _ => None,
+    };
+    let mut pictures: Vec<Picture> = panel.layers.iter().filter_map(of).collect();
+    if let (Some(bar), Some(map)) = (&placed.bar, first_map(panel)) {
+        pictures.push(plane::bar(map.colours, &bar.rect, bar.upright));
+    }
+    pictures
+}
+
+/// Draws all but the pictures.
+pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
+    let on = On { placed, panel };
+    svg.open(&on.attributes());
+    let mut curve = 0;
+    for layer in &panel.layers {
+        match layer {
+            Layer::Line(line) => {
+                on.line(svg, line, curve);
+                curve += 1;
+            }
+            Layer::Band(band) => on.band(svg, band),
+            Layer::Points(points) => on.points(svg, points),
+            Layer::Mark(mark) => on.mark(svg, mark),
+            Layer::Contours(contours) => on.contours(svg, contours),
+            Layer::Text(words) => on.text(svg, words),
+            Layer::Map(_) | Layer::Categories(_) => {}
+        }
+    }
+    on.axes(svg);
+    if let Some(bar) = &placed.bar {
+        colour_bar(svg, bar);
+    }
+    on.legend(svg);
+    if let Some(at) = placed.title {
+        svg.text(at, &panel.title, &Type::new(HEAD, "start"));
+    }
+    svg.close();
+}
+
+/// A panel at its place.
+struct On<'a> {
+    placed: &'a Placed,
+    panel: &'a Panel,
+}
+
+impl On<'_> {
+    /// What a reader of the file needs to get back from places to values.
+    fn attributes(&self) -> String {
+        let Rect { x, y, width, height } = self.placed.rect;
+        let axis = |range: &Scaled| {
+            let scale = if range.scale == Scale::Log { "log" } else { "linear" };
+            format!("{:e} {:e} {scale}", range.from, range.to)
+        };
+        let right =
+            self.placed.right.as_ref().map_or(String::new(), |range| format!(r#" data-right="{}""#, axis(range)));
+        format!(
+            r#"class="panel" data-title="{}" data-area="{x:.4} {y:.4} {width:.4} {height:.4}" data-x="{}" data-y="{}"{right}"#,
+            escaped(&text::plain(&self.panel.title)),
+            axis(&self.placed.x),
+            axis(&self.placed.y),
+        )
+    }
+
+    fn px(&self, x: f64) -> f64 {
+        self.placed.rect.x + self.placed.x.fraction(x) * self.placed.rect.width
+    }
+
+    fn py(&self, y: f64, right: bool) -> f64 {
+        let range = self.placed.right.filter(|_| right).unwrap_or(self.placed.y);
+        self.placed.rect.bottom() - range.fraction(y) * self.placed.rect.height
+    }
+
+    fn at(&self, [x, y]: [f64; 2], right: bool) -> [f64; 2] {
+        [self.px(x), self.py(y, right)]
+    }
+
+    fn line(&self, svg: &mut Svg, line: &Line, curve: usize) {
+        let style = &line.style;
+        let pen = pen(style);
+        svg.open(&named("line", &line.name));
+        let all = line.points.iter().map(|point| self.at(*point, line.right));
+        for part in clipped_line(all, &self.placed.rect) {
+            svg.polyline(&part, &pen);
+        }
+        if let Some(marker) = &style.marker {
+            let shown: Vec<[f64; 2]> = line
+                .points
+                .iter()
+                .map(|point| self.at(*point, line.right))
+                .filter(|point| self.placed.rect.holds(*point))
+                .collect();
+            for point in sparse(&shown, curve) {
+                svg.marker(point, marker, style.colour);
+            }
+        }
+        svg.close();
+    }
+
+    fn band(&self, svg: &mut Svg, band: &Band) {
+        svg.open(&named("band", &band.name));
+        let at = |p: &[f64; 3]| [self.at([p[0], p[1]], band.right), self.at([p[0], p[2]], band.right)];
+        let known = |p: &[f64; 3]| at(p).iter().flatten().all(|c| !c.is_nan());
+        for run in band.points.split(|p| !known(p)) {
+            let there = run.iter().map(|p| at(p)[0]);
+            let back = run.iter().rev().map(|p| at(p)[1]);
+            let outline: Vec<[f64; 2]> = there.chain(back).collect();
+            svg.polygon(&clipped_area(&outline, &self.placed.rect), band.colour, band.opacity);
+        }
+        svg.close();
+    }
+
+    fn points(&self, svg: &mut Svg, points: &Points) {
+        svg.open(&named("points", &points.name));
+        let rect = &self.placed.rect;
+        let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.at(*p, points.right)));
+        let mut bars = Vec::new();
+        for (i, [x, y], _) in shown() {
+            let error = points.errors.get(i).copied().filter(|e| e.is_finite()).unwrap_or(0.0).abs();
+            if error == 0.0 {
+                continue;
+            }
+            // What a logarithmic axis cannot show of a bar is below it.
+            let ends = [y + error, y - error].map(|y| {
+                let [px, py] = self.at([x, y], points.right);
+                [px, if py.is_nan() { rect.bottom() + 10.0 } else { py }]
+            });
+            for part in clipped_line(ends.into_iter(), rect) {
+                let (a, b) = (part[0], part[part.len() - 1]);
+                bars.push([a[0], a[1], b[0], b[1]]);
+                // Caps only where the bar ends inside.
+                for (cap, end) in [(a, ends[0]), (b, ends[1])] {
+                    if (cap[1] - end[1]).abs() < 1e-6 {
+                        bars.push([cap[0] - 1.6, cap[1], cap[0] + 1.6, cap[1]]);
+                    }
+                }
+            }
+        }
+        svg.segments(&bars, &Pen::solid(points.colour, 0.7));
+        for (_, _, at) in shown().filter(|(_, _, at)| rect.holds(*at)) {
+            svg.marker(at, &points.marker, points.colour);
+        }
+        svg.close();
+    }
+
+    fn mark(&self, svg: &mut Svg, mark: &Mark) {
+        let rect = &self.placed.rect;
+        let [from, to] = mark_ends(self.placed, mark, rect);
+        if !(rect.holds(from) && rect.holds(to)) {
+            return;
+        }
+        svg.open(&named("mark", &mark.label));
+        svg.polyline(&[from, to], &pen(&mark.style));
+        if !mark.label.trim().is_empty() {
+            let words = self.place_of_words(mark, from);
+            let style = Type { colour: mark.style.colour, ..Type::new(NOTE, "start") };
+            svg.text([words.x, words.y + 0.8 * NOTE], &mark.label, &style);
+        }
+        svg.close();
+    }
+
+    /// Where a mark's words stand: along it, on the first side and end where nothing else is drawn.
+    fn place_of_words(&self, mark: &Mark, from: [f64; 2]) -> Rect {
+        let area = &self.placed.rect;
+        let (width, height) = (text::width(&mark.label, NOTE), NOTE);
+        let legend = self.placed.legend_box.into_iter();
+        let place = |x: f64, y: f64| Rect { x, y, width, height };
+        let places: Vec<Rect> = match mark.direction {
+            Direction::Vertical => {
+                let sides = [from[0] + 2.5, from[0] - 2.5 - width];
+                let heights = [area.y + 1.0, area.bottom() - height - 3.0, area.y + 0.5 * area.height];
+                heights.into_iter().flat_map(|y| sides.map(|x| place(x, y))).collect()
+            }
+            Direction::Horizontal => {
+                let ends = [area.right() - width - 2.0, area.x + 4.0, area.x + 0.5 * (area.width - width)];
+                let sides = [from[1] - height - 2.2, from[1] + 2.6];
+                ends.into_iter().flat_map(|x| sides.map(|y| place(x, y))).collect()
+            }
+        };
+        let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
+        let drawn = super::legend::drawn(self.placed, self.panel, area, false);
+        let corners = legend.flat_map(|r| [[r.x, r.y], [r.right(), r.y], [r.x, r.bottom()], [r.right(), r.bottom()]]);
+        let taken: Vec<[f64; 2]> = drawn.into_iter().chain(corners).collect();
+        let found = places.iter().filter(inside).find(|rect| super::legend::is_free(rect, &taken));
+        found.or_else(|| places.iter().find(inside)).or(places.first()).copied().unwrap_or_default()
+    }
+
+    fn text(&self, svg: &mut Svg, words: &super::description::Text) {
+        let at = self.at(words.at, false);
+        if !self.placed.rect.holds(at) {
+            return;
+        }
+        let anchor = match words.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        svg.text(at, &words.text, &Type { colour: words.colour, ..Type::new(NOTE, anchor) });
+    }
+
+    fn contours(&self, svg: &mut Svg, contours: &Contours) {
+        let Grid { x, y, values } = &contours.grid;
+        if !plane::fits(x, y, values.len()) {
+            return;
+        }
+        let (levels, step) = levels(contours, first_map(self.panel));
+        // Places first, so that lines are straight on paper on either kind of axis.
+        let px: Vec<f64> = x.iter().map(|x| self.px(*x)).collect();
+        let py: Vec<f64> = y.iter().map(|y| self.py(*y, false)).collect();
+        svg.open(r#"class="contours""#);
+        let map = first_map(self.panel);
+        let mut lines = Vec::new();
+        for level in levels {
+            let pen = Pen {
+                colour: contours.colour.unwrap_or_else(|| contrast(map, level)),
+                width: 0.7,
+                dash: contours.dash,
+            };
+            let label = if contours.labels { short(level, step) } else { String::new() };
+            for line in contour(&px, &py, values, level) {
+                for part in clipped_line(line.into_iter(), &self.placed.rect) {
+                    lines.push(Isoline::new(part, &label, pen));
+                }
+            }
+        }
+        isoline::draw(svg, &lines);
+        svg.close();
+    }
+
+    fn axes(&self, svg: &mut Svg) {
+        let Placed { rect, x, y, right, .. } = self.placed;
+        let pen = Pen::solid(Colour::BLACK, THIN);
+        if fills(self.panel) {
+            svg.rect(rect, Some(&pen), None);
+        } else {
+            let mut spines =
+                vec![[rect.x, rect.bottom(), rect.x, rect.y], [rect.x, rect.bottom(), rect.right(), rect.bottom()]];
+            if right.is_some() {
+                spines.push([rect.right(), rect.bottom(), rect.right(), rect.y]);
+            }
+            svg.segments(&spines, &Pen { width: THIN, ..pen });
+        }
+        let mut strokes = Vec::new();
+        let length = |major: bool| if major { MAJOR } else { MINOR };
+        for tick in &self.placed.x_ticks.ticks {
+            let at = rect.x + x.fraction(tick.at) * rect.width;
+            strokes.push([at, rect.bottom(), at, rect.bottom() + length(tick.label.is_some())]);
+            if let Some(label) = tick.label.as_ref().filter(|_| self.placed.x_labels) {
+                let baseline = rect.bottom() + MAJOR + GAP + 0.74 * TICK;
+                svg.text([at, baseline], label, &Type::new(TICK, "middle"));
+            }
+        }
+        upright(svg, &mut strokes, rect.x, -1.0, rect, y, &self.placed.y_ticks);
+        if let Some(range) = right {
+            upright(svg, &mut strokes, rect.right(), 1.0, rect, range, &self.placed.right_ticks);
+        }
+        svg.segments(&strokes, &pen);
+        self.axis_labels(svg);
+    }
+
+    fn axis_labels(&self, svg: &mut Svg) {
+        let Placed { rect, x_ticks, y_ticks, right_ticks, y_reach, right_reach, .. } = self.placed;
+        let (middle, centre) = (rect.x + 0.5 * rect.width, rect.y + 0.5 * rect.height);
+        let label = Type::new(LABEL, "middle");
+        let turned = Type { angle: -90.0, ..label };
+        if self.placed.x_labels {
+            let baseline = rect.bottom() + MAJOR + GAP + TICK + GAP + 0.76 * LABEL;
+            svg.text([middle, baseline], &axis_label(&self.panel.x.label, &self.panel.x.unit, x_ticks.power), &label);
+        }
+        let y = axis_label(&self.panel.y.label, &self.panel.y.unit, y_ticks.power);
+        svg.text([rect.x - y_reach - GAP - 0.2 * LABEL, centre], &y, &turned);
+        if let Some(axis) = &self.panel.right {
+            let text = axis_label(&axis.label, &axis.unit, right_ticks.power);
+            svg.text([rect.right() + right_reach + GAP + 0.8 * LABEL, centre], &text, &turned);
+        }
+    }
+
+    fn legend(&self, svg: &mut Svg) {
+        if self.placed.legend.is_empty() {
+            return;
+        }
+        svg.open(r#"class="legend""#);
+        for (entry, [x, y]) in &self.placed.legend {
+            let sample = entry.sample();
+            match &entry.sign {
+                Sign::Line(style) => {
+                    svg.polyline(&[[*x, *y], [x + sample, *y]], &pen(style));
+                    if let Some(marker) = &style.marker {
+                        svg.marker([x + 0.5 * sample, *y], marker, style.colour);
+                    }
+                }
+                Sign::Patch(colour, opacity) => {
+                    let patch = Rect { x: *x, y: y - 2.7, width: sample, height: 5.4 };
+                    svg.rect(&patch, Some(&Pen::solid(*colour, 0.4)), Some((*colour, *opacity)));
+                }
+                Sign::Point(marker, colour) => svg.marker([x + 0.5 * sample, *y], marker, *colour),
+            }
+            let at = [x + sample + super::legend::SPACE, y + HALF_HEIGHT * NOTE];
+            svg.text(at, &entry.name, &Type::new(NOTE, "start"));
+        }
+        svg.close();
+    }
+}
+
+/// `class="line" data-name="film"`
+fn named(class: &str, name: &str) -> String {
+    format!(r#"class="{class}" data-name="{}""#, escaped(&text::plain(name)))
+}
+
+fn pen(style: &Style) -> Pen {
+    let width = if style.width.is_finite() { style.width.clamp(0.1, 20.0) } else { 1.0 };
+    Pen { colour: style.colour, width, dash: style.dash }
+}
+
+/// The ends of a mark across `rect`.
+pub(super) fn mark_ends(placed: &Placed, mark: &Mark, rect: &Rect) -> [[f64; 2]; 2] {
+    match mark.direction {
+        Direction::Vertical => {
+            let x = rect.x + placed.x.fraction(mark.at) * rect.width;
+            [[x, rect.bottom()], [x, rect.y]]
+        }
+        Direction::Horizontal => {
+            let y = rect.bottom() - placed.y.fraction(mark.at) * rect.height;
+            [[rect.x, y], [rect.right(), y]]
+        }
+    }
+}
+
+/// All of a few points; of many, some at equal lengths along the line, at other places on every curve.
+fn sparse(points: &[[f64; 2]], curve: usize) -> Vec<[f64; 2]> {
+    if points.len() <= MARKED {
+        return points.to_vec();
+    }
+    let length: Vec<f64> = points
+        .iter()
+        .scan((points[0], 0.0), |(last, sum), point| {
+            *sum += (point[0] - last[0]).hypot(point[1] - last[1]);
+            *last = *point;
+            Some(*sum)
+        })
+        .collect();
+    let all = length[length.len() - 1];
+    let offset = 0.2 + 0.25 * (curve % 4) as f64;
+    (0..MARKERS)
+        .map(|i| length.partition_point(|l| *l < (i as f64 + offset) / MARKERS as f64 * all).min(points.len() - 1))
+        .map(|i| points[i])
+        .collect()
+}
+
+/// Ticks and labels of an upright axis at `x`; `side` is −1 to the left, 1 to the right.
+fn upright(svg: &mut Svg, strokes: &mut Vec<[f64; 4]>, x: f64, side: f64, rect: &Rect, range: &Scaled, ticks: &Ticks) {
+    let anchor = if side < 0.0 { "end" } else { "start" };
+    for tick in &ticks.ticks {
+        let y = rect.bottom() - range.fraction(tick.at) * rect.height;
+        let length = if tick.label.is_some() { MAJOR } else { MINOR };
+        strokes.push([x, y, x + side * length, y]);
+        if let Some(label) = &tick.label {
+            svg.text([x + side * (MAJOR + GAP), y + HALF_HEIGHT * TICK], label, &Type::new(TICK, anchor));
+        }
+    }
+}
+
+fn colour_bar(svg: &mut Svg, bar: &Bar) {
+    let Bar { rect, upright: is_upright, range, ticks, label } = bar;
+    let pen = Pen::solid(Colour::BLACK, THIN);
+    svg.open(r#"class="bar""#);
+    svg.rect(rect, Some(&pen), None);
+    let mut strokes = Vec::new();
+    if *is_upright {
+        upright(svg, &mut strokes, rect.right(), 1.0, rect, range, ticks);
+        let labels = ticks.ticks.iter().filter_map(|tick| tick.label.as_deref());
+        let widest = labels.map(|label| text::width(label, TICK)).fold(0.0, f64::max);
+        let x = rect.x + BAR + MAJOR + GAP + widest + GAP + 0.8 * LABEL;
+        let style = Type { angle: -90.0, ..Type::new(LABEL, "middle") };
+        svg.text([x, rect.y + 0.5 * rect.height], label, &style);
+    } else {
+        for tick in &ticks.ticks {
+            let x = rect.x + range.fraction(tick.at) * rect.width;
+            strokes.push([x, rect.bottom(), x, rect.bottom() + if tick.label.is_some() { 2.0 } else { 1.2 }]);
+            if let Some(label) = &tick.label {
+                svg.text([x, rect.bottom() + 2.5 + 0.76 * NOTE], label, &Type::new(NOTE, "middle"));
+            }
+        }
+        svg.text([rect.x - 5.0, rect.bottom()], label, &Type::new(NOTE, "end"));
+    }
+    svg.segments(&strokes, &pen);
+    svg.close();
+}
+
+/// Values of contours and the step between them.
+fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
+    let finite = |values: &[f64]| values.iter().copied().filter(|v| v.is_finite()).collect::<Vec<_>>();
+    if !contours.levels.is_empty() {
+        let levels = finite(&contours.levels);
+        let steps = levels.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|step| *step > 0.0);
+        let least = steps.fold(f64::INFINITY, f64::min);
+        let size = levels.iter().map(|v| v.abs()).filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min);
+        return (levels, least.min(size / 10.0));
+    }
+    let values = finite(&contours.grid.values);
+    let scale = map.map_or(Scale::Linear, |map| map.scale);
+    let range = Scaled::new(&super::description::Range::Auto, scale, values.into_iter(), false);
+    let ticks = Ticks::new(&range, 10, false).ticks;
+    let labelled = ticks.into_iter().filter(|tick| tick.label.is_some()).map(|tick| tick.at).collect();
+    (labelled, round_step(range.to - range.from, 10).0)
+}
+
+/// Black or white, whichever shows on the map's colour of a value.
+fn contrast(map: Option<&Map>, value: f64) -> Colour {
+    let under = map.and_then(|map| Colours::of(map.colours, value, &map_range(map)));
+    if under.is_some_and(|colour| colour.lightness() < 0.55) { Colour::WHITE } else { Colour::BLACK }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markers_of_a_long_line_are_few_and_spread() {
+        let points: Vec<[f64; 2]> = (0..1000).map(|i| [f64::from(i), 0.0]).collect();
+        let shown = sparse(&points, 1);
+        assert_eq!(shown.len(), MARKERS);
+        assert_ne!(shown, sparse(&points, 0));
+        assert_eq!(sparse(&points[..5], 3).len(), 5);
+    }
+
+    #[test]
+    fn contours_choose_round_values() {
+        let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0], values: vec![0.0, 1.03] };
+        let (values, step) = levels(&Contours { grid, ..Contours::default() }, None);
+        assert!(values.len() >= 5 && (step - 0.2).abs() < 1e-12, "{values:?} {step}");
+    }
+}

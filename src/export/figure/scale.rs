@@ -1,0 +1,322 @@
+//! From values to places along an axis, and the ticks of an axis: steps of 1, 2 and 5 when linear, decades when
+//! logarithmic.
+
+use super::description::{Range, Scale};
+
+/// Part of the data's span that is added at either end of an axis that shows curves.
+const MARGIN: f64 = 0.05;
+/// From here on, and below its inverse, ticks share a power of ten.
+const PLAIN: f64 = 1e4;
+/// Values may not be further from zero, so that their span is still a number.
+const FARTHEST: f64 = 1e300;
+
+/// A range of values spread over 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scaled {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) scale: Scale,
+}
+
+impl Scaled {
+    /// The range for `values`, with a margin at either end if the axis is free to choose.
+    pub(super) fn new(range: &Range, scale: Scale, values: impl Iterator<Item = f64>, margin: bool) -> Self {
+        let shown = |value: &f64| value.is_finite() && (scale == Scale::Linear || *value > 0.0);
+        if let Range::Fixed(a, b) = range
+            && shown(a)
+            && shown(b)
+        {
+            return Self::widened(a.min(*b), a.max(*b), scale);
+        }
+        let all = |values: &mut dyn Iterator<Item = f64>| {
+            values
+                .filter(shown)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+        };
+        let data = all(&mut { values });
+        let extra = match range {
+            Range::Including(extra) => all(&mut extra.iter().copied()),
+            _ => (f64::INFINITY, f64::NEG_INFINITY),
+        };
+        let (low, high) = (data.0.min(extra.0), data.1.max(extra.1));
+        if low > high {
+            return if scale == Scale::Log { Self::widened(0.1, 10.0, scale) } else { Self::widened(0.0, 1.0, scale) };
+        }
+        let range = Self::widened(low, high, scale);
+        if !margin || low >= high {
+            return range;
+        }
+        // Where zero was asked for and is an end, the axis stops.
+        let stops = |end: f64| end == 0.0 && (extra.0 == 0.0 || extra.1 == 0.0);
+        let room = |end: f64, outwards: f64| if stops(end) { 0.0 } else { outwards * MARGIN };
+        let (from, to) = (range.value(-room(low, 1.0)), range.value(1.0 + room(high, 1.0)));
+        if from.is_finite() && to.is_finite() && (scale == Scale::Linear || from > 0.0) {
+            Self { from, to, scale }
+        } else {
+            range
+        }
+    }
+
+    /// From `from` to `to`, which may be equal: then somewhat round them.
+    fn widened(from: f64, to: f64, scale: Scale) -> Self {
+        let clamp = |value: f64| value.clamp(-FARTHEST, FARTHEST);
+        let (from, to) = (clamp(from), clamp(to));
+        match scale {
+            Scale::Log if to / from < 1.0 + 1e-9 => {
+                Self { from: (from / 2.0).max(f64::MIN_POSITIVE), to: (to * 2.0).max(4.0 * f64::MIN_POSITIVE), scale }
+            }
+            // Ticks closer than this could not be told apart in double precision.
+            Scale::Linear if to - from <= 1e-9 * from.abs().max(to.abs()) || to - from < 1e-290 => {
+                let size = from.abs().max(to.abs());
+                let half = if size < 1e-280 { 1.0 } else { 0.1 * size };
+                Self { from: clamp(from - half), to: clamp(to + half), scale }
+            }
+            _ => Self { from, to, scale },
+        }
+    }
+
+    /// Where a value lies: 0 at the beginning, 1 at the end. Not a number for what a logarithmic axis cannot show.
+    pub(super) fn fraction(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.from) / (self.to - self.from),
+            Scale::Log if value <= 0.0 => f64::NAN,
+            Scale::Log => (value.ln() - self.from.ln()) / (self.to.ln() - self.from.ln()),
+        }
+    }
+
+    /// The value at a fraction.
+    pub(super) fn value(&self, fraction: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.from + fraction * (self.to - self.from),
+            Scale::Log => (self.from.ln() + fraction * (self.to.ln() - self.from.ln())).exp(),
+        }
+    }
+
+    /// Whether the value is on the axis, its ends included.
+    pub(super) fn holds(&self, value: f64) -> bool {
+        let fraction = self.fraction(value);
+        (-1e-9..=1.0 + 1e-9).contains(&fraction)
+    }
+}
+
+/// A tick: major with a label, minor without.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tick {
+    pub(super) at: f64,
+    pub(super) label: Option<String>,
+}
+
+/// Ticks, and the power of ten that their labels are to be multiplied with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Ticks {
+    pub(super) ticks: Vec<Tick>,
+    pub(super) power: i32,
+}
+
+impl Ticks {
+    /// About `most` labelled ticks, never many more, but at least two. `whole`: only at whole numbers.
+    pub(super) fn new(range: &Scaled, most: usize, whole: bool) -> Self {
+        let most = most.max(2);
+        match range.scale {
+            Scale::Linear => (most..most + 6)
+                .map(|most| linear(range, most, whole))
+                .find(|ticks| ticks.ticks.iter().filter(|tick| tick.label.is_some()).count() > 1)
+                .unwrap_or_else(|| linear(range, most, whole)),
+            Scale::Log => logarithmic(range, most),
+        }
+    }
+}
+
+/// The step of 1, 2 or 5 times a power of ten that divides `span` into at most `most` parts, and into how many a minor
+/// tick divides it.
+pub(super) fn round_step(span: f64, most: usize) -> (f64, usize) {
+    let rough = span / most as f64;
+    let size = 10f64.powf(rough.log10().floor());
+    let within = rough / size;
+    for (step, minor) in [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)] {
+        if within <= step * (1.0 + 1e-9) {
+            return (step * size, minor);
+        }
+    }
+    (10.0 * size, 5)
+}
+
+fn linear(range: &Scaled, most: usize, whole: bool) -> Ticks {
+    let span = range.to - range.from;
+    let (step, minor) = match round_step(span, most) {
+        (step, _) if whole && step <= 1.0 => (1.0, 1),
+        found => found,
+    };
+    if !(step.is_finite() && step > 0.0) {
+        return Ticks::default();
+    }
+    let size = range.from.abs().max(range.to.abs());
+    let power = if (1.0 / PLAIN..PLAIN).contains(&size) && step >= 1e-4 { 0 } else { thousands(size) };
+    // Places from the step, so that 0.1 + 0.2 is 0.3.
+    let places = (f64::from(power) - step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize;
+    let small = step / minor as f64;
+    let (first, last) = ((range.from / small - 1e-6).ceil(), (range.to / small + 1e-6).floor());
+    let count = (last - first).clamp(0.0, 1000.0) as usize;
+    let ticks = (0..=count)
+        .map(|i| {
+            let number = first + i as f64;
+            let at = number * small;
+            let major = (number / minor as f64).round() * minor as f64 == number;
+            Tick { at, label: major.then(|| fixed(without(at, power), places)) }
+        })
+        .filter(|tick| range.holds(tick.at))
+        .collect();
+    Ticks { ticks, power }
+}
+
+/// The value without a power of ten, which alone may be too large or too small for a number.
+fn without(value: f64, power: i32) -> f64 {
+    value / 10f64.powi(power / 2) / 10f64.powi(power - power / 2)
+}
+
+/// A power of a thousand below `size`.
+fn thousands(size: f64) -> i32 {
+    if size > 0.0 { (size.log10() / 3.0 + 1e-9).floor() as i32 * 3 } else { 0 }
+}
+
+/// Digits with a minus sign, and none before zero.
+pub(super) fn fixed(value: f64, places: usize) -> String {
+    let text = format!("{value:.places$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
+        Some(digits) => format!("−{digits}"),
+        None => text,
+    }
+}
+
+fn logarithmic(range: &Scaled, most: usize) -> Ticks {
+    let (first, last) = (range.from.log10().floor() as i32, range.to.log10().ceil() as i32);
+    let decades = range.to.log10() - range.from.log10();
+    let most_f = most as f64;
+    // Too short for a decade's labels: values as on a linear axis.
+    if decades < 0.5 {
+        let plain = Scaled { scale: Scale::Linear, ..*range };
+        return Ticks::new(&plain, most.min(4), false);
+    }
+    let every = ((decades / most_f).ceil() as i32).max(1);
+    // Between decades there is room for 2 and 5 only on a short axis.
+    let labelled: &[i32] = if decades * 3.0 <= most_f + 0.5 { &[1, 2, 5] } else { &[1] };
+    let plain = range.from >= 0.999e-3 && range.to <= 1.001e4;
+    let mut ticks = Vec::new();
+    for exponent in first..=last {
+        let major = exponent.rem_euclid(every) == 0;
+        // So many decades that a tick for each would be a bar.
+        if !major && decades > 40.0 {
+            continue;
+        }
+        let digits: &[i32] = if every == 1 { &[1, 2, 3, 4, 5, 6, 7, 8, 9] } else { &[1] };
+        for digit in digits {
+            // The literal's value, not a product's.
+            let at: f64 = format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN);
+            if range.holds(at) {
+                let label = (major && labelled.contains(digit)).then(|| decade(*digit, exponent, plain));
+                ticks.push(Tick { at, label });
+            }
+        }
+    }
+    Ticks { ticks, power: 0 }
+}
+
+fn decade(digit: i32, exponent: i32, plain: bool) -> String {
+    if plain {
+        let places = usize::try_from(-exponent).unwrap_or(0);
+        return fixed(f64::from(digit) * 10f64.powi(exponent), places);
+    }
+    let raised = power(exponent);
+    if digit == 1 { raised } else { format!("{digit}×{raised}") }
+}
+
+/// `10^{−3}`.
+pub(super) fn power(exponent: i32) -> String {
+    format!("10^{{{}}}", fixed(f64::from(exponent), 0))
+}
+
+/// A value in a few digits, as on a contour: `0.245`, `1.5×10^{−9}`.
+pub(super) fn short(value: f64, step: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e5).contains(&size) {
+        let exponent = size.log10().floor() as i32;
+        let mantissa = format!("{:.2}", without(value, exponent));
+        let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.').replace('-', "−");
+        return if mantissa == "1" { power(exponent) } else { format!("{mantissa}×{}", power(exponent)) };
+    }
+    let places = if step > 0.0 { (-step.log10() - 1e-9).ceil().clamp(0.0, 8.0) as usize } else { 3 };
+    fixed(value, places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(from: f64, to: f64, scale: Scale, most: usize) -> (Vec<String>, i32) {
+        let ticks = Ticks::new(&Scaled { from, to, scale }, most, false);
+        (ticks.ticks.into_iter().filter_map(|tick| tick.label).collect(), ticks.power)
+    }
+
+    #[test]
+    fn linear_ticks_are_round_and_few() {
+        assert_eq!(labels(0.0, 1.0, Scale::Linear, 5).0, ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(labels(-0.31, 0.32, Scale::Linear, 4).0, ["−0.2", "0.0", "0.2"]);
+        assert_eq!(labels(-100.0, 512.0, Scale::Linear, 4).0, ["0", "200", "400"]);
+        assert_eq!(labels(0.0, 3.0e-9, Scale::Linear, 3), (vec!["0".into(), "1".into(), "2".into(), "3".into()], -9));
+        assert_eq!(labels(0.0, 2.0e7, Scale::Linear, 2), (vec!["0".into(), "10".into(), "20".into()], 6));
+    }
+
+    #[test]
+    fn decades_are_labelled_and_divided() {
+        assert_eq!(labels(1e-6, 1e2, Scale::Log, 8).0.len(), 9);
+        assert_eq!(labels(1e-2, 1e3, Scale::Log, 6).0, ["0.01", "0.1", "1", "10", "100", "1000"]);
+        assert_eq!(labels(3e3, 1e5, Scale::Log, 5).0, ["5×10^{3}", "10^{4}", "2×10^{4}", "5×10^{4}", "10^{5}"]);
+        assert_eq!(labels(1e3, 1e9, Scale::Log, 3).0, ["10^{4}", "10^{6}", "10^{8}"]);
+        assert_eq!(labels(1.0, 1.5, Scale::Log, 5).0, ["1.0", "1.2", "1.4"]);
+        let ticks = Ticks::new(&Scaled { from: 1.0, to: 100.0, scale: Scale::Log }, 4, false).ticks;
+        let minor: Vec<f64> = ticks.iter().filter(|tick| tick.label.is_none()).map(|tick| tick.at).collect();
+        assert_eq!(minor.len(), 16);
+        assert!(minor.contains(&30.0) && !minor.contains(&10.0));
+    }
+
+    #[test]
+    fn any_range_has_a_handful_of_ticks() {
+        let values = [-1e300, -1e12, -1.0, -1e-12, 0.0, 1e-300, 1e-12, 1.0, 1.0 + 1e-15, 1e12, 1e300, f64::MAX];
+        for from in values {
+            for to in values {
+                for scale in [Scale::Linear, Scale::Log] {
+                    for range in [Range::Auto, Range::Fixed(from, to), Range::Including(vec![0.0])] {
+                        let scaled = Scaled::new(&range, scale, [from, f64::NAN, to].into_iter(), true);
+                        assert!(scaled.to > scaled.from, "{from} {to} {scaled:?}");
+                        let ticks = Ticks::new(&scaled, 5, false);
+                        let labelled = ticks.ticks.iter().filter(|tick| tick.label.is_some()).count();
+                        assert!((1..=8).contains(&labelled), "{from} {to} {scaled:?}: {ticks:?}");
+                        assert!(ticks.ticks.len() < 60, "{scaled:?}: {} ticks, {labelled} labelled", ticks.ticks.len());
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn places_and_values_agree() {
+        for scale in [Scale::Linear, Scale::Log] {
+            let range = Scaled { from: 0.2, to: 7.0, scale };
+            for fraction in [0.0, 0.3, 1.0] {
+                assert!((range.fraction(range.value(fraction)) - fraction).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn short_values() {
+        assert_eq!(short(0.25, 0.05), "0.25");
+        assert_eq!(short(-400.0, 100.0), "−400");
+        assert_eq!(short(1e-9, 1e-9), "10^{−9}");
+        assert_eq!(short(1.5e-9, 1e-9), "1.5×10^{−9}");
+    }
+}

@@ -1,0 +1,131 @@
+//! Words of a figure: how wide they are in the bundled font, and raised and lowered parts.
+
+use std::sync::LazyLock;
+use ttf_parser::Face;
+
+/// Liberation Sans 2.1.5: the widths of Arial and Helvetica, so that an SVG looks alike where only those are.
+pub(super) const SANS: &[u8] = include_bytes!("../../../assets/fonts/LiberationSans-Regular.ttf");
+/// DejaVu Sans, for the few glyphs that the other lacks.
+pub(super) const FALLBACK: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
+/// The fonts asked for in an SVG, best first.
+pub(super) const FAMILIES: &str = "Liberation Sans, Arial, Helvetica, DejaVu Sans, sans-serif";
+/// Size of raised and lowered text, of that round it.
+pub(super) const SMALL: f64 = 0.72;
+
+/// How a piece of text stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Level {
+    Normal,
+    Raised,
+    Lowered,
+}
+
+/// Text in pieces, each on one level: `^{…}`, `_{…}` and the raised and lowered characters of Unicode.
+pub(super) fn pieces(text: &str) -> Vec<(Level, String)> {
+    let mut pieces: Vec<(Level, String)> = Vec::new();
+    let mut push = |level: Level, c: char| match pieces.last_mut() {
+        Some((last, piece)) if *last == level => piece.push(c),
+        _ => pieces.push((level, c.to_string())),
+    };
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        let level = match c {
+            '^' => Level::Raised,
+            '_' => Level::Lowered,
+            _ => Level::Normal,
+        };
+        if level != Level::Normal && rest.peek() == Some(&'{') {
+            rest.next();
+            for c in rest.by_ref().take_while(|c| *c != '}') {
+                push(level, c);
+            }
+            continue;
+        }
+        match shifted(c) {
+            Some((level, plain)) => push(level, plain),
+            // Neither XML nor a font knows what to do with these.
+            None if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => push(Level::Normal, ' '),
+            None => push(Level::Normal, c),
+        }
+    }
+    pieces
+}
+
+fn shifted(c: char) -> Option<(Level, char)> {
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻";
+    const LOWERED: &str = "₀₁₂₃₄₅₆₇₈₉₊₋";
+    const PLAIN: &str = "0123456789+−";
+    let find = |set: &str| set.chars().position(|x| x == c).and_then(|i| PLAIN.chars().nth(i));
+    find(RAISED).map(|p| (Level::Raised, p)).or_else(|| find(LOWERED).map(|p| (Level::Lowered, p)))
+}
+
+/// The text without marks for raised and lowered parts.
+pub(super) fn plain(text: &str) -> String {
+    pieces(text).into_iter().map(|(_, piece)| piece).collect()
+}
+
+/// Width \[pt\] of text of a size \[pt\].
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    pieces(text)
+        .iter()
+        .map(|(level, piece)| {
+            let size = if *level == Level::Normal { size } else { size * SMALL };
+            piece.chars().map(advance).sum::<f64>() * size
+        })
+        .sum()
+}
+
+/// Width of a character, in its size.
+fn advance(c: char) -> f64 {
+    static FACES: LazyLock<Vec<Face<'static>>> =
+        LazyLock::new(|| [SANS, FALLBACK].iter().filter_map(|data| Face::parse(data, 0).ok()).collect());
+    let found = FACES.iter().find_map(|face| {
+        let glyph = face.glyph_index(c)?;
+        Some(f64::from(face.glyph_hor_advance(glyph)?) / f64::from(face.units_per_em()))
+    });
+    found.unwrap_or(0.6)
+}
+
+/// Text broken at spaces into lines no wider than `most` \[pt\], where words allow it.
+pub(super) fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(line, size) + width(" ", size) + width(word, size) <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn raised_and_lowered_parts_are_found() {
+        assert_eq!(pieces("m²"), [(Level::Normal, "m".into()), (Level::Raised, "2".into())]);
+        assert_eq!(pieces("10^{−3}")[1], (Level::Raised, "−3".into()));
+        assert_eq!(plain("p_{a} min_spacing 10⁻³"), "pa min_spacing 10−3");
+        assert_eq!(pieces("^{open").len(), 1);
+        assert!(pieces("").is_empty());
+    }
+
+    #[test]
+    fn widths_are_those_of_the_font() {
+        // Arial's digits are 556 units of 1000, to rounding of 2048.
+        assert!((width("0000", 10.0) - 22.24).abs() < 0.01);
+        assert!(width("10²", 8.0) < width("102", 8.0));
+        assert!(width("∇⅓\u{10ffff}", 8.0) > 0.0);
+    }
+
+    #[test]
+    fn long_text_is_broken_at_spaces() {
+        let lines = wrapped("one two three four five", 8.0, 50.0);
+        assert!(lines.len() > 1 && lines.iter().all(|line| width(line, 8.0) <= 50.0));
+        assert_eq!(lines.join(" "), "one two three four five");
+    }
+}

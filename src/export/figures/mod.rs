@@ -1,0 +1,142 @@
+//! The figures of one solve: what `--out` writes, what the window offers, what reports are made of.
+//!
+//! | scene | figure | what it shows |
+//! | --- | --- | --- |
+//! | motor | `wave` | surfaces, contact pressure and film pressure along one wavelength at an instant, as the paper's Fig. 4 |
+//! | motor | `loads` | film load, contact load and teeth in contact over the cycle |
+//! | motor | `map` | pressure of the film under all teeth at that instant, and under the tooth in the middle |
+//! | plate | `profile` | pressure along the plate at four instants |
+//! | plate | `loads` | load and gap over the cycle |
+//! | plate | `loop` | mean pressure against the gap |
+//! | plate | `map` | pressure over the plate at its greatest; of a strip, along it and over the cycle |
+//! | both | `convergence` | change in every round, if the rounds were kept |
+
+pub mod motor;
+pub mod plate;
+mod unit;
+
+use super::figure::{Axis, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Range, Style};
+use crate::control::Progress;
+use crate::problem::{Problem, Scenario};
+use crate::recording::Recording;
+use crate::solution::Solution;
+
+/// All figures of a solve, each with the name of its file without extension. `history`: the rounds, if they were kept.
+pub fn of(problem: &Problem, solution: &Solution, history: &[Progress]) -> Vec<(&'static str, Figure)> {
+    let recording = &solution.recording;
+    let mut figures = Vec::new();
+    match &problem.scenario {
+        _ if recording.frames == 0 || recording.x.is_empty() => {}
+        Scenario::Motor(scene) => {
+            let frame = motor::crest_in_the_middle(recording);
+            figures.push(("wave", motor::wave(scene, recording, frame)));
+            figures.push(("loads", motor::loads(scene, recording)));
+            figures.push(("map", motor::map(scene, recording, frame)));
+        }
+        Scenario::Plate(scene) => {
+            figures.push(("profile", plate::profile(scene, recording)));
+            figures.push(("loads", plate::loads(scene, recording)));
+            figures.push(("loop", plate::pressure_gap_loop(scene, recording)));
+            figures.push(("map", plate::map(scene, recording)));
+        }
+    }
+    if !history.is_empty() {
+        figures.push(("convergence", convergence(history)));
+    }
+    for (_, figure) in &mut figures {
+        figure.title = match figure.title.as_str() {
+            "" => problem.name.clone(),
+            title => format!("{}: {title}", problem.name),
+        };
+        figure.provenance = Provenance::of(problem, solution);
+    }
+    figures
+}
+
+/// The change in every round of every grid, and what it had to fall below.
+pub fn convergence(history: &[Progress]) -> Figure {
+    let grids = history.iter().map(|round| round.level).max().map_or(0, |level| level + 1);
+    let y = Axis::new("relative change in a round", "").log();
+    let mut panel = Panel::new("", Axis::new("round", "").whole(), y);
+    let mut tolerances: Vec<f64> = Vec::new();
+    for round in history {
+        if !tolerances.contains(&round.tolerance) {
+            tolerances.push(round.tolerance);
+        }
+    }
+    let all = history.iter().map(|round| round.residual).chain(tolerances.iter().copied());
+    panel.y.range = Range::Including(tolerances.clone());
+    for tolerance in &tolerances {
+        let words = if *tolerance == tolerances[0] { "to fall below" } else { "" };
+        let mut mark = Mark::horizontal(*tolerance, words);
+        mark.style.dash = Dash::Dashed;
+        panel = panel.layer(mark);
+    }
+    for grid in 0..grids {
+        let rounds = history.iter().filter(|round| round.level == grid).enumerate();
+        let points = rounds.map(|(i, round)| [i as f64 + 1.0, round.residual]);
+        panel = panel.layer(Line::new(format!("grid {} of {grids}", grid + 1), points, Style::nth(grid)));
+    }
+    let mut figure = Figure::new("convergence").panel(panel);
+    let last = all.fold(f64::INFINITY, f64::min);
+    figure.caption = format!(
+        "Relative change in every round of the outer iteration on each of {grids} nested grids; the least was {last:.1e}."
+    );
+    figure
+}
+
+/// Least and greatest of the finite values, these two included.
+fn span(values: impl Iterator<Item = f64>, including: f64) -> [f64; 2] {
+    values
+        .filter(|value| value.is_finite())
+        .fold([including, including], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// A range with a margin at both ends; an end at zero stays there.
+fn with_margin([low, high]: [f64; 2], part: f64) -> [f64; 2] {
+    let margin = part * (high - low);
+    [if low == 0.0 { low } else { low - margin }, if high == 0.0 { high } else { high + margin }]
+}
+
+/// A thin line at zero or ambient.
+fn rest(at: f64, label: &str) -> Mark {
+    let mut mark = Mark::horizontal(at, label);
+    mark.style = Style { colour: Colour::QUIET, width: 0.4, ..Style::quiet() };
+    mark
+}
+
+/// Phase of a frame, t/T.
+fn phase(recording: &Recording, frame: usize) -> f64 {
+    frame as f64 / recording.frames.max(1) as f64
+}
+
+/// A series of one value per frame as a closed curve over 0 ≤ t/T ≤ 1.
+fn over_cycle<'a>(series: &'a [f64], scale: f64) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let count = series.len();
+    let at = move |i: usize| [i as f64 / count.max(1) as f64, series[i % count] * scale];
+    (0..if count == 0 { 0 } else { count + 1 }).map(at)
+}
+
+/// The pressure map of tooth `tooth` at a frame, `[ix][iy]` as stored: with lag symmetry that of the first tooth, when it
+/// was where this one is now, between frames if need be.
+fn tooth_map(recording: &Recording, tooth: usize, frame: usize) -> Vec<f64> {
+    let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
+    let size = recording.map_x.len() * recording.map_y.len();
+    let shift = tooth * frames;
+    let (first, weight) = ((frame + shift / teeth) % frames, (shift % teeth) as f64 / teeth as f64);
+    let plane = |frame: usize| recording.pressure.get(frame * size..(frame + 1) * size);
+    match (plane(first), plane((first + 1) % frames)) {
+        (Some(now), Some(next)) => now.iter().zip(next).map(|(a, b)| a + weight * (b - a)).collect(),
+        _ => vec![f64::NAN; size],
+    }
+}
+
+/// Nodes over the whole width (or length) from those of one half, and for each the stored node it mirrors.
+fn mirrored(nodes: &[f64], half: bool) -> Vec<(f64, usize)> {
+    let all = nodes.iter().copied().enumerate();
+    let stored = all.clone().map(|(i, node)| (node, i));
+    if !half {
+        return stored.collect();
+    }
+    all.rev().filter(|(_, node)| *node > 0.0).map(|(i, node)| (-node, i)).chain(stored).collect()
+}

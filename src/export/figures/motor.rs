@@ -1,0 +1,285 @@
+//! Figures of a motor. Axes cover the whole cycle, so that figures of several instants can be laid side by side.
+
+use super::unit::prefixed;
+use super::{mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
+use crate::export::figure::{
+    Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
+};
+use crate::problem::Motor;
+use crate::recording::Recording;
+
+/// The frame at which the crest of the wave is on the tooth in the middle, as in the paper's figures.
+pub fn crest_in_the_middle(recording: &Recording) -> usize {
+    let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
+    // The crest is on tooth k when t/T + k/teeth is whole.
+    ((teeth - teeth / 2) * frames).div_ceil(teeth) % frames
+}
+
+/// Surfaces, contact pressure and film pressure along one wavelength at a frame, as the paper's Fig. 4.
+pub fn wave(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
+    let mut figure = Figure::new(format!("t/T = {:.3}", phase(recording, frame)));
+    let unit = |values: &[f64]| {
+        let greatest = span(values.iter().map(|load| (load / motor.contact_width).abs()), 0.0)[1];
+        if (1e3..1e6).contains(&greatest) { ("kPa".to_owned(), 1e-3) } else { prefixed(greatest, "Pa") }
+    };
+    let ((contact_unit, scale), (film_unit, film_scale)) = (unit(&recording.contact), unit(&recording.film));
+    let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &contact_unit, scale };
+    let film = Loads { values: &recording.film, unit: &film_unit, scale: film_scale, ..contact };
+    figure.panels = vec![
+        surfaces(motor, recording, frame).height(38.0),
+        contact.panel("(b) contact pressure", Colour::CONTACT).height(26.0),
+        film.panel("(c) film pressure, gauge", Colour::FILM).height(26.0),
+    ];
+    figure.share_x = true;
+    figure.caption = format!(
+        "Normal displacement of stator teeth and rotor (a), contact pressure (b) and gauge pressure of the air film (c), both \
+         averaged over the contact width, along one wavelength at t/T = {:.3}. The wave travels towards −x, the rotor is \
+         driven towards +x.",
+        phase(recording, frame)
+    );
+    figure
+}
+
+fn x_axis(recording: &Recording) -> Axis {
+    let half = 0.5 * recording.pitch;
+    Axis::new("x", "mm").fixed(-half * 1e3, (recording.length - half) * 1e3)
+}
+
+/// Teeth of the stator, underside of the rotor, and where they touch.
+pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
+    let underside = |i: usize| recording.stator[i] + recording.film_thickness[i] - motor.min_spacing;
+    let all = || 0..recording.stator.len().min(recording.film_thickness.len());
+    let [low, high] = with_margin(span(all().flat_map(|i| [recording.stator[i], underside(i)]), 0.0), 0.08);
+    let (unit, scale) = prefixed(high.max(-low), "m");
+    let y = Axis::new("displacement", &unit)
+        .fixed((low - 0.06 * (high - low)) * scale, (high + 0.06 * (high - low)) * scale);
+    let nodes = recording.x.len();
+    let (mut teeth, mut outline, mut rotor, mut touching) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let gap = [f64::NAN; 2];
+    for tooth in 0..recording.teeth {
+        let line = recording.line_offset(tooth, frame);
+        let middle = tooth as f64 * recording.pitch;
+        for i in 0..nodes {
+            let (x, top) = ((middle + recording.x[i]) * 1e3, recording.stator[line + i] * scale);
+            teeth.push([x, f64::MIN / 2.0, top]);
+            outline.push([x, top]);
+            rotor.push([x, underside(line + i) * scale]);
+            touching.push(if recording.contact[line + i] > 0.0 { [x, top] } else { gap });
+        }
+        teeth.push([f64::NAN; 3]);
+        outline.push(gap);
+        touching.push(gap);
+    }
+    // Half a groove at either end: the wave repeats.
+    if let (Some(first), Some(last)) = (rotor.first().copied(), rotor.last().copied()) {
+        let [left, right] = [-0.5 * recording.pitch, recording.length - 0.5 * recording.pitch].map(|x| x * 1e3);
+        let edge = 0.5 * (first[1] + last[1]);
+        rotor.insert(0, [left, edge]);
+        rotor.push([right, edge]);
+    }
+    let above = rotor.iter().map(|[x, y]| [*x, *y, f64::MAX / 2.0]);
+    let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
+    let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };
+    let thick = Style { width: 2.4, ..Style::solid(Colour::CONTACT) };
+    let mut panel = Panel::new("(a) surfaces", x_axis(recording), y)
+        .layer(above)
+        .layer(body)
+        .layer(Line::new("stator", outline, Style { width: 0.8, ..Style::solid(Colour::STATOR) }))
+        .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }));
+    // Wherever in the cycle: the legend is the same at every instant.
+    if recording.contact.iter().any(|load| *load > 0.0) {
+        panel = panel.layer(Line::new("in contact", touching, thick));
+    }
+    panel.legend = Legend::Above;
+    panel
+}
+
+/// A line load of all teeth as a pressure.
+#[derive(Clone, Copy)]
+struct Loads<'a> {
+    motor: &'a Motor,
+    recording: &'a Recording,
+    frame: usize,
+    values: &'a [f64],
+    unit: &'a str,
+    scale: f64,
+}
+
+impl Loads<'_> {
+    /// One curve for each tooth, with a pale area below.
+    fn layers(&self, name: &str, colour: Colour, dash: Dash) -> (Band, Line) {
+        let (mut area, mut curve) = (Vec::new(), Vec::new());
+        let per_width = self.scale / self.motor.contact_width;
+        for tooth in 0..self.recording.teeth {
+            let line = self.recording.line_offset(tooth, self.frame);
+            let middle = tooth as f64 * self.recording.pitch;
+            let loads = &self.values[line..line + self.recording.x.len()];
+            // Nothing rather than a line at zero where a tooth does not touch.
+            if loads.iter().all(|load| *load == 0.0) {
+                continue;
+            }
+            for (xi, load) in self.recording.x.iter().zip(loads) {
+                let (x, pressure) = ((middle + xi) * 1e3, load * per_width);
+                area.push([x, 0.0, pressure]);
+                curve.push([x, pressure]);
+            }
+            area.push([f64::NAN; 3]);
+            curve.push([f64::NAN; 2]);
+        }
+        (Band::new("", area, colour), Line::new(name, curve, Style::solid(colour).dash(dash)))
+    }
+
+    fn axis(&self, label: &str, also: &[f64]) -> Axis {
+        let per_width = self.scale / self.motor.contact_width;
+        let all = self.values.iter().chain(also).map(|load| load * per_width);
+        let [low, high] = with_margin(span(all, 0.0), 0.06);
+        Axis::new(label, self.unit).fixed(low, high)
+    }
+
+    fn panel(&self, title: &str, colour: Colour) -> Panel {
+        let (area, curve) = self.layers("", colour, Dash::Solid);
+        let y = self.axis("pressure", &[]);
+        Panel::new(title, x_axis(self.recording), y).layer(area).layer(rest(0.0, "")).layer(curve)
+    }
+}
+
+/// Contact pressure and film pressure in one panel.
+pub fn pressures(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
+    let all = recording.contact.iter().chain(&recording.film).map(|load| (load / motor.contact_width).abs());
+    let (unit, scale) = prefixed(span(all, 0.0)[1], "Pa");
+    let contact = Loads { motor, recording, frame, values: &recording.contact, unit: &unit, scale };
+    let film = Loads { values: &recording.film, ..contact };
+    let (contact_area, contact_line) = contact.layers("contact", Colour::CONTACT, Dash::Dashed);
+    let (film_area, film_line) = film.layers("air film, gauge", Colour::FILM, Dash::Solid);
+    let y = contact.axis("pressure", &recording.film);
+    let mut panel = Panel::new("(b) pressure on the teeth", x_axis(recording), y)
+        .layer(contact_area)
+        .layer(film_area)
+        .layer(rest(0.0, ""))
+        .layer(contact_line)
+        .layer(film_line);
+    panel.legend = Legend::Above;
+    panel
+}
+
+/// Film load, contact load and teeth in contact over the cycle.
+pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
+    let (unit, scale) = prefixed(motor.load, "N");
+    let curve = |name: &str, series: &[f64], style: Style| Line::new(name, over_cycle(series, scale), style);
+    let load = Panel::new(
+        "(a) load on one wavelength",
+        Axis::new("", ""),
+        Axis::new("load", &unit).including([0.0, motor.load * scale]),
+    )
+    .layer(Mark::horizontal(motor.load * scale, "axial load"))
+    .layer(curve("contact", &recording.contact_load, Style::solid(Colour::CONTACT).dash(Dash::Dashed)))
+    .layer(curve("air film", &recording.film_load, Style::solid(Colour::FILM)));
+    let touching: Vec<f64> = recording.teeth_in_contact.iter().map(|teeth| *teeth as f64).collect();
+    let steps = over_cycle(&touching, 1.0).zip(over_cycle(&touching, 1.0).skip(1));
+    let steps = steps.flat_map(|(a, b)| [a, [b[0], a[1]]]);
+    let most = touching.iter().copied().fold(1.0, f64::max);
+    let teeth = Panel::new(
+        "(b) teeth that touch the rotor",
+        Axis::new("t/T", "").fixed(0.0, 1.0),
+        Axis::new("touching", "").fixed(0.0, most + 0.5).whole(),
+    )
+    .layer(Line::new("", steps, Style::solid(Colour::BLACK)));
+    let mut figure = Figure::new("loads over the cycle").panel(load.height(38.0)).panel(teeth.height(16.0));
+    figure.panels[0].x.range = Range::Fixed(0.0, 1.0);
+    figure.share_x = true;
+    figure.caption = format!(
+        "Contact load and load of the air film on one wavelength over one cycle of {}; together they carry the axial load, the thin \
+         line. Below, how many of the {} teeth touch the rotor.",
+        period(recording),
+        recording.teeth
+    );
+    figure
+}
+
+fn period(recording: &Recording) -> String {
+    let (unit, scale) = prefixed(recording.period, "s");
+    format!("{} {unit}", crate::export::digits::significant(recording.period * scale, 4))
+}
+
+/// The film's pressure under all teeth, absolute.
+pub fn all_teeth(recording: &Recording, frame: usize) -> Panel {
+    let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
+    let (mut x, mut values) = (Vec::new(), Vec::new());
+    let (unit, scale) = pressure_unit(recording);
+    for tooth in 0..recording.teeth {
+        let plane = tooth_map(recording, tooth, frame);
+        let middle = tooth as f64 * recording.pitch;
+        if tooth > 0 {
+            // Nothing in the groove.
+            x.push((middle - 0.5 * recording.pitch) * 1e3);
+            values.extend(y.iter().map(|_| f64::NAN));
+        }
+        for (i, xi) in recording.map_x.iter().enumerate() {
+            x.push((middle + xi) * 1e3);
+            values.extend(y.iter().map(|(_, j)| plane[i * recording.map_y.len() + j] * scale));
+        }
+    }
+    let map = Map {
+        label: "absolute pressure".to_owned(),
+        unit,
+        grid: Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values },
+        range: Range::Fixed(pressure_span(recording)[0] * scale, pressure_span(recording)[1] * scale),
+        ..Map::default()
+    };
+    Panel::new("", x_axis(recording), Axis::new("y", "mm")).layer(map)
+}
+
+fn pressure_span(recording: &Recording) -> [f64; 2] {
+    span(recording.pressure.iter().copied(), recording.pressure.first().copied().unwrap_or(0.0))
+}
+
+fn pressure_unit(recording: &Recording) -> (String, f64) {
+    // Kilopascal as long as that has at most four digits: the unit that pressures of air are told in.
+    let greatest = pressure_span(recording)[1];
+    if (1e3..1e7).contains(&greatest) { ("kPa".to_owned(), 1e-3) } else { prefixed(greatest, "Pa") }
+}
+
+/// Surfaces, pressures and the film's map at a frame, for moving pictures.
+pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
+    let mut map = all_teeth(recording, frame);
+    map.title = "(c) air film from above".to_owned();
+    let mut figure = Figure::new("")
+        .panel(surfaces(motor, recording, frame).height(30.0))
+        .panel(pressures(motor, recording, frame).height(24.0))
+        .panel(map.height(9.0));
+    figure.width = Width::Millimetres(130.0);
+    figure.share_x = true;
+    figure
+}
+
+/// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.
+pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
+    let mut all = all_teeth(recording, frame).height(14.0);
+    all.title = "(a) all teeth".to_owned();
+    let tooth = recording.teeth / 2;
+    let plane = tooth_map(recording, tooth, frame);
+    let (unit, scale) = pressure_unit(recording);
+    let y = mirrored(&recording.map_y, recording.half_width);
+    let ny = recording.map_y.len();
+    let value = |i: usize, j: usize| plane[i * ny + j] * scale;
+    let grid = Grid {
+        x: recording.map_x.iter().map(|x| x * 1e3).collect(),
+        y: y.iter().map(|(y, _)| y * 1e3).collect(),
+        values: (0..recording.map_x.len()).flat_map(|i| y.iter().map(move |(_, j)| value(i, *j))).collect(),
+    };
+    let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), ..Map::default() };
+    let lines = Contours { grid, labels: true, ..Contours::default() };
+    let axes = (Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm"));
+    let one = Panel::new("(b) the tooth in the middle", axes.0, axes.1).layer(colours).layer(lines).height(38.0);
+    let mut figure =
+        Figure::new(format!("pressure of the air film, t/T = {:.3}", phase(recording, frame))).panel(all).panel(one);
+    figure.width = Width::Page;
+    figure.caption = format!(
+        "Absolute pressure of the air film at t/T = {:.3}, under all {} teeth of one wavelength (a) and under the tooth on which the \
+         crest is (b); colours of (a) cover the whole cycle. Teeth are {} mm wide along x.",
+        phase(recording, frame),
+        recording.teeth,
+        crate::export::digits::significant(motor.tooth_width * 1e3, 4)
+    );
+    figure
+}

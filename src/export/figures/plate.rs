@@ -1,0 +1,170 @@
+//! Figures of a plate.
+
+use super::unit::prefixed;
+use super::{mirrored, over_cycle, phase, rest, span};
+use crate::export::figure::{
+    Axis, Band, Colour, Contours, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Shape, Style, Width,
+};
+use crate::problem::Plate;
+use crate::recording::Recording;
+
+/// Absolute pressure along the plate, at y = 0, at four instants a quarter of a cycle apart.
+pub fn profile(plate: &Plate, recording: &Recording) -> Figure {
+    let ambient = plate.gas.ambient_pressure;
+    let x = mirrored(&recording.map_x, recording.half_length);
+    let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), ambient)[1], "Pa");
+    let mut panel = Panel::new("", Axis::new("x", "mm"), Axis::new(pressure_at_the_middle(plate), &unit))
+        .layer(rest(ambient * scale, "ambient"));
+    for quarter in 0..4 {
+        let frame = quarter * recording.frames / 4;
+        let line = middle_line(recording, frame);
+        let points = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x * 1e3, p * scale]));
+        let mut style = Style::nth(quarter);
+        style.marker = None;
+        panel = panel.layer(Line::new(["t = 0", "T/4", "T/2", "3T/4"][quarter], points, style));
+    }
+    let mut figure = Figure::new("pressure along the plate").panel(panel);
+    figure.caption = "Pressure along the plate at four instants; the gap is greatest at t/T = 0.".to_owned();
+    figure
+}
+
+fn pressure_at_the_middle(plate: &Plate) -> &'static str {
+    if plate.width.is_some() { "absolute pressure at y = 0" } else { "absolute pressure" }
+}
+
+/// Pressure along x at the y nearest to the middle.
+fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
+    let (nx, ny) = (recording.map_x.len(), recording.map_y.len());
+    let distance = |j: &usize| recording.map_y[*j].abs();
+    let Some(j) = (0..ny).min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return Vec::new() };
+    (0..nx).filter_map(|i| recording.pressure.get((frame * nx + i) * ny + j).copied()).collect()
+}
+
+/// `N`, or of a strip `N/m`.
+fn force(plate: &Plate) -> &'static str {
+    if plate.width.is_some() { "N" } else { "N/m" }
+}
+
+/// Load and gap over the cycle.
+pub fn loads(plate: &Plate, recording: &Recording) -> Figure {
+    let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max(load.abs()));
+    let (unit, scale) = prefixed(greatest, force(plate));
+    let (length, gaps) = prefixed(plate.mean_gap + plate.amplitude, "m");
+    let mut gap = Line::new(
+        "gap",
+        over_cycle(&recording.min_film_thickness, gaps),
+        Style::solid(Colour::ROTOR).dash(Dash::Dashed),
+    );
+    gap.right = true;
+    let mut panel = Panel::new("", Axis::new("t/T", "").fixed(0.0, 1.0), Axis::new("film load", unit))
+        .layer(rest(0.0, ""))
+        .layer(Line::new("film load", over_cycle(&recording.film_load, scale), Style::solid(Colour::FILM)))
+        .layer(gap);
+    panel.right = Some(Axis::new("gap", length));
+    let mut figure = Figure::new("load over the cycle").panel(panel);
+    figure.caption = "Load of the film above ambient, and the gap, over one cycle.".to_owned();
+    figure
+}
+
+/// Mean gauge pressure against the gap, once round the cycle.
+pub fn pressure_gap_loop(plate: &Plate, recording: &Recording) -> Figure {
+    let mut figure = Figure::new("pressure against gap").panel(loop_panel(plate, recording, 0, "t = 0"));
+    figure.caption =
+        "Mean gauge pressure of the film against the gap, once round the cycle. The area of the loop is what \
+                      the film takes from the plate in a cycle, for each unit of area."
+            .to_owned();
+    figure
+}
+
+/// The loop, with a point at a frame.
+fn loop_panel(plate: &Plate, recording: &Recording, frame: usize, name: &str) -> Panel {
+    let area = plate.area();
+    let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max((load / area).abs()));
+    let (unit, scale) = prefixed(greatest, "Pa");
+    let (length, gaps) = prefixed(plate.mean_gap + plate.amplitude, "m");
+    let at = |m: usize| Some([recording.min_film_thickness.get(m)? * gaps, recording.film_load.get(m)? / area * scale]);
+    let closed = (0..=recording.frames).map(|m| m % recording.frames.max(1));
+    let line = Line::new("", closed.filter_map(at), Style::solid(Colour::FILM));
+    let now = Points::new(name, at(frame), Colour::CONTACT, Marker { size: 5.0, ..Marker::solid(Shape::Circle) });
+    Panel::new("", Axis::new("gap", length), Axis::new("mean gauge pressure", unit))
+        .layer(rest(0.0, ""))
+        .layer(line)
+        .layer(now)
+}
+
+/// Gap, pressure profile and loop at a frame, for moving pictures.
+pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
+    let x = mirrored(&recording.map_x, recording.half_length);
+    let half = 0.5 * plate.length * 1e3;
+    let highest = plate.mean_gap + plate.amplitude;
+    let (length, gaps) = prefixed(highest, "m");
+    let gap = recording.min_film_thickness.get(frame).copied().unwrap_or(0.0) * gaps;
+    let body = |low: f64, high: f64| [-half, half].map(|x| [x, low, high]);
+    let solid = |points: [[f64; 3]; 2], colour: Colour| Band { opacity: 0.6, ..Band::new("", points, colour) };
+    let (floor, roof) = (-0.12 * highest * gaps, 1.35 * highest * gaps);
+    let surfaces = Panel::new(
+        "(a) plate above the wall",
+        Axis::new("x", "mm").fixed(-half, half),
+        Axis::new("gap", length).fixed(floor, roof),
+    )
+    .layer(solid(body(floor, 0.0), Colour::STATOR))
+    .layer(solid(body(gap, gap + 0.3 * highest * gaps), Colour::ROTOR))
+    .layer(Band::new("", body(0.0, gap), Colour::FILM));
+    let ambient = plate.gas.ambient_pressure;
+    let [low, high] = span(recording.pressure.iter().copied(), ambient);
+    let (unit, scale) = prefixed(high, "Pa");
+    let margin = 0.06 * (high - low);
+    let line = middle_line(recording, frame);
+    let points: Vec<[f64; 2]> = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x * 1e3, p * scale])).collect();
+    let area = points.iter().map(|[x, p]| [*x, ambient * scale, *p]);
+    let y = Axis::new(pressure_at_the_middle(plate), unit).fixed((low - margin) * scale, (high + margin) * scale);
+    let pressure = Panel::new("(c) pressure", Axis::new("x", "mm").fixed(-half, half), y)
+        .layer(Band::new("", area, Colour::FILM))
+        .layer(rest(ambient * scale, ""))
+        .layer(Line::new("", points.iter().copied(), Style::solid(Colour::FILM)));
+    let mut round = loop_panel(plate, recording, frame, "");
+    round.title = "(b) once round the cycle".to_owned();
+    let mut load = loads(plate, recording).panels.remove(0);
+    load.title = "(d) over the cycle".to_owned();
+    load = load.layer(Mark::vertical(phase(recording, frame), ""));
+    let mut figure = Figure::new("");
+    figure.panels = vec![surfaces, round, pressure, load].into_iter().map(|panel| panel.height(32.0)).collect();
+    figure.columns = 2;
+    figure.width = Width::Millimetres(150.0);
+    figure
+}
+
+/// Absolute pressure: over the plate at the instant of its greatest; of a strip, along it and over the cycle.
+pub fn map(plate: &Plate, recording: &Recording) -> Figure {
+    let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), 0.0)[1], "Pa");
+    let x = mirrored(&recording.map_x, recording.half_length);
+    let (ny, frames) = (recording.map_y.len(), recording.frames);
+    let millimetres = |nodes: &[(f64, usize)]| nodes.iter().map(|(node, _)| node * 1e3).collect::<Vec<_>>();
+    let strip = plate.width.is_none() || ny < 2;
+    let (title, y_axis, grid) = if strip {
+        let columns: Vec<Vec<f64>> = (0..=frames).map(|m| middle_line(recording, m % frames.max(1))).collect();
+        let at = |i: usize, m: usize| columns[m].get(i).map_or(f64::NAN, |p| p * scale);
+        let values = x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect();
+        let y = (0..=frames).map(|m| phase(recording, m)).collect();
+        ("pressure along the strip".to_owned(), Axis::new("t/T", ""), Grid { x: millimetres(&x), y, values })
+    } else {
+        let most = recording.max_pressure.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(m, _)| m);
+        let y = mirrored(&recording.map_y, recording.half_width);
+        let offset = most * recording.map_x.len() * ny;
+        let at = |i: usize, j: usize| recording.pressure.get(offset + i * ny + j).map_or(f64::NAN, |p| p * scale);
+        let values = x.iter().flat_map(|(_, i)| y.iter().map(move |(_, j)| (*i, *j))).map(|(i, j)| at(i, j)).collect();
+        let title = format!("pressure at t/T = {:.3}", phase(recording, most));
+        (title, Axis::new("y", "mm"), Grid { x: millimetres(&x), y: millimetres(&y), values })
+    };
+    let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), ..Map::default() };
+    let lines = Contours { grid, labels: true, ..Contours::default() };
+    let panel = Panel::new("", Axis::new("x", "mm"), y_axis).layer(colours).layer(lines).height(60.0);
+    let mut figure = Figure::new(title).panel(panel);
+    figure.width = Width::Millimetres(110.0);
+    figure.caption = if strip {
+        "Absolute pressure of the film along the strip and over one cycle.".to_owned()
+    } else {
+        "Absolute pressure of the film over the plate, at the instant at which it is greatest.".to_owned()
+    };
+    figure
+}

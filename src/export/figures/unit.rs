@@ -1,0 +1,28 @@
+//! A unit with the prefix that makes numbers easy to read.
+
+/// The prefixed unit for values up to `greatest`, and what a value is multiplied with.
+pub(super) fn prefixed(greatest: f64, unit: &str) -> (String, f64) {
+    let size = greatest.abs();
+    let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")];
+    let fits = |(factor, _): &&(f64, &str)| size >= 0.9995 * factor;
+    let (factor, prefix) = match prefixes.iter().find(fits) {
+        Some(found) => *found,
+        None => (1.0, ""),
+    };
+    (format!("{prefix}{unit}"), 1.0 / factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prefixes_leave_one_to_three_digits() {
+        for (value, expected) in
+            [(1.3e-6, "µm"), (2e-7, "nm"), (0.0, "m"), (f64::NAN, "m"), (1e-3, "mm"), (4.2e4, "km")]
+        {
+            assert_eq!(prefixed(value, "m").0, expected);
+        }
+        assert!((prefixed(250e3, "Pa").1 * 250e3 - 250.0).abs() < 1e-9);
+    }
+}

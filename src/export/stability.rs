@@ -1,0 +1,211 @@
+//! Maps of where a method solves, as JSON and as CSV, with the same names, and as a figure.
+
+use crate::analysis::quantity::Quantity;
+use crate::analysis::stability::{Cell, Edge, VERDICTS, Verdict};
+use crate::export::figure::{Axis, Categories, Colour, Figure, Legend, Panel, Provenance, Width};
+use crate::fidelity::Fidelity;
+use crate::scene::{Parameter, Scale};
+use crate::solve::Method;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The version of the object.
+pub const SCHEMA: u32 = 1;
+
+/// The object of `--json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Object<'a> {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Name of the scene whose parameters are mapped.
+    pub preset: &'a str,
+    /// Fidelity of method auto.
+    pub fidelity: &'static str,
+    /// One for each cell.
+    pub cells: Vec<CellObject>,
+    /// Version of this program.
+    pub version: &'static str,
+    /// The command line, word by word; empty if there was none.
+    pub command: &'a [String],
+}
+
+impl<'a> Object<'a> {
+    /// The object of a survey.
+    pub fn new(preset: &'a str, fidelity: Fidelity, cells: &[Cell], command: &'a [String]) -> Self {
+        Self {
+            schema: SCHEMA,
+            preset,
+            fidelity: fidelity.name(),
+            cells: cells.iter().map(CellObject::new).collect(),
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+        }
+    }
+}
+
+/// One cell, a row of the CSV. What is not known is null, or empty.
+#[derive(Clone, Debug, Serialize)]
+pub struct CellObject {
+    /// The map.
+    pub map: &'static str,
+    /// `auto` or `paper`.
+    pub method: &'static str,
+    /// Key along x.
+    pub x_key: &'static str,
+    /// Its value, in the unit of the key.
+    pub x: f64,
+    /// Key along y.
+    pub y_key: &'static str,
+    /// Its value, in the unit of the key.
+    pub y: f64,
+    /// `solved`, `not converged`, `non-physical`, `failed` or `refused`.
+    pub verdict: &'static str,
+    /// α.
+    pub alpha: Option<f64>,
+    /// Its stated error, absolute.
+    pub alpha_error: Option<f64>,
+    /// Change of the last round, if it did not converge.
+    pub residual: Option<f64>,
+    /// Rounds of film and contact.
+    pub coupling_iterations: Option<u64>,
+    /// Cycles marched.
+    pub cycles: Option<u64>,
+    /// Time steps of one tooth's film.
+    pub film_steps: Option<u64>,
+    /// Why, and what about the numbers cannot be.
+    pub detail: String,
+    /// Options of the command line that solve it.
+    pub options: String,
+}
+
+impl CellObject {
+    fn new(cell: &Cell) -> Self {
+        let number = |quantity| cell.numbers.get(quantity);
+        let count = |quantity| number(quantity).map(|count| count as u64);
+        Self {
+            map: cell.map.name,
+            method: cell.method.name(),
+            x_key: cell.changes[0].0,
+            x: cell.changes[0].1,
+            y_key: cell.changes[1].0,
+            y: cell.changes[1].1,
+            verdict: cell.verdict.name(),
+            alpha: number(Quantity::Alpha),
+            alpha_error: number(Quantity::AlphaError),
+            residual: number(Quantity::Residual),
+            coupling_iterations: count(Quantity::Rounds),
+            cycles: count(Quantity::Cycles),
+            film_steps: count(Quantity::FilmSteps),
+            detail: detail(cell),
+            options: cell.options(),
+        }
+    }
+}
+
+/// Why a cell is not solved, and what about its numbers cannot be.
+pub fn detail(cell: &Cell) -> String {
+    let mut reasons: Vec<String> = cell.faults.iter().map(ToString::to_string).collect();
+    match &cell.verdict {
+        Verdict::Failed(reason) | Verdict::Refused(reason) => reasons.insert(0, reason.clone()),
+        Verdict::NotConverged => reasons.insert(
+            0,
+            match cell.numbers.get(Quantity::Residual) {
+                Some(residual) => format!("the last round still changed by {residual:.1e}"),
+                None if cell.method == Method::Paper => "stopped: too many cycles".to_owned(),
+                None => "no number left".to_owned(),
+            },
+        ),
+        Verdict::Solved | Verdict::NonPhysical => {}
+    }
+    reasons.join("; ")
+}
+
+/// Writes the cells as CSV, the header first.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_csv(cells: &[Cell], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    for cell in cells {
+        writer.serialize(CellObject::new(cell))?;
+    }
+    writer.flush()
+}
+
+/// Colours of the verdicts.
+const COLOURS: [Colour; VERDICTS.len()] = [
+    Colour(0x56, 0xb4, 0xe9),
+    Colour(0xe6, 0x9f, 0x00),
+    Colour(0xd5, 0x5e, 0x00),
+    Colour::BLACK,
+    Colour(0xbb, 0xbb, 0xbb),
+];
+
+/// The maps below each other, each method's beside the other's.
+pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
+    let mut methods: Vec<Method> = cells.iter().map(|cell| cell.method).collect();
+    methods.dedup();
+    let columns = if methods.iter().any(|method| *method != methods[0]) { 2 } else { 1 };
+    let provenance = Provenance {
+        preset: preset.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        fidelity: fidelity.name().to_owned(),
+        ..Provenance::default()
+    };
+    let width = if columns == 2 { Width::Page } else { Width::Column };
+    let mut figure = Figure { provenance, columns, width, ..Figure::default() };
+    // Cells come map by map and method by method.
+    for of_one in cells.chunk_by(|a, b| a.map.name == b.map.name && a.method == b.method) {
+        let first = &of_one[0];
+        let axes = [0, 1].map(|axis| {
+            places(first.map.axes[axis], of_one.iter().map(|cell| (cell.place[axis], cell.changes[axis].1)))
+        });
+        let [(x_axis, x), (y_axis, y)] = axes;
+        let mut values = vec![usize::MAX; x.len() * y.len()];
+        for cell in of_one {
+            values[cell.place[0] * y.len() + cell.place[1]] = cell.verdict.number();
+        }
+        let kinds = VERDICTS.iter().map(|name| (*name).to_owned()).zip(COLOURS).collect();
+        let method = match first.method {
+            Method::Auto => "ours",
+            Method::Paper => "the paper's method",
+        };
+        let title = format!("{}, {method}", first.map.name.replace('-', " and "));
+        let mut panel = Panel::new(title, x_axis, y_axis).height(38.0).layer(Categories { x, y, values, kinds });
+        panel.legend = Legend::Above;
+        figure.panels.push(panel);
+    }
+    figure
+}
+
+/// An axis, and where its values are drawn. On a logarithmic axis zero has a place of its own, below the others.
+fn places(edge: Edge, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<f64>) {
+    let mut found: Vec<(usize, f64)> = values.collect();
+    found.sort_by_key(|(place, _)| *place);
+    found.dedup();
+    let mut values: Vec<f64> = found.into_iter().map(|(_, value)| value).collect();
+    let mut axis = match Parameter::find(edge.key) {
+        Some(parameter) => Axis::new(parameter.words(), parameter.unit),
+        None => Axis::new(edge.key, ""),
+    };
+    if edge.scale == Scale::Log {
+        axis = axis.log();
+        if let [zero, first, second, ..] = values[..]
+            && zero <= 0.0
+        {
+            let stand_in = first * first / second;
+            axis.names.push((stand_in, "0".to_owned()));
+            // Decades from the first of the others, which keep their values.
+            let decades = (0..=values.len()).map(|decade| first * 10f64.powi(decade as i32));
+            let last = values.iter().copied().fold(first, f64::max) * (1.0 + 1e-9);
+            axis.names.extend(decades.take_while(|at| *at <= last).map(|at| (at, short(at))));
+            values[0] = stand_in;
+        }
+    }
+    (axis, values)
+}
+
+/// Without what rounding left.
+fn short(value: f64) -> String {
+    format!("{value:.9e}").parse::<f64>().unwrap_or(value).to_string()
+}

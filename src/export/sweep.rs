@@ -1,0 +1,469 @@
+//! A sweep as JSON and as CSV, with the same names, and as a figure; and the CSV of one that was cancelled read back, to go on with it.
+//!
+//! Numbers are written with the fewest digits that read back to the same bits, so that a sweep that was cancelled and
+//! gone on with is the same, byte by byte, as one that was not.
+
+use crate::analysis::quantity::{Numbers, Quantity};
+use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep};
+use crate::analysis::table1::Published;
+use crate::export::figure::{
+    Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Shading, Shape,
+    Style,
+};
+use crate::scene::Scale;
+use crate::solve::Method;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use std::io::{self, Write};
+
+/// The version of the object and of the columns.
+pub const SCHEMA: u32 = 1;
+
+/// Columns before those of the keys: which sweep, and which of its points.
+const FIRST: [&str; 2] = ["sweep", "point"];
+const STATUS: &str = "status";
+const CONVERGED: &str = "converged";
+const NOT_CONVERGED: &str = "not converged";
+const FAILED: &str = "failed: ";
+
+/// `converged`, `not converged` or `failed: …`.
+pub fn status(ending: &Ending) -> String {
+    match ending {
+        Ending::Converged => CONVERGED.to_owned(),
+        Ending::NotConverged => NOT_CONVERGED.to_owned(),
+        Ending::Failed(reason) => format!("{FAILED}{reason}"),
+    }
+}
+
+fn header(sweep: &Sweep) -> Vec<&'static str> {
+    let mut names = FIRST.to_vec();
+    names.extend(sweep.axes().iter().map(|axis| axis.parameter.key));
+    names.push(STATUS);
+    names.extend(sweep.quantities().into_iter().map(Quantity::name));
+    names
+}
+
+/// Writes the rows as CSV, the header first; what is not there is empty. Every row carries the fingerprint of its sweep.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(header(sweep))?;
+    let (fingerprint, quantities) = (sweep.fingerprint(), sweep.quantities());
+    for row in rows {
+        writer.write_field(&fingerprint)?;
+        writer.write_field(row.point.to_string())?;
+        for value in &row.values {
+            writer.write_field(digits(*value))?;
+        }
+        writer.write_field(status(&row.ending))?;
+        for quantity in &quantities {
+            let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
+            writer.write_field(row.numbers.get(*quantity).map_or_else(String::new, show))?;
+        }
+        writer.write_record(None::<&[u8]>)?;
+    }
+    writer.flush()
+}
+
+/// Why the rows of a file are not those of a sweep.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReadError {
+    /// The file is of another sweep.
+    #[error("it is of another sweep: another scene, range, setting or version")]
+    Another,
+    /// The file is damaged.
+    #[error("line {line}: {fault}")]
+    Damaged {
+        /// Line of the file, from 1.
+        line: u64,
+        /// What is wrong there.
+        fault: String,
+    },
+}
+
+/// Rows of `sweep` from the CSV text that [`write_csv`] made of them.
+///
+/// # Errors
+/// [`ReadError`]. A row too many, or twice, is damage.
+pub fn read_csv(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let damaged = |line: u64, fault: String| ReadError::Damaged { line, fault };
+    let found = reader.headers().map_err(|error| damaged(1, error.to_string()))?;
+    if found != header(sweep) {
+        return Err(ReadError::Another);
+    }
+    let (fingerprint, quantities) = (sweep.fingerprint(), sweep.quantities());
+    let mut rows: Vec<Row> = Vec::new();
+    for record in reader.records() {
+        let record =
+            record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        // The reader refuses a record of another length than the header.
+        let field = |column: usize| record.get(column).unwrap_or("");
+        if field(0) != fingerprint {
+            return Err(ReadError::Another);
+        }
+        let point: usize = field(1).parse().map_err(|_| damaged(line, format!("point = {}", field(1))))?;
+        if point >= sweep.len() || rows.iter().any(|row| row.point == point) {
+            return Err(damaged(line, format!("point {point} is not expected here")));
+        }
+        let column = FIRST.len() + sweep.axes().len();
+        let ending = match field(column) {
+            CONVERGED => Ending::Converged,
+            NOT_CONVERGED => Ending::NotConverged,
+            other => match other.strip_prefix(FAILED) {
+                Some(reason) => Ending::Failed(reason.to_owned()),
+                None => return Err(damaged(line, format!("status = {other}"))),
+            },
+        };
+        let mut numbers = Numbers::default();
+        for (i, quantity) in quantities.iter().enumerate() {
+            let text = field(column + 1 + i);
+            if !text.is_empty() {
+                let value = text.parse().map_err(|_| damaged(line, format!("{} = {text}", quantity.name())))?;
+                numbers.set(*quantity, value);
+            }
+        }
+        rows.push(Row { point, values: sweep.values(point).to_vec(), ending, numbers });
+    }
+    Ok(rows)
+}
+
+/// The fewest digits that read back to the same bits.
+fn digits(value: f64) -> String {
+    format!("{value:?}")
+}
+
+/// The object of `--json`.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Object<'a> {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Name of the scene that is varied.
+    pub preset: &'a str,
+    /// `motor` or `plate`.
+    pub scene: &'static str,
+    /// `auto` or `paper`.
+    pub method: &'static str,
+    /// `draft`, `standard`, …; of method paper null.
+    pub fidelity: Option<&'static str>,
+    /// All points are there.
+    pub complete: bool,
+    /// Fingerprint of the sweep, as in the first column of the CSV.
+    pub sweep: String,
+    /// What is varied.
+    pub axes: Vec<AxisObject>,
+    /// One for each point; the last axis varies fastest.
+    pub rows: Vec<RowObject<'a>>,
+    /// Published values of Table I in the plane of the sweep.
+    pub published: Vec<PublishedObject>,
+    /// Version of this program.
+    pub version: &'static str,
+    /// The command line, word by word; empty if there was none.
+    pub command: &'a [String],
+}
+
+/// One axis.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct AxisObject {
+    /// Dotted key.
+    pub key: &'static str,
+    /// Unit of its values.
+    pub unit: &'static str,
+    /// `linear` or `log`.
+    pub scale: &'static str,
+    /// Its values.
+    pub values: Vec<f64>,
+}
+
+/// One point: its keys, its status, and its quantities by name.
+#[derive(Clone, Debug)]
+pub struct RowObject<'a> {
+    keys: Vec<&'static str>,
+    quantities: Vec<Quantity>,
+    row: &'a Row,
+}
+
+impl Serialize for RowObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry(FIRST[1], &self.row.point)?;
+        for (key, value) in self.keys.iter().zip(&self.row.values) {
+            map.serialize_entry(key, value)?;
+        }
+        map.serialize_entry(STATUS, &status(&self.row.ending))?;
+        for quantity in &self.quantities {
+            let value = self.row.numbers.get(*quantity);
+            if quantity.is_count() {
+                map.serialize_entry(quantity.name(), &value.map(|count| count as u64))?;
+            } else {
+                map.serialize_entry(quantity.name(), &value)?;
+            }
+        }
+        map.end()
+    }
+}
+
+/// One published value.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct PublishedObject {
+    /// Name of the row.
+    pub row: String,
+    /// The value of each axis.
+    pub values: Vec<f64>,
+    /// Film load as published \[N\].
+    pub film_load_n: f64,
+    /// α as published.
+    pub alpha: f64,
+}
+
+impl From<Published> for PublishedObject {
+    fn from(published: Published) -> Self {
+        let Published { row, values, film_load, alpha } = published;
+        Self { row, values, film_load_n: film_load, alpha }
+    }
+}
+
+impl<'a> Object<'a> {
+    /// The object of a sweep's rows.
+    pub fn new(sweep: &'a Sweep, rows: &'a [Row], command: &'a [String]) -> Self {
+        let settings = sweep.settings();
+        let keys: Vec<&'static str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
+        Self {
+            schema: SCHEMA,
+            preset: &sweep.scene().name,
+            scene: sweep.scene().scene(),
+            method: settings.method.name(),
+            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.name()),
+            complete: rows.len() == sweep.len(),
+            sweep: sweep.fingerprint(),
+            axes: sweep
+                .axes()
+                .iter()
+                .map(|axis| AxisObject {
+                    key: axis.parameter.key,
+                    unit: axis.parameter.unit,
+                    scale: if axis.scale == Scale::Log { "log" } else { "linear" },
+                    values: axis.values.clone(),
+                })
+                .collect(),
+            rows: rows
+                .iter()
+                .map(|row| RowObject { keys: keys.clone(), quantities: sweep.quantities(), row })
+                .collect(),
+            published: sweep.published().into_iter().map(PublishedObject::from).collect(),
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+        }
+    }
+}
+
+/// The sweep as a figure. Over one key: its first quantity with the error as a band, and a second one below. Over two: a
+/// map with lines of equal value. With the published points of Table I, and crosses where it did not converge.
+pub fn figure(sweep: &Sweep, rows: &[Row]) -> Figure {
+    let settings = sweep.settings();
+    let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
+    let missing = sweep.len() - rows.iter().filter(|row| row.ending == Ending::Converged).count();
+    let provenance = Provenance {
+        preset: sweep.scene().name.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        fidelity: match settings.method {
+            Method::Auto => settings.fidelity.name().to_owned(),
+            Method::Paper => "paper mesh".to_owned(),
+        },
+        error: format!("errors up to {worst:.1e}"),
+        note: if missing == 0 { String::new() } else { format!("{missing} of {} points not solved", sweep.len()) },
+    };
+    let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
+    match sweep.axes() {
+        [x, y] => figure.panels.push(map_panel(sweep, rows, x, y)),
+        [x, ..] => {
+            figure.panels.push(curve_panel(sweep, rows, x, primary(sweep)));
+            let below = if sweep.quantities().contains(&Quantity::MaxTorque) {
+                Quantity::MaxTorque
+            } else {
+                Quantity::MaxPressure
+            };
+            let mut lower = curve_panel(sweep, rows, x, below).height(30.0);
+            lower.legend = Legend::None;
+            figure.panels.push(lower);
+        }
+        [] => {}
+    }
+    figure
+}
+
+/// What a sweep is about: α of a motor, the load ratio of a plate.
+fn primary(sweep: &Sweep) -> Quantity {
+    if sweep.quantities().contains(&Quantity::Alpha) { Quantity::Alpha } else { Quantity::LoadRatio }
+}
+
+fn figure_axis(axis: &SweepAxis) -> Axis {
+    let drawn = Axis::new(axis.parameter.words(), axis.parameter.unit);
+    if axis.scale == Scale::Log { drawn.log() } else { drawn }
+}
+
+/// Up to this many points each has its marker.
+const FEW: usize = 40;
+
+fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -> Panel {
+    // In ascending order, with a gap where there is no value.
+    let mut rows: Vec<&Row> = rows.iter().collect();
+    rows.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
+    let sound = |row: &&&Row| row.ending == Ending::Converged;
+    let value = |row: &Row| match row.ending {
+        Ending::Converged => row.numbers.get(quantity).unwrap_or(f64::NAN),
+        _ => f64::NAN,
+    };
+    let colour = Colour::FILM;
+    let mut panel = Panel::new("", figure_axis(x), Axis::new(quantity.words(), quantity.unit()).including([0.0]));
+    if let Some(error) = quantity.error() {
+        let band = rows.iter().map(|row| {
+            let (value, error) = (value(row), row.numbers.get(error).unwrap_or(f64::NAN));
+            [row.values[0], value - error, value + error]
+        });
+        panel = panel.layer(Band::new("stated error", band, colour));
+    }
+    let curve: Vec<[f64; 2]> = rows.iter().map(|row| [row.values[0], value(row)]).collect();
+    panel = panel.layer(Line::new("computed", curve.clone(), Style::solid(colour)));
+    if rows.len() <= FEW {
+        let dot = Marker { size: 2.5, ..Marker::solid(Shape::Circle) };
+        panel = panel.layer(Points::new("", curve, colour, dot));
+    }
+    let unsound: Vec<[f64; 2]> = rows
+        .iter()
+        .filter(|row| !sound(row))
+        .filter_map(|row| Some([row.values[0], row.numbers.get(quantity)?]))
+        .collect();
+    if !unsound.is_empty() {
+        panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
+    }
+    let published: Vec<[f64; 2]> =
+        within(sweep).filter(|_| quantity == Quantity::Alpha).map(|point| [point.values[0], point.alpha]).collect();
+    if !published.is_empty() {
+        let marker = Marker::hollow(Shape::Square);
+        panel = panel.layer(Points::new("published (Table I)", published, Colour::BLACK, marker));
+    }
+    panel
+}
+
+/// Published points inside the range that is swept.
+fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
+    let inside = |point: &Published| {
+        sweep.axes().iter().zip(&point.values).all(|(axis, value)| {
+            let (least, most) = axis
+                .values
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(*value), most.max(*value)));
+            (least..=most).contains(value)
+        })
+    };
+    sweep.published().into_iter().filter(inside).collect::<Vec<_>>().into_iter()
+}
+
+fn map_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, y: &SweepAxis) -> Panel {
+    let ascending = |values: &[f64]| {
+        let mut values = values.to_vec();
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let quantity = primary(sweep);
+    let (xs, ys) = (ascending(&x.values), ascending(&y.values));
+    let mut values = vec![f64::NAN; xs.len() * ys.len()];
+    let mut unsound = Vec::new();
+    for row in rows {
+        let place = |axis: &[f64], value: f64| axis.iter().position(|at| *at == value);
+        let at = place(&xs, row.values[0]).zip(place(&ys, row.values[1]));
+        if let (Some((i, j)), Some(value)) = (at, row.numbers.get(quantity)) {
+            values[i * ys.len() + j] = value;
+        }
+        if row.ending != Ending::Converged {
+            unsound.push([row.values[0], row.values[1]]);
+        }
+    }
+    let grid = Grid { x: xs, y: ys, values };
+    let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0);
+    let map = Map { label: quantity.words().to_owned(), grid: grid.clone(), shading: Shading::Cells, ..Map::default() };
+    panel = panel.layer(map).layer(Contours { grid, labels: true, ..Contours::default() });
+    if !unsound.is_empty() {
+        panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
+    }
+    let published: Vec<[f64; 2]> = within(sweep).map(|point| [point.values[0], point.values[1]]).collect();
+    if !published.is_empty() {
+        let marker = Marker::hollow(Shape::Square);
+        panel = panel.layer(Points::new("rows of Table I", published, Colour::BLACK, marker));
+    }
+    panel
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::presets;
+    use crate::solve::Settings;
+
+    fn sweep(vary: &str) -> Sweep {
+        Sweep::new(&presets::find("fundamental").unwrap(), &[vary.parse().unwrap()], &Settings::default()).unwrap()
+    }
+
+    fn rows(sweep: &Sweep) -> Vec<Row> {
+        let mut numbers = Numbers::default();
+        numbers.set(Quantity::Alpha, 0.1 + 0.2);
+        numbers.set(Quantity::AlphaError, 1e-300);
+        let failed = Ending::Failed("film, step 3: no \"solution\",\nat all".to_owned());
+        let row = |point: usize, ending: Ending| Row { point, values: sweep.values(point).to_vec(), ending, numbers };
+        vec![row(0, Ending::Converged), row(2, failed), row(1, Ending::NotConverged)]
+    }
+
+    #[test]
+    fn rows_read_back_to_the_same_bits() {
+        let sweep = sweep("stator.frequency_khz=3:100:3:log");
+        let mut text = Vec::new();
+        write_csv(&sweep, &rows(&sweep), &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert_eq!(read_csv(&sweep, &text).unwrap(), rows(&sweep));
+        assert!(text.starts_with("sweep,point,stator.frequency_khz,status,alpha,alpha_error,film_load_n,"), "{text}");
+    }
+
+    #[test]
+    fn figures_have_a_curve_or_a_map_and_the_published_points() {
+        use crate::export::figure::Layer;
+        let line = sweep("stator.frequency_khz=3:50:3:log");
+        let drawn = figure(&line, &rows(&line));
+        let points = |panel: &Panel| {
+            let points = |layer: &Layer| if let Layer::Points(points) = layer { Some(points.clone()) } else { None };
+            panel.layers.iter().filter_map(points).collect::<Vec<_>>()
+        };
+        assert_eq!(drawn.panels.len(), 2);
+        let [_, unsound, published] = &points(&drawn.panels[0])[..] else { panic!("{drawn:?}") };
+        assert_eq!((unsound.points.len(), published.points.len()), (2, 5));
+        assert!(drawn.provenance.note.contains("2 of 3 points not solved"), "{drawn:?}");
+
+        let vary = ["film.min_spacing_nm=200:100:3".parse().unwrap(), "stator.frequency_khz=3:50:2".parse().unwrap()];
+        let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
+        let mut numbers = Numbers::default();
+        numbers.set(Quantity::Alpha, 0.5);
+        let row = Row { point: 1, values: plane.values(1).to_vec(), ending: Ending::Converged, numbers };
+        let drawn = figure(&plane, &[row]);
+        let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
+        assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));
+        let known: Vec<usize> = (0..6).filter(|i| map.grid.values[*i].is_finite()).collect();
+        assert_eq!(known, [5]);
+    }
+
+    #[test]
+    fn rows_of_another_sweep_and_damage_are_told() {
+        let ours = sweep("stator.frequency_khz=3:100:3");
+        let mut text = Vec::new();
+        write_csv(&ours, &rows(&ours), &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert_eq!(read_csv(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ReadError::Another));
+        assert_eq!(read_csv(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ReadError::Another));
+        assert_eq!(read_csv(&ours, ""), Err(ReadError::Another));
+        let cut = &text[..text.len() - 20];
+        assert!(matches!(read_csv(&ours, cut), Err(ReadError::Damaged { .. })), "{:?}", read_csv(&ours, cut));
+        let twice = text.replace(",2,", ",1,");
+        assert!(matches!(read_csv(&ours, &twice), Err(ReadError::Damaged { .. })));
+    }
+}

@@ -1,0 +1,200 @@
+//! Error against time as JSON and as CSV, with the same names, and as a figure.
+
+use super::sweep::status as sweep_status;
+use crate::analysis::quantity::Quantity;
+use crate::analysis::sweep::Ending;
+use crate::analysis::tradeoff::{Ended, Family, Point, Tradeoff};
+use crate::export::figure::{
+    Anchor, Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text,
+};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The version of the object.
+pub const SCHEMA: u32 = 1;
+
+/// The object of `--json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Object<'a> {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Name of the scene.
+    pub preset: &'a str,
+    /// The number that is judged: `alpha` or `film_load_n`.
+    pub judged: &'static str,
+    /// The setting that the others are judged by.
+    pub reference: Option<&'a str>,
+    /// One for each setting.
+    pub settings: Vec<SettingObject>,
+    /// The settings that were asked for, if any.
+    pub chosen: Vec<ChoiceObject>,
+    /// Version of this program.
+    pub version: &'static str,
+    /// The command line, word by word; empty if there was none.
+    pub command: &'a [String],
+}
+
+/// A setting chosen.
+#[derive(Clone, Debug, Serialize)]
+pub struct ChoiceObject {
+    /// `accuracy` or `budget_s`.
+    pub wish: &'static str,
+    /// The share, or the time \[s\].
+    pub value: f64,
+    /// The setting, or null if none serves.
+    pub setting: Option<String>,
+    /// Options of the command line that choose it.
+    pub options: Option<String>,
+}
+
+/// One setting, a row of the CSV. What is not known is null, or empty.
+#[derive(Clone, Debug, Serialize)]
+pub struct SettingObject {
+    /// Its name.
+    pub setting: String,
+    /// `fidelity`, `grid` or `paper`.
+    pub family: &'static str,
+    /// `converged`, `not converged`, `given up`, `failed: …`, or `waiting`.
+    pub status: String,
+    /// Median time \[s\].
+    pub median_s: Option<f64>,
+    /// Lower quartile \[s\].
+    pub lower_quartile_s: Option<f64>,
+    /// Upper quartile \[s\].
+    pub upper_quartile_s: Option<f64>,
+    /// Number of runs.
+    pub runs: usize,
+    /// The value that is judged.
+    pub value: Option<f64>,
+    /// The greater of the next two, by which it is judged.
+    pub error: Option<f64>,
+    /// Distance from the reference plus the reference's own stated error, relative.
+    pub measured_error: Option<f64>,
+    /// The error it states of itself, relative.
+    pub stated_error: Option<f64>,
+    /// No other is at once as fast and as accurate.
+    pub pareto: bool,
+    /// The one that the others are judged by.
+    pub reference: bool,
+    /// Film nodes of the finest grid.
+    pub film_nodes: usize,
+    /// Steps in a cycle of the finest grid.
+    pub steps_per_cycle: usize,
+    /// Time steps of one tooth's film.
+    pub film_steps: Option<u64>,
+    /// Rounds of film and contact.
+    pub coupling_iterations: Option<u64>,
+    /// Contact problems solved.
+    pub contact_solves: Option<u64>,
+    /// Options of the command line that choose it.
+    pub options: String,
+}
+
+impl SettingObject {
+    fn new(point: &Point, judged: Quantity, reference: bool) -> Self {
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let run = &point.run;
+        let count = |quantity| run.numbers.get(quantity).map(|count| count as u64);
+        Self {
+            setting: run.candidate.name.clone(),
+            family: match run.candidate.family {
+                Family::Fidelity => "fidelity",
+                Family::Grid => "grid",
+                Family::Paper => "paper",
+            },
+            status: status(&run.ended),
+            median_s: finite(point.median),
+            lower_quartile_s: finite(point.quartiles.0),
+            upper_quartile_s: finite(point.quartiles.1),
+            runs: run.times.len(),
+            value: run.numbers.get(judged),
+            error: point.error.and_then(finite),
+            measured_error: point.measured.and_then(finite),
+            stated_error: point.stated.and_then(finite),
+            pareto: point.best,
+            reference,
+            film_nodes: run.grid.0,
+            steps_per_cycle: run.grid.1,
+            film_steps: count(Quantity::FilmSteps),
+            coupling_iterations: count(Quantity::Rounds),
+            contact_solves: count(Quantity::ContactSolves),
+            options: run.candidate.options(),
+        }
+    }
+}
+
+/// How a setting ended, in words.
+pub fn status(ended: &Ended) -> String {
+    match ended {
+        Ended::Waiting => "waiting".to_owned(),
+        Ended::Converged => sweep_status(&Ending::Converged),
+        Ended::NotConverged => sweep_status(&Ending::NotConverged),
+        Ended::GivenUp => "given up".to_owned(),
+        Ended::Failed(reason) => sweep_status(&Ending::Failed(reason.clone())),
+    }
+}
+
+/// One for each setting, in the order of the curve.
+pub fn settings(tradeoff: &Tradeoff) -> Vec<SettingObject> {
+    let object = |(i, point)| SettingObject::new(point, tradeoff.judged, tradeoff.reference == Some(i));
+    tradeoff.points.iter().enumerate().map(object).collect()
+}
+
+/// Writes the settings as CSV, the header first.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_csv(tradeoff: &Tradeoff, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    for setting in settings(tradeoff) {
+        writer.serialize(setting)?;
+    }
+    writer.flush()
+}
+
+/// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
+/// names at the fidelities and the paper's meshes, and rings round the settings in `chosen`.
+pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
+    let place = |point: &Point| Some([point.median, 100.0 * point.error?]);
+    let of = |family: Family| {
+        let points = tradeoff.points.iter().filter(move |point| point.run.candidate.family == family);
+        points.filter_map(place).collect::<Vec<_>>()
+    };
+    let label = format!("error of {}", if tradeoff.judged == Quantity::Alpha { "α" } else { "the film load" });
+    // Room for points and names at the ends.
+    let times = || tradeoff.points.iter().map(|point| point.median).filter(|time| time.is_finite());
+    let room = [times().fold(f64::INFINITY, f64::min) / 1.5, times().fold(0.0, f64::max) * 3.0];
+    let time = Axis::new("solve time", "s").log().including(room.into_iter().filter(|end| *end > 0.0));
+    let mut panel = Panel::new("", time, Axis::new(label, "%").log()).height(60.0);
+    let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|point| point.best).filter_map(place).collect();
+    front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    panel = panel.layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)));
+    for (family, name, colour, shape) in [
+        (Family::Fidelity, "fidelities", Colour::FILM, Shape::Circle),
+        (Family::Grid, "other grids", Colour::CYCLE[2], Shape::Triangle),
+        (Family::Paper, "the paper's method", Colour::CONTACT, Shape::Square),
+    ] {
+        panel = panel.layer(Points::new(name, of(family), colour, Marker::solid(shape)));
+    }
+    let rings: Vec<[f64; 2]> = chosen.iter().filter_map(|i| tradeoff.points.get(*i)).filter_map(place).collect();
+    if !rings.is_empty() {
+        let ring = Marker { size: 9.0, ..Marker::hollow(Shape::Circle) };
+        // Under the points, so that they stay to be seen.
+        panel.layers.insert(1, Points::new("chosen", rings, Colour::BLACK, ring).into());
+    }
+    for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
+        if let Some([time, error]) = place(point) {
+            // A little above its point.
+            let text = Text::new([time, 1.45 * error], point.run.candidate.name.clone());
+            panel = panel.layer(Text { anchor: Anchor::Middle, ..text });
+        }
+    }
+    let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();
+    let provenance = Provenance {
+        preset: preset.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        note: format!("medians of {runs} runs"),
+        ..Provenance::default()
+    };
+    Figure { provenance, ..Figure::default() }.panel(panel)
+}

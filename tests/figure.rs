@@ -1,0 +1,442 @@
+//! Figures and animations read back by readers that did not write them: XML, PNG, GIF.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use roxmltree::{Document, Node};
+use squeezefilm::control::Cancel;
+use squeezefilm::export::animation::{self, AnimationError, Movie};
+use squeezefilm::export::figure::{
+    self, Axis, Band, Categories, Colour, Contours, Figure, FigureError, Grid, Layer, Line, Map, Mark, Marker, Panel,
+    Points, Provenance, Range, Scale, Shading, Shape, Style, Text, Width,
+};
+use squeezefilm::export::figures;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::presets;
+use squeezefilm::solution::Solution;
+use squeezefilm::solve::{Method, Settings, solve};
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn solved(preset: &str, changes: &[(&str, &str)]) -> (Problem, Solution) {
+    let mut scene = presets::find(preset).unwrap();
+    scene.set_all(changes.iter().copied()).unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto };
+    let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+    (problem, solution)
+}
+
+/// An axis as the file tells it.
+struct Scaled {
+    from: f64,
+    to: f64,
+    log: bool,
+}
+
+impl Scaled {
+    fn of(panel: Node<'_, '_>, name: &str) -> Self {
+        let words: Vec<&str> = panel.attribute(name).unwrap().split(' ').collect();
+        Self { from: words[0].parse().unwrap(), to: words[1].parse().unwrap(), log: words[2] == "log" }
+    }
+
+    fn value(&self, fraction: f64) -> f64 {
+        if self.log {
+            self.from * (self.to / self.from).powf(fraction)
+        } else {
+            self.from + fraction * (self.to - self.from)
+        }
+    }
+}
+
+fn numbers(text: &str) -> Vec<f64> {
+    text.split([' ', ',']).map(|number| number.parse().unwrap()).collect()
+}
+
+fn panels<'a>(document: &'a Document<'a>) -> Vec<Node<'a, 'a>> {
+    document.descendants().filter(|node| node.attribute("class") == Some("panel")).collect()
+}
+
+/// The vertices of a named layer, in its values.
+fn vertices(panel: Node<'_, '_>, name: &str, y: &str) -> Vec<[f64; 2]> {
+    let area = numbers(panel.attribute("data-area").unwrap());
+    let (x_axis, y_axis) = (Scaled::of(panel, "data-x"), Scaled::of(panel, y));
+    let layer = panel.children().find(|node| node.attribute("data-name") == Some(name)).unwrap();
+    let lines = layer.children().filter(|node| node.has_tag_name("polyline"));
+    let points = lines.flat_map(|line| {
+        let flat = numbers(line.attribute("points").unwrap());
+        flat.chunks(2).map(|p| [p[0], p[1]]).collect::<Vec<_>>()
+    });
+    points
+        .map(|[px, py]| [x_axis.value((px - area[0]) / area[2]), y_axis.value((area[1] + area[3] - py) / area[3])])
+        .collect()
+}
+
+#[test]
+fn the_numbers_are_in_the_svg() {
+    let points: Vec<[f64; 2]> = (0..40).map(|i| 3e3 * 1.1f64.powi(i)).map(|f| [f, 0.26 * f / (f + 1e4)]).collect();
+    let mut right = Line::new("gap", points.iter().map(|[f, a]| [*f, 1e-9 / a]), Style::nth(1));
+    right.right = true;
+    let mut panel =
+        Panel::new("(a) share & gap", Axis::new("frequency", "Hz").log(), Axis::new("α", "").including([0.0]))
+            .layer(Line::new("share < 1", points.clone(), Style::nth(0)))
+            .layer(right);
+    panel.right = Some(Axis::new("gap", "m").log());
+    let mut figure = Figure::new("Share \"and\" gap").panel(panel);
+    figure.caption = "What it shows".to_owned();
+    figure.provenance = Provenance { preset: "My <motor>".into(), version: "0.1.0".into(), ..Provenance::default() };
+    let svg = figure::to_svg(&figure);
+    let document = Document::parse(&svg).unwrap();
+    let panel = panels(&document)[0];
+    assert_eq!(panel.attribute("data-title"), Some("(a) share & gap"));
+    // A line is thinned only where points fall together, and a coordinate is a thousandth of a point.
+    let back = vertices(panel, "share < 1", "data-y");
+    assert_eq!(back.len(), points.len());
+    for (there, back) in points.iter().zip(&back) {
+        assert!((there[0] / back[0] - 1.0).abs() < 1e-4 && (there[1] - back[1]).abs() < 1e-5, "{there:?} {back:?}");
+    }
+    for (there, back) in points.iter().zip(&vertices(panel, "gap", "data-right")) {
+        assert!((1e-9 / there[1] / back[1] - 1.0).abs() < 1e-4, "{there:?} {back:?}");
+    }
+    let text = |tag: &str| document.descendants().find(|n| n.has_tag_name(tag)).and_then(|n| n.text()).unwrap();
+    assert_eq!((text("title"), text("desc")), ("Share \"and\" gap", "What it shows"));
+    let provenance: Provenance = serde_json::from_str(text("metadata")).unwrap();
+    assert_eq!(provenance, figure.provenance);
+    let words: Vec<String> = document
+        .descendants()
+        .filter(|node| node.has_tag_name("text"))
+        .map(|node| node.descendants().filter_map(|n| n.is_text().then(|| n.text().unwrap())).collect())
+        .collect();
+    for expected in ["frequency (Hz)", "α", "gap (m)", "My <motor> · squeezefilm 0.1.0", "0.05", "105"] {
+        assert!(words.iter().any(|word| word == expected), "{expected}: {words:?}");
+    }
+}
+
+#[test]
+fn panels_of_a_column_line_up() {
+    let line = |scale: f64| Line::new("", [[0.0, 0.0], [1.0, scale]], Style::default());
+    let panel = |scale: f64| Panel::new("", Axis::new("x", ""), Axis::new("y", "")).layer(line(scale));
+    let mut figure = Figure::new("").panel(panel(1.0)).panel(panel(12_345.0)).panel(panel(1e-6)).panel(panel(-1.0));
+    figure.columns = 2;
+    figure.share_x = true;
+    let svg = figure::to_svg(&figure);
+    let document = Document::parse(&svg).unwrap();
+    let areas: Vec<Vec<f64>> = panels(&document).iter().map(|p| numbers(p.attribute("data-area").unwrap())).collect();
+    for [a, b] in [[0, 2], [1, 3]] {
+        assert_eq!((areas[a][0], areas[a][2]), (areas[b][0], areas[b][2]));
+    }
+    assert_eq!((areas[0][1], areas[2][1]), (areas[1][1], areas[3][1]));
+    let page = numbers(document.root_element().attribute("viewBox").unwrap());
+    assert!(areas.iter().all(|area| area[0] > 0.0 && area[0] + area[2] < page[2] && area[1] + area[3] < page[3]));
+}
+
+fn decoded(bytes: &[u8]) -> (png::OutputInfo, Vec<u8>, Vec<(String, String)>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    reader.finish().unwrap();
+    let text = &reader.info().utf8_text;
+    let facts = text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().unwrap())).collect();
+    (info, pixels, facts)
+}
+
+fn a_map() -> Figure {
+    let nodes = [0.0, 0.125, 0.5, 1.0];
+    let values: Vec<f64> = nodes.iter().flat_map(|x| nodes.map(|y| 100.0 * (x + y))).collect();
+    let grid = Grid { x: nodes.to_vec(), y: nodes.to_vec(), values };
+    let map = Map { label: "pressure".into(), unit: "kPa".into(), grid: grid.clone(), ..Map::default() };
+    let lines = Contours { grid, labels: true, ..Contours::default() };
+    let panel = Panel::new("", Axis::new("x", "mm"), Axis::new("y", "mm")).layer(map).layer(lines);
+    let mut figure = Figure::new("A map of p").panel(panel);
+    figure.provenance = Provenance { preset: "plate".into(), error: "± 1 %".into(), ..Provenance::default() };
+    figure
+}
+
+#[test]
+fn a_png_has_its_size_its_colours_and_its_origin() {
+    let figure = a_map();
+    let (info, pixels, facts) = decoded(&figure::to_png(&figure, 2.0).unwrap());
+    assert_eq!(info.width, (85.0 * 2.0 * 72.0 / 25.4_f64).round() as u32);
+    let colours: std::collections::BTreeSet<&[u8]> = pixels.chunks_exact(3).collect();
+    assert!(colours.len() > 200, "the map has {} colours", colours.len());
+    assert!(facts.contains(&("Title".into(), "A map of p".into())));
+    assert!(facts.contains(&("Source".into(), "plate · ± 1 %".into())), "{facts:?}");
+    assert!(matches!(figure::to_png(&figure, 1e6), Err(FigureError::Size { .. })));
+    assert!(matches!(figure::to_png(&figure, f64::NAN), Err(FigureError::Size { .. })));
+}
+
+#[test]
+fn a_map_is_a_picture_in_every_format() {
+    let figure = a_map();
+    let svg = figure::to_svg(&figure);
+    let document = Document::parse(&svg).unwrap();
+    let images: Vec<_> = document.descendants().filter(|node| node.has_tag_name("image")).collect();
+    assert_eq!(images.len(), 2, "map and colour bar");
+    assert!(images.iter().all(|image| image.attribute("href").unwrap().starts_with("data:image/png;base64,")));
+    let pdf = figure::to_pdf(&figure).unwrap();
+    let words = String::from_utf8_lossy(&pdf);
+    assert!(words.starts_with("%PDF-") && words.trim_end().ends_with("%%EOF"));
+    assert_eq!(words.matches("/Type /Page\n").count() + words.matches("/Type /Page ").count(), 1);
+    assert_eq!(words.matches("/Subtype /Image").count(), 2);
+    assert!(words.contains("/Title") && words.contains("/FontFile"));
+}
+
+#[test]
+fn files_are_written_by_extension_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = |folder: &Path| fs::read_dir(folder).unwrap().count();
+    let figure = a_map();
+    for (name, begins) in [("a.svg", b"<svg".as_slice()), ("b.PNG", b"\x89PNG"), ("c.pdf", b"%PDF")] {
+        figure::write(&figure, &folder.path().join(name)).unwrap();
+        assert!(fs::read(folder.path().join(name)).unwrap().starts_with(begins));
+    }
+    assert_eq!(names(folder.path()), 3);
+    for name in ["a.jpg", "a", "svg"] {
+        let error = figure::write(&figure, &folder.path().join(name)).unwrap_err();
+        assert!(error.to_string().contains(".svg, .png or .pdf"), "{error}");
+    }
+    let error = figure::write(&figure, &folder.path().join("nowhere/a.svg")).unwrap_err();
+    assert!(error.to_string().contains("a.svg: cannot be written"), "{error}");
+    fs::create_dir(folder.path().join("d.svg")).unwrap();
+    assert!(figure::write(&figure, &folder.path().join("d.svg")).is_err());
+    assert_eq!(names(folder.path()), 4);
+}
+
+/// Lists of values that nobody means to draw.
+fn awkward() -> Vec<Vec<f64>> {
+    vec![
+        vec![],
+        vec![1.0],
+        vec![0.0; 3],
+        vec![-1e-12, 1e12],
+        vec![1e-12, 1.0, 1e12],
+        vec![f64::NAN; 4],
+        vec![1.0, f64::NAN, 2.0, f64::INFINITY, -3.0, f64::NEG_INFINITY],
+        vec![f64::MAX, -f64::MAX, f64::MIN_POSITIVE],
+        vec![1.0, 1.0 + f64::EPSILON],
+        vec![-5.0, -2.0, -1e-300],
+    ]
+}
+
+fn with_all_layers(x: &[f64], y: &[f64], log: bool) -> Figure {
+    let points = || x.iter().zip(y).map(|(x, y)| [*x, *y]);
+    let mut axes = [Axis::new("x", "m"), Axis::new("y", ""), Axis::new("z", "N")];
+    if log {
+        axes = axes.map(Axis::log);
+    }
+    let values: Vec<f64> = x.iter().flat_map(|x| y.iter().map(move |y| x * y)).collect();
+    let kinds = values.iter().map(|value| (value.abs() as usize) % 4).collect();
+    let grid = Grid { x: x.to_vec(), y: y.to_vec(), values };
+    let scale = if log { Scale::Log } else { Scale::Linear };
+    let mut cloud = Points::new("points", points(), Colour::FILM, Marker::hollow(Shape::Diamond));
+    cloud.errors = y.to_vec();
+    let mut other = Line::new("right", points(), Style::nth(3));
+    other.right = true;
+    let [ax, ay, az] = axes;
+    let mut panel = Panel::new("p_{a}", ax.clone(), ay.clone())
+        .layer(Map { grid: grid.clone(), scale, ..Map::default() })
+        .layer(Map { grid: grid.clone(), shading: Shading::Cells, range: Range::Fixed(2.0, 2.0), ..Map::default() })
+        .layer(Contours { grid: grid.clone(), labels: true, ..Contours::default() })
+        .layer(Contours { grid, levels: vec![f64::NAN, 1.0, 1.0], labels: true, ..Contours::default() })
+        .layer(Categories { x: x.to_vec(), y: y.to_vec(), values: kinds, kinds: vec![("k".into(), Colour::BLACK)] })
+        .layer(Line::new("line", points(), Style::nth(0)))
+        .layer(other)
+        .layer(Band::new("band", points().map(|[x, y]| [x, y, -y]), Colour::CONTACT))
+        .layer(cloud);
+    for value in y.iter().copied().chain([f64::NAN]) {
+        panel = panel
+            .layer(Mark::vertical(value, "mark"))
+            .layer(Mark::horizontal(value, "mark"))
+            .layer(Text::new([value, value], "text\u{0}"));
+    }
+    panel.right = Some(az);
+    let lines = Panel {
+        layers: panel.layers.iter().filter(|l| matches!(l, Layer::Line(_))).cloned().collect(),
+        ..Panel::new("", ax, ay)
+    };
+    let mut figure = Figure::new("awkward & <odd>").panel(panel).panel(lines);
+    figure.columns = 2;
+    figure.width = Width::Page;
+    figure.share_x = log;
+    figure
+}
+
+#[test]
+fn awkward_data_is_drawn_or_left_out_and_never_a_panic() {
+    for (i, x) in awkward().iter().enumerate() {
+        for (j, y) in awkward().iter().enumerate() {
+            for log in [false, true] {
+                let figure = with_all_layers(x, y, log);
+                let svg = figure::to_svg(&figure);
+                // Pixels are spelt in letters, and may spell anything.
+                let mut drawn = svg.lines().filter(|line| !line.starts_with("<image"));
+                let odd = drawn.find(|line| ["NaN", ">inf<", "\"inf"].iter().any(|word| line.contains(word)));
+                assert_eq!(odd, None, "{x:?} {y:?} {log}");
+                Document::parse(&svg).unwrap();
+                if (i + j) % 5 == 0 {
+                    figure::to_png(&figure, 0.5).unwrap();
+                    figure::to_pdf(&figure).unwrap();
+                }
+            }
+        }
+    }
+    for width in [f64::NAN, -3.0, 1e9] {
+        let figure = Figure { width: Width::Millimetres(width), ..with_all_layers(&[1.0], &[2.0, 3.0], false) };
+        Document::parse(&figure::to_svg(&figure)).unwrap();
+    }
+    let mut empty = Figure::default();
+    figure::to_png(&empty, 1.0).unwrap();
+    empty.panels = vec![Panel { height: f64::NAN, ..Panel::default() }; 3];
+    empty.columns = usize::MAX;
+    figure::to_pdf(&empty).unwrap();
+}
+
+#[test]
+fn a_long_curve_is_thinned() {
+    let wave = (0..300_000).map(|i| f64::from(i) / 3e5).map(|x| [x, (40.0 * x).sin()]);
+    let line = Line::new("wave", wave, Style::default());
+    let figure = Figure::new("").panel(Panel::new("", Axis::default(), Axis::default()).layer(line));
+    assert!(figure::to_svg(&figure).len() < 2_000_000);
+}
+
+#[test]
+fn a_description_survives_json() {
+    let figure = a_map();
+    let text = serde_json::to_string(&figure).unwrap();
+    assert_eq!(serde_json::from_str::<Figure>(&text).unwrap(), figure);
+    // What is not said has its default: a description may be written by hand.
+    let brief: Figure =
+        serde_json::from_str(r#"{"panels":[{"x":{"scale":"log"},"layers":[{"line":{"points":[[1,2],[10,3]]}}]}]}"#)
+            .unwrap();
+    assert_eq!(brief.panels[0].height, Panel::default().height);
+    assert!(figure::to_svg(&brief).contains("<polyline"));
+}
+
+#[test]
+fn every_scene_has_its_figures() {
+    let motor = ["wave", "loads", "map"];
+    let plate = ["profile", "loads", "loop", "map"];
+    for (preset, changes, expected) in [
+        ("fundamental", vec![], motor.as_slice()),
+        ("levitating", vec![], &motor),
+        ("plate-crossover", vec![], &plate),
+        ("plate-crossover", vec![("plate.width_mm", "1")], &plate),
+    ] {
+        let (problem, solution) = solved(preset, &changes);
+        let figures = figures::of(&problem, &solution, &[]);
+        let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, expected);
+        for (name, figure) in &figures {
+            assert!(figure.title.starts_with(&problem.name) && !figure.caption.is_empty(), "{preset} {name}");
+            let svg = figure::to_svg(figure);
+            Document::parse(&svg).unwrap();
+            assert!(svg.contains("squeezefilm 0.1.0") && svg.contains("draft"), "{preset} {name}");
+        }
+    }
+    let (problem, mut solution) = solved("plate-viscous", &[]);
+    solution.recording = Default::default();
+    assert!(figures::of(&problem, &solution, &[]).is_empty());
+}
+
+#[test]
+fn the_wave_shows_the_recording() {
+    let (problem, solution) = solved("fundamental", &[]);
+    let recording = &solution.recording;
+    let frame = figures::motor::crest_in_the_middle(recording);
+    let figures = figures::of(&problem, &solution, &[]);
+    let svg = figure::to_svg(&figures[0].1);
+    let document = Document::parse(&svg).unwrap();
+    let stator = vertices(panels(&document)[0], "stator", "data-y");
+    let highest = stator.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+    let middle = (recording.teeth / 2) as f64 * recording.pitch * 1e3;
+    assert!((highest[0] - middle).abs() < 0.5 * recording.pitch * 1e3, "the crest is on the tooth in the middle");
+    let line = recording.line_offset(2, frame);
+    let (x, top) = ((2.0 * recording.pitch + recording.x[5]) * 1e3, recording.stator[line + 5] * 1e6);
+    assert!(stator.iter().any(|p| (p[0] - x).abs() < 1e-3 && (p[1] - top).abs() < 1e-3), "{x} {top}");
+}
+
+fn moving_dot(count: usize) -> Movie {
+    let figure = |frame: usize| {
+        let line = Line::new("", [[0.0, 0.0], [1.0, frame as f64]], Style::default());
+        let panel = Panel::new("", Axis::new("x", "").fixed(0.0, 1.0), Axis::new("y", "").fixed(0.0, 5.0)).layer(line);
+        Figure::new("moving").panel(panel)
+    };
+    let options = animation::Options { width: 200, seconds: 1.0, frames: count };
+    let done = AtomicUsize::new(0);
+    let movie = Movie::of(
+        count,
+        &options,
+        &figure,
+        &|| {
+            done.fetch_add(1, Ordering::Relaxed);
+        },
+        &Cancel::new(),
+    )
+    .unwrap();
+    assert_eq!(done.into_inner(), count);
+    movie
+}
+
+#[test]
+fn a_gif_has_all_frames_and_they_move() {
+    let (problem, solution) = solved("fundamental", &[]);
+    let options = animation::Options { width: 300, seconds: 2.0, frames: 12 };
+    let movie = animation::cycle(&problem, &solution, &options, &|| (), &Cancel::new()).unwrap();
+    let mut bytes = Vec::new();
+    movie.gif(&mut bytes, &Cancel::new()).unwrap();
+    let mut reader = gif::DecodeOptions::new();
+    reader.set_color_output(gif::ColorOutput::RGBA);
+    let mut reader = reader.read_info(bytes.as_slice()).unwrap();
+    assert_eq!((reader.width(), reader.repeat()), (300, gif::Repeat::Infinite));
+    let mut frames = Vec::new();
+    let mut delay = 0;
+    while let Some(frame) = reader.read_next_frame().unwrap() {
+        delay += u32::from(frame.delay);
+        let inked = frame.buffer.chunks_exact(4).filter(|pixel| pixel[3] > 0).count();
+        assert!(inked > 50, "frame {} has changed {inked} pixels", frames.len());
+        frames.push(frame.buffer.to_vec());
+    }
+    assert_eq!((frames.len(), delay), (12, 200));
+    frames.dedup();
+    assert_eq!(frames.len(), 12, "no two frames in turn are equal");
+}
+
+#[test]
+fn an_apng_and_a_folder_have_all_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let movie = moving_dot(4);
+    let path = folder.path().join("a.png");
+    movie.write(&path, &Cancel::new()).unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path).unwrap())).read_info().unwrap();
+    let control = *reader.info().animation_control().unwrap();
+    assert_eq!((control.num_frames, control.num_plays), (4, 0));
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    for _ in 0..4 {
+        reader.next_frame(&mut pixels).unwrap();
+    }
+    let written = movie.write(&folder.path().join("frames"), &Cancel::new()).unwrap();
+    assert_eq!(written.len(), 4);
+    let all: Vec<Vec<u8>> = written.iter().map(|path| decoded(&fs::read(path).unwrap()).1).collect();
+    assert!(all.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+#[test]
+fn a_cancelled_animation_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let cancel = Cancel::new();
+    let movie = moving_dot(3);
+    cancel.cancel();
+    for name in ["a.gif", "a.png", "frames"] {
+        let error = movie.write(&folder.path().join(name), &cancel).unwrap_err();
+        assert!(matches!(error, AnimationError::Cancelled), "{name}: {error}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    let options = animation::Options::default();
+    let drawn = Movie::of(3, &options, &|_| Figure::default(), &|| (), &cancel);
+    assert!(matches!(drawn, Err(AnimationError::Cancelled)));
+    assert!(matches!(movie.write(Path::new("a.mp4"), &cancel), Err(AnimationError::Extension { .. })));
+    assert!(matches!(
+        Movie::of(0, &options, &|_| Figure::default(), &|| (), &Cancel::new()),
+        Err(AnimationError::NoCycle)
+    ));
+}

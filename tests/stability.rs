@@ -1,0 +1,78 @@
+//! Maps of where a method solves, as the user sees them.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use serde_json::Value;
+use squeezefilm::analysis::stability::{Cell, MAPS, Verdict, survey};
+use squeezefilm::control::Cancel;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::scene::Scene;
+use squeezefilm::solve::{Method, Settings};
+use std::process::{Command, Output, Stdio};
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_squeezefilm")).args(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+#[test]
+fn a_survey_does_not_depend_on_threads_and_keeps_what_is_done_when_cancelled() {
+    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+    let cells = |threads: usize, cancel: &Cancel, finished: &(dyn Fn(&Cell) + Sync)| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| survey(&Scene::motor(), &[&MAPS[1]], &[Method::Auto], 3, &settings, cancel, finished)).unwrap()
+    };
+    let all = cells(1, &Cancel::new(), &|_| ());
+    assert_eq!((all.len(), &cells(3, &Cancel::new(), &|_| ())), (9, &all));
+    assert!(all.iter().all(|cell| cell.verdict == Verdict::Solved), "{all:?}");
+    let cancel = Cancel::new();
+    assert_eq!(
+        cells(1, &cancel, &|cell| if cell.place == [1, 1] {
+            cancel.cancel()
+        }),
+        all[..5]
+    );
+}
+
+#[test]
+fn a_map_by_both_methods_in_json_and_csv() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let meshes = ["film_nodes_along=21", "film_nodes_across=7", "contact_nodes=91", "steps_per_cycle=60"];
+    let meshes: Vec<String> = meshes.iter().map(|mesh| format!("--set=numerics.{mesh}")).collect();
+    let mut arguments = vec!["stability", "--map=spacing-frequency", "--cells=2", "--fidelity=draft", "--json"];
+    arguments.extend(meshes.iter().map(String::as_str));
+    arguments.extend(["--out", path]);
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let cells = object["cells"].as_array().unwrap();
+    assert_eq!(cells.len(), 8);
+    let mut reader = csv::Reader::from_path(folder.path().join("stability.csv")).unwrap();
+    let names = reader.headers().unwrap().clone();
+    let column = |name: &str| names.iter().position(|found| found == name).unwrap();
+    for (record, cell) in reader.records().zip(cells) {
+        let record = record.unwrap();
+        for name in ["map", "method", "verdict", "x_key", "options"] {
+            assert_eq!(&record[column(name)], cell[name].as_str().unwrap());
+        }
+        assert_eq!(record[column("x")].parse::<f64>().unwrap(), cell["x"].as_f64().unwrap());
+    }
+    let of = |method: &str| cells.iter().filter(|cell| cell["method"] == method).collect::<Vec<_>>();
+    assert_eq!((of("auto").len(), of("paper").len()), (4, 4));
+    // The paper's coupling loses its way in the stiffest film; where it does, it says so.
+    let stiff = of("paper").into_iter().find(|cell| cell["x"] == 5.0 && cell["y"] == 10000.0).unwrap();
+    assert!(stiff["verdict"] != "solved" && !stiff["detail"].as_str().unwrap().is_empty(), "{stiff}");
+}
+
+#[test]
+fn what_cannot_be_mapped_has_status_2() {
+    for (arguments, words) in [
+        (&["stability", "plate-viscous"][..], "motor"),
+        (&["stability", "--map", "spacing"], "spacing-frequency"),
+        (&["stability", "--cells", "1"], "--cells"),
+        (&["stability", "--set", "film.min_spacing_nm=3"], "5 to 10000 nm"),
+    ] {
+        let output = run(arguments);
+        assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]), "{arguments:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains(words), "{arguments:?}");
+    }
+}

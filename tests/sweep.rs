@@ -1,0 +1,167 @@
+//! Sweeps: each row is the single solve of its scene, whatever the number of threads and however often it was cancelled.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use serde_json::Value;
+use squeezefilm::analysis::quantity::{Numbers, Quantity};
+use squeezefilm::analysis::sweep::{Ending, Row, Sweep, Vary};
+use squeezefilm::control::Cancel;
+use squeezefilm::export::sweep::{read_csv, write_csv};
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::presets;
+use squeezefilm::solve::{Settings, solve};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+const DRAFT: Settings = Settings { fidelity: Fidelity::Draft, method: squeezefilm::solve::Method::Auto };
+
+fn sweep(preset: &str, vary: &[&str]) -> Sweep {
+    let vary: Vec<Vary> = vary.iter().map(|text| text.parse().unwrap()).collect();
+    Sweep::new(&presets::find(preset).unwrap(), &vary, &DRAFT).unwrap()
+}
+
+fn with_threads(threads: usize, sweep: &Sweep) -> Vec<Row> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| sweep.run(&[], &Cancel::new(), &|_| ()))
+}
+
+fn csv_of(sweep: &Sweep, rows: &[Row]) -> String {
+    let mut text = Vec::new();
+    write_csv(sweep, rows, &mut text).unwrap();
+    String::from_utf8(text).unwrap()
+}
+
+#[test]
+fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
+    let maps = [
+        sweep("fundamental", &["film.min_spacing_nm=80:400:3:log", "stator.frequency_khz=10:50:5"]),
+        sweep("plate-crossover", &["plate.frequency_khz=1:100:6:log"]),
+    ];
+    for sweep in &maps {
+        let rows = with_threads(1, sweep);
+        assert_eq!(rows.len(), sweep.len());
+        for (point, row) in rows.iter().enumerate() {
+            let problem = Problem::new(&sweep.scene_at(point).unwrap()).unwrap();
+            let alone = solve(&problem, &DRAFT, &mut (), &Cancel::new()).unwrap();
+            assert_eq!((row.point, &row.ending), (point, &Ending::Converged));
+            assert_eq!(row.numbers, Numbers::of(&problem, &alone), "point {point}");
+        }
+        for threads in [2, 3, 8] {
+            assert_eq!(with_threads(threads, sweep), rows, "{threads} threads");
+        }
+    }
+}
+
+#[test]
+fn a_cancelled_sweep_gone_on_with_equals_an_unbroken_one() {
+    let sweep = sweep("fundamental", &["stator.normal_amplitude_um=0.5:2:10"]);
+    let whole = with_threads(2, &sweep);
+    for after in [1, 4, 6] {
+        let (cancel, count) = (Cancel::new(), AtomicUsize::new(0));
+        let some = sweep.run(&[], &cancel, &|_| {
+            if count.fetch_add(1, Ordering::Relaxed) + 1 == after {
+                cancel.cancel();
+            }
+        });
+        assert!((after..sweep.len()).contains(&some.len()), "{}", some.len());
+        // By way of the file.
+        let kept = read_csv(&sweep, &csv_of(&sweep, &some)).unwrap();
+        assert_eq!(kept, some);
+        let told = AtomicUsize::new(0);
+        let rest = sweep.run(&kept, &Cancel::new(), &|_| {
+            told.fetch_add(1, Ordering::Relaxed);
+        });
+        assert_eq!(rest, whole);
+        assert_eq!(told.into_inner(), sweep.len() - some.len());
+        assert_eq!(csv_of(&sweep, &rest), csv_of(&sweep, &whole));
+    }
+    // What was cancelled before it began has no rows.
+    let cancel = Cancel::new();
+    cancel.cancel();
+    assert!(sweep.run(&[], &cancel, &|_| ()).is_empty());
+}
+
+fn run(arguments: &[&str], out: Option<&Path>) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
+    command.args(arguments).stdin(Stdio::null());
+    if let Some(out) = out {
+        command.arg("--out").arg(out);
+    }
+    command.output().unwrap()
+}
+
+const COMMAND: [&str; 4] = ["sweep", "fundamental", "--fidelity=draft", "--vary=stator.frequency_khz=10:50:5"];
+
+#[test]
+fn files_and_json_agree_and_are_gone_on_with() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("out");
+    let output = run(&[&COMMAND[..], &["--json"]].concat(), Some(&folder));
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(object, serde_json::from_slice::<Value>(&fs::read(folder.join("sweep.json")).unwrap()).unwrap());
+    assert_eq!((&object["complete"], &object["axes"][0]["key"]), (&true.into(), &"stator.frequency_khz".into()));
+    assert_eq!(object["published"].as_array().unwrap().len(), 7);
+
+    // The CSV by a reader of its own: columns by name.
+    let text = fs::read_to_string(folder.join("sweep.csv")).unwrap();
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let names = reader.headers().unwrap().clone();
+    let column = |name: &str| names.iter().position(|found| found == name).unwrap();
+    let rows = object["rows"].as_array().unwrap();
+    let mut count = 0;
+    for (record, row) in reader.records().zip(rows) {
+        let record = record.unwrap();
+        for name in ["stator.frequency_khz", "alpha", "alpha_error", "film_load_n", "max_torque_nm", "film_steps"] {
+            // The reader of JSON is not exact in the last bit.
+            let (csv, json) = (record[column(name)].parse::<f64>().unwrap(), row[name].as_f64().unwrap());
+            assert!((csv - json).abs() <= 1e-15 * csv.abs(), "{name}: {csv} {json}");
+        }
+        assert_eq!((&record[column("status")], row["status"].as_str()), ("converged", Some("converged")));
+        assert_eq!((&record[column("residual")], &row["residual"]), ("", &Value::Null));
+        count += 1;
+    }
+    assert_eq!(count, 5);
+    // A row is what solve prints.
+    let alone = ["solve", "fundamental", "--fidelity=draft", "--json", "--set=stator.frequency_khz=20"];
+    let alone: Value = serde_json::from_slice(&run(&alone, None).stdout).unwrap();
+    assert_eq!((&rows[1]["alpha"], &rows[1]["alpha_error"]), (&alone["alpha"], &alone["alpha_error"]));
+
+    // Two of the five points, as a cancelled run leaves them; the rest is solved, with the same files in the end.
+    let again = parent.path().join("again");
+    fs::create_dir(&again).unwrap();
+    let left = again.join("sweep.incomplete.csv");
+    let some: Vec<&str> = text.lines().take(3).collect();
+    fs::write(&left, some.join("\n") + "\n").unwrap();
+    let output = run(&COMMAND, Some(&again));
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("2 of 5 points were solved before"));
+    assert_eq!(fs::read_to_string(again.join("sweep.csv")).unwrap(), text);
+    assert!(!left.exists());
+    // What belongs to another sweep is neither used nor lost.
+    fs::write(&left, some.join("\n") + "\n").unwrap();
+    let other = [&COMMAND[..], &["--set=motor.load_per_wave_n=2"]].concat();
+    let output = run(&other, Some(&again));
+    assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--restart") && left.exists());
+    assert_eq!(run(&[&other[..], &["--restart"]].concat(), Some(&again)).status.code(), Some(0));
+    assert!(!left.exists());
+}
+
+#[test]
+fn what_does_not_converge_is_marked_and_the_rest_goes_on() {
+    let coarse = ["film_nodes_along=21", "film_nodes_across=7", "contact_nodes=91", "steps_per_cycle=60"];
+    let sets: Vec<String> = coarse.iter().map(|set| format!("--set=numerics.{set}")).collect();
+    let mut arguments = vec!["sweep", "fundamental", "--method=paper", "--vary=film.min_spacing_nm=20:200:2"];
+    arguments.extend(sets.iter().map(String::as_str));
+    arguments.push("--json");
+    let output = run(&arguments, None);
+    assert_eq!(output.status.code(), Some(3), "{}", String::from_utf8_lossy(&output.stderr));
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(object["rows"][0]["status"], "not converged");
+    assert!(object["rows"][0]["residual"].as_f64() > object["rows"][0]["tolerance"].as_f64());
+    assert_eq!(object["rows"][1]["status"], "converged");
+    assert!(object["rows"][1][Quantity::Alpha.name()].is_number());
+}
