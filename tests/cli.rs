@@ -316,18 +316,18 @@ fn figures_are_written_in_the_formats_asked_for() {
 fn a_cycle_is_animated() {
     let folder = tempfile::tempdir().unwrap();
     let animate = |out: &Path| {
-        let arguments = ["animate", "plate-crossover", "--fidelity", "draft", "--width", "200", "--frames", "3"];
+        let arguments = ["animate", "plate-crossover", "--fidelity", "draft", "--width", "200", "--frames", "4"];
         run(&[&arguments[..], &["--out", out.to_str().unwrap()]].concat())
     };
     for (name, begins) in [("a.gif", b"GIF89a".as_slice()), ("a.png", b"\x89PNG")] {
         let path = folder.path().join(name);
         let output = animate(&path);
         assert_eq!((output.status.code(), out(&output)), (Some(0), ""), "{}", err(&output));
-        assert!(err(&output).contains("3 frames"), "{}", err(&output));
+        assert!(err(&output).contains("4 frames"), "{}", err(&output));
         assert!(fs::read(&path).unwrap().starts_with(begins));
     }
     assert_eq!(animate(&folder.path().join("frames")).status.code(), Some(0));
-    assert_eq!(fs::read_dir(folder.path().join("frames")).unwrap().count(), 3);
+    assert_eq!(fs::read_dir(folder.path().join("frames")).unwrap().count(), 4);
     let nowhere = animate(&folder.path().join("no/a.gif"));
     assert_eq!(nowhere.status.code(), Some(1));
     assert!(err(&nowhere).contains("a.gif: cannot be written"), "{}", err(&nowhere));

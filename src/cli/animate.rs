@@ -5,7 +5,7 @@ use super::interrupt::cancel_on_interrupt;
 use super::options::{SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
-use crate::export::animation::{AnimationError, Format, Options, cycle};
+use crate::export::animation::{AnimationError, Format, Options, cycle, frames};
 use crate::export::json::force_unit;
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
@@ -37,7 +37,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = seconds)]
     seconds: f64,
 
-    /// Frames of the cycle; never more than the solve has time steps
+    /// At most this many frames, so that they divide the solve's time steps evenly
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u16).range(2..=1000))]
     frames: u16,
 
@@ -76,7 +76,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     solution.warnings.iter().for_each(|warning| terminal::warning(warning));
 
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
-    let bar = Bar::frames(options.frames.min(solution.recording.frames));
+    let bar = Bar::frames(frames(&solution.recording, options.frames));
     let written = cycle(&problem, &solution, &options, &|| bar.row_done(""), &cancel)
         .and_then(|movie| movie.write(&arguments.out, &cancel).map(|_| movie.len()));
     drop(bar);

@@ -25,7 +25,7 @@ pub struct Options {
     pub width: u32,
     /// How long the cycle takes on screen \[s\].
     pub seconds: f64,
-    /// Frames; never more than the solve has time steps.
+    /// At most this many frames: as many as divide the solve's time steps evenly, so that motion is even too.
     pub frames: usize,
 }
 
@@ -114,7 +114,7 @@ pub fn cycle(
     cancel: &Cancel,
 ) -> Result<Movie, AnimationError> {
     let recording = &solution.recording;
-    let count = options.frames.min(recording.frames);
+    let count = frames(recording, options.frames);
     let slower = slow_motion(recording, options.seconds);
     let figure = |frame: usize| {
         let frame = frame * recording.frames / count.max(1);
@@ -128,6 +128,14 @@ pub fn cycle(
         figure
     };
     Movie::of(count, options, &figure, done, cancel)
+}
+
+/// How many frames an animation of at most `most` has: every second, third, … time step, if that leaves nearly so many.
+pub fn frames(recording: &Recording, most: usize) -> usize {
+    let steps = recording.frames;
+    let stride = (steps.div_ceil(most.max(1)).max(1)..=steps).find(|stride| steps.is_multiple_of(*stride));
+    let even = stride.map_or(0, |stride| steps / stride);
+    if 2 * even >= most.min(steps) { even } else { most.min(steps) }
 }
 
 /// `slowed down 91 000 times`
