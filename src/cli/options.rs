@@ -28,6 +28,25 @@ impl SceneOptions {
         scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
         Ok(scene)
     }
+
+    /// The command that solves this scene alone, to be copied into a shell and added to.
+    pub(super) fn command(&self, preset: &str) -> String {
+        let mut command = format!("squeezefilm solve {}", quoted(preset));
+        for (key, value) in &self.changes {
+            command.push_str(&format!(" --set {}", quoted(&format!("{key}={value}"))));
+        }
+        command
+    }
+}
+
+/// A word as a shell reads it back.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+%@".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
 }
 
 /// How to solve.
@@ -111,4 +130,18 @@ fn method() -> ValueParser {
     PossibleValuesParser::new([Method::Auto, Method::Paper].map(Method::name))
         .map(|name| if name == Method::Paper.name() { Method::Paper } else { Method::Auto })
         .into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_can_be_copied() {
+        let changes = vec![("motor.waves".to_owned(), "8".to_owned()), ("name".to_owned(), "my motor's".to_owned())];
+        assert_eq!(
+            SceneOptions { changes }.command("my file.toml"),
+            r"squeezefilm solve 'my file.toml' --set motor.waves=8 --set 'name=my motor'\''s'"
+        );
+    }
 }

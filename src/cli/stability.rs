@@ -90,7 +90,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     drop(bar);
     let cells = solved?;
 
-    let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells);
+    let alone = format!("{} --fidelity {}", arguments.scene.command(&arguments.preset), settings.fidelity);
+    let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
     let complete = cells.len() == total;
     if complete {
         let object = || Object::new(&scene.name, settings.fidelity, &cells, command);
@@ -115,8 +116,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(if complete { Exit::Solved } else { Exit::Other })
 }
 
-/// How many of each verdict, and every cell that our method does not solve.
-fn text(name: &str, fidelity: Fidelity, maps: &[&'static Map], methods: &[Method], cells: &[Cell]) -> String {
+/// How many of each verdict, and every cell that our method does not solve, as a command: `alone` solves the scene as it is.
+fn text(
+    name: &str,
+    fidelity: Fidelity,
+    maps: &[&'static Map],
+    methods: &[Method],
+    cells: &[Cell],
+    alone: &str,
+) -> String {
     let title = format!("{name}: where it is solved, to the edges of the ranges; method auto at fidelity {fidelity}");
     let mut text = paragraph(&title, "", "");
     text.push('\n');
@@ -138,7 +146,8 @@ fn text(name: &str, fidelity: Fidelity, maps: &[&'static Map], methods: &[Method
     if !unsolved.is_empty() {
         text.push_str("\nNot solved by method auto:\n");
         for cell in unsolved {
-            text.push_str(&format!("  {}: {}\n    {}\n", cell.verdict.name(), cell.options(), detail(cell)));
+            let (verdict, options) = (cell.verdict.name(), cell.options());
+            text.push_str(&format!("  {alone} {options}\n    {verdict}: {}\n", detail(cell)));
         }
     }
     text

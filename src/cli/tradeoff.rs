@@ -117,7 +117,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         version: env!("CARGO_PKG_VERSION"),
         command,
     };
-    let advice: String = wishes.iter().map(|wish| advice(&tradeoff, *wish)).collect();
+    let alone = arguments.scene.command(&arguments.preset);
+    let advice: String = wishes.iter().map(|wish| advice(&tradeoff, *wish, &alone)).collect();
     terminal::data(&if arguments.output.json { json::text(&object) } else { human + &advice })?;
     terminal::note(&format!("measured in {}", duration(wall_s)));
     if let Some(folder) = &arguments.output.out {
@@ -147,8 +148,8 @@ fn choice(tradeoff: &Tradeoff, wish: Wish) -> ChoiceObject {
     }
 }
 
-/// A recommendation in words.
-fn advice(tradeoff: &Tradeoff, wish: Wish) -> String {
+/// A recommendation in words, and the command to follow it; `alone` solves the scene as it is.
+fn advice(tradeoff: &Tradeoff, wish: Wish, alone: &str) -> String {
     let asked = match wish {
         Wish::Accuracy(share) => format!("For an error of at most {}", percent(share)),
         Wish::Budget(seconds) => format!("Within {}", duration(seconds)),
@@ -158,7 +159,7 @@ fn advice(tradeoff: &Tradeoff, wish: Wish) -> String {
     };
     // The command is kept on one line, to be copied.
     format!(
-        "\n{asked}: {}, {}, off by at most {}:\n  squeezefilm solve PRESET {}\n",
+        "\n{asked}: {}, {}, off by at most {}:\n  {alone} {}\n",
         point.run.candidate.name,
         duration(point.median),
         point.error.map_or_else(String::new, percent),
