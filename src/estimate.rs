@@ -17,7 +17,7 @@ pub struct Estimate {
 /// Share of the spread of two extrapolations that is taken as error (calibrated: docs/validation.md).
 const SPREAD: f64 = 0.25;
 /// Least share of the last correction that is taken as error.
-const CORRECTION: f64 = 0.12;
+const CORRECTION: f64 = 0.22;
 
 /// From results on nested grids, coarse to fine. One grid gives no estimate (an infinite error).
 pub fn extrapolate(results: &[f64]) -> Estimate {

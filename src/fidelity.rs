@@ -92,7 +92,7 @@ impl Fidelity {
                 across: 4,
                 steps: 72,
                 per_wave: 64,
-                edge_fraction: 0.7,
+                edge_fraction: 0.85,
                 harmonic_fraction: 3e-2,
                 most_harmonics: 32,
                 tolerance: 1e-3,

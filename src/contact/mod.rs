@@ -37,6 +37,8 @@ pub struct Contact {
     load: f64,
     /// Imbalance, relative to the sum of all forces, that is accepted.
     tolerance: f64,
+    /// Force \[N\] that the last bits of the displacements make at the last gradient: what a stiff rotor cannot go below.
+    noise: f64,
     // Workspace, one value a node:
     s: Vec<f64>,
     force: Vec<f64>,
@@ -92,6 +94,8 @@ pub enum ContactError {
 const ITERATION_LIMIT: u32 = 200;
 /// Imbalance, relative to the sum of all forces, that counts as round-off.
 const ROUND_OFF: f64 = 2e-14;
+/// Relative error of a displacement that is a sum of a few terms.
+const LAST_BITS: f64 = 1e-15;
 
 impl Contact {
     /// Nodes at `lengths` \[m\], film acting on `film_widths` \[m\] at each, on a rotor with `modes`.
@@ -112,6 +116,7 @@ impl Contact {
             min_spacing,
             load,
             tolerance: ROUND_OFF,
+            noise: 0.0,
             s: vec![0.0; nodes],
             force: vec![0.0; nodes],
             stiffness: vec![0.0; nodes],
@@ -158,7 +163,7 @@ impl Contact {
         let mut best = f64::INFINITY;
         let mut stalled = 0;
         let result = loop {
-            let imbalance = self.modes.imbalance(&gradient) / total;
+            let imbalance = (self.modes.imbalance(&gradient) - self.noise).max(0.0) / total;
             if imbalance < self.tolerance {
                 break Ok(iterations);
             }
@@ -225,13 +230,16 @@ impl Contact {
     fn gradient(&mut self, stator: &[f64], trapped: &[f64], amplitudes: &[f64], gradient: &mut [f64]) -> f64 {
         self.modes.deflection(amplitudes, &mut self.s);
         let mut total = self.load;
+        self.noise = 0.0;
         for i in 0..self.s.len() {
             self.s[i] -= stator[i];
             let (q, stiffness, _) = self.node(self.s[i], self.ambient_pressure * trapped[i], self.ambient[i]);
             self.force[i] = q * self.lengths[i];
             self.stiffness[i] = stiffness * self.lengths[i];
             total += self.force[i].abs();
+            self.noise += self.stiffness[i] * (amplitudes[0].abs() + stator[i].abs());
         }
+        self.noise *= LAST_BITS;
         self.modes.project(&self.force, gradient);
         gradient[0] = self.load - gradient[0];
         for (g, a) in gradient.iter_mut().zip(amplitudes).skip(1) {

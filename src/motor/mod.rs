@@ -187,7 +187,9 @@ fn finish(
     let recording = level.recording(motor, plan.maps);
     let mut result = summarise(motor, &recording);
     let estimate = extrapolate(&alphas);
-    result.set_alpha(motor, estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)));
+    // What floats carries the whole load, by balance.
+    let alpha = if result.levitated { 1.0 } else { estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)) };
+    result.set_alpha(motor, alpha);
     let astray = if let Status::NotConverged { residual, .. } = status { residual.min(1.0) } else { 0.0 };
     let estimated = if estimate.error.is_finite() { estimate.error } else { 1.0 };
     // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
