@@ -45,7 +45,7 @@
 //!
 //! | module | what it holds |
 //! | --- | --- |
-//! | [`numerics`] | banded solve, graded nodes, Anderson acceleration; no physics |
+//! | [`numerics`] | five-point systems, graded nodes, Anderson acceleration; no physics |
 //! | [`control`] | cancellation and progress |
 //! | [`problem`] | what is to be solved: checked, in SI units |
 //! | [`scene`] | what a person edits: files, units, ranges, presets |

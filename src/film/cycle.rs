@@ -9,7 +9,7 @@
 //! ```
 //!
 //! for modes that leak slowly ((I − monodromy) ≈ T Ā), and W(0) + d = W(T) for modes that forget within a cycle (s ≈ 0).
-//! One banded solve makes the number of cycles independent of the squeeze number. Whatever remains is left to
+//! One linear solve makes the number of cycles independent of the squeeze number. Whatever remains is left to
 //! Anderson acceleration by the caller.
 
 use super::grid::FilmGrid;
