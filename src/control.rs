@@ -5,7 +5,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A flag that any thread may raise; solvers look at it in their inner loops.
 #[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
+pub struct Cancel {
+    flag: Arc<AtomicBool>,
+    above: Option<Box<Cancel>>,
+}
 
 impl Cancel {
     /// A flag that is down.
@@ -13,14 +16,19 @@ impl Cancel {
         Self::default()
     }
 
+    /// A flag that is up when this one is, and can be raised alone.
+    pub fn child(&self) -> Self {
+        Self { flag: Arc::default(), above: Some(Box::new(self.clone())) }
+    }
+
     /// Raises the flag.
     pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.flag.store(true, Ordering::Relaxed);
     }
 
     /// Whether the flag is up.
     pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.flag.load(Ordering::Relaxed) || self.above.as_ref().is_some_and(|above| above.is_cancelled())
     }
 }
 

@@ -4,6 +4,8 @@
 //! request cancels the running solve. A panic in a solver becomes an event. On drop the worker is cancelled and joined.
 //! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
 
+pub mod measurement;
+
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;

@@ -6,11 +6,14 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use squeezefilm::analysis::tradeoff::{Candidate, Effort, Ended, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::dialogs::{Answer, Purpose};
+use squeezefilm::gui::state::Tab;
 use squeezefilm::gui::world::World;
 use squeezefilm::job::Run;
+use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::Outcome;
 use std::collections::BTreeMap;
@@ -23,10 +26,13 @@ fn window(preset: &str) -> Harness<'static, App> {
 
 /// A window whose file dialogs are answered by `ask`: a test never opens a real one.
 fn window_asking(preset: &str, ask: fn(Purpose, &str) -> Answer) -> Harness<'static, App> {
+    window_in(preset, 900.0, World { ask, ..World::default() })
+}
+
+fn window_in(preset: &str, height: f32, world: World) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let world = World { ask, ..World::default() };
     Harness::builder()
-        .with_size(Vec2::new(1400.0, 900.0))
+        .with_size(Vec2::new(1400.0, height))
         .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap())
 }
 
@@ -428,4 +434,170 @@ fn every_built_in_preset_can_be_shown() {
             window.step();
         }
     }
+}
+
+/// A window tall enough for all results.
+fn tall_window(measure: fn(&Problem) -> (Vec<Candidate>, Effort)) -> Harness<'static, App> {
+    let world = World { ask: |_, _| Answer::NoDialog, measure, ..World::default() };
+    window_in("fundamental", 1600.0, world)
+}
+
+/// Draft and standard, twice each.
+fn little(problem: &Problem) -> (Vec<Candidate>, Effort) {
+    let mut few = candidates(problem);
+    few.retain(|candidate| ["draft", "standard"].contains(&candidate.name.as_str()));
+    (few, Effort { repeats: Some(2), ..Effort::default() })
+}
+
+/// More than anyone waits for.
+fn endless(problem: &Problem) -> (Vec<Candidate>, Effort) {
+    let (few, effort) = little(problem);
+    (few, Effort { repeats: Some(1_000_000), ..effort })
+}
+
+#[test]
+fn a_term_is_switched_and_the_window_says_what_it_changed() {
+    let key = "numerics.wedge";
+    let mut window = tall_window(little);
+    solved(&mut window);
+    window.run_steps(3);
+    let decision = |app: &App| {
+        let decisions = &app.shown().unwrap().solution.model.decisions;
+        decisions.iter().find(|decision| decision.key == Some(key)).unwrap().clone()
+    };
+    let other = if decision(window.state()).chosen == "off" { "Solved" } else { "Left out" };
+    window.get_by_role_and_label(Role::ComboBox, "Wedge term").click();
+    window.run_steps(3);
+    let before = window.state().activity().number;
+    window.get_by_label(other).click();
+    window.run_steps(2);
+    assert!(window.state().activity().number > before, "it is solved anew at once");
+    assert!(window.state().document().can_undo());
+    solved(&mut window);
+    window.run_steps(3);
+    let change = window.state().comparison().change().unwrap();
+    assert_eq!((change.key, change.fidelity), (key, Fidelity::Fine));
+    assert!(change.before != change.after && change.bound > 0.0 && change.held(), "{change:?}");
+    window.get_by_label("Wedge term switched");
+    window.get_by_label_contains("stated bound");
+    assert!(decision(window.state()).overruled);
+    window.get_by_label("Overruled");
+
+    // One click and it is the plan's again, bit for bit what it was; an edit of something else ends the comparison.
+    window.get_by_label("Wedge term back to auto").click();
+    window.run_steps(2);
+    assert_eq!(window.state().document().scene().get(key), Some(Value::Text("auto".to_owned())));
+    solved(&mut window);
+    window.run_steps(3);
+    assert!(window.query_by_label("Overruled").is_none());
+    edit_spacing(&mut window, "150");
+    assert!(window.query_by_label("Wedge term switched").is_none());
+}
+
+#[test]
+fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("Pause");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    window.run_steps(3);
+    assert_eq!(window.state().view().tab, Tab::Tradeoff);
+    assert!(window.query_by_label("Pause").is_none() && window.query_by_label("Time in the cycle").is_none());
+    assert!(window.state().measured().is_none(), "nothing is measured before it is asked for");
+    let phase = window.state().view().phase;
+    window.key_press(Key::Space);
+    std::thread::sleep(Duration::from_millis(30));
+    window.run_steps(3);
+    assert!(window.state().view().playing && window.state().view().phase == phase);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
+    window.run_steps(3);
+    assert_eq!(window.state().view().tab, Tab::Motion);
+    window.get_by_label("Pause");
+}
+
+#[test]
+fn error_against_time_is_measured_and_a_setting_is_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tall_window(little);
+    solved(&mut window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    window.run_steps(2);
+    window.get_by_label("Measure").click();
+    window.run_steps(2);
+    until(&mut window, "the measurement ends", |app| app.measured().is_some_and(|measured| !measured.running()));
+    window.run_steps(2);
+    let points = &window.state().measured().unwrap().tradeoff().points;
+    let names: Vec<&str> = points.iter().map(|point| point.run.candidate.name.as_str()).collect();
+    assert_eq!(names, ["draft", "standard", "present setting"]);
+    assert!(points.iter().all(|point| point.run.ended == Ended::Converged && point.error.is_some()));
+
+    // The cheapest that serves is used, which is one edit.
+    let aim = |window: &Harness<'static, App>| window.state().document().aim();
+    assert_eq!(aim(&window), Fidelity::Fine);
+    window.get_by_role_and_label(Role::SpinButton, "Accuracy").click();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::SpinButton, "Accuracy").type_text("30");
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    assert!((window.state().view().accuracy - 0.3).abs() < 1e-12);
+    window.get_by_label("Use it for the accuracy").click();
+    window.run_steps(3);
+    assert!(aim(&window) < Fidelity::Fine);
+    until(&mut window, "solved as asked", |app| {
+        let number = app.activity().number;
+        app.shown().is_some_and(|run| run.number == number && run.fidelity == app.document().aim())
+    });
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(2);
+    assert_eq!(aim(&window), Fidelity::Fine);
+
+    // The table and the figure, as the command line writes them.
+    for (button, file, begins) in [("Export CSV…", "t.csv", "setting,family"), ("Export figure…", "t.svg", "<")] {
+        let path = folder.path().join(file);
+        window.get_by_label(button).click();
+        for _ in 0..500 {
+            window.step();
+            if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        window.run_steps(2);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
+        window.step();
+        window.key_press(Key::Enter);
+        window.run_steps(3);
+        assert!(std::fs::read_to_string(&path).unwrap().starts_with(begins), "{file}");
+    }
+
+    // Another scene: what was measured is not of it.
+    assert!(window.query_by_label_contains("before the scene changed").is_none());
+    edit_spacing(&mut window, "150");
+    window.get_by_label_contains("before the scene changed");
+}
+
+#[test]
+fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
+    let mut window = tall_window(endless);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    window.run_steps(2);
+    window.get_by_label("Measure").click();
+    window.run_steps(2);
+    until(&mut window, "points appear", |app| {
+        app.measured().is_some_and(|measured| measured.tradeoff().points.iter().any(|point| point.median.is_finite()))
+    });
+    window.run_steps(2);
+    window.get_by_label("Cancel the measurement").click();
+    window.run_steps(2);
+    until(&mut window, "it ends", |app| app.measured().is_some_and(|measured| !measured.running()));
+    window.run_steps(2);
+    window.get_by_label_contains("Cancelled");
+    // What was measured stays, another can begin, and the window does not wait for it.
+    window.get_by_label("Measure").click();
+    window.run_steps(2);
+    assert!(window.state().measured().unwrap().running());
+    drop(window);
 }

@@ -10,13 +10,14 @@ use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::command::Command;
 use squeezefilm::gui::edit::{Change, Refusals};
+use squeezefilm::gui::panels::model::Model;
 use squeezefilm::gui::panels::{labels, parameters, results};
 use squeezefilm::gui::theme;
 use squeezefilm::job::Run;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{ParameterKind, Scene, Value, presets};
 use squeezefilm::solution::{Outcome, Status};
-use squeezefilm::solve::{Method, Settings, solve};
+use squeezefilm::solve::{Settings, solve};
 
 /// A scene that is edited in the panel, with the commands that came of it.
 struct Edited {
@@ -50,7 +51,7 @@ impl Edited {
 
     fn ui(&mut self, ui: &mut egui::Ui) {
         let mut commands = Vec::new();
-        parameters::show(ui, &self.scene, &self.refusals, &mut commands);
+        parameters::show(ui, &self.scene, &self.refusals, &[], &mut commands);
         commands.iter().for_each(|command| self.apply(command));
         self.pushed.extend(commands);
     }
@@ -335,7 +336,13 @@ fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
             theme::install_fonts(ctx);
             ctx.all_styles_mut(|style| style.text_styles.values_mut().for_each(|font| font.size *= size));
         })
-        .build_ui_state(|ui, run: &mut Run| results::show(ui, run, true), run);
+        .build_ui_state(
+            |ui, run: &mut Run| {
+                let model = Model { scene: &run.scene, aim: Fidelity::Fine, change: None };
+                results::show(ui, run, &model, true, &mut Vec::new());
+            },
+            run,
+        );
     harness.run();
     harness
 }
@@ -344,7 +351,7 @@ fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
 fn the_results_show_alpha_and_what_goes_with_it() {
     let run = run("fundamental");
     let Outcome::Motor(result) = run.solution.outcome else { panic!("a motor") };
-    let mut harness = shown(run, 300.0, 1.0);
+    let harness = shown(run, 300.0, 1.0);
     let alpha = squeezefilm::export::digits::with_error(result.alpha, result.alpha_error);
     harness.get_by_label_contains(&alpha);
     harness.get_by_label("share of the load carried by air");
@@ -354,11 +361,16 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     harness.get_by_label("12.3 ms");
     harness.get_by_label("draft");
     assert!(harness.query_by_label("Levitated").is_none() && harness.query_by_label("Not converged").is_none());
-    let reason = harness.state().solution.model.why[0].clone();
-    assert!(harness.query_by_label_contains(&reason[1..]).is_none());
-    harness.get_by_label("What the model left out, and why").click();
-    harness.run();
-    harness.get_by_label_contains(&reason[1..]);
+    // Every decision is there: those with a switch as a combo box, the others in words.
+    let decisions = harness.state().solution.model.decisions.clone();
+    for decision in decisions {
+        let (first, rest) = decision.term.split_at(1);
+        let term = first.to_uppercase() + rest;
+        match decision.key {
+            Some(_) => drop(harness.get_by_role_and_label(Role::ComboBox, &term)),
+            None => drop(harness.get_by_label_contains(&decision.words[1..])),
+        }
+    }
 }
 
 #[test]

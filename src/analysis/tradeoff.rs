@@ -81,6 +81,14 @@ impl Candidate {
 pub fn candidates(problem: &Problem) -> Vec<Candidate> {
     let auto = |fidelity| Settings { fidelity, ..Settings::default() };
     let mut all = Vec::new();
+    for fidelity in Fidelity::ALL {
+        all.push(Candidate {
+            name: fidelity.name().to_owned(),
+            family: Family::Fidelity,
+            settings: auto(fidelity),
+            numerics: Numerics::default(),
+        });
+    }
     for (fidelity, along, across, steps) in GRIDS {
         all.push(Candidate {
             name: format!("{fidelity}, {along} × {across} × {steps}"),
@@ -113,14 +121,6 @@ pub fn candidates(problem: &Problem) -> Vec<Candidate> {
                 },
             });
         }
-    }
-    for fidelity in Fidelity::ALL {
-        all.push(Candidate {
-            name: fidelity.name().to_owned(),
-            family: Family::Fidelity,
-            settings: auto(fidelity),
-            numerics: Numerics::default(),
-        });
     }
     all
 }
@@ -242,10 +242,10 @@ fn done(runs: &[Run], effort: &Effort) -> f64 {
 /// One run; false if it was cancelled.
 fn run_once(problem: &Problem, run: &mut Run, effort: &Effort, clock: &dyn Fn() -> f64, cancel: &Cancel) -> bool {
     let problem = Problem { numerics: run.candidate.numerics, ..problem.clone() };
-    let stop = Cancel::new();
+    let stop = cancel.child();
     let started = clock();
     let mut watch = |_: &Progress| {
-        if cancel.is_cancelled() || clock() - started > effort.longest {
+        if clock() - started > effort.longest {
             stop.cancel();
         }
     };

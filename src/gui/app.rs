@@ -1,28 +1,37 @@
 //! The application: drains events, carries out commands, lays out panels and views. It never solves.
 
 use super::command::Command;
-use super::dialogs::{Answer, Dialogs, Purpose};
+use super::comparison::Comparison;
+use super::dialogs::{Answer, Dialogs, Export, Purpose};
 use super::document::Document;
 use super::edit::{Change, Refusals};
 use super::keys;
+use super::measured::{Measured, with_present};
 use super::modal::{self, Modal, PathPrompt};
+use super::panels::model::Model;
 use super::panels::{menu, parameters, results, sheet, timeline};
-use super::state::View;
+use super::state::{Tab, View};
+use super::tabs;
 use super::theme;
 use super::views;
 use super::world::World;
+use crate::analysis::tradeoff::Wish;
+use crate::export::figure::{Format, to_bytes};
+use crate::export::folder::write_file;
+use crate::export::tradeoff::{figure, write_csv};
 use crate::fidelity::Fidelity;
+use crate::job::measurement::Measurement;
 use crate::job::{Event, Request, Run, Solver};
-use crate::problem::Problem;
-use crate::scene::{Kind, Parameter, Scene, SceneError, presets};
+use crate::problem::{Numerics, Problem};
+use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Fidelities that every edit is solved at, in turn.
-const REFINEMENT: [Fidelity; 3] = [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine];
+/// A measurement is drawn anew at most this often: what draws it is measured too.
+const MEASURE_INTERVAL: Duration = Duration::from_millis(200);
 /// Files remembered.
 const RECENT: usize = 10;
 /// Zoom of the lecture size.
@@ -36,7 +45,7 @@ struct Side {
 }
 
 const PARAMETERS: Side = Side { default: 300.0, least: 210.0, share: 0.3 };
-const RESULTS: Side = Side { default: 270.0, least: 190.0, share: 0.27 };
+const RESULTS: Side = Side { default: 292.0, least: 190.0, share: 0.27 };
 
 impl Side {
     /// Fits `panel` into a window of this width: what is in the middle stays the widest.
@@ -106,6 +115,8 @@ pub struct App {
     dialogs: Dialogs,
     pictures: (Sender<Arc<egui::ColorImage>>, Receiver<Arc<egui::ColorImage>>),
     picture: Option<Arc<egui::ColorImage>>,
+    comparison: Comparison,
+    measured: Option<Measured>,
     modal: Option<Modal>,
     /// What to do after a save that a question led to.
     after_save: Option<Command>,
@@ -142,6 +153,7 @@ impl App {
         let wake = context.egui_ctx.clone();
         let solver = Solver::start_with_clock(world.now, move || wake.request_repaint())?;
         let stored = |key: &str| context.storage.and_then(|storage| storage.get_string(key));
+        let aim = stored("fidelity").and_then(|name| name.parse().ok());
         let document = match opened {
             Some((scene, path)) => Document::opened(scene, path),
             None => match restore(&stored) {
@@ -150,7 +162,7 @@ impl App {
             },
         };
         let mut app = Self {
-            document,
+            document: aim.into_iter().fold(document, Document::aiming),
             refusals: Refusals::default(),
             world,
             solver,
@@ -160,6 +172,8 @@ impl App {
             dialogs: Dialogs::new(world.ask),
             pictures: channel(),
             picture: None,
+            comparison: Comparison::default(),
+            measured: None,
             modal: None,
             after_save: None,
             sheet: false,
@@ -170,7 +184,7 @@ impl App {
             last_frame: None,
         };
         app.apply_theme(&context.egui_ctx);
-        app.solve(&REFINEMENT);
+        app.refine();
         Ok(app)
     }
 
@@ -194,9 +208,26 @@ impl App {
         &self.view
     }
 
+    /// Error against time, if it was measured.
+    pub fn measured(&self) -> Option<&Measured> {
+        self.measured.as_ref()
+    }
+
+    /// What the switches of the model changed.
+    pub fn comparison(&self) -> &Comparison {
+        &self.comparison
+    }
+
     fn apply_theme(&self, ctx: &egui::Context) {
         ctx.set_theme(if self.dark { egui::Theme::Dark } else { egui::Theme::Light });
         ctx.set_zoom_factor(if self.lecture { LECTURE_ZOOM } else { 1.0 });
+    }
+
+    /// Asks for the present scene, draft first, then refined up to what is aimed at.
+    fn refine(&mut self) {
+        let aim = self.document.aim();
+        let fidelities: Vec<Fidelity> = Fidelity::ALL.into_iter().filter(|fidelity| *fidelity <= aim).collect();
+        self.solve(&fidelities);
     }
 
     /// Asks for the present scene at these fidelities.
@@ -225,6 +256,9 @@ impl App {
                 }
                 // A result of an edit that is already history is still newer than what is shown.
                 Event::Solved(run) if self.shown.as_ref().is_none_or(|shown| run.number >= shown.number) => {
+                    if run.scene == *self.document.scene() {
+                        self.comparison.solved(&run);
+                    }
                     self.view.tooth = self.view.tooth.min(run.solution.recording.teeth.saturating_sub(1));
                     self.shown = Some(run);
                 }
@@ -235,18 +269,25 @@ impl App {
                 _ => {}
             }
         }
+        if let Some(measured) = &mut self.measured {
+            measured.drain();
+        }
         let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
         for (purpose, answer) in answers {
             match (purpose, answer) {
                 (Purpose::Open, Answer::Path(path)) => self.carry_out(ctx, Command::OpenPath(path)),
                 (Purpose::Save, Answer::Path(path)) => self.carry_out(ctx, Command::SavePath(path)),
                 (Purpose::Screenshot, Answer::Path(path)) => self.carry_out(ctx, Command::WritePicture(path)),
+                (Purpose::Export(export), Answer::Path(path)) => {
+                    self.carry_out(ctx, Command::WriteExport(export, path));
+                }
                 (_, Answer::Cancelled) => self.carry_out(ctx, Command::Dismissed),
                 (purpose, Answer::NoDialog) => {
                     let path = match purpose {
                         Purpose::Open => String::new(),
                         Purpose::Save => self.suggested_name(),
                         Purpose::Screenshot => PICTURE_NAME.to_owned(),
+                        Purpose::Export(export) => export.file_name().to_owned(),
                     };
                     self.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));
                 }
@@ -291,8 +332,13 @@ impl App {
                 let changed = next != *self.document.scene();
                 self.document.edit(next, key, dragging);
                 if changed {
+                    if is_switch(key) {
+                        self.comparison.switched(key);
+                    } else {
+                        self.comparison.edited();
+                    }
                     self.refusals.review(self.document.scene());
-                    self.solve(&REFINEMENT);
+                    self.refine();
                 }
             }
             Err(error) => self.refusals.refuse(key, change, error.to_string()),
@@ -307,9 +353,10 @@ impl App {
                     self.recent.insert(0, path.clone());
                     self.recent.truncate(RECENT);
                 }
-                self.document = Document::opened(scene, path);
+                self.document = Document::opened(scene, path).aiming(self.document.aim());
                 self.refusals.clear();
-                self.solve(&REFINEMENT);
+                self.comparison.edited();
+                self.refine();
             }
             Err(error) => self.modal = Some(Modal::Error(error.to_string())),
         }
@@ -338,11 +385,13 @@ impl App {
             Command::Set { key, value, dragging } => self.edit(key, dragging, Change::Value(value)),
             Command::SetText { key, text } => self.edit(key, false, Change::Text(text)),
             Command::Reset { key } => self.reset(key),
+            Command::Use { aim, numerics } => self.use_setting(aim, numerics),
             Command::Undo | Command::Redo => {
                 let changed = if command == Command::Undo { self.document.undo() } else { self.document.redo() };
                 if changed {
                     self.refusals.clear();
-                    self.solve(&REFINEMENT);
+                    self.comparison.edited();
+                    self.refine();
                 }
             }
             Command::OpenBuiltIn(name) => self.open(presets::find(name), None),
@@ -384,7 +433,7 @@ impl App {
                 if *next == Command::Quit {
                     // The next window begins with what is saved. A file that is opened replaces the scene only if it is good.
                     let (saved, path) = (self.document.saved().clone(), self.document.path().map(Path::to_path_buf));
-                    self.document = Document::opened(saved, path);
+                    self.document = Document::opened(saved, path).aiming(self.document.aim());
                 }
                 self.carry_out_now(ctx, *next);
             }
@@ -398,6 +447,17 @@ impl App {
                 self.solver.cancel();
                 self.activity.running = None;
             }
+            Command::Show(tab) => self.view.tab = tab,
+            Command::Measure => self.measure(ctx),
+            Command::CancelMeasure => {
+                if let Some(measured) = &mut self.measured {
+                    measured.cancel();
+                }
+            }
+            Command::Wish(Wish::Accuracy(share)) => self.view.accuracy = share,
+            Command::Wish(Wish::Budget(seconds)) => self.view.budget = seconds,
+            Command::Export(export) => self.ask(ctx, Purpose::Export(export), export.file_name()),
+            Command::WriteExport(export, path) => self.write_export(export, &path),
             Command::TogglePlay => self.view.playing = !self.view.playing,
             Command::StepFrames(by) => {
                 if let Some(run) = &self.shown {
@@ -458,6 +518,68 @@ impl App {
         }
     }
 
+    /// Other numerics and another aim, as one edit.
+    fn use_setting(&mut self, aim: Fidelity, numerics: Numerics) {
+        let next = Scene { numerics, ..self.document.scene().clone() };
+        match next.check() {
+            Ok(()) => {
+                if self.document.change(next, aim) {
+                    self.comparison.edited();
+                    self.refusals.review(self.document.scene());
+                    self.refine();
+                }
+            }
+            Err(error) => self.modal = Some(Modal::Error(error.to_string())),
+        }
+    }
+
+    /// Starts to measure, unless that goes on.
+    fn measure(&mut self, ctx: &egui::Context) {
+        if self.measured.as_ref().is_some_and(Measured::running) {
+            return;
+        }
+        let scene = self.document.scene().clone();
+        let problem = match Problem::new(&scene) {
+            Ok(problem) => problem,
+            Err(error) => {
+                self.modal = Some(Modal::Error(error.to_string()));
+                return;
+            }
+        };
+        let (mut candidates, effort) = (self.world.measure)(&problem);
+        with_present(&mut candidates, self.document.aim(), scene.numerics);
+        let now = self.world.now;
+        let wake = ctx.clone();
+        let wake = move |ended: bool| {
+            if ended { wake.request_repaint() } else { wake.request_repaint_after(MEASURE_INTERVAL) }
+        };
+        match Measurement::start(problem, candidates, effort, now, wake) {
+            Ok(job) => self.measured = Some(Measured::new(job, scene, now())),
+            Err(error) => self.modal = Some(Modal::Error(format!("The measurement cannot be started: {error}"))),
+        }
+    }
+
+    fn write_export(&mut self, export: Export, path: &Path) {
+        let Some(measured) = &self.measured else { return };
+        let tradeoff = measured.tradeoff();
+        let written = match export {
+            Export::TradeoffTable => write_file(path, |out| write_csv(tradeoff, out)),
+            Export::TradeoffFigure => {
+                let wishes = [Wish::Accuracy(self.view.accuracy), Wish::Budget(self.view.budget)];
+                let chosen: Vec<usize> = wishes.into_iter().filter_map(|wish| tradeoff.choose(wish)).collect();
+                let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+                let named = Format::ALL.into_iter().find(|format| extension.as_deref() == Some(format.name()));
+                let figure = figure(measured.name(), tradeoff, &chosen);
+                write_file(path, |out| {
+                    out.write_all(&to_bytes(&figure, named.unwrap_or(Format::Svg)).map_err(std::io::Error::other)?)
+                })
+            }
+        };
+        if let Err(error) = written {
+            self.modal = Some(Modal::Error(error.to_string()));
+        }
+    }
+
     fn modals(&mut self, ctx: &egui::Context, commands: &mut Vec<Command>) {
         if self.sheet {
             self.sheet = sheet::show(ctx);
@@ -473,7 +595,7 @@ impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.drain(ctx);
         let now = (self.world.now)();
-        if self.view.playing && self.shown.is_some() {
+        if self.view.playing && self.shown.is_some() && self.view.tab == Tab::Motion {
             // A frame after a pause must not leap.
             let elapsed = self.last_frame.map_or(0.0, |last| (now - last).as_secs_f64().min(0.1));
             self.view.phase = (self.view.phase + elapsed / self.view.seconds_per_cycle).rem_euclid(1.0);
@@ -481,7 +603,7 @@ impl eframe::App for App {
         }
         self.last_frame = Some(now);
         let mut commands = Vec::new();
-        keys::pressed(ctx, self.modal.is_some() || self.sheet, &mut commands);
+        keys::pressed(ctx, self.modal.is_some() || self.sheet, self.view.tab, &mut commands);
         let dropped: Vec<PathBuf> = ctx.input(|input| {
             input
                 .raw
@@ -510,7 +632,7 @@ impl eframe::App for App {
 
         egui::Panel::top("menu").show(ui, |ui| menu::show(ui, &self.document, &self.recent, self.dark, &mut commands));
         egui::Panel::bottom("status").show(ui, |ui| {
-            if let Some(run) = &shown {
+            if let (Some(run), Tab::Motion) = (&shown, self.view.tab) {
                 ui.add_space(2.0);
                 timeline::show(ui, run, &self.view, &mut commands);
             }
@@ -522,7 +644,8 @@ impl eframe::App for App {
             if self.lecture { ["parameters, lecture", "results, lecture"] } else { ["parameters", "results"] };
         if self.view.parameters {
             PARAMETERS.fit(egui::Panel::left(left), width).show(ui, |ui| {
-                parameters::show(ui, self.document.scene(), &self.refusals, &mut commands);
+                let plan = shown.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
+                parameters::show(ui, self.document.scene(), &self.refusals, plan, &mut commands);
             });
         }
         if self.view.results {
@@ -530,13 +653,29 @@ impl eframe::App for App {
                 // As wide before the first result as after it.
                 ui.set_min_width(ui.available_width());
                 if let Some(run) = &shown {
-                    results::show(ui, run, self.dark);
+                    let (scene, aim) = (self.document.scene(), self.document.aim());
+                    let model = Model { scene, aim, change: self.comparison.change() };
+                    results::show(ui, run, &model, self.dark, &mut commands);
                 }
             });
         }
-        egui::CentralPanel::default().show(ui, |ui| match &shown {
-            Some(run) => views::show(ui, run, &mut self.view, &mut commands),
-            None => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+        egui::CentralPanel::default().show(ui, |ui| {
+            tabs::labels(ui, self.view.tab, &mut commands);
+            match (self.view.tab, &shown) {
+                (Tab::Motion, Some(run)) => views::show(ui, run, &mut self.view, &mut commands),
+                (Tab::Motion, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+                (Tab::Tradeoff, _) => {
+                    let shown = tabs::tradeoff::Shown {
+                        scene: self.document.scene(),
+                        aim: self.document.aim(),
+                        measured: self.measured.as_ref(),
+                        accuracy: self.view.accuracy,
+                        budget: self.view.budget,
+                        now: (self.world.now)(),
+                    };
+                    tabs::tradeoff::show(ui, &shown, &palette, &mut commands);
+                }
+            }
         });
         self.modals(&ctx, &mut commands);
         if !commands.is_empty() {
@@ -560,6 +699,7 @@ impl eframe::App for App {
         storage.set_string("path", self.document.path().map(|p| p.display().to_string()).unwrap_or_default());
         let recent: Vec<String> = self.recent.iter().map(|path| path.display().to_string()).collect();
         storage.set_string("recent", recent.join("\n"));
+        storage.set_string("fidelity", self.document.aim().name().to_owned());
         storage.set_string("theme", if self.dark { "dark" } else { "light" }.to_owned());
         storage.set_string("lecture", self.lecture.to_string());
     }
@@ -567,6 +707,12 @@ impl eframe::App for App {
     fn auto_save_interval(&self) -> Duration {
         SAVE_INTERVAL
     }
+}
+
+/// Whether a key is one of the model's switches.
+fn is_switch(key: &str) -> bool {
+    Parameter::find(key)
+        .is_some_and(|found| found.table() == "numerics" && matches!(found.kind, ParameterKind::Choice { .. }))
 }
 
 /// The scene that the last window was left with.

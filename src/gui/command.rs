@@ -1,6 +1,10 @@
 //! What a panel or a key asks the application to do. Panels push commands; only the application carries them out.
 
+use super::dialogs::Export;
+use super::state::Tab;
+use crate::analysis::tradeoff::Wish;
 use crate::fidelity::Fidelity;
+use crate::problem::Numerics;
 use crate::scene::Value;
 use std::path::PathBuf;
 
@@ -28,6 +32,13 @@ pub enum Command {
         /// Dotted key.
         key: &'static str,
     },
+    /// Solves with these numerics, refined up to this fidelity, from now on: one edit.
+    Use {
+        /// The last fidelity that an edit is solved at.
+        aim: Fidelity,
+        /// All of the scene's numerics.
+        numerics: Numerics,
+    },
     /// Takes the last edit back.
     Undo,
     /// Makes it again.
@@ -54,6 +65,18 @@ pub enum Command {
     Refine(Fidelity),
     /// Cancels the running solve.
     CancelSolve,
+    /// Shows this in the middle of the window.
+    Show(Tab),
+    /// Measures error against time, now.
+    Measure,
+    /// Ends the measurement.
+    CancelMeasure,
+    /// What is asked of the trade-off.
+    Wish(Wish),
+    /// Asks where to write this, and writes it.
+    Export(Export),
+    /// Writes this to a file.
+    WriteExport(Export, PathBuf),
     /// Play or pause.
     TogglePlay,
     /// Moves by this many frames, pausing.

@@ -4,6 +4,41 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
+/// What can be written to a file of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Export {
+    /// The measured trade-off as a table.
+    TradeoffTable,
+    /// The measured trade-off as a figure.
+    TradeoffFigure,
+}
+
+impl Export {
+    /// What its file is called at first.
+    pub fn file_name(self) -> &'static str {
+        match self {
+            Self::TradeoffTable => "tradeoff.csv",
+            Self::TradeoffFigure => "tradeoff.svg",
+        }
+    }
+
+    /// What is asked.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::TradeoffTable => "Export the table as CSV",
+            Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
+        }
+    }
+
+    /// Kind of file and its extensions.
+    fn filter(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::TradeoffTable => ("Table", &["csv"]),
+            Self::TradeoffFigure => ("Figure", &["svg", "png", "pdf"]),
+        }
+    }
+}
+
 /// What a dialog is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -13,6 +48,8 @@ pub enum Purpose {
     Save,
     /// Save a picture of the window.
     Screenshot,
+    /// Export results.
+    Export(Export),
 }
 
 /// What came of a dialog.
@@ -34,10 +71,15 @@ pub fn native(purpose: Purpose, name: &str) -> Answer {
     let started = Instant::now();
     let dialog = match purpose {
         Purpose::Screenshot => rfd::FileDialog::new().add_filter("Picture", &["png"]),
+        Purpose::Export(export) => {
+            let (kind, extensions) = export.filter();
+            rfd::FileDialog::new().add_filter(kind, extensions)
+        }
         Purpose::Open | Purpose::Save => rfd::FileDialog::new().add_filter("Preset", &["toml"]),
     };
     let path = match purpose {
         Purpose::Open => dialog.set_title("Open a preset").pick_file(),
+        Purpose::Export(export) => dialog.set_title(export.title()).set_file_name(name).save_file(),
         Purpose::Save | Purpose::Screenshot => dialog.set_title("Save").set_file_name(name).save_file(),
     };
     // Without a portal and without zenity the library answers as if the dialog had been closed, but at once.

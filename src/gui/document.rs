@@ -1,19 +1,23 @@
 //! The scene being edited: its file, its history of edits, and whether anything is unsaved.
 
+use crate::fidelity::Fidelity;
 use crate::scene::{Scene, SceneError, presets};
 use std::path::{Path, PathBuf};
 
 /// Edits that can be taken back.
 const HISTORY: usize = 500;
+/// Edits are solved up to this fidelity, unless another is asked for.
+const AIM: Fidelity = Fidelity::Fine;
 
 /// A scene and where it came from.
 #[derive(Clone, Debug)]
 pub struct Document {
     scene: Scene,
+    aim: Fidelity,
     saved: Scene,
     path: Option<PathBuf>,
-    undo: Vec<Scene>,
-    redo: Vec<Scene>,
+    undo: Vec<(Scene, Fidelity)>,
+    redo: Vec<(Scene, Fidelity)>,
     /// The parameter that a pointer is dragging: its edits are one.
     dragging: Option<&'static str>,
 }
@@ -21,7 +25,12 @@ pub struct Document {
 impl Document {
     /// A scene as it was opened, from a file or built in.
     pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {
-        Self { saved: scene.clone(), scene, path, undo: Vec::new(), redo: Vec::new(), dragging: None }
+        Self { saved: scene.clone(), scene, aim: AIM, path, undo: Vec::new(), redo: Vec::new(), dragging: None }
+    }
+
+    /// The same, solved up to this fidelity.
+    pub fn aiming(self, aim: Fidelity) -> Self {
+        Self { aim, ..self }
     }
 
     /// A scene that outlived its window: unsaved if it differs from what its file or preset says.
@@ -40,6 +49,11 @@ impl Document {
     /// The scene as edited.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The last fidelity that an edit is solved at: part of the history, not of the file.
+    pub fn aim(&self) -> Fidelity {
+        self.aim
     }
 
     /// The scene as it was opened or last saved.
@@ -61,13 +75,9 @@ impl Document {
     pub fn edit(&mut self, next: Scene, key: &'static str, dragging: bool) {
         if next != self.scene {
             if self.dragging != Some(key) {
-                self.undo.push(std::mem::replace(&mut self.scene, next));
-                if self.undo.len() > HISTORY {
-                    self.undo.remove(0);
-                }
-            } else {
-                self.scene = next;
+                self.remember();
             }
+            self.scene = next;
             self.redo.clear();
             self.dragging = dragging.then_some(key);
         } else if !dragging {
@@ -75,16 +85,41 @@ impl Document {
         }
     }
 
+    /// Replaces the scene and what it is solved up to: one edit. Whether anything changed.
+    pub fn change(&mut self, next: Scene, aim: Fidelity) -> bool {
+        let changed = next != self.scene || aim != self.aim;
+        if changed {
+            self.remember();
+            (self.scene, self.aim) = (next, aim);
+            self.redo.clear();
+        }
+        self.dragging = None;
+        changed
+    }
+
+    fn remember(&mut self) {
+        self.undo.push((self.scene.clone(), self.aim));
+        if self.undo.len() > HISTORY {
+            self.undo.remove(0);
+        }
+    }
+
     /// Takes the last edit back; whether there was one.
     pub fn undo(&mut self) -> bool {
         self.dragging = None;
-        self.undo.pop().map(|scene| self.redo.push(std::mem::replace(&mut self.scene, scene))).is_some()
+        let Some((scene, aim)) = self.undo.pop() else { return false };
+        let now = (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.aim, aim));
+        self.redo.push(now);
+        true
     }
 
     /// Makes the last undone edit again; whether there was one.
     pub fn redo(&mut self) -> bool {
         self.dragging = None;
-        self.redo.pop().map(|scene| self.undo.push(std::mem::replace(&mut self.scene, scene))).is_some()
+        let Some((scene, aim)) = self.redo.pop() else { return false };
+        let now = (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.aim, aim));
+        self.undo.push(now);
+        true
     }
 
     /// Whether there is anything to undo.
@@ -136,6 +171,16 @@ mod tests {
         assert!(!document.undo() && !document.is_dirty());
         assert!(document.redo() && document.redo() && !document.redo());
         assert_eq!(document.scene(), &with_spacing(&document, "100"));
+    }
+
+    #[test]
+    fn what_it_is_solved_up_to_is_an_edit_but_not_saved() {
+        let mut document = Document::fundamental().unwrap();
+        assert!(document.change(document.scene().clone(), Fidelity::Draft));
+        assert!(!document.change(document.scene().clone(), Fidelity::Draft));
+        assert!(!document.is_dirty() && document.aim() == Fidelity::Draft);
+        assert!(document.undo() && document.aim() == AIM);
+        assert!(document.redo() && document.aim() == Fidelity::Draft);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use super::command::Command;
+use super::state::Tab;
 use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
 
 /// A shortcut, what it is called, and what it asks for.
@@ -32,10 +33,13 @@ const fn idle(keys: KeyboardShortcut, about: &'static str, command: fn() -> Comm
     Shortcut { keys, about, command, while_typing: false }
 }
 
+/// The group of the keys that move the cycle.
+const MOTION: &str = "Motion";
+
 /// All shortcuts, in the groups and the order in which the sheet lists them.
 pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
-        "Motion",
+        MOTION,
         &[
             idle(key(NONE, Key::Space), "Play or pause", || Command::TogglePlay),
             idle(key(NONE, Key::ArrowLeft), "One frame back", || Command::StepFrames(-1)),
@@ -65,6 +69,8 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
         "Window",
         &[
+            always(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
+            always(key(CTRL, Key::Num2), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
             always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
@@ -80,13 +86,15 @@ fn all() -> impl Iterator<Item = &'static Shortcut> {
 }
 
 /// Commands of the shortcuts pressed in this frame. `modal`: a modal is open. The plain keys are then its own, and
-/// those of an open menu.
-pub fn pressed(ctx: &Context, modal: bool, commands: &mut Vec<Command>) {
+/// those of an open menu. `tab`: the keys of the motion are its own.
+pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>) {
     let typing = modal || ctx.egui_wants_keyboard_input() || Popup::is_any_open(ctx);
     ctx.input_mut(|input| {
         // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
         for shift in [true, false] {
-            for shortcut in all().filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
+            let groups = GROUPS.iter().filter(|(group, _)| *group != MOTION || tab == Tab::Motion);
+            let shortcuts = groups.flat_map(|(_, shortcuts)| shortcuts.iter());
+            for shortcut in shortcuts.filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
                 if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {
                     commands.push((shortcut.command)());
                 }
@@ -128,6 +136,13 @@ mod tests {
             assert_eq!(of(&Command::Redo), "Ctrl+Shift+Z");
         }
         assert_eq!(of(&Command::OpenPathPrompt), "");
+    }
+
+    #[test]
+    fn every_tab_has_its_number() {
+        for (i, (tab, _)) in Tab::ALL.iter().enumerate() {
+            assert!(of(&Command::Show(*tab)).ends_with(&(i + 1).to_string()), "{tab:?}");
+        }
     }
 
     #[test]

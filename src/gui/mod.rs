@@ -5,13 +5,16 @@
 
 pub mod app;
 pub mod command;
+pub mod comparison;
 pub mod dialogs;
 pub mod document;
 pub mod edit;
 pub mod keys;
+pub mod measured;
 pub mod modal;
 pub mod panels;
 pub mod state;
+pub mod tabs;
 pub mod theme;
 pub mod views;
 pub mod world;

@@ -1,7 +1,7 @@
 //! What is in the way until it is answered: an error, a question, a path to type.
 
 use super::command::Command;
-use super::dialogs::Purpose;
+use super::dialogs::{Export, Purpose};
 use super::theme::Palette;
 use eframe::egui::{self, Id, Key, RichText, Ui};
 use std::path::{Path, PathBuf};
@@ -48,6 +48,8 @@ impl PathPrompt {
             Purpose::Open => &[Purpose::Open],
             Purpose::Save => &[Purpose::Save],
             Purpose::Screenshot => &[Purpose::Screenshot],
+            Purpose::Export(Export::TradeoffTable) => &[Purpose::Export(Export::TradeoffTable)],
+            Purpose::Export(Export::TradeoffFigure) => &[Purpose::Export(Export::TradeoffFigure)],
         };
         Self { purposes, path, no_dialog: true, fresh: true }
     }
@@ -137,6 +139,7 @@ fn path(
             [Purpose::Open] => "Open a preset",
             [Purpose::Save] => "Save the preset",
             [Purpose::Screenshot] => "Save a picture of the window",
+            [Purpose::Export(export)] => export.title(),
             _ => "Open or save a preset",
         },
     );
@@ -165,7 +168,7 @@ fn path(
             let text = match purpose {
                 Purpose::Open => "Open",
                 _ if replaces => "Replace",
-                Purpose::Save | Purpose::Screenshot => "Save",
+                Purpose::Save | Purpose::Screenshot | Purpose::Export(_) => "Save",
             };
             let clicked = ui.add_enabled(named, egui::Button::new(text)).clicked();
             // Enter takes the first, but replaces nothing.
@@ -175,6 +178,7 @@ fn path(
                     Purpose::Open => Command::OpenPath(path.clone()),
                     Purpose::Save => Command::SavePath(path.clone()),
                     Purpose::Screenshot => Command::WritePicture(path.clone()),
+                    Purpose::Export(export) => Command::WriteExport(export, path.clone()),
                 });
                 open = false;
             }

@@ -2,9 +2,30 @@
 
 use crate::recording::Recording;
 
+/// What is in the middle of the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tab {
+    /// The cycle of the present run, animated.
+    #[default]
+    Motion,
+    /// Error against solve time.
+    Tradeoff,
+}
+
+impl Tab {
+    /// All, in the order of their labels.
+    pub const ALL: &[(Self, &str)] = &[(Self::Motion, "Motion"), (Self::Tradeoff, "Trade-off")];
+}
+
 /// How the present run is looked at.
 #[derive(Clone, Debug)]
 pub struct View {
+    /// What is in the middle.
+    pub tab: Tab,
+    /// Error that is asked for in the trade-off, a share of the value.
+    pub accuracy: f64,
+    /// Time that is asked for in the trade-off \[s\].
+    pub budget: f64,
     /// Phase of the cycle shown, 0 ≤ phase < 1.
     pub phase: f64,
     /// Whether the animation runs.
@@ -26,6 +47,9 @@ pub struct View {
 impl Default for View {
     fn default() -> Self {
         Self {
+            tab: Tab::default(),
+            accuracy: 1e-2,
+            budget: 16e-3,
             phase: 0.0,
             playing: true,
             seconds_per_cycle: 6.0,

@@ -1,5 +1,6 @@
 //! Plain words for the keys of a scene and for the names it can choose from.
 
+use crate::plan::Decision;
 use crate::scene::{Parameter, Scene, Value};
 
 /// Names of the parameters, by key.
@@ -39,6 +40,12 @@ const LABELS: &[(&str, &str)] = &[
     ("numerics.film_nodes_across", "Film nodes across"),
     ("numerics.contact_nodes", "Contact nodes"),
     ("numerics.steps_per_cycle", "Steps in a cycle"),
+    ("numerics.tolerance", "Tolerance of a cycle"),
+    ("numerics.wedge", "Wedge term"),
+    ("numerics.teeth", "Teeth solved"),
+    ("numerics.width", "Width solved"),
+    ("numerics.flow", "Flow of the film"),
+    ("numerics.time", "Leaking in time"),
 ];
 
 /// What the checkbox of an optional parameter says, by key.
@@ -49,6 +56,7 @@ const SWITCHES: &[(&str, &str)] = &[
     ("numerics.film_nodes_across", "Set film nodes across"),
     ("numerics.contact_nodes", "Set contact nodes"),
     ("numerics.steps_per_cycle", "Set steps in a cycle"),
+    ("numerics.tolerance", "Set tolerance of a cycle"),
 ];
 
 /// Plain words for the names of choices, by key and name.
@@ -59,7 +67,28 @@ const CHOICES: &[(&str, &str, &str)] = &[
     ("film.slip", "first-order", "First order"),
     ("film.slip", "second-order", "Second order"),
     ("film.slip", "fukui-kaneko", "Fukui and Kaneko"),
+    ("numerics.wedge", "auto", AUTO),
+    ("numerics.wedge", "on", "Solved"),
+    ("numerics.wedge", "off", "Left out"),
+    ("numerics.teeth", "auto", AUTO),
+    ("numerics.teeth", "one", "One"),
+    ("numerics.teeth", "all", "All"),
+    ("numerics.width", "auto", AUTO),
+    ("numerics.width", "half", "Half"),
+    ("numerics.width", "full", "Full"),
+    ("numerics.flow", "auto", AUTO),
+    ("numerics.flow", "plane", "Plane"),
+    ("numerics.flow", "across", "Across"),
+    ("numerics.flow", "along", "Along"),
+    ("numerics.time", "auto", AUTO),
+    ("numerics.time", "march", "Marched"),
+    ("numerics.time", "trapped", "None, gas trapped"),
 ];
+
+/// The choice that leaves it to the plan.
+const AUTO: &str = "Automatic";
+/// What the scene says for it.
+const AUTO_NAME: &str = "auto";
 
 fn find(table: &'static [(&'static str, &'static str)], key: &str) -> Option<&'static str> {
     table.iter().find(|(found, _)| *found == key).map(|(_, words)| *words)
@@ -78,6 +107,22 @@ pub fn switch(parameter: &Parameter) -> &'static str {
 /// Plain words for one name of a choice; the name itself if there are none.
 pub fn choice<'a>(key: &str, name: &'a str) -> &'a str {
     CHOICES.iter().find(|(found, option, _)| *found == key && *option == name).map_or(name, |(_, _, words)| *words)
+}
+
+/// As [`choice`]; of what is left to the plan, also what `plan` has chosen: "Auto: left out".
+pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
+    let found = plan.iter().find(|decision| decision.key == Some(key) && !decision.chosen.is_empty());
+    match found {
+        Some(decision) if name == AUTO_NAME => {
+            format!("Auto: {}", uncapitalised(choice(key, decision.chosen)))
+        }
+        _ => choice(key, name).to_owned(),
+    }
+}
+
+fn uncapitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
 }
 
 /// The accessible name of the field in which a value is typed, beside the slider that carries the label.
@@ -143,6 +188,21 @@ mod tests {
         for (key, _) in LABELS.iter().chain(SWITCHES) {
             assert!(Parameter::find(key).is_some(), "{key}");
         }
+    }
+
+    #[test]
+    fn what_is_left_to_the_plan_says_what_the_plan_chose() {
+        let plan = [Decision {
+            term: "wedge term",
+            key: Some("numerics.wedge"),
+            chosen: "off",
+            overruled: false,
+            effect: 1e-3,
+            words: String::new(),
+        }];
+        assert_eq!(chosen("numerics.wedge", "auto", &plan), "Auto: left out");
+        assert_eq!(chosen("numerics.wedge", "on", &plan), "Solved");
+        assert_eq!(chosen("numerics.time", "auto", &plan), "Automatic");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::hint::beside;
 use crate::gui::command::Command;
 use crate::gui::document::Document;
 use crate::gui::keys;
+use crate::gui::state::Tab;
 use crate::scene::presets;
 use eframe::egui::{self, Button};
 use std::path::PathBuf;
@@ -19,6 +20,10 @@ pub fn show(ui: &mut egui::Ui, document: &Document, recent: &[PathBuf], dark: bo
         });
         ui.menu_button("View", |ui| {
             let other = if dark { "Light theme" } else { "Dark theme" };
+            for &(tab, name) in Tab::ALL {
+                item(ui, name, true, Command::Show(tab), commands);
+            }
+            ui.separator();
             item(ui, other, true, Command::ToggleTheme, commands);
             item(ui, "Lecture size", true, Command::ToggleLecture, commands);
             ui.separator();

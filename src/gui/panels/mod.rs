@@ -5,6 +5,7 @@ pub mod field;
 pub mod hint;
 pub mod labels;
 pub mod menu;
+pub mod model;
 pub mod parameters;
 pub mod results;
 pub mod sheet;

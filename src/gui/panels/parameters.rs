@@ -6,6 +6,7 @@ use super::labels::{self, choice, field_name, label, switch};
 use crate::gui::command::Command;
 use crate::gui::edit::Refusals;
 use crate::gui::theme::{Palette, palette};
+use crate::plan::Decision;
 use crate::scene::{Kind, Parameter, ParameterKind, Range, Scale, Scene, Value};
 use eframe::egui::{self, RichText, TextStyle};
 
@@ -44,15 +45,15 @@ const FRAME_MARGIN: i8 = 6;
 /// Distance that a slider keeps from an end that is itself not allowed, relative.
 const OPEN_END: f64 = 1e-3;
 
-/// Shows the parameters of `scene`; `refusals` are shown at their parameters.
-pub fn show(ui: &mut egui::Ui, scene: &Scene, refusals: &Refusals, commands: &mut Vec<Command>) {
+/// Shows the parameters of `scene`; `refusals` are shown at their parameters. `plan`: what the last run decided.
+pub fn show(ui: &mut egui::Ui, scene: &Scene, refusals: &Refusals, plan: &[Decision], commands: &mut Vec<Command>) {
     let defaults = match scene.kind {
         Kind::Motor { .. } => Scene::motor(),
         Kind::Plate { .. } => Scene::plate(),
     };
     let colours = palette(ui.visuals().dark_mode);
     egui::ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| {
-        let mut panel = Panel { scene, defaults: &defaults, refusals, colours, units: 0.0, commands };
+        let mut panel = Panel { scene, defaults: &defaults, refusals, plan, colours, units: 0.0, commands };
         panel.all(ui);
     });
 }
@@ -62,6 +63,7 @@ struct Panel<'a> {
     scene: &'a Scene,
     defaults: &'a Scene,
     refusals: &'a Refusals,
+    plan: &'a [Decision],
     colours: Palette,
     /// Width of the column of units of the present group.
     units: f32,
@@ -300,7 +302,7 @@ impl Panel<'_> {
     fn choice_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
         let named = self.label_row(ui, parameter);
         let combo = egui::ComboBox::from_id_salt(parameter.key)
-            .selected_text(choice(parameter.key, name))
+            .selected_text(labels::chosen(parameter.key, name, self.plan))
             .width(ui.available_width())
             .truncate()
             .show_ui(ui, |ui| {

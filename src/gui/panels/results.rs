@@ -1,10 +1,12 @@
 //! The right panel: the numbers of a run. Every text can be selected and copied.
 
 use super::convergence;
+use super::model::{self, Model};
 use crate::analysis::regime;
 use crate::dimensionless::Dimensionless;
 use crate::export::digits::{significant, with_error};
 use crate::export::json::{dry_torque, force_unit};
+use crate::gui::command::Command;
 use crate::gui::theme::{Palette, palette};
 use crate::job::Run;
 use crate::problem::{Motor, Plate, Scenario};
@@ -17,13 +19,11 @@ const DIGITS: usize = 4;
 const HEADLINE: f32 = 2.1;
 /// Share of its error below which a value is shown as 0.
 const NOTHING: f64 = 0.05;
-/// Width that a collapsing header needs beside its text, in heights of the text.
-const HEADER_ICON: f32 = 2.0;
 /// Size of its error relative to the text.
 const HEADLINE_ERROR: f32 = 1.35;
 
-/// Shows the results of `run`.
-pub fn show(ui: &mut egui::Ui, run: &Run, dark: bool) {
+/// Shows the results of `run`, and the switches of its model.
+pub fn show(ui: &mut egui::Ui, run: &Run, model: &Model<'_>, dark: bool, commands: &mut Vec<Command>) {
     let colours = palette(dark);
     egui::ScrollArea::vertical().id_salt("results").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
@@ -44,21 +44,14 @@ pub fn show(ui: &mut egui::Ui, run: &Run, dark: bool) {
         regime_numbers(ui, &Dimensionless::of(&run.problem), &colours);
         ui.add_space(8.0);
         ui.separator();
+        if !run.solution.model.decisions.is_empty() {
+            egui::CollapsingHeader::new(RichText::new("Model").strong())
+                .default_open(true)
+                .show_unindented(ui, |ui| model::show(ui, run, model, &colours, commands));
+        }
         egui::CollapsingHeader::new(RichText::new("How it was solved").strong())
             .default_open(true)
             .show_unindented(ui, |ui| how(ui, run, &colours));
-        if !run.solution.model.why.is_empty() {
-            let title = "What the model left out, and why";
-            // A header does not wrap by itself.
-            let title = if text_width(ui, title) + HEADER_ICON * text_height(ui) < ui.available_width() {
-                title
-            } else {
-                "What the model\nleft out, and why"
-            };
-            egui::CollapsingHeader::new(RichText::new(title).strong())
-                .id_salt("why")
-                .show_unindented(ui, |ui| reasons(ui, &run.solution.model.why));
-        }
         ui.add_space(12.0);
     });
 }
@@ -150,15 +143,6 @@ fn how(ui: &mut egui::Ui, run: &Run, colours: &Palette) {
         convergence::show(ui, &run.history, colours);
     }
     ui.add_space(4.0);
-}
-
-fn reasons(ui: &mut egui::Ui, why: &[String]) {
-    for reason in why {
-        let mut chars = reason.chars();
-        let sentence: String = chars.next().into_iter().flat_map(char::to_uppercase).chain(chars).collect();
-        ui.add(egui::Label::new(sentence).wrap());
-        ui.add_space(2.0);
-    }
 }
 
 fn convergence_banner(ui: &mut egui::Ui, run: &Run, colours: &Palette) {

@@ -1,0 +1,443 @@
+//! Error against solve time of the present scene, measured on this machine when asked for: each setting a point, the front
+//! of those that no other beats, the present setting ringed, and the cheapest that serves a wish.
+
+use crate::analysis::quantity::Quantity;
+use crate::analysis::tradeoff::{Ended, Family, Point, Tradeoff, Wish};
+use crate::export::digits::significant;
+use crate::export::tradeoff::status;
+use crate::fidelity::Fidelity;
+use crate::gui::command::Command;
+use crate::gui::dialogs::Export;
+use crate::gui::measured::{Measured, is_present};
+use crate::gui::theme::Palette;
+use crate::scene::Scene;
+use crate::solve::Method;
+use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
+use egui_plot::{
+    GridMark, HLine, HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine,
+};
+use std::time::Instant;
+
+/// Height of the plot: its share of the tab, and at least this many lines of text.
+const PLOT_SHARE: f32 = 0.56;
+const LEAST_LINES: f32 = 12.0;
+/// Radius of a point, and of the ring round the present setting.
+const RADIUS: f32 = 4.5;
+const RING: f32 = 9.0;
+/// Fewer decades than this have ticks at 2 and 5 too.
+const FEW_DECADES: f64 = 2.5;
+/// Around the points, a share of their range.
+const MARGIN: egui::Vec2 = egui::vec2(0.08, 0.12);
+/// What can be asked for: per cent, and ms.
+const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
+const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
+
+/// What the tab shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// The scene as edited.
+    pub scene: &'a Scene,
+    /// The last fidelity that edits are solved at.
+    pub aim: Fidelity,
+    /// The measurement, if there was one.
+    pub measured: Option<&'a Measured>,
+    /// Error that is asked for, a share.
+    pub accuracy: f64,
+    /// Time that is asked for \[s\].
+    pub budget: f64,
+    /// The present moment.
+    pub now: Instant,
+}
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
+    let height = ui.available_height();
+    egui::ScrollArea::vertical().id_salt("trade-off").auto_shrink(false).show(ui, |ui| {
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        buttons(ui, shown, commands);
+        let Some(measured) = shown.measured else {
+            introduction(ui, colours);
+            return;
+        };
+        state(ui, shown, measured, colours);
+        let tradeoff = measured.tradeoff();
+        if !tradeoff.points.iter().any(|point| place(point).is_some()) {
+            return;
+        }
+        legend(ui, colours);
+        let least = LEAST_LINES * ui.text_style_height(&TextStyle::Body);
+        plot(ui, shown, tradeoff, (PLOT_SHARE * height).max(least), colours);
+        ui.add_space(4.0);
+        for wish in [Wish::Accuracy(shown.accuracy), Wish::Budget(shown.budget)] {
+            advice(ui, shown, tradeoff, wish, colours, commands);
+        }
+        ui.add_space(6.0);
+        table(ui, shown, tradeoff, colours);
+        ui.add_space(8.0);
+    });
+}
+
+fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        let running = shown.measured.filter(|measured| measured.running());
+        match running {
+            Some(measured) => {
+                if ui.button("Cancel the measurement").clicked() {
+                    commands.push(Command::CancelMeasure);
+                }
+                let left = measured.left(shown.now).map_or_else(String::new, |left| format!(", {} left", rough(left)));
+                let text = format!("{:.0} %{left}", 100.0 * measured.share());
+                ui.add(egui::ProgressBar::new(measured.share() as f32).desired_width(140.0).text(text));
+                // What is left grows less even while nothing new is told.
+                ui.ctx().request_repaint_after(std::time::Duration::from_secs(1));
+            }
+            None => {
+                if ui.button("Measure").on_hover_text("Takes about a minute; the window stays usable").clicked() {
+                    commands.push(Command::Measure);
+                }
+            }
+        }
+        if shown.measured.is_some_and(|measured| !measured.running() && !measured.tradeoff().points.is_empty()) {
+            for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
+            {
+                if ui.button(text).clicked() {
+                    commands.push(Command::Export(export));
+                }
+            }
+        }
+    });
+}
+
+fn introduction(ui: &mut egui::Ui, colours: &Palette) {
+    ui.add_space(8.0);
+    for text in [
+        "How exact can this scene be solved, and how fast, on this machine?",
+        "Each fidelity, some grids beside them and the method of the paper on its meshes are timed in turn, in the \
+         background, and judged by the error of α (of a plate, of the film load). Nothing is measured before you ask.",
+    ] {
+        ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
+        ui.add_space(4.0);
+    }
+}
+
+/// Of what, and whether that still is the scene.
+fn state(ui: &mut egui::Ui, shown: &Shown<'_>, measured: &Measured, colours: &Palette) {
+    if measured.stale(shown.scene) {
+        let text = format!("Measured on “{}” before the scene changed; measure again", measured.name());
+        ui.add(egui::Label::new(RichText::new(text).color(colours.alarm)).wrap());
+    } else if measured.cancelled() {
+        let text = if measured.running() { "Ending…" } else { "Cancelled; this was measured until then" };
+        ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
+    }
+    let unconverged = measured.tradeoff().points.iter().filter(|point| !usable(&point.run.ended)).count();
+    if unconverged > 0 {
+        let text = format!("{unconverged} of the settings did not converge: they are in the table only");
+        ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
+    }
+}
+
+fn usable(ended: &Ended) -> bool {
+    matches!(ended, Ended::Waiting | Ended::Converged)
+}
+
+/// Where the families stand, in colour and shape.
+fn style(family: Family, colours: &Palette) -> (&'static str, Color32, MarkerShape) {
+    match family {
+        Family::Fidelity => ("fidelities", colours.film, MarkerShape::Circle),
+        Family::Grid => ("other grids", colours.good, MarkerShape::Up),
+        Family::Paper => ("the paper's method", colours.contact, MarkerShape::Square),
+    }
+}
+
+fn legend(ui: &mut egui::Ui, colours: &Palette) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    ui.horizontal_wrapped(|ui| {
+        for family in [Family::Fidelity, Family::Grid, Family::Paper] {
+            let (name, colour, shape) = style(family, colours);
+            key(ui, name, |painter, at| match shape {
+                MarkerShape::Square => {
+                    painter.rect_filled(egui::Rect::from_center_size(at, egui::Vec2::splat(1.6 * RADIUS)), 0, colour);
+                }
+                MarkerShape::Up => {
+                    let corner = |x: f32, y: f32| at + RADIUS * egui::vec2(x, y);
+                    let corners = vec![corner(0.0, -1.1), corner(1.0, 0.8), corner(-1.0, 0.8)];
+                    painter.add(egui::Shape::convex_polygon(corners, colour, egui::Stroke::NONE));
+                }
+                _ => drop(painter.circle_filled(at, RADIUS, colour)),
+            });
+        }
+        key(ui, "present setting", |painter, at| {
+            painter.circle_stroke(at, 0.6 * RING, egui::Stroke::new(2.0, colours.accent));
+        });
+        key(ui, "best", |painter, at| {
+            let end = egui::vec2(0.5 * em, 0.0);
+            let stroke = egui::Stroke::new(1.5, colours.quiet);
+            painter.extend(egui::Shape::dashed_line(&[at - end, at + end], stroke, 4.0, 3.0));
+        });
+    });
+}
+
+/// An entry of the legend; sign and text stay together.
+fn key(ui: &mut egui::Ui, text: &str, draw: impl FnOnce(&egui::Painter, egui::Pos2)) {
+    ui.horizontal(|ui| {
+        let em = ui.text_style_height(&TextStyle::Body);
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let (area, _) = ui.allocate_exact_size(egui::vec2(em, em), egui::Sense::hover());
+        draw(ui.painter(), area.center());
+        ui.add(egui::Label::new(text).extend());
+    });
+}
+
+/// log₁₀ of time \[s\] and of the error \[%\]; `None` without either.
+fn place(point: &Point) -> Option<[f64; 2]> {
+    let [time, error] = [point.median, 100.0 * point.error?].map(f64::log10);
+    (time.is_finite() && error.is_finite()).then_some([time, error])
+}
+
+fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, colours: &Palette) {
+    let judged = if tradeoff.judged == Quantity::Alpha { "error of α" } else { "error of the film load" };
+    let grid = ui.visuals().widgets.noninteractive.bg_stroke.color;
+    let font = TextStyle::Body.resolve(ui.style());
+    // For screen readers the table below says it all.
+    let plot = Plot::new("trade-off plot")
+        .height(height)
+        .allow_zoom(false)
+        .allow_drag(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .show_crosshair(false)
+        .grid_color(grid)
+        .x_axis_label("solve time")
+        .y_axis_label(judged)
+        .x_grid_spacer(|input| decades(input.bounds))
+        .y_grid_spacer(|input| decades(input.bounds))
+        .x_axis_formatter(|mark, _| duration(10f64.powf(mark.value)))
+        .y_axis_formatter(|mark, _| percent(10f64.powf(mark.value - 2.0)))
+        .label_formatter(|at| match at {
+            HoverPosition::NearDataPoint { plot_name, .. } if !plot_name.is_empty() => {
+                let point = tradeoff.points.iter().find(|point| point.run.candidate.name == *plot_name)?;
+                let error = point.error.map_or_else(String::new, |error| format!("\nerror {}", percent(error)));
+                Some(format!("{plot_name}{error}\ntime {}", duration(point.median)))
+            }
+            _ => None,
+        })
+        .set_margin_fraction(MARGIN);
+    plot.show(ui, |plot| {
+        let guide = LineStyle::dashed_loose();
+        let quiet = colours.quiet;
+        let within = |low: f64, value: f64, high: f64| value > low && value < high;
+        let range = |axis: usize| {
+            tradeoff
+                .points
+                .iter()
+                .filter_map(place)
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
+        };
+        let ([left, right], [bottom, top]) = (range(0), range(1));
+        // Wishes beyond all points would only squeeze them together.
+        let (accuracy, budget) = ((100.0 * shown.accuracy).log10(), shown.budget.log10());
+        if within(bottom, accuracy, top) {
+            plot.hline(HLine::new("", accuracy).color(quiet).width(1.0).style(guide).allow_hover(false));
+        }
+        if within(left, budget, right) {
+            plot.vline(VLine::new("", budget).color(quiet).width(1.0).style(guide).allow_hover(false));
+        }
+        let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|p| p.best).filter_map(place).collect();
+        front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        plot.line(
+            Line::new("", PlotPoints::from(front))
+                .color(quiet)
+                .width(1.5)
+                .style(LineStyle::dashed_dense())
+                .allow_hover(false),
+        );
+        for point in &tradeoff.points {
+            let Some([time, error]) = place(point) else { continue };
+            let candidate = &point.run.candidate;
+            let (_, colour, shape) = style(candidate.family, colours);
+            let (low, high) = point.quartiles;
+            if low > 0.0 && high > low {
+                let bar = vec![[low.log10(), error], [high.log10(), error]];
+                plot.line(Line::new("", PlotPoints::from(bar)).color(colour).width(1.0).allow_hover(false));
+            }
+            plot.points(
+                Points::new(candidate.name.clone(), vec![[time, error]]).color(colour).shape(shape).radius(RADIUS),
+            );
+            if is_present(candidate, shown.aim, shown.scene.numerics) {
+                let ring = Points::new("", vec![[time, error]]).color(colours.accent).radius(RING).filled(false);
+                plot.points(ring.allow_hover(false));
+            }
+            if candidate.family == Family::Fidelity {
+                let above = PlotPoint::new(time, error + 0.04 * (top - bottom));
+                plot.text(
+                    egui_plot::Text::new("", above, RichText::new(&candidate.name).font(font.clone()))
+                        .color(colour)
+                        .anchor(Align2::CENTER_BOTTOM)
+                        .allow_hover(false),
+                );
+            }
+        }
+    });
+}
+
+/// A wish, what serves it, and the way to use that.
+fn advice(
+    ui: &mut egui::Ui,
+    shown: &Shown<'_>,
+    tradeoff: &Tradeoff,
+    wish: Wish,
+    colours: &Palette,
+    commands: &mut Vec<Command>,
+) {
+    ui.horizontal_wrapped(|ui| {
+        let (name, mut value, unit, range, about) = match wish {
+            Wish::Accuracy(share) => {
+                ("Accuracy", 100.0 * share, " %", ACCURACY, "The cheapest with at most this error")
+            }
+            Wish::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most exact within this time"),
+        };
+        let label = ui.label(name);
+        let speed = 0.01 * value;
+        let drag = egui::DragValue::new(&mut value)
+            .suffix(unit)
+            .range(range)
+            .speed(speed)
+            .custom_formatter(|value, _| trimmed(&significant(value, 3)).to_owned());
+        if ui.add(drag).labelled_by(label.id).on_hover_text(about).changed() {
+            commands.push(Command::Wish(match wish {
+                Wish::Accuracy(_) => Wish::Accuracy(1e-2 * value),
+                Wish::Budget(_) => Wish::Budget(1e-3 * value),
+            }));
+        }
+        let Some(point) = tradeoff.choose(wish).and_then(|i| tradeoff.points.get(i)) else {
+            ui.add(egui::Label::new(RichText::new("no setting serves").color(colours.alarm)));
+            return;
+        };
+        let candidate = &point.run.candidate;
+        let error = point.error.map_or_else(String::new, |error| format!(", error at most {}", percent(error)));
+        ui.add(egui::Label::new(format!("→ {}: {}{error}", candidate.name, duration(point.median))).wrap());
+        if is_present(candidate, shown.aim, shown.scene.numerics) {
+            ui.label(RichText::new("in use").color(colours.good));
+            return;
+        }
+        let ours = candidate.settings.method == Method::Auto;
+        let button = ui.add_enabled(ours, egui::Button::new("Use it"));
+        let button = button.on_disabled_hover_text("The window solves by its own method only");
+        let named = button.accessible_name(format!("Use it for the {}", name.to_lowercase()));
+        if named.on_hover_text("One edit, undone like any other").clicked() {
+            commands.push(Command::Use { aim: candidate.settings.fidelity, numerics: candidate.numerics });
+        }
+    });
+}
+
+/// Every setting in words, the fastest first.
+fn table(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, colours: &Palette) {
+    let mut order: Vec<&Point> = tradeoff.points.iter().collect();
+    order.sort_by(|a, b| a.median.total_cmp(&b.median));
+    let quiet = |text: &str| RichText::new(text).color(colours.quiet);
+    egui::Grid::new("settings").num_columns(4).striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
+        for head in ["Setting", "Time", "Error", ""] {
+            ui.label(quiet(head));
+        }
+        ui.end_row();
+        for point in order {
+            let candidate = &point.run.candidate;
+            let (_, colour, _) = style(candidate.family, colours);
+            ui.label(RichText::new(&candidate.name).color(colour));
+            ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
+            ui.label(point.error.map_or_else(String::new, percent));
+            let mut marks = Vec::new();
+            match &point.run.ended {
+                Ended::Waiting | Ended::Converged => {}
+                Ended::Failed(_) => marks.push("failed".to_owned()),
+                other => marks.push(status(other)),
+            }
+            if point.best {
+                marks.push("best".to_owned());
+            }
+            if is_present(candidate, shown.aim, shown.scene.numerics) {
+                marks.push("in use".to_owned());
+            }
+            let marks = ui.label(quiet(&marks.join(", ")));
+            if let Ended::Failed(reason) = &point.run.ended {
+                marks.on_hover_text(reason);
+            }
+            ui.end_row();
+        }
+    });
+}
+
+/// Ticks of an axis of log₁₀: decades, thinned if there are many, and 2 and 5 if there are few.
+fn decades((from, to): (f64, f64)) -> Vec<GridMark> {
+    let count = to - from;
+    if !count.is_finite() || count <= 0.0 {
+        return Vec::new();
+    }
+    let every = (count / 12.0).ceil().max(1.0);
+    let steps: &[f64] = if count < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let first = (from / every).floor() as i64;
+    let last = (to / every).ceil() as i64;
+    (first..=last)
+        .flat_map(|k| steps.iter().map(move |step| k as f64 * every + step.log10()))
+        .filter(|value| (from..=to).contains(value))
+        .map(|value| GridMark { value, step_size: every })
+        .collect()
+}
+
+/// A time in the unit that suits it, three digits.
+fn duration(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s < 0.9995e-3 => (1e6 * s, "µs"),
+        s if s < 0.9995 => (1e3 * s, "ms"),
+        s if s < 99.5 => (s, "s"),
+        s => (s / 60.0, "min"),
+    };
+    format!("{} {unit}", trimmed(&significant(value, 3)))
+}
+
+/// A time that is left, in whole seconds or minutes.
+fn rough(seconds: f64) -> String {
+    if seconds < 99.5 { format!("{:.0} s", seconds.max(1.0)) } else { format!("{:.0} min", seconds / 60.0) }
+}
+
+/// A share in per cent, two digits, written out however small.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{} %", trimmed(&format!("{value:.decimals$}")))
+}
+
+/// Without zeros after the decimal point that say nothing.
+fn trimmed(number: &str) -> &str {
+    if number.contains('.') && !number.contains('e') {
+        number.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_unit_that_suits_them() {
+        for (seconds, text) in [(1e-4, "100 µs"), (1e-3, "1 ms"), (0.0161, "16.1 ms"), (1.0, "1 s"), (150.0, "2.5 min")]
+        {
+            assert_eq!(duration(seconds), text);
+        }
+        assert_eq!([percent(0.01), percent(0.0213), percent(1e-6)], ["1 %", "2.1 %", "0.0001 %"]);
+    }
+
+    #[test]
+    fn ticks_are_within_and_not_too_many() {
+        for bounds in [(-3.2, 1.1), (-2.9, -2.1), (-40.0, 3.0)] {
+            let marks = decades(bounds);
+            assert!((2..=14).contains(&marks.len()), "{bounds:?}: {}", marks.len());
+            assert!(marks.iter().all(|mark| mark.value >= bounds.0 && mark.value <= bounds.1));
+        }
+        assert!(decades((f64::NEG_INFINITY, f64::INFINITY)).is_empty());
+    }
+}
