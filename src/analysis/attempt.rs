@@ -1,9 +1,10 @@
 //! One solve among many: whatever becomes of it, the others go on.
 
 use crate::control::{Cancel, Observer};
+use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::solution::Solution;
-use crate::solve::{Settings, solve};
+use crate::solve::{Settings, solve_from};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Solves; an error, and a panic of the solver, is told in words.
@@ -16,7 +17,21 @@ pub fn attempt(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, String> {
-    match catch_unwind(AssertUnwindSafe(|| solve(problem, settings, observer, cancel))) {
+    attempt_from(&mut Warm::default(), problem, settings, observer, cancel)
+}
+
+/// As [`attempt`], started from what the last solve left in `warm`.
+///
+/// # Errors
+/// Why there is no solution.
+pub fn attempt_from(
+    warm: &mut Warm,
+    problem: &Problem,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Solution, String> {
+    match catch_unwind(AssertUnwindSafe(|| solve_from(warm, problem, settings, observer, cancel))) {
         Ok(solved) => solved.map_err(|error| error.to_string()),
         Err(panic) => {
             let text = panic.downcast_ref::<&str>().copied();
