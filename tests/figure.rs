@@ -22,7 +22,7 @@ fn solved(preset: &str, changes: &[(&str, &str)]) -> (Problem, Solution) {
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(changes.iter().copied()).unwrap();
     let problem = Problem::new(&scene).unwrap();
-    let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto };
+    let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     (problem, solution)
 }
@@ -105,7 +105,7 @@ fn the_numbers_are_in_the_svg() {
     let words: Vec<String> = document
         .descendants()
         .filter(|node| node.has_tag_name("text"))
-        .map(|node| node.descendants().filter_map(|n| n.is_text().then(|| n.text().unwrap())).collect())
+        .map(|node| node.descendants().filter(|n| n.is_text()).map(|n| n.text().unwrap()).collect())
         .collect();
     for expected in ["frequency (Hz)", "α", "gap (m)", "My <motor> · squeezefilm 0.1.0", "0.05", "105"] {
         assert!(words.iter().any(|word| word == expected), "{expected}: {words:?}");

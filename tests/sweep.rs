@@ -15,7 +15,11 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-const DRAFT: Settings = Settings { fidelity: Fidelity::Draft, method: squeezefilm::solve::Method::Auto };
+const DRAFT: Settings = Settings {
+    fidelity: Fidelity::Draft,
+    method: squeezefilm::solve::Method::Auto,
+    record: squeezefilm::solve::Record::Everything,
+};
 
 fn sweep(preset: &str, vary: &[&str]) -> Sweep {
     let vary: Vec<Vary> = vary.iter().map(|text| text.parse().unwrap()).collect();
