@@ -22,7 +22,7 @@ fn solved(preset: &str, changes: &[(&str, &str)]) -> (Problem, Solution) {
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(changes.iter().copied()).unwrap();
     let problem = Problem::new(&scene).unwrap();
-    let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto };
+    let settings = Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     (problem, solution)
 }

@@ -126,8 +126,8 @@ mod tests {
 
     #[test]
     fn a_switch_is_compared_at_the_highest_common_fidelity() {
-        let mut comparison = Comparison::default();
-        comparison.present = vec![sample(Fidelity::Draft, 0.2, 0.0), sample(Fidelity::Standard, 0.25, 0.0)];
+        let present = vec![sample(Fidelity::Draft, 0.2, 0.0), sample(Fidelity::Standard, 0.25, 0.0)];
+        let mut comparison = Comparison { present, switched: None };
         assert_eq!(comparison.change(), None);
         comparison.switched(KEY);
         assert_eq!(comparison.change(), None);

@@ -113,11 +113,14 @@ pub fn choice<'a>(key: &str, name: &'a str) -> &'a str {
 pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
     let found = plan.iter().find(|decision| decision.key == Some(key) && !decision.chosen.is_empty());
     match found {
-        Some(decision) if name == AUTO_NAME => {
-            format!("Auto: {}", uncapitalised(choice(key, decision.chosen)))
-        }
+        Some(decision) if name == AUTO_NAME => automatic(key, decision.chosen),
         _ => choice(key, name).to_owned(),
     }
+}
+
+/// That the plan has chosen this.
+pub fn automatic(key: &str, name: &str) -> String {
+    format!("Auto: {}", uncapitalised(choice(key, name)))
 }
 
 fn uncapitalised(text: &str) -> String {

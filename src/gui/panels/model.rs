@@ -37,7 +37,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, model: &Model<'_>, colours: &Palette, 
         changed(ui, change, colours);
     }
     let decisions = &run.solution.model.decisions;
-    let columns = Columns::of(ui, model.scene, decisions);
+    let columns = Columns::of(ui, decisions);
     let mut row = Row { run, model, colours, columns, commands };
     row.aim(ui);
     for decision in decisions {
@@ -95,12 +95,25 @@ fn percent(share: f64) -> String {
     }
 }
 
+/// A share in per cent, rounded up to one digit.
+fn at_most(share: f64) -> String {
+    let value = 100.0 * share;
+    if value < 1e-3 {
+        return percent(share);
+    }
+    let exponent = value.log10().floor();
+    let unit = 10f64.powf(exponent);
+    // What is one digit already stays, whatever rounding has left of it.
+    let (up, decimals) = ((value / unit - 1e-9).ceil() * unit, (-exponent).max(0.0) as usize);
+    format!("{up:.decimals$} %")
+}
+
 /// What a decision leaves out at most; nothing of a grid, whose error is stated elsewhere.
 fn bound(decision: &Decision) -> String {
     if decision.key.is_none() && decision.effect == 0.0 {
         return String::new();
     }
-    if decision.effect > 0.0 { format!("≤ {}", percent(decision.effect)) } else { "exact".to_owned() }
+    if decision.effect > 0.0 { format!("≤ {}", at_most(decision.effect)) } else { "exact".to_owned() }
 }
 
 /// What the scene says for a key.
@@ -121,18 +134,27 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(ui: &egui::Ui, scene: &Scene, decisions: &[Decision]) -> Self {
-        let switches = || decisions.iter().filter(|decision| decision.key.is_some());
-        let widest = |text: &dyn Fn(&Decision) -> String| {
-            switches().map(|decision| text_width(ui, &text(decision))).fold(0.0, f32::max)
-        };
-        let (term, bound) = (widest(&|decision| capitalised(decision.term)), widest(&bound));
-        let words = widest(&|decision| {
-            decision.key.map_or_else(String::new, |key| labels::chosen(key, &asked(scene, key), decisions))
-        });
+    fn of(ui: &egui::Ui, decisions: &[Decision]) -> Self {
+        let widest =
+            |texts: &mut dyn Iterator<Item = String>| texts.map(|text| text_width(ui, &text)).fold(0.0, f32::max);
+        let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key?)?)));
+        let term = widest(&mut switches().map(|(decision, _)| capitalised(decision.term)));
+        // As if anything were decided: rows must not jump when something is.
+        let bound = widest(&mut [0.06, 6e-4].into_iter().map(|share| format!("≤ {}", at_most(share))));
+        let words = widest(&mut switches().flat_map(|(_, parameter)| {
+            options(parameter).iter().map(|option| labels::automatic(parameter.key, option))
+        }));
         let combo = words + COMBO_ICON * ui.text_style_height(&TextStyle::Body);
         let gaps = 3.0 * ui.spacing().item_spacing.x;
         Self { term, bound, one_line: term + combo + bound + gaps < ui.available_width() }
+    }
+}
+
+/// What a switch can be set to.
+fn options(parameter: &Parameter) -> &'static [&'static str] {
+    match parameter.kind {
+        ParameterKind::Choice { options, .. } => options,
+        _ => &[],
     }
 }
 
@@ -245,7 +267,6 @@ impl Row<'_, '_> {
         explanation: &str,
         labelled_by: egui::Id,
     ) {
-        let ParameterKind::Choice { options, .. } = parameter.kind else { return };
         let name = asked(self.model.scene, parameter.key);
         let decisions = &self.run.solution.model.decisions;
         let combo = egui::ComboBox::from_id_salt(parameter.key)
@@ -253,7 +274,7 @@ impl Row<'_, '_> {
             .width(width)
             .truncate()
             .show_ui(ui, |ui| {
-                for option in options {
+                for option in options(parameter) {
                     let words = labels::choice(parameter.key, option);
                     if ui.selectable_label(*option == name, words).clicked() && *option != name {
                         let value = Value::Text((*option).to_owned());
@@ -318,6 +339,7 @@ mod tests {
             bound: 0.05,
         };
         assert_eq!(sentence(&change), "α 0.24583 → 0.25401 (+3.3 %), stated bound 5.0 %");
+        assert_eq!([at_most(0.05), at_most(5.3e-4), at_most(0.3)], ["5 %", "0.06 %", "30 %"]);
         let same = Change { after: change.before, bound: 0.0, ..change };
         assert_eq!(sentence(&same), "α 0.24583 → 0.24583 (0 %), stated as exact");
         let tiny = Change { after: change.before * (1.0 - 3e-7), ..change };

@@ -27,7 +27,15 @@ const RING: f32 = 9.0;
 /// Fewer decades than this have ticks at 2 and 5 too.
 const FEW_DECADES: f64 = 2.5;
 /// Around the points, a share of their range.
-const MARGIN: egui::Vec2 = egui::vec2(0.08, 0.12);
+const MARGIN: egui::Vec2 = egui::vec2(0.12, 0.12);
+/// Between a point and its name, a share of their range.
+const NAME_GAP: f64 = 0.012;
+/// Width of a letter of a name, in heights of the text.
+const NAME_WIDTH: f32 = 0.5;
+/// Between a number and its unit, which stay on one line.
+const NO_BREAK: char = '\u{a0}';
+/// Width of a tick's text, in heights of the text.
+const TICK_WIDTH: f32 = 5.0;
 /// What can be asked for: per cent, and ms.
 const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
@@ -178,15 +186,17 @@ fn legend(ui: &mut egui::Ui, colours: &Palette) {
     });
 }
 
-/// An entry of the legend; sign and text stay together.
+/// An entry of the legend, in one piece, so that it is a whole that goes to the next line.
 fn key(ui: &mut egui::Ui, text: &str, draw: impl FnOnce(&egui::Painter, egui::Pos2)) {
-    ui.horizontal(|ui| {
-        let em = ui.text_style_height(&TextStyle::Body);
-        ui.spacing_mut().item_spacing.x = 4.0;
-        let (area, _) = ui.allocate_exact_size(egui::vec2(em, em), egui::Sense::hover());
-        draw(ui.painter(), area.center());
-        ui.add(egui::Label::new(text).extend());
-    });
+    let font = TextStyle::Body.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, ui.visuals().text_color());
+    let em = galley.size().y;
+    let size = egui::vec2(1.3 * em + galley.size().x, em);
+    let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+    draw(ui.painter(), area.left_center() + egui::vec2(0.5 * em, 0.0));
+    let colour = ui.visuals().text_color();
+    ui.painter().galley(area.left_top() + egui::vec2(1.3 * em, 0.0), galley, colour);
 }
 
 /// log₁₀ of time \[s\] and of the error \[%\]; `None` without either.
@@ -199,6 +209,9 @@ fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, 
     let judged = if tradeoff.judged == Quantity::Alpha { "error of α" } else { "error of the film load" };
     let grid = ui.visuals().widgets.noninteractive.bg_stroke.color;
     let font = TextStyle::Body.resolve(ui.style());
+    let em = ui.text_style_height(&TextStyle::Body);
+    let width = ui.available_width();
+    let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
     // For screen readers the table below says it all.
     let plot = Plot::new("trade-off plot")
         .height(height)
@@ -211,8 +224,8 @@ fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, 
         .grid_color(grid)
         .x_axis_label("solve time")
         .y_axis_label(judged)
-        .x_grid_spacer(|input| decades(input.bounds))
-        .y_grid_spacer(|input| decades(input.bounds))
+        .x_grid_spacer(move |input| decades(input.bounds, most))
+        .y_grid_spacer(|input| decades(input.bounds, 12.0))
         .x_axis_formatter(|mark, _| duration(10f64.powf(mark.value)))
         .y_axis_formatter(|mark, _| percent(10f64.powf(mark.value - 2.0)))
         .label_formatter(|at| match at {
@@ -236,6 +249,14 @@ fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, 
                 .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
         };
         let ([left, right], [bottom, top]) = (range(0), range(1));
+        // Room for the names, at the left of their points.
+        for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
+            let letters = point.run.candidate.name.len() as f32;
+            if let Some([time, error]) = place(point) {
+                let room = f64::from(NAME_WIDTH * em * letters / width) * (right - left);
+                plot.points(Points::new("", vec![[time - room, error]]).radius(0.0).allow_hover(false));
+            }
+        }
         // Wishes beyond all points would only squeeze them together.
         let (accuracy, budget) = ((100.0 * shown.accuracy).log10(), shown.budget.log10());
         if within(bottom, accuracy, top) {
@@ -270,11 +291,12 @@ fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, 
                 plot.points(ring.allow_hover(false));
             }
             if candidate.family == Family::Fidelity {
-                let above = PlotPoint::new(time, error + 0.04 * (top - bottom));
+                // Below and left of a point of the front there is no other.
+                let at = PlotPoint::new(time - NAME_GAP * (right - left), error - NAME_GAP * (top - bottom));
                 plot.text(
-                    egui_plot::Text::new("", above, RichText::new(&candidate.name).font(font.clone()))
+                    egui_plot::Text::new("", at, RichText::new(&candidate.name).font(font.clone()))
                         .color(colour)
-                        .anchor(Align2::CENTER_BOTTOM)
+                        .anchor(Align2::RIGHT_TOP)
                         .allow_hover(false),
                 );
             }
@@ -337,45 +359,49 @@ fn table(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, colours: &Pa
     let mut order: Vec<&Point> = tradeoff.points.iter().collect();
     order.sort_by(|a, b| a.median.total_cmp(&b.median));
     let quiet = |text: &str| RichText::new(text).color(colours.quiet);
-    egui::Grid::new("settings").num_columns(4).striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
-        for head in ["Setting", "Time", "Error", ""] {
-            ui.label(quiet(head));
-        }
-        ui.end_row();
-        for point in order {
-            let candidate = &point.run.candidate;
-            let (_, colour, _) = style(candidate.family, colours);
-            ui.label(RichText::new(&candidate.name).color(colour));
-            ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
-            ui.label(point.error.map_or_else(String::new, percent));
-            let mut marks = Vec::new();
-            match &point.run.ended {
-                Ended::Waiting | Ended::Converged => {}
-                Ended::Failed(_) => marks.push("failed".to_owned()),
-                other => marks.push(status(other)),
-            }
-            if point.best {
-                marks.push("best".to_owned());
-            }
-            if is_present(candidate, shown.aim, shown.scene.numerics) {
-                marks.push("in use".to_owned());
-            }
-            let marks = ui.label(quiet(&marks.join(", ")));
-            if let Ended::Failed(reason) = &point.run.ended {
-                marks.on_hover_text(reason);
+    let grid = egui::Grid::new("settings").num_columns(4).striped(true).spacing([14.0, 4.0]);
+    // Wider than the tab only in a small window with large text.
+    egui::ScrollArea::horizontal().id_salt("settings").auto_shrink(true).show(ui, |ui| {
+        grid.show(ui, |ui| {
+            for head in ["Setting", "Time", "Error", ""] {
+                ui.label(quiet(head));
             }
             ui.end_row();
-        }
+            for point in order {
+                let candidate = &point.run.candidate;
+                let (_, colour, _) = style(candidate.family, colours);
+                ui.label(RichText::new(&candidate.name).color(colour));
+                ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
+                ui.label(point.error.map_or_else(String::new, percent));
+                let mut marks = Vec::new();
+                match &point.run.ended {
+                    Ended::Waiting | Ended::Converged => {}
+                    Ended::Failed(_) => marks.push("failed".to_owned()),
+                    other => marks.push(status(other)),
+                }
+                if point.best {
+                    marks.push("best".to_owned());
+                }
+                if is_present(candidate, shown.aim, shown.scene.numerics) {
+                    marks.push("in use".to_owned());
+                }
+                let marks = ui.label(quiet(&marks.join(", ")));
+                if let Ended::Failed(reason) = &point.run.ended {
+                    marks.on_hover_text(reason);
+                }
+                ui.end_row();
+            }
+        })
     });
 }
 
 /// Ticks of an axis of log₁₀: decades, thinned if there are many, and 2 and 5 if there are few.
-fn decades((from, to): (f64, f64)) -> Vec<GridMark> {
+fn decades((from, to): (f64, f64), most: f64) -> Vec<GridMark> {
     let count = to - from;
     if !count.is_finite() || count <= 0.0 {
         return Vec::new();
     }
-    let every = (count / 12.0).ceil().max(1.0);
+    let every = (count / most).ceil().max(1.0);
     let steps: &[f64] = if count < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
     let first = (from / every).floor() as i64;
     let last = (to / every).ceil() as i64;
@@ -394,7 +420,7 @@ fn duration(seconds: f64) -> String {
         s if s < 99.5 => (s, "s"),
         s => (s / 60.0, "min"),
     };
-    format!("{} {unit}", trimmed(&significant(value, 3)))
+    format!("{}{NO_BREAK}{unit}", trimmed(&significant(value, 3)))
 }
 
 /// A time that is left, in whole seconds or minutes.
@@ -406,7 +432,7 @@ fn rough(seconds: f64) -> String {
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
     let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
-    format!("{} %", trimmed(&format!("{value:.decimals$}")))
+    format!("{}{NO_BREAK}%", trimmed(&format!("{value:.decimals$}")))
 }
 
 /// Without zeros after the decimal point that say nothing.
@@ -426,18 +452,19 @@ mod tests {
     fn numbers_have_the_unit_that_suits_them() {
         for (seconds, text) in [(1e-4, "100 µs"), (1e-3, "1 ms"), (0.0161, "16.1 ms"), (1.0, "1 s"), (150.0, "2.5 min")]
         {
-            assert_eq!(duration(seconds), text);
+            assert_eq!(duration(seconds), text.replace(' ', "\u{a0}"));
         }
-        assert_eq!([percent(0.01), percent(0.0213), percent(1e-6)], ["1 %", "2.1 %", "0.0001 %"]);
+        let percents = [percent(0.01), percent(0.0213), percent(1e-6)];
+        assert_eq!(percents, ["1\u{a0}%", "2.1\u{a0}%", "0.0001\u{a0}%"]);
     }
 
     #[test]
     fn ticks_are_within_and_not_too_many() {
         for bounds in [(-3.2, 1.1), (-2.9, -2.1), (-40.0, 3.0)] {
-            let marks = decades(bounds);
+            let marks = decades(bounds, 12.0);
             assert!((2..=14).contains(&marks.len()), "{bounds:?}: {}", marks.len());
             assert!(marks.iter().all(|mark| mark.value >= bounds.0 && mark.value <= bounds.1));
         }
-        assert!(decades((f64::NEG_INFINITY, f64::INFINITY)).is_empty());
+        assert!(decades((f64::NEG_INFINITY, f64::INFINITY), 12.0).is_empty());
     }
 }
