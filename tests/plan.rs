@@ -1,7 +1,7 @@
 //! Reductions of the model against the whole model: what a decision says it changes bounds what it changes.
 
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use rayon::prelude::*;
 use squeezefilm::control::Cancel;
@@ -46,7 +46,7 @@ fn decision<'a>(plan: &'a Plan, key: &str) -> &'a Decision {
 fn alpha(motor: &Motor, plan: &Plan) -> Option<(f64, f64)> {
     let exact = Plan { left_out: 0.0, ..plan.clone() };
     let found = motor::periodic(motor, &exact, &mut (), &Cancel::new()).unwrap();
-    (found.status == Status::Converged).then(|| (found.result.alpha, found.result.alpha_error))
+    (found.status == Status::Converged).then_some((found.result.alpha, found.result.alpha_error))
 }
 
 /// A spread of motors: presets, and every number that a bound is made of over its decades.
