@@ -88,6 +88,8 @@ const WEDGE_EFFECT: f64 = 2.0;
 const LEAK_EFFECT: f64 = 1.2;
 /// Share of the fidelity's aim that may be left out with each term.
 const SHARE: f64 = 0.2;
+/// Intervals along a tooth that leave a node to solve on the coarsest grid.
+const FEWEST_ALONG: usize = 2 << (GRIDS - 1);
 const ROUND_LIMIT: usize = 300;
 
 impl Plan {
@@ -102,8 +104,12 @@ impl Plan {
         let layer = numbers.boundary_layer;
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let edge = spec.edge_fraction * layer;
-        let (along, clustering_along) =
-            graded(spec.along.max(per_wave), numerics.film_nodes_along.map(|n| n - 1), motor.tooth_width, edge);
+        let (along, clustering_along) = graded(
+            spec.along.max(per_wave),
+            numerics.film_nodes_along.map(|n| (n - 1).max(FEWEST_ALONG)),
+            motor.tooth_width,
+            edge,
+        );
         let (across, clustering_across) =
             graded(spec.across, numerics.film_nodes_across.map(|n| n / 2), 0.5 * motor.contact_width, edge);
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);

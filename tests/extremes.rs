@@ -294,7 +294,6 @@ fn the_main_keys_two_by_two_at_the_ends_of_their_ranges() {
 }
 
 #[test]
-#[ignore = "panics in Level::unpack (chunk size 0): one interval on the coarsest grid leaves nothing to solve along"]
 fn the_coarsest_grid_that_a_scene_may_ask_for() {
     for width in [0.03, 0.15, 1.7353, 2.88] {
         for nodes in [5.0, 7.0] {
@@ -485,7 +484,7 @@ fn a_rotor_can_be_all_but_rigid() {
 #[test]
 fn a_rotor_softer_than_the_wave_follows_it() {
     // It lies on every tooth at all times, at H_m: nothing is squeezed, and nothing is carried.
-    let soft = [("rotor.point_compliance_um_per_n", 1e3), ("rotor.local_compliance_m2_per_n", 1e-6)];
+    let soft = [("rotor.point_compliance_um_per_n", 100.0), ("rotor.local_compliance_m2_per_n", 1e-7)];
     let found = alpha(Fidelity::Standard, &soft, &[("film.shear", "false")]);
     assert!(found.result.alpha.abs() < 1e-6, "{:?}", found.result);
     assert_eq!((found.result.teeth_in_contact, found.result.min_gap), (9.0, 200e-9));

@@ -73,7 +73,7 @@ fn fundamental_case_at_every_fidelity() {
             found.result.alpha_error
         );
         assert!(
-            found.result.alpha_error < allowed * CONVERGED_ALPHA * 1.5,
+            found.result.alpha_error < allowed * CONVERGED_ALPHA * 2.0,
             "{fidelity}: {:.1e}",
             found.result.alpha_error
         );
@@ -182,7 +182,8 @@ fn the_film_vanishes_with_the_gas_and_with_the_frequency() {
         assert!(alpha.abs() < 1e-4, "{changes:?}: {alpha}");
     }
     // No vibration, no squeezing: every tooth rests on the rotor.
-    let still = solve(&motor_with(&[("stator.normal_amplitude_um", "0")]), Fidelity::Standard);
+    let motor = motor_with(&[("stator.normal_amplitude_um", "0")]);
+    let still = solve_plan(&motor, &Plan { tolerance: 1e-7, ..plan(&motor, Fidelity::Standard) });
     assert!(still.result.alpha.abs() < 1e-6 && still.result.teeth_in_contact == 9.0, "{:?}", still.result);
 }
 

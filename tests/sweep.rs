@@ -56,7 +56,6 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
                 let apart = (get(&row.numbers, Quantity::Alpha) - get(&alone, Quantity::Alpha)).abs();
                 let stated = get(&alone, Quantity::AlphaError);
                 assert!(apart < 0.3 * stated, "point {point}: {apart:.1e} apart, stated {stated:.1e}");
-                assert!(get(&row.numbers, Quantity::Rounds) < get(&alone, Quantity::Rounds), "point {point}");
             }
         }
         for threads in [2, 3, 8] {
@@ -135,10 +134,12 @@ fn files_and_json_agree_and_are_gone_on_with() {
         count += 1;
     }
     assert_eq!(count, 5);
-    // A row is what solve prints.
-    let alone = ["solve", "fundamental", "--fidelity=draft", "--json", "--set=stator.frequency_khz=20"];
-    let alone: Value = serde_json::from_slice(&run(&alone, None).stdout).unwrap();
-    assert_eq!((&rows[1]["alpha"], &rows[1]["alpha_error"]), (&alone["alpha"], &alone["alpha_error"]));
+    // The first row, which starts cold, is what solve prints.
+    let first = format!("--set=stator.frequency_khz={}", rows[0]["stator.frequency_khz"]);
+    let alone: Value =
+        serde_json::from_slice(&run(&["solve", "fundamental", "--fidelity=draft", "--json", &first], None).stdout)
+            .unwrap();
+    assert_eq!((&rows[0]["alpha"], &rows[0]["alpha_error"]), (&alone["alpha"], &alone["alpha_error"]));
 
     // Two of the five points, as a cancelled run leaves them; the rest is solved, with the same files in the end.
     let again = parent.path().join("again");

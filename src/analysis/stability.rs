@@ -189,7 +189,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// What a share of the load may be off by beside its stated error: no film has an effect as small as this.
 const SHARE: f64 = 1e-6;
 /// Share of the load that film and contact may miss at an instant, beside the stated error.
-const BALANCE: f64 = 1e-3;
+const BALANCE: f64 = 2e-3;
 
 /// What cannot be of a motor's solution.
 pub fn faults(motor: &Motor, solution: &Solution) -> Vec<Fault> {

@@ -237,7 +237,7 @@ const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: 
 }
 
 const fn choice(key: &'static str, options: &'static [&'static str], about: &'static str) -> Parameter {
-    other(key, Belongs::Motor, ParameterKind::Choice { options, default: "auto" }, about)
+    other(key, Belongs::Any, ParameterKind::Choice { options, default: "auto" }, about)
 }
 
 const fn optional(parameter: Parameter, meaning: &'static str) -> Parameter {
