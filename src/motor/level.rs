@@ -49,6 +49,8 @@ pub(super) struct Level {
     film_thickness: Vec<f64>,
     /// c, lines.
     contact_load: Vec<f64>,
+    /// Ambient pressure on all teeth over the load, at least 1: what an error of the gas is multiplied by in the balance.
+    stiffness: f64,
     /// Residual of the last round.
     residual: f64,
     /// ζ from the film's last cycle, lines.
@@ -128,6 +130,8 @@ impl Level {
             trapped: vec![0.0; stored * steps * nx],
             film_thickness: vec![motor.min_spacing; stored * steps * nx],
             contact_load: vec![0.0; stored * steps * nx],
+            stiffness: (gas.ambient_pressure * motor.contact_width * motor.tooth_width * teeth as f64 / motor.load)
+                .max(1.0),
             residual: f64::INFINITY,
             line: vec![0.0; stored * steps * nx],
             next: vec![0.0; stored * steps * nx],
@@ -423,7 +427,8 @@ impl Level {
         let mut residual = f64::INFINITY;
         self.pack(&self.trapped, &mut present);
         for round in 1..=rounds {
-            self.films.iter_mut().for_each(|film| film.accept(step_tolerance(residual)));
+            let exact = step_tolerance(residual / self.stiffness);
+            self.films.iter_mut().for_each(|film| film.accept(exact));
             self.contact.accept(CONTACT_SHARE * residual.min(1.0));
             self.solve_contacts(stats, cancel)?;
             self.march(stats, cancel)?;
