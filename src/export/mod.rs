@@ -2,12 +2,16 @@
 //! a folder.
 
 pub mod animation;
+pub mod compare;
 pub mod csv;
 pub mod digits;
 pub mod figure;
 pub mod figures;
 pub mod folder;
+pub mod html;
 pub mod json;
+pub mod npz;
+pub mod reproduce;
 pub mod stability;
 pub mod sweep;
 pub mod table1;
