@@ -155,7 +155,8 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     );
     // Numbers as they are written, which is with the fewest digits that read back to the same bits: JSON's own reader rounds.
     let texts = |json: &str, name: &str| -> Vec<String> {
-        let after = json.split(&format!("\"{name}\": ")).skip(1);
+        let key = format!("\"{name}\": ");
+        let after = json.split(&key).skip(1);
         after.map(|rest| rest.split([',', '\n']).next().unwrap().to_owned()).collect()
     };
     let ours = String::from_utf8(output.stdout).unwrap();
@@ -163,7 +164,8 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     let single = |preset: &&str| String::from_utf8(done(&[&["solve", preset], &draft[..]].concat()).stdout).unwrap();
     let singles: Vec<String> = presets.iter().map(single).collect();
     for (single, run) in singles.iter().zip(&ours) {
-        for name in ["alpha", "alpha_error", "film_load_n", "max_torque_nm", "min_gap_nm", "max_pressure_kpa", "preset"] {
+        for name in ["alpha", "alpha_error", "film_load_n", "max_torque_nm", "min_gap_nm", "max_pressure_kpa", "preset"]
+        {
             assert_eq!(texts(run, name)[0], texts(single, name)[0], "{name}");
         }
     }
@@ -240,5 +242,98 @@ fn what_cannot_be_compared_is_refused() {
         let output = squeezefilm(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(String::from_utf8_lossy(&output.stderr).contains(word), "{arguments:?}");
+    }
+}
+
+/// Runs in a shell that lets no file grow beyond a few kilobytes, as a disk that is nearly full.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_and_leaves_nothing_half_written() {
+    for arguments in [
+        "solve fundamental",
+        "compare fundamental levitating",
+        "sweep fundamental --vary film.min_spacing_nm=100:200:40",
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("report.html"), "older").unwrap();
+        let script = format!(
+            "trap '' XFSZ; ulimit -f 4; exec \"$0\" {arguments} --fidelity draft --figures svg --out \"$1\" >/dev/null"
+        );
+        let output = Command::new("sh")
+            .args(["-c", &script, env!("CARGO_BIN_EXE_squeezefilm")])
+            .arg(folder.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{arguments}: {said}");
+        assert!(said.contains(": cannot be written: ") && said.contains("too large"), "{arguments}: {said}");
+        assert_eq!(names(folder.path()), ["report.html"], "{arguments}");
+        assert_eq!(fs::read_to_string(folder.path().join("report.html")).unwrap(), "older");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_cannot_be_written_is_told_before_anything_is_solved() {
+    // Nobody may write there, root neither.
+    for command in [&["compare", "fundamental", "levitating"][..], &["reproduce"], &["solve", "fundamental"]] {
+        let output = squeezefilm(&[command, &["--out", "/proc/squeezefilm"]].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("/proc/squeezefilm: cannot be written: "), "{said}");
+    }
+    // A reader that has no room for the data.
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
+    let arguments = ["compare", "fundamental", "levitating", "--fidelity", "draft"];
+    let output =
+        command.args(arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap().wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("standard output: cannot be written: "), "{said}");
+}
+
+/// One run serves all that is to be seen of it: it is the paper's algorithm that takes the time.
+#[test]
+fn the_paper_is_reproduced_and_a_run_cut_short_leaves_nothing() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("paper");
+    let path = folder.to_str().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
+    let child = child.args(["reproduce", "--out", path]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    let output = child.wait_with_output().unwrap();
+    if interrupted.is_ok_and(|status| status.success()) {
+        // 1, or none if it was so early that the signal itself ended it.
+        assert!(matches!(output.status.code(), Some(1) | None), "{:?}", output.status);
+        assert!(!folder.exists());
+    }
+
+    let output = done(&["reproduce", "--out", path, "--fidelity", "draft", "--json", "--figures", "svg"]);
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((object["unsolved"].as_u64(), object["table1"].as_array().unwrap().len()), (Some(0), 14));
+    let published: Vec<f64> =
+        object["table1"].as_array().unwrap().iter().map(|row| row["published_alpha"].as_f64().unwrap()).collect();
+    for row in object["table1"].as_array().unwrap() {
+        let difference = row["paper_difference_percent"].as_f64().unwrap();
+        let allowed = if row["preset"] == "rotor-width-0.6mm" { 8.0 } else { 2.0 };
+        assert!(difference.abs() < allowed, "{row}");
+    }
+    let figures = [3, 4, 6, 7, 8, 9, 10, 11, 12].map(|number| format!("fig{number}.svg"));
+    for name in figures.iter().map(String::as_str).chain(["report.html", "table1.csv", "figures.json", "cycle.gif"]) {
+        assert!(folder.join(name).is_file(), "{name}");
+    }
+    let html = fs::read_to_string(folder.join("report.html")).unwrap();
+    let page = page(&html);
+    assert_eq!((count(&page, "svg"), count(&page, "img")), (9, 1));
+    let tables = tables(&page);
+    let rows = &tables[0][2..];
+    assert_eq!(rows.iter().map(|row| row[2].parse::<f64>().unwrap()).collect::<Vec<_>>(), published);
+    assert!(rows.iter().all(|row| row[4].contains(" ± ") && row[7].contains(" ± ")));
+    assert_eq!(tables[1].len(), 1 + object["statements"].as_array().unwrap().len());
+    let text = words(page.root_element());
+    for said in ["Fig. 12.", "Fig. 5 shows surfaces measured", "squeezefilm reproduce"] {
+        assert!(text.contains(said), "{said}");
     }
 }

@@ -29,7 +29,7 @@ pub const FIELDS: [(u32, &str, &str); 7] = [
 /// Frequencies of Fig. 10 \[kHz\]: from and to, and how many of equal ratio.
 const FREQUENCIES: (f64, f64, usize) = (2.0, 120.0, 28);
 /// How much softer the softer rotor is.
-pub const SOFTER: f64 = 2.0;
+pub const SOFTER: f64 = 1.2;
 
 /// One scene by both methods.
 #[derive(Clone, Debug)]

@@ -17,7 +17,7 @@ use crate::export::compare::{
     Object, Report, all_figures, difference_text, ending, frames, movies, parameter_rows, report, status, value_text,
     write_csv, write_parameters_csv,
 };
-use crate::export::folder::Staged;
+use crate::export::folder::{Staged, WriteError};
 use crate::export::json;
 use crate::fidelity::Fidelity;
 use crate::scene::{Scene, Value};
@@ -138,7 +138,7 @@ fn write(
         let mut gif = Vec::new();
         match movie.gif(&mut gif, cancel) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => return Ok(None),
-            gif => gif.map_err(CliError::Output)?,
+            gif => gif.map_err(|source| WriteError { path: folder.join("cycle.gif"), source })?,
         }
         animations.push((name.to_owned(), gif));
     }

@@ -13,7 +13,7 @@ use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
 use crate::control::Cancel;
 use crate::export::animation::{AnimationError, Options, cycle, frames};
 use crate::export::digits::with_error;
-use crate::export::folder::Staged;
+use crate::export::folder::{Staged, WriteError};
 use crate::export::json;
 use crate::export::reproduce::{Object, RowObject, figures, report, write_table1_csv};
 use crate::fidelity::Fidelity;
@@ -67,7 +67,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let solved = reproduce(&settings, &cancel, &|name| bar.point_done(name));
     drop(bar);
     let all = solved?;
-    let written_to = if cancel.is_cancelled() { None } else { write(&arguments.out, &all, arguments, command, &cancel)? };
+    let written_to =
+        if cancel.is_cancelled() { None } else { write(&arguments.out, &all, arguments, command, &cancel)? };
     let Some(paths) = written_to else {
         terminal::note("cancelled; no file was written");
         return Ok(Exit::Other);
@@ -92,7 +93,9 @@ fn write(
     cancel: &Cancel,
 ) -> Result<Option<Vec<PathBuf>>, CliError> {
     let mut gif = None;
-    if let Some((both, solution)) = all.row("fundamental").and_then(|row| Some((&row.both, row.both.ours.as_ref().ok()?))) {
+    if let Some((both, solution)) =
+        all.row("fundamental").and_then(|row| Some((&row.both, row.both.ours.as_ref().ok()?)))
+    {
         let options = Options { width: 860, ..Options::default() };
         let bar = Bar::frames(frames(&solution.recording, options.frames));
         let movie = match cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel) {
@@ -102,7 +105,7 @@ fn write(
         let mut bytes = Vec::new();
         match movie.gif(&mut bytes, cancel) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => return Ok(None),
-            gif => gif.map_err(CliError::Output)?,
+            gif => gif.map_err(|source| WriteError { path: folder.join("cycle.gif"), source })?,
         }
         gif = Some(bytes);
     }

@@ -74,6 +74,10 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
+    if let Some(folder) = &arguments.output.out {
+        // Finds out whether it can be written before anything is solved.
+        Staged::new(folder)?.add("summary.json", |_| Ok(()))?;
+    }
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
     let cancel = cancel_on_interrupt();
 

@@ -340,6 +340,7 @@ tbody tr + tr td { border-top: 1px solid #e9ecf0; }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(27rem, 100%), 1fr)); gap: 1.6rem 2.4rem;
   margin: 1.2rem 0 1.8rem; }
 figure { margin: 0; }
+section > figure { margin: 1.2rem 0 1.8rem; }
 .figures .wide { grid-column: 1 / -1; }
 figure svg, figure img { display: block; width: 100%; height: auto; max-width: 44rem; }
 figure.wide svg, figure.wide img { max-width: 62rem; }
@@ -362,6 +363,9 @@ footer p { max-width: none; }
   figure, tr, pre { break-inside: avoid; }
   .figures { grid-template-columns: 1fr 1fr; gap: 1rem 1.4rem; }
   .table { overflow: visible; }
+  .highlights { gap: .6rem 1.6rem; }
+  .highlights div { flex: 1 1 0; }
+  .highlights dd { font-size: 1.3rem; white-space: nowrap; }
   table { font-size: .8rem; }
   th, td { padding: .22rem .5rem .22rem 0; }
   a { color: inherit; border: 0; }
@@ -404,7 +408,7 @@ mod tests {
         );
         let h1 = read.descendants().find(|node| node.tag_name().name() == "h1").unwrap();
         assert_eq!(h1.text(), Some("A & B <i>\u{fffd}"));
-        assert!(!STYLE.contains(['<', '&']) && !STYLE.contains("url("));
+        assert!(!STYLE.contains(['<', '&']) && !STYLE.contains("]]") && !STYLE.contains("url("));
     }
 
     #[test]

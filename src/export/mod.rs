@@ -1,5 +1,5 @@
-//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, and how files get into
-//! a folder.
+//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports, and how
+//! files get into a folder.
 
 pub mod animation;
 pub mod compare;

@@ -11,7 +11,7 @@ use super::html::{Kind, Page, Table};
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
 use crate::problem::{Motor, RotorCompliance, Scenario};
 use crate::recording::Recording;
-use crate::solution::Solution;
+use crate::solution::{MotorResult, Solution, Status};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -168,7 +168,9 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
     let alpha = |both: &Both, paper: bool| {
         Both::result(if paper { &both.paper } else { &both.ours }).map(|result| (result.alpha, result.alpha_error))
     };
-    let words = |value: Option<f64>, unit: &str| value.map_or("–".to_owned(), |value| format!("{}{unit}", significant(value, 3)));
+    let words = |value: Option<f64>, unit: &str| {
+        value.map_or("–".to_owned(), |value| format!("{}{unit}", significant(value, 3)))
+    };
     let with = |value: Option<(f64, f64)>| value.map_or("–".to_owned(), |(value, error)| with_error(value, error));
     let fundamental = |paper| both("fundamental").and_then(|both| alpha(both, paper));
     let mut list = Vec::new();
@@ -176,10 +178,10 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
     let doubled = |paper: bool| Some(1e3 * (load("doubled-mesh", paper)? - load("fundamental", paper)?));
     let remaining = load("fundamental", false).zip(load("fundamental", true)).map(|(ours, paper)| 1e3 * (ours - paper));
     list.push(Statement {
-        says: "Doubling the mesh changes the film load by only 12 mN, so the division number is large enough.",
+        says: "Doubling the mesh changes the film load by only 12\u{a0}mN, so the division number is large enough.",
         published: "12 mN".to_owned(),
         paper: words(doubled(true), " mN"),
-        converged: format!("{} from the mesh to the limit", words(remaining, " mN")),
+        converged: format!("{} more without the mesh", words(remaining, " mN")),
         verdict: "The 12 mN are confirmed, the conclusion is not: the mesh leaves about 3 % of the film load out.",
     });
     list.push(Statement {
@@ -196,10 +198,10 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
         published: "almost the same".to_owned(),
         paper: with(paper),
         converged: with(ours),
-        verdict: "Confirmed, by symmetry as well: sliding changes sign with the wave.",
+        verdict: "Confirmed: the difference is smaller than the error.",
     });
     list.push(Statement {
-        says: "With a minimum spacing of 100 nm, α is up to 0.48.",
+        says: "With a minimum spacing of 100\u{a0}nm, α is up to 0.48.",
         published: "0.481".to_owned(),
         paper: with(both("min-spacing-100nm").and_then(|both| alpha(both, true))),
         converged: with(both("min-spacing-100nm").and_then(|both| alpha(both, false))),
@@ -210,7 +212,7 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
         Some((wide / narrow, of("rotor-width-0.6mm")? / of("fundamental")?))
     };
     let pair = |ratio: Option<(f64, f64)>| {
-        ratio.map_or("–".to_owned(), |(teeth, rotor)| format!("× {teeth:.2} teeth, × {rotor:.2} rotor"))
+        ratio.map_or("–".to_owned(), |(teeth, rotor)| format!("×\u{a0}{teeth:.2} teeth, ×\u{a0}{rotor:.2} rotor"))
     };
     list.push(Statement {
         says: "The film load is proportional to the interface area (teeth or rotor twice as wide).",
@@ -219,15 +221,26 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
         converged: pair(ratio(&|preset| load(preset, false))),
         verdict: "Confirmed for the teeth. For the rotor a little more than that: gas escapes from a wide face more slowly.",
     });
-    let (paper, ours) = of(&all.softer);
+    let (soft_paper, soft) = (Both::result(&all.softer.paper), Both::result(&all.softer.ours));
+    let stiff = both("fundamental").and_then(|both| Both::result(&both.ours));
+    let touching = |result: Option<&MotorResult>| {
+        result.map_or("–".to_owned(), |result| {
+            format!("{} on {:.2} teeth", with_error(result.alpha, result.alpha_error), result.teeth_in_contact)
+        })
+    };
     list.push(Statement {
-        says: "A low rotor stiffness leads to a large contact area and large α (here: twice as soft).",
+        says: "A low rotor stiffness leads to a large contact area and large α (here: 1.2\u{a0}times as soft).",
         published: "larger".to_owned(),
-        paper: with(paper),
-        converged: with(ours),
-        verdict: match (ours, fundamental(false)) {
-            (Some((soft, _)), Some((stiff, _))) if soft > stiff => "Confirmed.",
-            _ => "Not confirmed.",
+        paper: touching(soft_paper),
+        converged: touching(soft),
+        verdict: match (soft, stiff) {
+            (Some(soft), Some(stiff)) if soft.teeth_in_contact <= stiff.teeth_in_contact => "Not confirmed.",
+            (Some(soft), Some(stiff)) if soft.alpha > stiff.alpha => "Confirmed.",
+            (Some(_), Some(_)) => {
+                "The larger contact area is confirmed. α falls: the fitted rotor follows the wave better, so its gaps change less. The \
+                 paper gives no number, and its rotor is not known in full."
+            }
+            _ => "",
         },
     });
     let ends = |paper| {
@@ -236,7 +249,7 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
     };
     let range = |ends: Option<(f64, f64)>| ends.map_or("–".to_owned(), |(a, b)| format!("{a:.3} to {b:.3}"));
     list.push(Statement {
-        says: "When the frequency is higher, α is larger (3 to 100 kHz).",
+        says: "When the frequency is higher, α is larger (3 to 100\u{a0}kHz).",
         published: "0.078 to 0.257".to_owned(),
         paper: range(ends(true)),
         converged: range(ends(false)),
@@ -247,7 +260,7 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
         at("tooth-radius-3m").zip(at("tooth-radius-10m"))
     };
     list.push(Statement {
-        says: "With crowned teeth (3 to 10 m) the film's pressure and α scarcely change.",
+        says: "With crowned teeth (3 to 10\u{a0}m) the film's pressure and α scarcely change.",
         published: "0.235 to 0.239".to_owned(),
         paper: range(radii(true)),
         converged: range(radii(false)),
@@ -255,7 +268,7 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
     });
     let torque = |paper: bool| fundamental(paper).map(|(alpha, _)| 0.7 * (1.0 - alpha) * 14.7 * 0.029);
     list.push(Statement {
-        says: "Eq. (12): T = μ (1 − α) L r with μ = 0.7, L = 14.7 N, r = 29 mm; measured 0.17 N·m, which needs α ≈ 0.43.",
+        says: "Eq. (12): T\u{a0}=\u{a0}μ\u{a0}(1\u{a0}−\u{a0}α)\u{a0}L\u{a0}r with μ\u{a0}=\u{a0}0.7, L\u{a0}=\u{a0}14.7\u{a0}N, r\u{a0}=\u{a0}29\u{a0}mm; measured 0.17\u{a0}N·m, which needs α\u{a0}≈\u{a0}0.43.",
         published: format!("{:.3} N·m", 0.7 * (1.0 - 0.238) * 14.7 * 0.029),
         paper: words(torque(true), " N·m"),
         converged: words(torque(false), " N·m"),
@@ -317,7 +330,7 @@ fn green(both: &Both) -> Option<Figure> {
     figure.panels[0].legend = Legend::Above;
     figure.width = Width::Millimetres(110.0);
     figure.caption = "The paper took this Green's function from a finite element model of the rotor (2162 elements) and shows it as a curve, \
-                      which is lost to us. Here it is the beam that was fitted to Table I; the point at the load carries the local \
+                      which is not known to us. Here it is the beam that was fitted to Table I; the point at the load carries the local \
                       compliance, spread over one contact spacing."
         .to_owned();
     figure.provenance.preset = both.problem.name.clone();
@@ -386,8 +399,13 @@ fn frequencies(all: &Reproduction) -> Figure {
     let panel = Panel::new("", Axis::new("frequency of the stator", "kHz").log(), Axis::new("α", "").including([0.0]))
         .layer(Band::new("stated error", band, Colour::FILM))
         .layer(Line::new(OURS, curve, Style::solid(Colour::FILM)))
-        .layer(Points::new(PAPER, paper, Colour::BLACK, Marker { size: 3.0, ..Marker::solid(Shape::Circle) }))
-        .layer(Points::new("published", published, Colour::CONTACT, Marker { size: 6.0, ..Marker::hollow(Shape::Square) }))
+        .layer(Points::new(
+            "published",
+            published,
+            Colour::CONTACT,
+            Marker { size: 6.0, ..Marker::hollow(Shape::Square) },
+        ))
+        .layer(Points::new(PAPER, paper, Colour::BLACK, Marker { size: 2.6, ..Marker::solid(Shape::Circle) }))
         .height(52.0);
     let mut figure = Figure::new("Fig. 10: effect of the stator vibrating frequency").panel(panel);
     figure.width = Width::Millimetres(110.0);
@@ -459,9 +477,18 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
          below the pressures. The wave travels to the left, the rotor is driven to the right. Here the surfaces and the coloured lines \
          are converged; dots are the paper's algorithm on its own meshes.",
     );
-    let figures = figures(all);
-    let named: Vec<(String, &Figure)> = figures.iter().map(|(number, figure)| (caption_name(all, *number), figure)).collect();
-    page.figures(named.iter().map(|(name, figure)| (name.as_str(), *figure)));
+    let mut figures = figures(all);
+    for (number, figure) in &mut figures {
+        figure.caption = format!("{}{}", shares(all, *number), figure.caption);
+    }
+    for (heading, numbers) in SECTIONS {
+        page.heading(heading);
+        let of = |(number, figure): &'_ (u32, Figure)| {
+            numbers.contains(number).then(|| (format!("Fig. {number}."), figure.clone()))
+        };
+        let shown: Vec<(String, Figure)> = figures.iter().filter_map(of).collect();
+        page.figures(shown.iter().map(|(name, figure)| (name.as_str(), figure)));
+    }
     page.heading("What is not here, and why");
     page.list(LEFT_OUT);
 
@@ -479,16 +506,24 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     page.finish(&format!("squeezefilm {} · fidelity {}", env!("CARGO_PKG_VERSION"), all.settings.fidelity))
 }
 
-/// `Fig. 4. Published α = 0.238, converged 0.24586 ± 0.00023.`
-fn caption_name(all: &Reproduction, number: u32) -> String {
-    let name = format!("Fig. {number}.");
-    let Some((_, preset, _)) = FIELDS.iter().find(|(figure, _, _)| *figure == number) else { return name };
-    let Some(row) = all.row(preset) else { return name };
+/// The sections of the paper, and their figures.
+const SECTIONS: [(&str, &[u32]); 5] = [
+    ("A. Fundamental case", &[3, 4]),
+    ("B. Effect of surface roughness", &[6]),
+    ("C. Effect of contact area", &[7, 8]),
+    ("D. Effect of vibrating frequency", &[9, 10]),
+    ("E. Effect of teeth geometry", &[11, 12]),
+];
+
+/// `Share α: published 0.238, paper's algorithm 0.238 ± 0.011, converged 0.24586 ± 0.00023. `; of other figures nothing.
+fn shares(all: &Reproduction, number: u32) -> String {
+    let found = FIELDS.iter().find(|(figure, _, _)| *figure == number).and_then(|(_, preset, _)| all.row(preset));
+    let Some(row) = found else { return String::new() };
     let with = |solved: &Result<Solution, String>| {
         Both::result(solved).map_or("not solved".to_owned(), |result| with_error(result.alpha, result.alpha_error))
     };
     format!(
-        "{name} α published {:.3}, paper's algorithm {}, converged {}.",
+        "Share α: published {:.3}, paper's algorithm {}, converged {}. ",
         row.published.published_alpha,
         with(&row.both.paper),
         with(&row.both.ours)
@@ -546,7 +581,7 @@ fn table1(all: &Reproduction) -> Table {
         for (solved, load, difference, places, kind) in both {
             match (Both::result(solved), load, difference) {
                 (Some(result), Some(load), Some(difference)) => {
-                    let sound = solved.as_ref().is_ok_and(|s| s.status == crate::solution::Status::Converged);
+                    let sound = solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
                     cells.push((Kind::Number, format!("{load:.places$}")));
                     cells.push((if sound { kind } else { Kind::Alarm }, with_error(result.alpha, result.alpha_error)));
                     cells.push((Kind::Number, format!("{difference:+.1} %").replace('-', "−")));
