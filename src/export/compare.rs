@@ -334,7 +334,7 @@ pub fn difference_text(cell: &ResultCell) -> String {
         (Some(difference), Some(error)) if error.is_finite() && error > 0.0 => {
             let sign = if difference >= 0.0 { "+" } else { "−" };
             let text = with_error(difference.abs(), error);
-            if text.starts_with('(') { format!("{sign}{text} %") } else { format!("{sign}{text} %") }
+            format!("{sign}{text} %")
         }
         (Some(difference), _) if difference.abs() >= 1000.0 => {
             format!("× {}", significant(1.0 + difference / 100.0, 3))
@@ -436,16 +436,8 @@ pub(super) fn again(page: &mut Page, command: &[String]) {
     ));
 }
 
-fn heads(runs: &[Run], first: &str) -> Vec<(Kind, String)> {
-    let mut heads = vec![(Kind::Words, first.to_owned())];
-    for (i, run) in runs.iter().enumerate() {
-        heads.push((Kind::Number, run.label.clone()));
-        if i > 0 {
-            heads.push((Kind::Number, "difference".to_owned()));
-        }
-    }
-    heads
-}
+/// With more runs than this, differences stand below the values instead of beside them.
+const BESIDE: usize = 3;
 
 fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
@@ -463,14 +455,25 @@ fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow
 }
 
 fn result_table(runs: &[Run]) -> Table {
-    let mut table = Table::new("").heads(heads(runs, "result"));
+    let beside = runs.len() <= BESIDE;
+    let mut heads = vec![(Kind::Words, "result".to_owned())];
+    for (i, run) in runs.iter().enumerate() {
+        heads.push((Kind::Number, run.label.clone()));
+        if beside && i > 0 {
+            heads.push((Kind::Number, "difference".to_owned()));
+        }
+    }
+    let mut table = Table::new("").heads(heads);
     for row in results(runs) {
         let mut cells = vec![(Kind::Words, row.quantity.label())];
+        let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
+        let kind = if main { Kind::Strong } else { Kind::Number };
         for (i, cell) in row.cells.iter().enumerate() {
-            let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
-            cells.push((if main { Kind::Strong } else { Kind::Number }, value_text(&row, cell)));
-            if i > 0 {
-                cells.push((Kind::Number, difference_text(cell)));
+            let (value, difference) = (value_text(&row, cell), difference_text(cell));
+            match (beside, i) {
+                (_, 0) => cells.push((kind, value)),
+                (true, _) => cells.extend([(kind, value), (Kind::Number, difference)]),
+                (false, _) => cells.push((kind, format!("{value}\n{difference}"))),
             }
         }
         table.row(cells);

@@ -333,11 +333,13 @@ th + th, td + td { padding-left: .5rem; }
 .groups th { padding-bottom: .1rem; color: var(--quiet); text-align: center; }
 .groups th.g { border-bottom: 1px solid var(--rule); }
 tbody tr + tr td { border-top: 1px solid #e9ecf0; }
-.n { text-align: right; white-space: nowrap; }
+.n { text-align: right; white-space: pre; }
+th.n { white-space: normal; }
+td.w:first-child { min-width: 9.5rem; }
 .s { font-weight: 600; color: var(--film); }
 .q { color: var(--quiet); }
 .a { color: var(--contact); font-weight: 600; }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(27rem, 100%), 1fr)); gap: 1.6rem 2.4rem;
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(27rem, 100%), 1fr)); gap: 1.6rem 2.4rem;
   margin: 1.2rem 0 1.8rem; }
 figure { margin: 0; }
 section > figure { margin: 1.2rem 0 1.8rem; }
@@ -361,6 +363,8 @@ footer p { max-width: none; }
   h2, h3 { break-after: avoid; }
   h2 { margin-top: 2rem; }
   figure, tr, pre { break-inside: avoid; }
+  figure svg { max-width: 74mm; }
+  figure.wide svg, figure.wide img { max-width: 150mm; }
   .figures { grid-template-columns: 1fr 1fr; gap: 1rem 1.4rem; }
   .table { overflow: visible; }
   .highlights { gap: .6rem 1.6rem; }

@@ -317,14 +317,14 @@ fn green(both: &Both) -> Option<Figure> {
     let spacing = motor.wavelength() / 180.0;
     let nodes = (-90..=90).map(|j| (f64::from(j) * spacing, if j == 0 { local_compliance / spacing } else { 0.0 }));
     let nodes = nodes.map(|(x, local)| [x * 1e3, (beam(x) + local) * 1e6]);
-    let marker = Marker { size: 2.2, ..Marker::solid(Shape::Circle) };
+    let marker = Marker { size: 2.4, ..Marker::solid(Shape::Circle) };
     let panel = Panel::new(
         "",
         Axis::new("x from the load", "mm").fixed(-half * 1e3, half * 1e3),
         Axis::new("deflection", "µm/N").including([0.0]),
     )
-    .layer(Line::new("beam on an elastic foundation", points, Style::solid(Colour::FILM)))
     .layer(Points::new("on the 181 nodes, with the local compliance", nodes, Colour::BLACK, marker))
+    .layer(Line::new("beam on an elastic foundation", points, Style::solid(Colour::FILM)))
     .height(44.0);
     let mut figure = Figure::new("Fig. 3: deflection of the rotor under a unit point load").panel(panel);
     figure.panels[0].legend = Legend::Above;
@@ -455,8 +455,8 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
         table.row([
             (Kind::Words, statement.says.to_owned()),
             (Kind::Words, statement.published),
-            (Kind::Words, statement.paper),
-            (Kind::Words, statement.converged),
+            (Kind::Words, glued(&statement.paper)),
+            (Kind::Words, glued(&statement.converged)),
             (Kind::Quiet, statement.verdict.to_owned()),
         ]);
     }
@@ -506,6 +506,11 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     page.finish(&format!("squeezefilm {} · fidelity {}", env!("CARGO_PKG_VERSION"), all.settings.fidelity))
 }
 
+/// A number and its error on one line.
+fn glued(words: &str) -> String {
+    words.replace(" ± ", "\u{a0}±\u{a0}")
+}
+
 /// The sections of the paper, and their figures.
 const SECTIONS: [(&str, &[u32]); 5] = [
     ("A. Fundamental case", &[3, 4]),
@@ -525,8 +530,8 @@ fn shares(all: &Reproduction, number: u32) -> String {
     format!(
         "Share α: published {:.3}, paper's algorithm {}, converged {}. ",
         row.published.published_alpha,
-        with(&row.both.paper),
-        with(&row.both.ours)
+        glued(&with(&row.both.paper)),
+        glued(&with(&row.both.ours))
     )
 }
 
