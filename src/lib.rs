@@ -57,7 +57,7 @@
 //! | [`motor`], [`plate`] | the periodic state of either scene |
 //! | [`mod@paper`] | the algorithm of Maeno and Bogy (1992), literally |
 //! | [`mod@solve`] | one call for all of it |
-//! | [`analysis`], [`export`] | several solves; CSV, JSON, figures, animations |
+//! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
 //! | [`cli`] | the command line |
 //!
 //! The equations with their derivation are in `docs/theory.md`, measured errors in `docs/validation.md`.

@@ -222,7 +222,8 @@ fn files_of_a_motor_agree_with_the_summary() {
     names.sort();
     let figures =
         ["convergence", "loads", "map", "wave"].iter().flat_map(|f| ["png", "svg"].map(|e| format!("{f}.{e}")));
-    let data = ["fields.csv", "pressure.csv", "scene.toml", "series.csv", "summary.json"].map(str::to_owned);
+    let data =
+        ["fields.csv", "fields.npz", "pressure.csv", "scene.toml", "series.csv", "summary.json"].map(str::to_owned);
     let mut expected: Vec<String> = figures.chain(data).collect();
     expected.sort();
     assert!(names.iter().eq(expected.iter().map(String::as_str)), "{names:?}");

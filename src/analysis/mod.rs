@@ -4,8 +4,10 @@
 //! Plain data out. No file, no terminal; where time is what is measured, the caller hands in the clock.
 
 pub mod attempt;
+pub mod compare;
 pub mod quantity;
 pub mod regime;
+pub mod reproduce;
 pub mod stability;
 pub mod sweep;
 pub mod table1;

@@ -1,5 +1,6 @@
 //! Exit status, and what ends a command early.
 
+use crate::analysis::compare::CompareError;
 use crate::analysis::sweep::SweepError;
 use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
@@ -58,6 +59,9 @@ pub(super) enum CliError {
     /// A sweep that cannot be made.
     #[error(transparent)]
     Sweep(#[from] SweepError),
+    /// A comparison that cannot be made.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
     /// What a cancelled sweep left cannot be gone on with.
     #[error("{}: cannot be gone on with: {source}; give another folder, or --restart to begin anew", path.display())]
     Resume {
@@ -103,6 +107,7 @@ impl CliError {
         match self {
             Self::Scene(_)
             | Self::Sweep(_)
+            | Self::Compare(_)
             | Self::Resume { .. }
             | Self::Usage(_)
             | Self::Solve(SolveError::PaperPlate)

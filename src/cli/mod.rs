@@ -2,6 +2,7 @@
 
 mod animate;
 mod columns;
+mod compare;
 mod exit;
 mod figures;
 #[cfg(feature = "gui")]
@@ -10,6 +11,7 @@ mod interrupt;
 mod options;
 mod presets;
 mod progress;
+mod reproduce;
 mod solve;
 mod stability;
 mod summary;
@@ -43,7 +45,9 @@ enum Command {
     Gui(gui::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
+    Compare(compare::Arguments),
     Table1(table1::Arguments),
+    Reproduce(reproduce::Arguments),
     Tradeoff(tradeoff::Arguments),
     Stability(stability::Arguments),
     Animate(animate::Arguments),
@@ -56,6 +60,8 @@ Examples:
   squeezefilm solve fundamental --set film.min_spacing_nm=100 --fidelity fine --json
   squeezefilm solve levitating --out results
   squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
+  squeezefilm compare fundamental min-spacing-100nm --out results
+  squeezefilm reproduce
   squeezefilm animate fundamental --out wave.gif
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
 
@@ -87,7 +93,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         None => Ok(exit::Exit::Solved),
         Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
         Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
+        Some(Command::Compare(arguments)) => compare::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),
+        Some(Command::Reproduce(arguments)) => reproduce::run(&arguments, &command_line(words)),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
         Some(Command::Stability(arguments)) => stability::run(&arguments, &command_line(words)),
         Some(Command::Animate(arguments)) => animate::run(&arguments),

@@ -11,6 +11,7 @@ use crate::export::figure::{FigureError, Format, to_bytes};
 use crate::export::figures;
 use crate::export::folder::Staged;
 use crate::export::json::{Summary, force_unit};
+use crate::export::npz;
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -38,6 +39,7 @@ Files of --out, with the unit in every column's name:
                  every tooth, over one cycle; a line load × length_m,
                  summed over one time_s, is the load in series.csv
   pressure.csv   pressure under one tooth, over one cycle
+  fields.npz     all of these fields as NumPy arrays: numpy.load
   wave, loads, map, convergence (.svg .png)
                  figures of a motor: surfaces and pressures along the
                  wave, loads over the cycle, pressure map, rounds of the
@@ -121,6 +123,7 @@ fn write(
     staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
     staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
     staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
+    staged.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
     for (name, bytes) in figures.drawn(problem, solution, cancel)? {
         staged.add(&name, |out| out.write_all(&bytes))?;
     }

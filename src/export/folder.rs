@@ -68,6 +68,10 @@ impl Staged {
     /// # Errors
     /// [`WriteError`] naming the file that could not be renamed; those before it are in place.
     pub fn commit(mut self) -> Result<Vec<PathBuf>, WriteError> {
+        // Some disks tell only now that they are full: before any file has its name.
+        for (path, file) in &self.files {
+            file.as_file().sync_data().map_err(|source| WriteError { path: path.clone(), source })?;
+        }
         let mut paths = Vec::new();
         for (path, file) in std::mem::take(&mut self.files) {
             file.persist(&path).map_err(|error| WriteError { path: path.clone(), source: error.error })?;
@@ -125,6 +129,19 @@ mod tests {
         staged.commit().unwrap();
         assert_eq!(names(folder.path()), ["a", "b"]);
         assert_eq!(fs::read_to_string(folder.path().join("a")).unwrap(), "new");
+    }
+
+    #[test]
+    fn a_folder_that_vanished_is_told() {
+        let parent = tempfile::tempdir().unwrap();
+        let folder = parent.path().join("out");
+        let mut staged = Staged::new(&folder).unwrap();
+        staged.add("a", |w| w.write_all(b"a")).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let error = staged.add("b", |w| w.write_all(b"b")).unwrap_err();
+        assert!(error.to_string().contains("b: cannot be written: "), "{error}");
+        let error = staged.commit().unwrap_err();
+        assert!(error.to_string().contains("a: cannot be written: "), "{error}");
     }
 
     #[test]

@@ -1,13 +1,17 @@
-//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, and how files get into
-//! a folder.
+//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports, and how
+//! files get into a folder.
 
 pub mod animation;
+pub mod compare;
 pub mod csv;
 pub mod digits;
 pub mod figure;
 pub mod figures;
 pub mod folder;
+pub mod html;
 pub mod json;
+pub mod npz;
+pub mod reproduce;
 pub mod stability;
 pub mod sweep;
 pub mod table1;

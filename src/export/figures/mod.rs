@@ -9,8 +9,11 @@
 //! | plate | `loads` | load and gap over the cycle |
 //! | plate | `loop` | mean pressure against the gap |
 //! | plate | `map` | pressure over the plate at its greatest; of a strip, along it and over the cycle |
+//! | several motors | `waves`, `loads`, `maps`, `teeth` | runs laid over each other, maps with one scale of colours |
+//! | several plates | `profiles`, `loads`, `loops`, `maps` | the same |
 //! | both | `convergence` | change in every round, if the rounds were kept |
 
+pub mod compare;
 pub mod motor;
 pub mod plate;
 mod unit;

@@ -203,9 +203,14 @@ fn period(recording: &Recording) -> String {
 
 /// The film's pressure under all teeth, absolute.
 pub fn all_teeth(recording: &Recording, frame: usize) -> Panel {
+    let (unit, scale) = pressure_unit(pressure_span(recording)[1]);
+    all_teeth_on(recording, frame, &unit, scale, pressure_span(recording))
+}
+
+/// The same in a unit, of which a pascal is `scale`, with colours that cover `span` \[Pa\].
+pub(super) fn all_teeth_on(recording: &Recording, frame: usize, unit: &str, scale: f64, span: [f64; 2]) -> Panel {
     let y: Vec<(f64, usize)> = mirrored(&recording.map_y, recording.half_width);
     let (mut x, mut values) = (Vec::new(), Vec::new());
-    let (unit, scale) = pressure_unit(recording);
     for tooth in 0..recording.teeth {
         let plane = tooth_map(recording, tooth, frame);
         let middle = tooth as f64 * recording.pitch;
@@ -221,21 +226,21 @@ pub fn all_teeth(recording: &Recording, frame: usize) -> Panel {
     }
     let map = Map {
         label: "absolute pressure".to_owned(),
-        unit,
+        unit: unit.to_owned(),
         grid: Grid { x, y: y.iter().map(|(y, _)| y * 1e3).collect(), values },
-        range: Range::Fixed(pressure_span(recording)[0] * scale, pressure_span(recording)[1] * scale),
+        range: Range::Fixed(span[0] * scale, span[1] * scale),
         ..Map::default()
     };
     Panel::new("", x_axis(recording), Axis::new("y", "mm")).layer(map)
 }
 
-fn pressure_span(recording: &Recording) -> [f64; 2] {
+pub(super) fn pressure_span(recording: &Recording) -> [f64; 2] {
     span(recording.pressure.iter().copied(), recording.pressure.first().copied().unwrap_or(0.0))
 }
 
-fn pressure_unit(recording: &Recording) -> (String, f64) {
+/// The unit of pressures up to `greatest` \[Pa\], and what a pascal is in it.
+pub(super) fn pressure_unit(greatest: f64) -> (String, f64) {
     // Kilopascal as long as that has at most four digits: the unit that pressures of air are told in.
-    let greatest = pressure_span(recording)[1];
     if (1e3..1e7).contains(&greatest) { ("kPa".to_owned(), 1e-3) } else { prefixed(greatest, "Pa") }
 }
 
@@ -252,13 +257,9 @@ pub fn moving(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     figure
 }
 
-/// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.
-pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
-    let mut all = all_teeth(recording, frame).height(14.0);
-    all.title = "(a) all teeth".to_owned();
-    let tooth = recording.teeth / 2;
-    let plane = tooth_map(recording, tooth, frame);
-    let (unit, scale) = pressure_unit(recording);
+/// The film's pressure under the tooth in the middle, with lines of equal pressure, in a unit and with what a pascal is in it.
+pub(super) fn one_tooth(recording: &Recording, frame: usize, range: Range, (unit, scale): (String, f64)) -> Panel {
+    let plane = tooth_map(recording, recording.teeth / 2, frame);
     let y = mirrored(&recording.map_y, recording.half_width);
     let ny = recording.map_y.len();
     let value = |i: usize, j: usize| plane[i * ny + j] * scale;
@@ -267,10 +268,18 @@ pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
         y: y.iter().map(|(y, _)| y * 1e3).collect(),
         values: (0..recording.map_x.len()).flat_map(|i| y.iter().map(move |(_, j)| value(i, *j))).collect(),
     };
-    let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), ..Map::default() };
+    let colours = Map { label: "absolute pressure".to_owned(), unit, grid: grid.clone(), range, ..Map::default() };
     let lines = Contours { grid, labels: true, ..Contours::default() };
     let axes = (Axis::new("x from the tooth's middle", "mm"), Axis::new("y", "mm"));
-    let one = Panel::new("(b) the tooth in the middle", axes.0, axes.1).layer(colours).layer(lines).height(38.0);
+    Panel::new("", axes.0, axes.1).layer(colours).layer(lines).height(38.0)
+}
+
+/// The film's pressure under all teeth, and enlarged with lines of equal pressure under the tooth in the middle.
+pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
+    let mut all = all_teeth(recording, frame).height(14.0);
+    all.title = "(a) all teeth".to_owned();
+    let one = one_tooth(recording, frame, Range::Auto, pressure_unit(pressure_span(recording)[1]));
+    let one = Panel { title: "(b) the tooth in the middle".to_owned(), ..one };
     let mut figure =
         Figure::new(format!("pressure of the air film, t/T = {:.3}", phase(recording, frame))).panel(all).panel(one);
     figure.width = Width::Page;

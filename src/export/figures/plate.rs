@@ -33,7 +33,7 @@ fn pressure_at_the_middle(plate: &Plate) -> &'static str {
 }
 
 /// Pressure along x at the y nearest to the middle.
-fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
+pub(super) fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
     let (nx, ny) = (recording.map_x.len(), recording.map_y.len());
     let distance = |j: &usize| recording.map_y[*j].abs();
     let Some(j) = (0..ny).min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return Vec::new() };

@@ -1,0 +1,238 @@
+//! Several scenes side by side: what differs between them, and what comes of it.
+//!
+//! Every run is a single solve of its scene and nothing else: its numbers are those of [`solve`](crate::solve::solve) to
+//! the last bit, whatever it is compared with and however many threads there are. A run that fails says so, and the others
+//! go on. Differences are against the first run.
+
+use super::attempt::attempt;
+use super::quantity::{Numbers, Quantity};
+use crate::control::Cancel;
+use crate::problem::Problem;
+use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value};
+use crate::solution::{Solution, Status};
+use crate::solve::{Settings, SolveError};
+use rayon::prelude::*;
+
+/// One scene, solved.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// What it is called here: the scene's name, made unique.
+    pub label: String,
+    /// The scene.
+    pub scene: Scene,
+    /// The same, checked and in SI units.
+    pub problem: Problem,
+    /// What came of it, or why nothing did.
+    pub solved: Result<Solution, String>,
+}
+
+impl Run {
+    /// The numbers; none if it failed.
+    pub fn numbers(&self) -> Numbers {
+        self.solved.as_ref().map_or_else(|_| Numbers::default(), |solution| Numbers::of(&self.problem, solution))
+    }
+
+    /// Whether its cycle repeats to the tolerance.
+    pub fn converged(&self) -> bool {
+        self.solved.as_ref().is_ok_and(|solution| solution.status == Status::Converged)
+    }
+}
+
+/// What cannot be compared. Found before anything is solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CompareError {
+    /// A scene that is not one.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A method that does not apply.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// Solves the scenes, several at a time on rayon's pool, and returns the runs in the order of the scenes. `finished` is told
+/// of each run as it ends, from whichever thread.
+///
+/// # Errors
+/// [`CompareError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`Run`] that says so.
+pub fn runs(
+    scenes: &[Scene],
+    settings: &Settings,
+    cancel: &Cancel,
+    finished: &(dyn Fn(&Run) + Sync),
+) -> Result<Vec<Run>, CompareError> {
+    let problems = scenes.iter().map(Problem::new).collect::<Result<Vec<_>, _>>()?;
+    let plate = |problem: &Problem| matches!(problem.scenario, crate::problem::Scenario::Plate(_));
+    if settings.method == crate::solve::Method::Paper && problems.iter().any(plate) {
+        return Err(SolveError::PaperPlate.into());
+    }
+    let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
+    let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
+        let solved = attempt(&problem, settings, &mut (), cancel);
+        let run = Run { label, scene: scene.clone(), problem, solved };
+        finished(&run);
+        run
+    });
+    Ok(solved.collect())
+}
+
+/// The scenes' names; of several that are the same, all but the first are numbered.
+fn labels(scenes: &[Scene]) -> Vec<String> {
+    let mut labels: Vec<String> = Vec::new();
+    for scene in scenes {
+        let name = if scene.name.is_empty() { "unnamed scene" } else { &scene.name };
+        let mut label = name.to_owned();
+        let mut count = 1;
+        while labels.contains(&label) {
+            count += 1;
+            label = format!("{name} ({count})");
+        }
+        labels.push(label);
+    }
+    labels
+}
+
+/// One key, and its value in every scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterRow {
+    /// The key.
+    pub parameter: &'static Parameter,
+    /// Its value in each scene; `None` where it is absent or does not apply.
+    pub values: Vec<Option<Value>>,
+}
+
+impl ParameterRow {
+    /// Whether the scenes differ in it.
+    pub fn differs(&self) -> bool {
+        self.values.windows(2).any(|pair| pair[0] != pair[1])
+    }
+}
+
+/// Every key that one of the scenes has, but for name and description, in the order of the file.
+pub fn parameters(scenes: &[&Scene]) -> Vec<ParameterRow> {
+    let row = |parameter: &'static Parameter| {
+        let values: Vec<_> = scenes.iter().map(|scene| scene.get(parameter.key)).collect();
+        (!matches!(parameter.key, "name" | "about") && values.iter().any(Option::is_some))
+            .then_some(ParameterRow { parameter, values })
+    };
+    PARAMETERS.iter().filter_map(row).collect()
+}
+
+/// One quantity, in every run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResultRow {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// One for each run.
+    pub cells: Vec<ResultCell>,
+}
+
+/// A quantity of one run. What is not there, and what is not finite, is `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ResultCell {
+    /// Its value, in the quantity's unit.
+    pub value: Option<f64>,
+    /// Its estimated numerical error, absolute, if there is an estimate.
+    pub error: Option<f64>,
+    /// By how much it exceeds that of the first run \[%\]; of the first run itself `None`.
+    pub difference_percent: Option<f64>,
+    /// Error of that difference \[percentage points\]: both errors, added up.
+    pub difference_error_percent: Option<f64>,
+}
+
+/// Every quantity that one of the runs has, errors beside what they are of, in the order of the columns of a sweep.
+pub fn results(runs: &[Run]) -> Vec<ResultRow> {
+    let numbers: Vec<Numbers> = runs.iter().map(Run::numbers).collect();
+    let errors: Vec<Quantity> = Quantity::all().filter_map(Quantity::error).collect();
+    let row = |quantity: Quantity| {
+        let first = numbers.first().map(|numbers| side(numbers, quantity)).unwrap_or_default();
+        let cell = |(i, numbers): (usize, &Numbers)| {
+            let own = side(numbers, quantity);
+            let (difference_percent, difference_error_percent) =
+                if i == 0 { (None, None) } else { difference(first, own) };
+            ResultCell { value: own.0, error: own.1, difference_percent, difference_error_percent }
+        };
+        let cells: Vec<_> = numbers.iter().enumerate().map(cell).collect();
+        cells.iter().any(|cell| cell.value.is_some()).then_some(ResultRow { quantity, cells })
+    };
+    Quantity::all().filter(|quantity| !errors.contains(quantity)).filter_map(row).collect()
+}
+
+/// A value and its error.
+fn side(numbers: &Numbers, quantity: Quantity) -> (Option<f64>, Option<f64>) {
+    (numbers.get(quantity), quantity.error().and_then(|error| numbers.get(error)))
+}
+
+/// 100 (b/a − 1), and the sum of what the two errors make of it.
+fn difference(a: (Option<f64>, Option<f64>), b: (Option<f64>, Option<f64>)) -> (Option<f64>, Option<f64>) {
+    let (Some(first), Some(own)) = (a.0, b.0) else { return (None, None) };
+    if first == 0.0 {
+        return (None, None);
+    }
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let error = a.1.zip(b.1).map(|(ea, eb)| 100.0 * (eb.abs() + (own / first).abs() * ea.abs()) / first.abs());
+    (finite(100.0 * (own / first - 1.0)), error.and_then(finite))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fidelity::Fidelity;
+    use crate::scene::presets;
+    use crate::solve::solve;
+
+    fn draft() -> Settings {
+        Settings { fidelity: Fidelity::Draft, ..Settings::default() }
+    }
+
+    #[test]
+    fn every_run_is_the_single_solve_to_the_last_bit() {
+        let scenes = ["fundamental", "min-spacing-100nm", "plate-crossover"].map(|name| presets::find(name).unwrap());
+        let runs = runs(&scenes, &draft(), &Cancel::new(), &|_| ()).unwrap();
+        for (scene, run) in scenes.iter().zip(&runs) {
+            let problem = Problem::new(scene).unwrap();
+            let alone = solve(&problem, &draft(), &mut (), &Cancel::new()).unwrap();
+            let solution = run.solved.as_ref().unwrap();
+            assert_eq!(run.numbers(), Numbers::of(&problem, &alone));
+            assert_eq!((solution.outcome, &solution.recording), (alone.outcome, &alone.recording));
+        }
+        let results = results(&runs);
+        let alpha = results.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
+        let [first, second, plate] = &alpha.cells[..] else { panic!("{alpha:?}") };
+        let exact = 100.0 * (second.value.unwrap() / first.value.unwrap() - 1.0);
+        assert_eq!((first.difference_percent, second.difference_percent), (None, Some(exact)));
+        assert!(second.difference_error_percent.unwrap() > 100.0 * second.error.unwrap() / first.value.unwrap());
+        assert_eq!(*plate, ResultCell::default());
+        assert!(results.iter().all(|row| !row.quantity.name().contains("_error")));
+    }
+
+    #[test]
+    fn only_the_key_that_was_changed_differs() {
+        let scenes = ["fundamental", "min-spacing-100nm"].map(|name| presets::find(name).unwrap());
+        let rows = parameters(&[&scenes[0], &scenes[1]]);
+        let differing: Vec<_> = rows.iter().filter(|row| row.differs()).map(|row| row.parameter.key).collect();
+        assert_eq!(differing, ["film.min_spacing_nm"]);
+        assert!(rows.len() > 15, "{}", rows.len());
+    }
+
+    #[test]
+    fn names_are_made_unique() {
+        let scene = presets::find("fundamental").unwrap();
+        let names = labels(&[scene.clone(), scene.clone(), scene]);
+        assert_eq!(names, ["Fundamental case", "Fundamental case (2)", "Fundamental case (3)"]);
+    }
+
+    #[test]
+    fn what_is_zero_or_unknown_has_no_difference() {
+        assert_eq!(difference((Some(0.0), None), (Some(1.0), None)), (None, None));
+        assert_eq!(difference((Some(2.0), None), (Some(3.0), Some(0.1))), (Some(50.0), None));
+        assert_eq!(difference((Some(2.0), Some(0.1)), (Some(2.0), Some(0.1))), (Some(0.0), Some(10.0)));
+    }
+
+    #[test]
+    fn a_plate_and_the_papers_method_do_not_go_together() {
+        let scenes = ["fundamental", "plate-viscous"].map(|name| presets::find(name).unwrap());
+        let settings = Settings { method: crate::solve::Method::Paper, ..draft() };
+        let refused = runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap_err();
+        assert_eq!(refused, CompareError::Solve(SolveError::PaperPlate));
+    }
+}

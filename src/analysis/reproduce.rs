@@ -1,0 +1,195 @@
+//! Everything the paper shows and its text defines, solved twice: by the paper's algorithm on its own meshes, and converged.
+//!
+//! T. Maeno and D. B. Bogy, "Effect of the hydrodynamic bearing on rotor/stator contact in a ring-type ultrasonic motor",
+//! IEEE Trans. UFFC 39 (1992): the 14 rows of Table I, the fields of Figs. 4, 6–9, 11 and 12, α over frequency of Fig. 10,
+//! and two variations that the text speaks of without a number: no sliding, and a softer rotor. The paper's figures
+//! themselves are not known to us, only its text and the table.
+
+use super::attempt::attempt;
+use crate::control::Cancel;
+use crate::problem::{Numerics, Problem};
+use crate::scene::table1::{PublishedRow, published};
+use crate::scene::{Scene, SceneError, presets};
+use crate::solution::{MotorResult, Outcome, Solution, Status};
+use crate::solve::{Method, Record, Settings};
+use rayon::prelude::*;
+use std::sync::Mutex;
+
+/// A figure of surfaces and pressures: its number, its preset, and what the paper calls it.
+pub const FIELDS: [(u32, &str, &str); 7] = [
+    (4, "fundamental", "the fundamental case"),
+    (6, "min-spacing-100nm", "minimum air bearing spacing = 100 nm"),
+    (7, "tooth-width-2.31mm", "tooth width = 2.31 mm"),
+    (8, "rotor-width-0.6mm", "rotor spring width = 0.6 mm"),
+    (9, "frequency-100khz", "stator vibrating frequency = 100 kHz"),
+    (11, "tooth-radius-6.5m", "teeth radius = 6.5 m"),
+    (12, "tooth-radius-3m", "teeth radius = 3 m"),
+];
+
+/// Frequencies of Fig. 10 \[kHz\]: from and to, and how many of equal ratio.
+const FREQUENCIES: (f64, f64, usize) = (2.0, 120.0, 28);
+/// How much softer the softer rotor is.
+pub const SOFTER: f64 = 1.2;
+
+/// One scene by both methods.
+#[derive(Clone, Debug)]
+pub struct Both {
+    /// The scene, as converged: without meshes of its own.
+    pub scene: Scene,
+    /// The same, checked and in SI units.
+    pub problem: Problem,
+    /// By the paper's algorithm on its own meshes, or why not.
+    pub paper: Result<Solution, String>,
+    /// Converged, or why not.
+    pub ours: Result<Solution, String>,
+}
+
+impl Both {
+    /// The numbers of one of its solves.
+    pub fn result(solved: &Result<Solution, String>) -> Option<&MotorResult> {
+        match &solved.as_ref().ok()?.outcome {
+            Outcome::Motor(result) => Some(result),
+            Outcome::Plate(_) => None,
+        }
+    }
+}
+
+/// A row of Table I by both methods.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// As published.
+    pub published: PublishedRow,
+    /// As computed here.
+    pub both: Both,
+}
+
+/// α at a frequency, converged.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Frequency \[kHz\].
+    pub frequency_khz: f64,
+    /// What came of it, or why nothing did.
+    pub solved: Result<MotorResult, String>,
+}
+
+/// Everything.
+#[derive(Clone, Debug)]
+pub struct Reproduction {
+    /// The rows of Table I, in the paper's order.
+    pub rows: Vec<Row>,
+    /// The fundamental case without sliding: the wedge term left out.
+    pub no_sliding: Both,
+    /// The fundamental case with a rotor [`SOFTER`] times as compliant.
+    pub softer: Both,
+    /// Fig. 10.
+    pub frequencies: Vec<Point>,
+    /// How the converged values were solved.
+    pub settings: Settings,
+}
+
+impl Reproduction {
+    /// The row of a preset.
+    pub fn row(&self, preset: &str) -> Option<&Row> {
+        self.rows.iter().find(|row| row.published.preset == preset)
+    }
+
+    /// How many solves ended without a cycle that repeats.
+    pub fn unsolved(&self) -> usize {
+        let both = self.rows.iter().map(|row| &row.both).chain([&self.no_sliding, &self.softer]);
+        let sound = |solved: &Result<Solution, String>| solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
+        let fields = both.flat_map(|both| [&both.paper, &both.ours]).filter(|solved| !sound(solved)).count();
+        fields + self.frequencies.iter().filter(|point| point.solved.is_err()).count()
+    }
+}
+
+/// What is solved: by the paper's method or ours, and what of it is kept.
+struct Work {
+    problem: Problem,
+    settings: Settings,
+}
+
+/// How many solves there are.
+pub fn number_of_solves() -> usize {
+    2 * (published().len() + 2) + FREQUENCIES.2
+}
+
+/// Solves everything, several at a time on rayon's pool; the results do not depend on how many. `finished` is told after
+/// each solve, from whichever thread.
+///
+/// # Errors
+/// None of the built-in presets has any; a test reads them all.
+pub fn reproduce(
+    settings: &Settings,
+    cancel: &Cancel,
+    finished: &(dyn Fn(&str) + Sync),
+) -> Result<Reproduction, SceneError> {
+    let ours = Settings { method: Method::Auto, ..*settings };
+    let paper = Settings { method: Method::Paper, ..*settings };
+    let fundamental = presets::find("fundamental")?;
+    let mut scenes = published().iter().map(|row| presets::find(&row.preset)).collect::<Result<Vec<_>, _>>()?;
+    let mut no_sliding = fundamental.clone();
+    no_sliding.set("film.shear", "false")?;
+    let mut softer = fundamental.clone();
+    for key in ["rotor.point_compliance_um_per_n", "rotor.local_compliance_m2_per_n"] {
+        let stiff = softer.get(key).and_then(|value| value.as_number()).unwrap_or(1.0);
+        softer.set(key, &format!("{}", SOFTER * stiff))?;
+    }
+    scenes.extend([no_sliding.clone(), softer.clone()]);
+    let mut work = Vec::new();
+    for scene in &mut scenes {
+        let shown = FIELDS.iter().any(|(_, preset, _)| presets::find(preset).as_ref() == Ok(&*scene));
+        let record = if shown { Record::Everything } else { Record::Numbers };
+        work.push(Work { problem: Problem::new(scene)?, settings: Settings { record, ..paper } });
+        scene.numerics = Numerics::default();
+        work.push(Work { problem: Problem::new(scene)?, settings: Settings { record, ..ours } });
+    }
+    let mut frequencies = Vec::new();
+    let (from, to, count) = FREQUENCIES;
+    for i in 0..count {
+        let frequency: f64 = from * (to / from).powf(i as f64 / (count - 1) as f64);
+        let mut scene = fundamental.clone();
+        scene.set("stator.frequency_khz", &format!("{frequency}"))?;
+        frequencies.push(frequency);
+        work.push(Work { problem: Problem::new(&scene)?, settings: Settings { record: Record::Numbers, ..ours } });
+    }
+
+    // The longest first, one by one to whoever is free: the pool is busy to the end.
+    let nodes = |work: &Work| work.problem.numerics.film_nodes_along.unwrap_or(0);
+    let mut order: Vec<usize> = (0..work.len()).collect();
+    order.sort_by_key(|i| (work[*i].settings.method == Method::Auto, std::cmp::Reverse(nodes(&work[*i]))));
+    let solved: Mutex<Vec<Option<Result<Solution, String>>>> = Mutex::new(vec![None; work.len()]);
+    order.into_iter().par_bridge().for_each(|i| {
+        let result = attempt(&work[i].problem, &work[i].settings, &mut (), cancel);
+        finished(&work[i].problem.name);
+        let mut solved = solved.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        solved[i] = Some(result);
+    });
+    let solved = solved.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut solved = solved.into_iter().map(|result| result.unwrap_or_else(|| Err("not solved".to_owned())));
+    let mut next = || solved.next().unwrap_or_else(|| Err("not solved".to_owned()));
+
+    // In the order in which they were put there.
+    let mut scenes = scenes.into_iter();
+    let mut pair = |scene: Scene| -> Result<Both, SceneError> {
+        let (paper, ours) = (next(), next());
+        Ok(Both { problem: Problem::new(&scene)?, scene, paper, ours })
+    };
+    let rows = published()
+        .into_iter()
+        .zip(scenes.by_ref())
+        .map(|(published, scene)| Ok(Row { published, both: pair(scene)? }))
+        .collect::<Result<Vec<_>, SceneError>>()?;
+    let no_sliding = pair(no_sliding)?;
+    let softer = pair(softer)?;
+    let frequencies = frequencies
+        .into_iter()
+        .map(|frequency_khz| {
+            let solved = next().and_then(|solution| match (solution.status, solution.outcome) {
+                (Status::Converged, Outcome::Motor(result)) => Ok(result),
+                _ => Err("not converged".to_owned()),
+            });
+            Point { frequency_khz, solved }
+        })
+        .collect();
+    Ok(Reproduction { rows, no_sliding, softer, frequencies, settings: ours })
+}

@@ -1,0 +1,235 @@
+//! `squeezefilm compare`: presets side by side.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::figures::FigureOptions;
+use super::interrupt::cancel_on_interrupt;
+use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::progress::Bar;
+use super::solve::written;
+use super::summary::duration;
+use super::terminal;
+use crate::analysis::compare::{Run, results, runs};
+use crate::analysis::sweep::Ending;
+use crate::control::Cancel;
+use crate::export::animation::{AnimationError, Options};
+use crate::export::compare::{
+    Object, Report, all_figures, difference_text, ending, frames, movies, parameter_rows, report, status, value_text,
+    write_csv, write_parameters_csv,
+};
+use crate::export::folder::{Staged, WriteError};
+use crate::export::json;
+use crate::fidelity::Fidelity;
+use crate::scene::{Scene, Value};
+use crate::solve::{Method, Settings};
+use clap::Args;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm compare fundamental min-spacing-100nm
+  squeezefilm compare fundamental rotor-width-0.6mm tooth-width-2.31mm --out results
+  squeezefilm compare fundamental my.toml --set film.slip=fukui-kaneko --json
+  squeezefilm compare plate-viscous plate-crossover plate-trapped --out plates";
+
+const FILES: &str = "\
+Files of --out:
+  report.html      everything in one file that opens offline: tables,
+                   figures, animation, parameters, errors, the command
+  compare.csv      a row for each run and quantity
+  parameters.csv   a row for each key in which they differ (--all: each key)
+  compare.json     what --json prints
+  cycle.gif        one cycle of all runs in phase
+  waves, loads, maps, teeth (.svg .png)
+                   figures, runs laid over each other; of plates
+                   profiles, loads, loops, maps";
+
+/// Solves several presets and shows them side by side, with differences against the first
+///
+/// Each is solved by itself, and its numbers are those of `squeezefilm solve`, to the last bit.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// Built-in presets (see: squeezefilm presets) or paths of TOML files, two or more
+    #[arg(value_name = "PRESET", required = true, num_args = 2..)]
+    presets: Vec<String>,
+
+    /// Lists all parameters, not only those that differ
+    #[arg(long)]
+    all: bool,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+
+    #[command(flatten)]
+    output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scenes =
+        arguments.presets.iter().map(|preset| arguments.scene.scene(preset)).collect::<Result<Vec<Scene>, _>>()?;
+    if let Some(folder) = &arguments.output.out {
+        // Finds out whether it can be written before anything is solved.
+        Staged::new(folder)?.add("report.html", |_| Ok(()))?;
+    }
+    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let cancel = cancel_on_interrupt();
+
+    let bar = Bar::points(scenes.len(), 0);
+    let started = Instant::now();
+    let solved = runs(&scenes, &settings, &cancel, &|run| bar.point_done(&run.label));
+    let wall_s = started.elapsed().as_secs_f64();
+    drop(bar);
+    let runs = solved?;
+    if cancel.is_cancelled() {
+        terminal::note("cancelled; no file was written");
+        return Ok(Exit::Other);
+    }
+    for run in &runs {
+        match &run.solved {
+            Err(reason) => terminal::error(&format!("{}: {reason}", run.label)),
+            Ok(solution) => solution.warnings.iter().for_each(|warning| {
+                terminal::warning(&format!("{}: {warning}", run.label));
+            }),
+        }
+    }
+    let object = || json::text(&Object::new(&runs, &settings, command));
+    terminal::data(&if arguments.output.json { object() } else { text(&runs, &settings, arguments.all) })?;
+    terminal::note(&format!("{} presets in {}", runs.len(), duration(wall_s)));
+    if let Some(folder) = &arguments.output.out {
+        match write(folder, &runs, &settings, arguments, command, &cancel)? {
+            Some(paths) => terminal::note(&written(folder, &paths)),
+            None => {
+                terminal::note("cancelled; no file was written");
+                return Ok(Exit::Other);
+            }
+        }
+    }
+    Ok(exit(&runs))
+}
+
+/// Writes the files of `--out`; `None` if it was cancelled meanwhile, and then no file is there.
+fn write(
+    folder: &Path,
+    runs: &[Run],
+    settings: &Settings,
+    arguments: &Arguments,
+    command: &[String],
+    cancel: &Cancel,
+) -> Result<Option<Vec<PathBuf>>, CliError> {
+    let options = Options::default();
+    let bar = Bar::frames(frames(runs, options.frames));
+    let drawn = movies(runs, &options, &|| bar.row_done(""), cancel);
+    drop(bar);
+    let drawn = match drawn {
+        Err(AnimationError::Cancelled) => return Ok(None),
+        drawn => drawn?,
+    };
+    let mut animations = Vec::new();
+    for (name, movie) in drawn {
+        let mut gif = Vec::new();
+        match movie.gif(&mut gif, cancel) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => return Ok(None),
+            gif => gif.map_err(|source| WriteError { path: folder.join("cycle.gif"), source })?,
+        }
+        animations.push((name.to_owned(), gif));
+    }
+    let mut staged = Staged::new(folder)?;
+    let page = report(runs, &Report { settings, all: arguments.all, movies: &animations, command });
+    staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
+    staged.add("compare.csv", |out| write_csv(runs, out))?;
+    staged.add("parameters.csv", |out| write_parameters_csv(runs, arguments.all, out))?;
+    staged.add("compare.json", |out| out.write_all(json::text(&Object::new(runs, settings, command)).as_bytes()))?;
+    for (name, gif) in &animations {
+        staged.add(&format!("{name}.gif"), |out| out.write_all(gif))?;
+    }
+    for (name, figure) in all_figures(runs) {
+        if cancel.is_cancelled() {
+            return Ok(None);
+        }
+        arguments.figures.stage(&mut staged, &name, &figure)?;
+    }
+    if cancel.is_cancelled() {
+        return Ok(None);
+    }
+    Ok(Some(staged.commit()?))
+}
+
+/// The worst of the runs decides.
+fn exit(runs: &[Run]) -> Exit {
+    let endings: Vec<Ending> = runs.iter().map(ending).collect();
+    if endings.iter().any(|ending| matches!(ending, Ending::Failed(_))) {
+        Exit::Other
+    } else if endings.contains(&Ending::NotConverged) {
+        Exit::NotConverged
+    } else {
+        Exit::Solved
+    }
+}
+
+/// The tables for people. Runs are lettered, so that long names do not widen them.
+fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
+    let how = match settings.method {
+        Method::Auto => format!("fidelity {}", settings.fidelity),
+        Method::Paper => "the paper's algorithm".to_owned(),
+    };
+    let mut text = paragraph(&format!("{} presets, {how}; differences are against {}", runs.len(), letter(0)), "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    for (i, run) in runs.iter().enumerate() {
+        let state = if run.converged() { String::new() } else { status(run).to_uppercase() };
+        columns.row([letter(i), run.label.clone(), state]);
+    }
+    text.push_str(&columns.text("  ", &[]));
+
+    let mut columns = Columns::new();
+    let letters = |first: &str| std::iter::once(first.to_owned()).chain((0..runs.len()).map(letter));
+    columns.row(letters("parameter"));
+    let mut listed = 0;
+    for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
+        listed += 1;
+        let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
+        let shown = |value: &Option<Value>| value.as_ref().map_or_else(|| "none".to_owned(), Value::to_string);
+        columns.row(std::iter::once(format!("{}{unit}", row.parameter.key)).chain(row.values.iter().map(shown)));
+    }
+    let right: Vec<usize> = (1..=2 * runs.len()).collect();
+    text.push('\n');
+    if listed == 0 {
+        text.push_str("  no parameter differs\n");
+    } else {
+        text.push_str(&columns.text("  ", &right));
+    }
+
+    let mut columns = Columns::new();
+    let pair = |i: usize| if i == 0 { vec![letter(i)] } else { vec![letter(i), format!("{} − A", letter(i))] };
+    columns.row(std::iter::once("result".to_owned()).chain((0..runs.len()).flat_map(pair)));
+    for row in results(runs) {
+        let mut cells = vec![row.quantity.label()];
+        for (i, cell) in row.cells.iter().enumerate() {
+            cells.push(value_text(&row, cell));
+            if i > 0 {
+                cells.push(difference_text(cell));
+            }
+        }
+        columns.row(cells);
+    }
+    text.push('\n');
+    text.push_str(&columns.text("  ", &right));
+    text
+}
+
+/// `A`, `B`, …; after `Z` numbers.
+fn letter(index: usize) -> String {
+    match u8::try_from(index).ok().filter(|index| *index < 26) {
+        Some(index) => char::from(b'A' + index).to_string(),
+        None => (index + 1).to_string(),
+    }
+}

@@ -1,0 +1,151 @@
+//! `squeezefilm reproduce`: every table and figure of the paper, in one report.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::figures::FigureOptions;
+use super::interrupt::cancel_on_interrupt;
+use super::options::SolveOptions;
+use super::progress::Bar;
+use super::solve::written;
+use super::summary::duration;
+use super::terminal;
+use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
+use crate::control::Cancel;
+use crate::export::animation::{AnimationError, Options, cycle, frames};
+use crate::export::digits::with_error;
+use crate::export::folder::{Staged, WriteError};
+use crate::export::json;
+use crate::export::reproduce::{Object, RowObject, figures, report, write_table1_csv};
+use crate::fidelity::Fidelity;
+use crate::solve::Method;
+use clap::Args;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const FILES: &str = "\
+Files of --out:
+  report.html  everything in one file that opens offline
+  table1.csv   Table I: published, by the paper's algorithm, converged
+  figures.json what --json prints
+  fig3 … fig12 (.svg .png)
+               the figures
+  cycle.gif    the fundamental case, moving";
+
+/// Makes every table and figure of the paper that its text defines, into one HTML report
+///
+/// Table I and Figs. 3, 4 and 6–12 of Maeno and Bogy (1992): published numbers beside those of the paper's algorithm on its
+/// own meshes and beside converged ones; and what the text says, checked. Under a minute on two cores.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  squeezefilm reproduce\n  squeezefilm reproduce --out paper --figures pdf", after_long_help = FILES)]
+pub(super) struct Arguments {
+    /// Writes the files into this folder, made if need be; files of the same name are replaced
+    #[arg(long, value_name = "DIR", default_value = "reproduction")]
+    out: PathBuf,
+
+    /// Prints JSON, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    if arguments.solve.method.is_some() {
+        return Err(CliError::Usage("reproduce solves by both methods: leave --method out"));
+    }
+    // Finds out whether it can be written before anything is solved.
+    Staged::new(&arguments.out)?.add("report.html", |_| Ok(()))?;
+    let settings = arguments.solve.prepare(Fidelity::Fine, Method::Auto)?;
+    let cancel = cancel_on_interrupt();
+    let started = Instant::now();
+    let bar = Bar::points(number_of_solves(), 0);
+    let solved = reproduce(&settings, &cancel, &|name| bar.point_done(name));
+    drop(bar);
+    let all = solved?;
+    let written_to =
+        if cancel.is_cancelled() { None } else { write(&arguments.out, &all, arguments, command, &cancel)? };
+    let Some(paths) = written_to else {
+        terminal::note("cancelled; no file was written");
+        return Ok(Exit::Other);
+    };
+    terminal::data(&if arguments.json { json::text(&Object::new(&all, command)) } else { text(&all) })?;
+    terminal::note(&written(&arguments.out, &paths));
+    terminal::note(&format!(
+        "{} solves and the report in {}; open {}",
+        number_of_solves(),
+        duration(started.elapsed().as_secs_f64()),
+        arguments.out.join("report.html").display()
+    ));
+    Ok(if all.unsolved() == 0 { Exit::Solved } else { Exit::NotConverged })
+}
+
+/// Writes the files; `None` if it was cancelled meanwhile, and then no file is there.
+fn write(
+    folder: &Path,
+    all: &Reproduction,
+    arguments: &Arguments,
+    command: &[String],
+    cancel: &Cancel,
+) -> Result<Option<Vec<PathBuf>>, CliError> {
+    let mut gif = None;
+    if let Some((both, solution)) =
+        all.row("fundamental").and_then(|row| Some((&row.both, row.both.ours.as_ref().ok()?)))
+    {
+        let options = Options { width: 860, ..Options::default() };
+        let bar = Bar::frames(frames(&solution.recording, options.frames));
+        let movie = match cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel) {
+            Err(AnimationError::Cancelled) => return Ok(None),
+            movie => movie?,
+        };
+        let mut bytes = Vec::new();
+        match movie.gif(&mut bytes, cancel) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => return Ok(None),
+            gif => gif.map_err(|source| WriteError { path: folder.join("cycle.gif"), source })?,
+        }
+        gif = Some(bytes);
+    }
+    let mut staged = Staged::new(folder)?;
+    let page = report(all, gif.as_deref(), command);
+    staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
+    staged.add("table1.csv", |out| write_table1_csv(all, out))?;
+    staged.add("figures.json", |out| out.write_all(json::text(&Object::new(all, command)).as_bytes()))?;
+    for (number, figure) in figures(all) {
+        if cancel.is_cancelled() {
+            return Ok(None);
+        }
+        arguments.figures.stage(&mut staged, &format!("fig{number}"), &figure)?;
+    }
+    if let Some(gif) = &gif {
+        staged.add("cycle.gif", |out| out.write_all(gif))?;
+    }
+    if cancel.is_cancelled() {
+        return Ok(None);
+    }
+    Ok(Some(staged.commit()?))
+}
+
+/// Table I for people.
+fn text(all: &Reproduction) -> String {
+    let mut text = paragraph("Table I of Maeno and Bogy (1992): film share α of the load", "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row(["row", "published", "paper's algorithm", "converged"]);
+    let with = |value: Option<f64>, error: Option<f64>| {
+        value.map_or_else(|| "failed".to_owned(), |value| with_error(value, error.unwrap_or(f64::INFINITY)))
+    };
+    for row in all.rows.iter().map(RowObject::new) {
+        columns.row([
+            row.row.clone(),
+            format!("{:.3}", row.published_alpha),
+            with(row.paper_alpha, row.paper_alpha_error),
+            with(row.alpha, row.alpha_error),
+        ]);
+    }
+    text.push_str(&columns.text("  ", &[1, 2, 3]));
+    text
+}

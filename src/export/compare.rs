@@ -1,0 +1,482 @@
+//! A comparison as JSON, as CSV, as figures, as moving pictures and as a report.
+//!
+//! Numbers are written with the fewest digits that read back to the same bits.
+
+use super::animation::{AnimationError, Movie, Options};
+use super::digits::{significant, with_error};
+use super::figure::{Figure, Provenance};
+use super::figures::compare::{self as figures, MotorRun, PlateRun};
+use super::html::{Kind, Page, Table, shell};
+use super::json::status_name;
+use crate::analysis::compare::{ParameterRow, ResultCell, ResultRow, Run, parameters, results};
+use crate::analysis::quantity::Quantity;
+use crate::analysis::sweep::Ending;
+use crate::control::Cancel;
+use crate::problem::Scenario;
+use crate::scene::Value;
+use crate::solution::Status;
+use crate::solve::{Method, Settings};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use std::io::{self, Write};
+
+/// The version of the object and of the columns.
+pub const SCHEMA: u32 = 1;
+
+/// How a run ended.
+pub fn ending(run: &Run) -> Ending {
+    match &run.solved {
+        Ok(solution) => match solution.status {
+            Status::Converged => Ending::Converged,
+            Status::NotConverged { .. } => Ending::NotConverged,
+            Status::Cancelled => Ending::Failed("cancelled".to_owned()),
+        },
+        Err(reason) => Ending::Failed(reason.clone()),
+    }
+}
+
+/// `converged`, `not converged`, `cancelled` or `failed: …`.
+pub fn status(run: &Run) -> String {
+    match &run.solved {
+        Ok(solution) => status_name(&solution.status).to_owned(),
+        Err(reason) => format!("failed: {reason}"),
+    }
+}
+
+/// The object of `--json`.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Object<'a> {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// `auto` or `paper`.
+    pub method: &'static str,
+    /// `draft`, `standard`, …; of method paper null.
+    pub fidelity: Option<&'static str>,
+    /// One for each preset; differences are against the first.
+    pub runs: Vec<RunObject<'a>>,
+    /// Keys in which the scenes differ, each with its value in every run, null where there is none.
+    pub differing: Vec<ParameterObject>,
+    /// Version of this program.
+    pub version: &'static str,
+    /// The command line, word by word; empty if there was none.
+    pub command: &'a [String],
+}
+
+/// One key.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct ParameterObject {
+    /// Dotted key.
+    pub key: &'static str,
+    /// Unit of its values.
+    pub unit: &'static str,
+    /// Its value in every run.
+    pub values: Vec<serde_json::Value>,
+}
+
+/// One run: the names of `solve --json`, as far as a scene has them.
+#[derive(Clone, Debug)]
+pub struct RunObject<'a> {
+    run: &'a Run,
+    differences: Vec<(Quantity, ResultCell)>,
+}
+
+impl Serialize for RunObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("label", &self.run.label)?;
+        map.serialize_entry("preset", &self.run.problem.name)?;
+        map.serialize_entry("scene", self.run.scene.scene())?;
+        map.serialize_entry("status", &status(self.run))?;
+        map.serialize_entry("converged", &self.run.converged())?;
+        let numbers = self.run.numbers();
+        for quantity in Quantity::of(&self.run.problem) {
+            let value = numbers.get(quantity);
+            if quantity.is_count() {
+                map.serialize_entry(quantity.name(), &value.map(|count| count as u64))?;
+            } else {
+                map.serialize_entry(quantity.name(), &value)?;
+            }
+        }
+        let differences: serde_json::Map<String, serde_json::Value> = self
+            .differences
+            .iter()
+            .filter_map(|(quantity, cell)| Some((quantity.name().to_owned(), cell.difference_percent?.into())))
+            .collect();
+        map.serialize_entry("difference_percent", &differences)?;
+        let solution = self.run.solved.as_ref().ok();
+        map.serialize_entry("why", &solution.map(|solution| &solution.model.why))?;
+        map.serialize_entry("warnings", &solution.map(|solution| &solution.warnings))?;
+        map.serialize_entry("scene_toml", &self.run.scene.to_toml())?;
+        map.end()
+    }
+}
+
+fn json_value(value: &Option<Value>) -> serde_json::Value {
+    match value {
+        None => serde_json::Value::Null,
+        Some(Value::Number(number)) => (*number).into(),
+        Some(Value::Whole(whole)) => (*whole).into(),
+        Some(Value::Flag(flag)) => (*flag).into(),
+        Some(Value::Text(text)) => text.clone().into(),
+        Some(Value::Rows(rows)) => rows.iter().map(|(k, c)| vec![*k, *c]).collect(),
+    }
+}
+
+impl<'a> Object<'a> {
+    /// The object of runs.
+    pub fn new(runs: &'a [Run], settings: &Settings, command: &'a [String]) -> Self {
+        let rows = results(runs);
+        let of = |i: usize| rows.iter().map(|row| (row.quantity, row.cells[i])).collect();
+        Self {
+            schema: SCHEMA,
+            method: settings.method.name(),
+            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.name()),
+            runs: runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) }).collect(),
+            differing: parameter_rows(runs)
+                .iter()
+                .filter(|row| row.differs())
+                .map(|row| ParameterObject {
+                    key: row.parameter.key,
+                    unit: row.parameter.unit,
+                    values: row.values.iter().map(json_value).collect(),
+                })
+                .collect(),
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+        }
+    }
+}
+
+/// The parameters of the runs' scenes.
+pub fn parameter_rows(runs: &[Run]) -> Vec<ParameterRow> {
+    parameters(&runs.iter().map(|run| &run.scene).collect::<Vec<_>>())
+}
+
+/// Writes the results as CSV, a row for each run and quantity; what is not there is empty.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record([
+        "run",
+        "label",
+        "scene",
+        "status",
+        "quantity",
+        "unit",
+        "value",
+        "error",
+        "difference_percent",
+        "difference_error_percent",
+    ])?;
+    for row in results(runs) {
+        for (i, (run, cell)) in runs.iter().zip(&row.cells).enumerate() {
+            let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+            let unit = row.quantity.unit();
+            writer.write_record([
+                (i + 1).to_string().as_str(),
+                &run.label,
+                run.scene.scene(),
+                &status(run),
+                row.quantity.name(),
+                unit,
+                &number(cell.value),
+                &number(cell.error),
+                &number(cell.difference_percent),
+                &number(cell.difference_error_percent),
+            ])?;
+        }
+    }
+    writer.flush()
+}
+
+/// Writes the parameters as CSV, a row for each key and a column for each run.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_parameters_csv(runs: &[Run], all: bool, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    let labels = runs.iter().map(|run| run.label.as_str());
+    writer.write_record(["key", "unit"].into_iter().chain(labels))?;
+    for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
+        let values = row.values.iter().map(|value| value.as_ref().map_or_else(String::new, Value::to_string));
+        let first = [row.parameter.key.to_owned(), row.parameter.unit.to_owned()];
+        writer.write_record(first.into_iter().chain(values))?;
+    }
+    writer.flush()
+}
+
+/// Runs of motors that have fields.
+fn motor_runs(runs: &[Run]) -> Vec<MotorRun<'_>> {
+    let of = |(i, run)| {
+        let run: &Run = run;
+        let recording = &run.solved.as_ref().ok()?.recording;
+        match &run.problem.scenario {
+            Scenario::Motor(motor) if recording.frames > 0 => {
+                Some(MotorRun { name: &run.label, motor, recording, style: figures::style(i) })
+            }
+            _ => None,
+        }
+    };
+    runs.iter().enumerate().filter_map(of).collect()
+}
+
+/// Runs of plates that have fields.
+fn plate_runs(runs: &[Run]) -> Vec<PlateRun<'_>> {
+    let of = |(i, run)| {
+        let run: &Run = run;
+        let recording = &run.solved.as_ref().ok()?.recording;
+        match &run.problem.scenario {
+            Scenario::Plate(plate) if recording.frames > 0 => {
+                Some(PlateRun { name: &run.label, plate, recording, style: figures::style(i) })
+            }
+            _ => None,
+        }
+    };
+    runs.iter().enumerate().filter_map(of).collect()
+}
+
+/// Where the numbers of a comparison come from.
+pub fn provenance(runs: &[Run]) -> Provenance {
+    let fidelity = runs.iter().find_map(|run| Some(run.solved.as_ref().ok()?.model.fidelity.clone()));
+    let unsolved = runs.iter().filter(|run| !run.converged()).count();
+    let main = |run: &Run| {
+        let numbers = run.numbers();
+        let (quantity, name) = match run.problem.scenario {
+            Scenario::Motor(_) => (Quantity::Alpha, "α"),
+            Scenario::Plate(_) => (Quantity::LoadRatio, "load ratio"),
+        };
+        let error = numbers.get(quantity.error()?).unwrap_or(f64::INFINITY);
+        Some(format!("{name} = {}", with_error(numbers.get(quantity)?, error)))
+    };
+    Provenance {
+        preset: runs.iter().map(|run| run.label.as_str()).collect::<Vec<_>>().join(", "),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        fidelity: fidelity.unwrap_or_default(),
+        error: runs.iter().filter_map(main).collect::<Vec<_>>().join(", "),
+        note: if unsolved == 0 { String::new() } else { format!("{unsolved} NOT CONVERGED") },
+    }
+}
+
+/// The figures, each with the name of its file without extension; those of plates begin with `plate-` where there are
+/// motors too.
+pub fn all_figures(runs: &[Run]) -> Vec<(String, Figure)> {
+    let (motors, plates) = (motor_runs(runs), plate_runs(runs));
+    let prefix = if motors.is_empty() { "" } else { "plate-" };
+    let mut all: Vec<(String, Figure)> =
+        figures::motors(&motors).into_iter().map(|(name, figure)| (name.to_owned(), figure)).collect();
+    all.extend(figures::plates(&plates).into_iter().map(|(name, figure)| (format!("{prefix}{name}"), figure)));
+    let provenance = provenance(runs);
+    for (_, figure) in &mut all {
+        figure.provenance = provenance.clone();
+    }
+    all
+}
+
+/// Moving pictures of the runs in phase, with the name of their file without extension: of the motors, and of the plates.
+/// `done` is called after each frame, from several threads.
+///
+/// # Errors
+/// [`AnimationError`]: cancelled, or a frame that cannot be drawn.
+pub fn movies(
+    runs: &[Run],
+    options: &Options,
+    done: &(dyn Fn() + Sync),
+    cancel: &Cancel,
+) -> Result<Vec<(&'static str, Movie)>, AnimationError> {
+    let (motors, plates) = (motor_runs(runs), plate_runs(runs));
+    let provenance = provenance(runs);
+    let finish = |mut figure: Figure, phase: f64| {
+        figure.title = format!("t/T = {phase:.2}");
+        figure.provenance = provenance.clone();
+        figure
+    };
+    let mut movies = Vec::new();
+    if !motors.is_empty() {
+        let count = figures::common_frames(motors.iter().map(|run| run.recording), options.frames);
+        let phase = |frame: usize| frame as f64 / count as f64;
+        let figure = |frame: usize| finish(figures::moving_motors(&motors, phase(frame)), phase(frame));
+        movies.push(("cycle", Movie::of(count, options, &figure, done, cancel)?));
+    }
+    if !plates.is_empty() {
+        let count = figures::common_frames(plates.iter().map(|run| run.recording), options.frames);
+        let phase = |frame: usize| frame as f64 / count as f64;
+        let figure = |frame: usize| finish(figures::moving_plates(&plates, phase(frame)), phase(frame));
+        let name = if motors.is_empty() { "cycle" } else { "plate-cycle" };
+        movies.push((name, Movie::of(count, options, &figure, done, cancel)?));
+    }
+    Ok(movies)
+}
+
+/// How many frames [`movies`] draws.
+pub fn frames(runs: &[Run], most: usize) -> usize {
+    figures::common_frames(motor_runs(runs).iter().map(|run| run.recording), most)
+        + figures::common_frames(plate_runs(runs).iter().map(|run| run.recording), most)
+}
+
+/// A value with its error, as many digits as that justifies; counts whole.
+pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
+    match (cell.value, cell.error) {
+        (None, _) => String::new(),
+        (Some(value), _) if row.quantity.is_count() => format!("{value}"),
+        (Some(value), Some(error)) => with_error(value, error),
+        // It has an estimate, but not here: that is told.
+        (Some(value), None) if row.quantity.error().is_some() => with_error(value, f64::INFINITY),
+        (Some(value), None) => significant(value, 4),
+    }
+}
+
+/// `+3.2 ± 0.1 %`
+pub fn difference_text(cell: &ResultCell) -> String {
+    match (cell.difference_percent, cell.difference_error_percent) {
+        (None, _) => String::new(),
+        (Some(0.0), _) => "0 %".to_owned(),
+        (Some(difference), Some(error)) if error.is_finite() && error > 0.0 => {
+            let sign = if difference >= 0.0 { "+" } else { "−" };
+            let text = with_error(difference.abs(), error);
+            format!("{sign}{text} %")
+        }
+        (Some(difference), _) if difference.abs() >= 1000.0 => {
+            format!("× {}", significant(1.0 + difference / 100.0, 3))
+        }
+        (Some(difference), _) => {
+            let places = if difference.abs() < 0.1 { 3 } else { 1 };
+            format!("{difference:+.places$} %").replace('-', "−")
+        }
+    }
+}
+
+/// What the report is made of beside the runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// How it was solved.
+    pub settings: &'a Settings,
+    /// All parameters are listed, not only those that differ.
+    pub all: bool,
+    /// Animations as GIF, each with its name.
+    pub movies: &'a [(String, Vec<u8>)],
+    /// The command line that makes it again.
+    pub command: &'a [String],
+}
+
+/// The comparison as one HTML file that needs nothing else.
+pub fn report(runs: &[Run], report: &Report<'_>) -> String {
+    let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
+    let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
+    let how = match report.settings.method {
+        Method::Auto => format!("fidelity {}", report.settings.fidelity),
+        Method::Paper => "the algorithm of Maeno and Bogy on its own meshes".to_owned(),
+    };
+    let lead = format!(
+        "{} scenes, each solved by itself for its periodic steady state ({how}). Differences are against the first. The ± is the \
+         solver's estimate of its numerical error; that of a difference is the sum of both.",
+        runs.len()
+    );
+    let mut page =
+        Page::new("squeezefilm · comparison", &format!("{} beside {}", first.label, others.join(", ")), &lead);
+    for run in runs {
+        if !run.converged() {
+            page.warning(&format!("{}: {}", run.label, status(run)));
+        }
+    }
+
+    page.section("What differs");
+    let rows = parameter_rows(runs);
+    page.table(&parameter_table(runs, rows.iter().filter(|row| report.all || row.differs())));
+    if rows.iter().all(|row| !row.differs()) {
+        page.text("The scenes do not differ in any parameter.");
+    }
+
+    page.section("Results");
+    page.table(&result_table(runs));
+
+    page.section("Fields");
+    for (name, gif) in report.movies {
+        let alternative = "One cycle of all runs in phase";
+        let caption = "All runs at the same phase of their own cycle, whatever its frequency; the cycle repeats.";
+        page.picture(
+            "image/gif",
+            gif,
+            alternative,
+            if name == "cycle" { "One cycle." } else { "One cycle, plates." },
+            caption,
+        );
+    }
+    let figures = all_figures(runs);
+    page.figures(figures.iter().map(|(_, figure)| ("", figure)));
+
+    page.section("What was modelled");
+    for run in runs {
+        page.heading(&run.label);
+        if !run.scene.about.is_empty() {
+            page.text(&run.scene.about);
+        }
+        match &run.solved {
+            Ok(solution) => {
+                page.list(&solution.model.why);
+                solution.warnings.iter().for_each(|warning| page.warning(warning));
+            }
+            Err(reason) => page.warning(reason),
+        }
+        page.folded("the scene as a preset", &run.scene.to_toml());
+    }
+    again(&mut page, report.command);
+    page.finish(&provenance(runs).line())
+}
+
+/// The section that says how the report is made again.
+pub(super) fn again(page: &mut Page, command: &[String]) {
+    page.section("To make this report again");
+    if !command.is_empty() {
+        page.code(&shell(command));
+    }
+    page.note(&format!(
+        "squeezefilm {}. A run repeats to the last bit, whatever the number of threads; only times differ.",
+        env!("CARGO_PKG_VERSION")
+    ));
+}
+
+/// With more runs than this, differences stand below the values instead of beside them.
+const BESIDE: usize = 3;
+
+fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
+    let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
+    let mut table = Table::new("").heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
+    for row in rows {
+        let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
+        let kind = if row.differs() { Kind::Strong } else { Kind::Number };
+        let values = row.values.iter().map(|value| match value {
+            Some(value) => (kind, value.to_string()),
+            None => (Kind::Quiet, row.parameter.absent.map_or("–", |_| "none").to_owned()),
+        });
+        table.row([(Kind::Words, format!("{}{unit}", row.parameter.key))].into_iter().chain(values));
+    }
+    table
+}
+
+fn result_table(runs: &[Run]) -> Table {
+    let beside = runs.len() <= BESIDE;
+    let mut heads = vec![(Kind::Words, "result".to_owned())];
+    for (i, run) in runs.iter().enumerate() {
+        heads.push((Kind::Number, run.label.clone()));
+        if beside && i > 0 {
+            heads.push((Kind::Number, "difference".to_owned()));
+        }
+    }
+    let mut table = Table::new("").heads(heads);
+    for row in results(runs) {
+        let mut cells = vec![(Kind::Words, row.quantity.label())];
+        let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
+        let kind = if main { Kind::Strong } else { Kind::Number };
+        for (i, cell) in row.cells.iter().enumerate() {
+            let (value, difference) = (value_text(&row, cell), difference_text(cell));
+            match (beside, i) {
+                (_, 0) => cells.push((kind, value)),
+                (true, _) => cells.extend([(kind, value), (Kind::Number, difference)]),
+                (false, _) => cells.push((kind, format!("{value}\n{difference}"))),
+            }
+        }
+        table.row(cells);
+    }
+    table
+}

@@ -1,0 +1,404 @@
+//! Figures of several runs: curves laid over each other, maps side by side with one scale of colours. All are at the same
+//! phase of the cycle, and axes cover the whole cycle of every run.
+
+use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span, pressure_unit};
+use super::unit::prefixed;
+use super::{mirrored, over_cycle, plate, rest, span, with_margin};
+use crate::export::figure::{Axis, Figure, Grid, Layer, Legend, Line, Map, Panel, Range, Style, Width};
+use crate::problem::{Motor, Plate};
+use crate::recording::Recording;
+
+/// A motor's run.
+#[derive(Clone, Copy, Debug)]
+pub struct MotorRun<'a> {
+    /// Its name in the legend.
+    pub name: &'a str,
+    /// The motor.
+    pub motor: &'a Motor,
+    /// Its fields.
+    pub recording: &'a Recording,
+    /// How its curves look.
+    pub style: Style,
+}
+
+/// A plate's run.
+#[derive(Clone, Copy, Debug)]
+pub struct PlateRun<'a> {
+    /// Its name in the legend.
+    pub name: &'a str,
+    /// The plate.
+    pub plate: &'a Plate,
+    /// Its fields.
+    pub recording: &'a Recording,
+    /// How its curves look.
+    pub style: Style,
+}
+
+/// The style of run `index` of several: without markers, as curves have many points.
+pub fn style(index: usize) -> Style {
+    Style { marker: None, ..Style::nth(index) }
+}
+
+/// At most this many maps are moved.
+const MOVING_MAPS: usize = 4;
+
+/// All figures of several motors, each with the name of its file. No runs, no figures.
+pub fn motors(runs: &[MotorRun<'_>]) -> Vec<(&'static str, Figure)> {
+    let Some(first) = runs.first() else { return Vec::new() };
+    let frame = crest_in_the_middle(first.recording);
+    let phase = super::phase(first.recording, frame);
+    vec![
+        ("waves", waves(runs, phase)),
+        ("loads", loads(runs)),
+        ("maps", maps(runs, phase)),
+        ("teeth", teeth(runs, phase)),
+    ]
+}
+
+/// The frame of a recording that is nearest to a phase of the cycle, 0 to 1.
+pub fn nearest_frame(recording: &Recording, phase: f64) -> usize {
+    (phase * recording.frames as f64).round() as usize % recording.frames.max(1)
+}
+
+/// How many frames moving pictures of these recordings have, at most `most`: if it can be, as many as divide every cycle
+/// evenly.
+pub fn common_frames<'a>(recordings: impl Iterator<Item = &'a Recording>, most: usize) -> usize {
+    let mut steps: Vec<usize> = recordings.map(|recording| recording.frames).collect();
+    steps.retain(|frames| *frames > 0);
+    let Some(least) = steps.iter().copied().min() else { return 0 };
+    let most = most.min(least).max(1);
+    let even = (1..=most).rev().find(|count| steps.iter().all(|frames| frames.is_multiple_of(*count)));
+    // A few frames that fit are worse than many that nearly do.
+    even.filter(|count| 2 * count >= most).unwrap_or(most)
+}
+
+/// The wave's x axis: in millimetres, or if the wavelengths differ in wavelengths. And what a metre is on it.
+fn wave_axis(runs: &[MotorRun<'_>]) -> (Axis, impl Fn(&Recording) -> f64) {
+    let first = runs.first().map_or(1.0, |run| run.recording.length);
+    let alike = runs.iter().all(|run| (run.recording.length / first - 1.0).abs() < 1e-9);
+    let scale = move |recording: &Recording| if alike { 1e3 } else { 1.0 / recording.length };
+    let ends = runs.iter().map(|run| {
+        let (half, scale) = (0.5 * run.recording.pitch, scale(run.recording));
+        [-half * scale, (run.recording.length - half) * scale]
+    });
+    let [low, high] =
+        ends.fold([f64::INFINITY, f64::NEG_INFINITY], |all, ends| [all[0].min(ends[0]), all[1].max(ends[1])]);
+    let axis = if alike { Axis::new("x", "mm") } else { Axis::new("x/λ", "") };
+    (axis.fixed(low, high), scale)
+}
+
+/// A value at every node of every tooth at a frame, with gaps at the grooves.
+fn along(recording: &Recording, frame: usize, x: f64, value: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for tooth in 0..recording.teeth {
+        let line = recording.line_offset(tooth, frame);
+        let middle = tooth as f64 * recording.pitch;
+        points.extend(recording.x.iter().enumerate().map(|(i, xi)| [(middle + xi) * x, value(line + i)]));
+        points.push([f64::NAN; 2]);
+    }
+    points
+}
+
+/// The same without gaps: the rotor runs on over the grooves.
+fn joined(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.into_iter().filter(|[x, _]| x.is_finite()).collect()
+}
+
+/// Surfaces, contact pressure and film pressure along one wavelength at a phase of the cycle, all runs in each panel.
+pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
+    let mut figure = Figure::new(format!("t/T = {phase:.3}"));
+    figure.panels = vec![
+        surfaces(runs, phase).height(40.0),
+        contact_pressures(runs, phase, "(b) contact pressure").height(30.0),
+        film_pressures(runs, phase, "(c) film pressure, gauge").height(30.0),
+    ];
+    figure.share_x = true;
+    figure.width = Width::Millimetres(150.0);
+    figure.caption = format!(
+        "Rotor (thick) and tooth tops (thin) (a), contact pressure (b) and gauge pressure of the air film (c), both averaged over the \
+         contact width, along one wavelength at t/T = {phase:.3} of every run."
+    );
+    figure
+}
+
+fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
+    let underside = |run: &MotorRun<'_>, i: usize| {
+        run.recording.stator[i] + run.recording.film_thickness[i] - run.motor.min_spacing
+    };
+    let all = runs.iter().flat_map(|run| {
+        (0..run.recording.stator.len()).flat_map(move |i| [run.recording.stator[i], underside(run, i)])
+    });
+    let [low, high] = with_margin(span(all, 0.0), 0.08);
+    let (unit, scale) = prefixed(high.max(-low), "m");
+    let (x, metre) = wave_axis(runs);
+    let mut panel = Panel::new("(a) surfaces", x, Axis::new("displacement", unit).fixed(low * scale, high * scale));
+    for run in runs {
+        let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
+        let tops = along(run.recording, frame, metre, |i| run.recording.stator[i] * scale);
+        panel = panel.layer(Line::new("", tops, Style { width: 0.6, ..run.style }));
+    }
+    for run in runs {
+        let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
+        let rotor = joined(along(run.recording, frame, metre, |i| underside(run, i) * scale));
+        panel = panel.layer(Line::new(run.name, rotor, Style { width: 1.3, ..run.style }));
+    }
+    panel.legend = Legend::Above;
+    panel
+}
+
+/// Contact pressure, averaged over the contact width, of all runs.
+pub fn contact_pressures(runs: &[MotorRun<'_>], phase: f64, title: &str) -> Panel {
+    pressures(runs, phase, title, |recording| &recording.contact)
+}
+
+/// Gauge pressure of the film, averaged over the contact width, of all runs.
+pub fn film_pressures(runs: &[MotorRun<'_>], phase: f64, title: &str) -> Panel {
+    pressures(runs, phase, title, |recording| &recording.film)
+}
+
+fn pressures(runs: &[MotorRun<'_>], phase: f64, title: &str, of: impl Fn(&Recording) -> &Vec<f64>) -> Panel {
+    let all = runs.iter().flat_map(|run| of(run.recording).iter().map(|load| load / run.motor.contact_width));
+    let [low, high] = with_margin(span(all, 0.0), 0.06);
+    let (unit, scale) = pressure_unit(high.max(-low));
+    let (x, metre) = wave_axis(runs);
+    let y = Axis::new("pressure", unit).fixed(low * scale, high * scale);
+    let mut panel = Panel::new(title, x, y).layer(rest(0.0, ""));
+    for run in runs {
+        let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
+        let values = of(run.recording);
+        let mut points = along(run.recording, frame, metre, |i| values[i] / run.motor.contact_width * scale);
+        // Nothing rather than a line at zero where a tooth does not touch.
+        let teeth = points.split_mut(|[x, _]| !x.is_finite());
+        teeth.filter(|tooth| tooth.iter().all(|[_, y]| *y == 0.0)).for_each(|tooth| tooth.fill([f64::NAN; 2]));
+        panel = panel.layer(Line::new(run.name, points, run.style));
+    }
+    panel.legend = Legend::None;
+    panel
+}
+
+/// Film load and contact load over the cycle.
+pub fn loads(runs: &[MotorRun<'_>]) -> Figure {
+    let greatest = runs.iter().flat_map(|run| run.recording.film_load.iter().chain(&run.recording.contact_load));
+    let (unit, scale) = prefixed(span(greatest.copied(), 0.0)[1], "N");
+    let panel = |title: &str, of: fn(&Recording) -> &Vec<f64>| {
+        let y = Axis::new("load", &unit).including([0.0]);
+        let mut panel = Panel::new(title, Axis::new("t/T", "").fixed(0.0, 1.0), y).height(36.0);
+        for run in runs {
+            panel = panel.layer(Line::new(run.name, over_cycle(of(run.recording), scale), run.style));
+        }
+        panel
+    };
+    let mut film = panel("(a) load of the air film on one wavelength", |recording| &recording.film_load);
+    film.legend = Legend::Above;
+    let mut contact = panel("(b) contact load", |recording| &recording.contact_load);
+    contact.legend = Legend::None;
+    let mut figure = Figure::new("loads over the cycle").panel(film).panel(contact);
+    figure.share_x = true;
+    figure.width = Width::Millimetres(110.0);
+    figure.caption =
+        "Load of the air film (a) and contact load (b) on one wavelength, over one cycle of every run.".to_owned();
+    figure
+}
+
+/// Least and greatest pressure of all runs, and its unit.
+fn common_pressure<'a>(recordings: impl Iterator<Item = &'a Recording>) -> ([f64; 2], (String, f64)) {
+    let spans = recordings.map(pressure_span);
+    let [low, high] =
+        spans.fold([f64::INFINITY, f64::NEG_INFINITY], |all, span| [all[0].min(span[0]), all[1].max(span[1])]);
+    ([low, high], pressure_unit(high))
+}
+
+/// The film's pressure under all teeth of every run, with one scale of colours.
+pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
+    let (span, (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
+    let mut figure = Figure::new(format!("pressure of the air film, t/T = {phase:.3}"));
+    for run in runs {
+        let frame = nearest_frame(run.recording, phase);
+        let map = all_teeth_on(run.recording, frame, &unit, scale, span).height(11.0);
+        figure.panels.push(Panel { title: run.name.to_owned(), ..map });
+    }
+    figure.width = Width::Page;
+    figure.caption = format!(
+        "Absolute pressure of the air film under all teeth at t/T = {phase:.3} of every run; one scale of colours covers the whole cycle \
+         of all."
+    );
+    figure
+}
+
+/// The film's pressure under the tooth in the middle of every run, with one scale of colours.
+pub fn teeth(runs: &[MotorRun<'_>], phase: f64) -> Figure {
+    let maps = runs
+        .iter()
+        .map(|run| super::tooth_map(run.recording, run.recording.teeth / 2, nearest_frame(run.recording, phase)));
+    let [low, high] = maps.fold([f64::INFINITY, f64::NEG_INFINITY], |all, map| {
+        map.iter().fold(all, |all, p| [all[0].min(*p), all[1].max(*p)])
+    });
+    let (unit, scale) = pressure_unit(high);
+    let mut figure = Figure::new("under the tooth in the middle");
+    for run in runs {
+        let frame = nearest_frame(run.recording, phase);
+        let range = Range::Fixed(low * scale, high * scale);
+        let map = one_tooth(run.recording, frame, range, (unit.clone(), scale));
+        figure.panels.push(Panel { title: run.name.to_owned(), ..map });
+    }
+    figure.columns = runs.len().clamp(1, 2);
+    figure.width = Width::Page;
+    figure.caption = format!(
+        "Absolute pressure of the air film under the tooth in the middle, with lines of equal pressure, at t/T = {phase:.3}; one scale \
+         of colours for all."
+    );
+    figure
+}
+
+/// Surfaces, pressures and maps at a phase of the cycle, for moving pictures.
+pub fn moving_motors(runs: &[MotorRun<'_>], phase: f64) -> Figure {
+    let mut figure = waves(runs, phase);
+    figure.panels[0].height = 30.0;
+    figure.panels[1].height = 20.0;
+    figure.panels[2].height = 20.0;
+    if runs.len() <= MOVING_MAPS && runs.iter().all(|run| run.recording.length == runs[0].recording.length) {
+        figure.panels.extend(maps(runs, phase).panels.into_iter().map(|panel| panel.height(7.0)));
+    }
+    figure.title = String::new();
+    figure
+}
+
+/// All figures of several plates, each with the name of its file. No runs, no figures.
+pub fn plates(runs: &[PlateRun<'_>]) -> Vec<(&'static str, Figure)> {
+    if runs.is_empty() {
+        return Vec::new();
+    }
+    vec![("profiles", profiles(runs)), ("loads", plate_loads(runs)), ("loops", loops(runs)), ("maps", plate_maps(runs))]
+}
+
+/// The plate's x axis in lengths of the plate.
+fn plate_axis() -> Axis {
+    Axis::new("x/length", "").fixed(-0.5, 0.5)
+}
+
+fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
+    let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
+    let margin = 0.06 * (high - low);
+    let y = Axis::new("absolute pressure", unit).fixed((low - margin) * scale, (high + margin) * scale);
+    let mut panel = Panel::new(title, plate_axis(), y);
+    for run in runs {
+        let x = mirrored(&run.recording.map_x, run.recording.half_length);
+        let line = plate::middle_line(run.recording, nearest_frame(run.recording, phase));
+        let points = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x / run.plate.length, p * scale]));
+        panel = panel.layer(Line::new(run.name, points, run.style));
+    }
+    panel
+}
+
+/// Pressure along every plate, at y = 0, at the greatest and the least gap.
+pub fn profiles(runs: &[PlateRun<'_>]) -> Figure {
+    let mut wide = profile_panel(runs, 0.0, "(a) greatest gap, t = 0").height(34.0);
+    wide.legend = Legend::Above;
+    let mut narrow = profile_panel(runs, 0.5, "(b) least gap, t = T/2").height(34.0);
+    narrow.legend = Legend::None;
+    let mut figure = Figure::new("pressure along the plate").panel(wide).panel(narrow);
+    figure.share_x = true;
+    figure.width = Width::Millimetres(110.0);
+    figure.caption =
+        "Absolute pressure along every plate, in its middle, at the greatest and at the least gap.".to_owned();
+    figure
+}
+
+/// A load as mean gauge pressure: that of strips and of plates can be laid over each other.
+fn mean_pressure(runs: &[PlateRun<'_>]) -> (String, f64) {
+    let all = runs.iter().flat_map(|run| run.recording.film_load.iter().map(|load| (load / run.plate.area()).abs()));
+    pressure_unit(span(all, 0.0)[1])
+}
+
+/// Mean gauge pressure over the cycle.
+pub fn plate_loads(runs: &[PlateRun<'_>]) -> Figure {
+    let (unit, scale) = mean_pressure(runs);
+    let mut panel = Panel::new("", Axis::new("t/T", "").fixed(0.0, 1.0), Axis::new("mean gauge pressure", unit));
+    panel = panel.layer(rest(0.0, ""));
+    for run in runs {
+        let points = over_cycle(&run.recording.film_load, scale / run.plate.area());
+        panel = panel.layer(Line::new(run.name, points, run.style));
+    }
+    panel.legend = Legend::Above;
+    let mut figure = Figure::new("load over the cycle").panel(panel);
+    figure.width = Width::Millimetres(110.0);
+    figure.caption = "Load of the film above ambient, over the area, over one cycle of every run.".to_owned();
+    figure
+}
+
+/// Mean gauge pressure against the gap over its mean.
+pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
+    let (unit, scale) = mean_pressure(runs);
+    let mut panel = Panel::new("", Axis::new("gap over its mean", ""), Axis::new("mean gauge pressure", unit));
+    panel = panel.layer(rest(0.0, ""));
+    for run in runs {
+        let recording = run.recording;
+        let at = |m: usize| {
+            let gap = recording.min_film_thickness.get(m)? / run.plate.mean_gap;
+            Some([gap, recording.film_load.get(m)? / run.plate.area() * scale])
+        };
+        let closed = (0..=recording.frames).map(|m| m % recording.frames.max(1));
+        panel = panel.layer(Line::new(run.name, closed.filter_map(at), run.style));
+    }
+    panel.legend = Legend::Above;
+    let mut figure = Figure::new("pressure against gap").panel(panel);
+    figure.width = Width::Millimetres(110.0);
+    figure.caption = "Mean gauge pressure of the film against the gap, once round the cycle of every run.".to_owned();
+    figure
+}
+
+/// Pressure along every plate and over the cycle, with one scale of colours.
+pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
+    let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
+    let mut figure = Figure::new("pressure along the plate and over the cycle");
+    for run in runs {
+        let recording = run.recording;
+        let x = mirrored(&recording.map_x, recording.half_length);
+        let frames = recording.frames;
+        let columns: Vec<Vec<f64>> = (0..=frames).map(|m| plate::middle_line(recording, m % frames.max(1))).collect();
+        let at = |i: usize, m: usize| columns[m].get(i).map_or(f64::NAN, |p| p * scale);
+        let values = x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect();
+        let grid = Grid {
+            x: x.iter().map(|(x, _)| x / run.plate.length).collect(),
+            y: (0..=frames).map(|m| super::phase(recording, m)).collect(),
+            values,
+        };
+        let map = Map {
+            label: "absolute pressure".to_owned(),
+            unit: unit.clone(),
+            grid,
+            range: Range::Fixed(low * scale, high * scale),
+            ..Map::default()
+        };
+        let panel = Panel::new(run.name, plate_axis(), Axis::new("t/T", "").fixed(0.0, 1.0));
+        figure.panels.push(panel.layer(Layer::Map(map)).height(40.0));
+    }
+    figure.columns = runs.len().clamp(1, 2);
+    figure.width = Width::Page;
+    figure.caption =
+        "Absolute pressure along the middle of every plate and over one cycle; one scale of colours for all."
+            .to_owned();
+    figure
+}
+
+/// Profiles and loops at a phase of the cycle, for moving pictures.
+pub fn moving_plates(runs: &[PlateRun<'_>], phase: f64) -> Figure {
+    let mut profile = profile_panel(runs, phase, "(a) pressure along the plate");
+    profile.legend = Legend::Above;
+    let mut round = loops(runs).panels.remove(0);
+    round.title = "(b) once round the cycle".to_owned();
+    round.legend = Legend::None;
+    let unit = mean_pressure(runs).1;
+    for run in runs {
+        let m = nearest_frame(run.recording, phase);
+        if let (Some(gap), Some(load)) = (run.recording.min_film_thickness.get(m), run.recording.film_load.get(m)) {
+            let at = [gap / run.plate.mean_gap, load / run.plate.area() * unit];
+            let marker = crate::export::figure::Marker { size: 5.0, ..Default::default() };
+            round = round.layer(crate::export::figure::Points::new("", [at], run.style.colour, marker));
+        }
+    }
+    let mut figure = Figure::new("").panel(profile.height(46.0)).panel(round.height(46.0));
+    figure.columns = 2;
+    figure.width = Width::Millimetres(170.0);
+    figure
+}

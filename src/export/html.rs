@@ -1,0 +1,423 @@
+//! Reports: one HTML file that needs nothing else. Figures are inline SVG, pictures are data in the file, there is no script,
+//! and a policy in the head forbids the browser to fetch anything.
+//!
+//! A page is well-formed XML as well as HTML, so that any reader of XML can take numbers out of it. What it looks like is
+//! decided here, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
+//! the contact's, grey), tables with rules but no boxes, wide enough for a projector and quiet enough for paper.
+
+use super::figure::{Figure, to_svg};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use std::fmt::Write as _;
+
+/// A page as it grows.
+#[derive(Clone, Debug, Default)]
+pub struct Page {
+    title: String,
+    head: String,
+    body: String,
+    contents: Vec<(String, String)>,
+    open: bool,
+}
+
+/// Where a cell's words stand, and how they look.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// Words, on the left.
+    #[default]
+    Words,
+    /// A number, on the right, digits below digits.
+    Number,
+    /// A number that matters most.
+    Strong,
+    /// Secondary.
+    Quiet,
+    /// Something is wrong here.
+    Alarm,
+}
+
+impl Kind {
+    fn class(self) -> &'static str {
+        match self {
+            Self::Words => "w",
+            Self::Number => "n",
+            Self::Strong => "n s",
+            Self::Quiet => "q",
+            Self::Alarm => "a",
+        }
+    }
+}
+
+/// A table: heads, then rows of cells.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    caption: String,
+    groups: Vec<(usize, String)>,
+    heads: Vec<(Kind, String)>,
+    rows: Vec<Vec<(Kind, String)>>,
+}
+
+impl Table {
+    /// A table with a line above it; may be empty.
+    pub fn new(caption: impl Into<String>) -> Self {
+        Self { caption: caption.into(), ..Self::default() }
+    }
+
+    /// With heads above several columns: how many, and the words.
+    #[must_use]
+    pub fn groups<S: Into<String>>(mut self, groups: impl IntoIterator<Item = (usize, S)>) -> Self {
+        self.groups = groups.into_iter().map(|(columns, words)| (columns, words.into())).collect();
+        self
+    }
+
+    /// With a head for each column.
+    #[must_use]
+    pub fn heads<S: Into<String>>(mut self, heads: impl IntoIterator<Item = (Kind, S)>) -> Self {
+        self.heads = heads.into_iter().map(|(kind, words)| (kind, words.into())).collect();
+        self
+    }
+
+    /// Adds a row.
+    pub fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = (Kind, S)>) {
+        self.rows.push(cells.into_iter().map(|(kind, words)| (kind, words.into())).collect());
+    }
+}
+
+// Writing to a String cannot fail: the results of `write!` are dropped below.
+impl Page {
+    /// A page with its title, a line above it that says what kind of page it is, and a few sentences below.
+    pub fn new(kicker: &str, title: &str, lead: &str) -> Self {
+        let mut head = String::new();
+        let _ = write!(
+            head,
+            "<header>\n<p class=\"kicker\">{}</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n",
+            escaped(kicker),
+            escaped(title),
+            escaped(lead)
+        );
+        Self { title: title.to_owned(), head, ..Self::default() }
+    }
+
+    /// Numbers that matter most, large, below the title: the number, and what it is.
+    pub fn highlights<S: AsRef<str>>(&mut self, numbers: impl IntoIterator<Item = (S, S)>) {
+        self.body.push_str("<dl class=\"highlights\">\n");
+        for (number, words) in numbers {
+            let (number, words) = (escaped(number.as_ref()), escaped(words.as_ref()));
+            let _ = writeln!(self.body, "<div><dd>{number}</dd><dt>{words}</dt></div>");
+        }
+        self.body.push_str("</dl>\n");
+    }
+
+    /// Begins a section, which is listed in the contents.
+    pub fn section(&mut self, title: &str) {
+        self.close();
+        self.open = true;
+        let id = format!("s{}", self.contents.len() + 1);
+        let _ = writeln!(self.body, "<section id=\"{id}\">\n<h2>{}</h2>", escaped(title));
+        self.contents.push((id, title.to_owned()));
+    }
+
+    fn close(&mut self) {
+        if self.open {
+            self.body.push_str("</section>\n");
+        }
+        self.open = false;
+    }
+
+    /// A heading within a section.
+    pub fn heading(&mut self, title: &str) {
+        let _ = writeln!(self.body, "<h3>{}</h3>", escaped(title));
+    }
+
+    /// A paragraph.
+    pub fn text(&mut self, words: &str) {
+        let _ = writeln!(self.body, "<p>{}</p>", escaped(words));
+    }
+
+    /// A paragraph in smaller type.
+    pub fn note(&mut self, words: &str) {
+        let _ = writeln!(self.body, "<p class=\"note\">{}</p>", escaped(words));
+    }
+
+    /// A paragraph that has to be seen.
+    pub fn warning(&mut self, words: &str) {
+        let _ = writeln!(self.body, "<p class=\"warning\">{}</p>", escaped(words));
+    }
+
+    /// A list.
+    pub fn list<S: AsRef<str>>(&mut self, items: impl IntoIterator<Item = S>) {
+        self.body.push_str("<ul>\n");
+        for item in items {
+            let _ = writeln!(self.body, "<li>{}</li>", escaped(item.as_ref()));
+        }
+        self.body.push_str("</ul>\n");
+    }
+
+    /// Text as it is: a command, a file.
+    pub fn code(&mut self, text: &str) {
+        let _ = writeln!(self.body, "<pre>{}</pre>", escaped(text));
+    }
+
+    /// Text as it is, folded away under a line.
+    pub fn folded(&mut self, line: &str, text: &str) {
+        let _ = writeln!(
+            self.body,
+            "<details><summary>{}</summary><pre>{}</pre></details>",
+            escaped(line),
+            escaped(text.trim_end())
+        );
+    }
+
+    /// A table.
+    pub fn table(&mut self, table: &Table) {
+        self.body.push_str("<div class=\"table\"><table>\n");
+        if !table.caption.is_empty() {
+            let _ = writeln!(self.body, "<caption>{}</caption>", escaped(&table.caption));
+        }
+        self.body.push_str("<thead>\n");
+        if !table.groups.is_empty() {
+            self.body.push_str("<tr class=\"groups\">");
+            for (columns, words) in &table.groups {
+                let class = if words.is_empty() { "" } else { " class=\"g\"" };
+                let _ = write!(self.body, "<th colspan=\"{columns}\"{class}>{}</th>", escaped(words));
+            }
+            self.body.push_str("</tr>\n");
+        }
+        self.cells("th", &table.heads);
+        self.body.push_str("</thead>\n<tbody>\n");
+        for row in &table.rows {
+            self.cells("td", row);
+        }
+        self.body.push_str("</tbody>\n</table></div>\n");
+    }
+
+    fn cells(&mut self, tag: &str, cells: &[(Kind, String)]) {
+        self.body.push_str("<tr>");
+        for (kind, words) in cells {
+            let _ = write!(self.body, "<{tag} class=\"{}\">{}</{tag}>", kind.class(), escaped(words));
+        }
+        self.body.push_str("</tr>\n");
+    }
+
+    /// Figures side by side where there is room, each with a name in bold before its caption (may be empty).
+    pub fn figures<'a>(&mut self, figures: impl IntoIterator<Item = (&'a str, &'a Figure)>) {
+        self.body.push_str("<div class=\"figures\">\n");
+        for (name, figure) in figures {
+            self.figure(name, figure);
+        }
+        self.body.push_str("</div>\n");
+    }
+
+    fn figure(&mut self, name: &str, figure: &Figure) {
+        let wide = if figure.width.millimetres() > 125.0 { " class=\"wide\"" } else { "" };
+        let _ = write!(self.body, "<figure{wide}>\n{}", to_svg(figure));
+        self.caption(name, &figure.caption);
+        self.body.push_str("</figure>\n");
+    }
+
+    fn caption(&mut self, name: &str, caption: &str) {
+        let name = if name.is_empty() { String::new() } else { format!("<b>{}</b> ", escaped(name)) };
+        if !(name.is_empty() && caption.is_empty()) {
+            let _ = writeln!(self.body, "<figcaption>{name}{}</figcaption>", escaped(caption));
+        }
+    }
+
+    /// A picture of a media type (`image/gif`, `image/apng`), kept in the page.
+    pub fn picture(&mut self, media: &str, bytes: &[u8], alternative: &str, name: &str, caption: &str) {
+        let _ = write!(
+            self.body,
+            "<figure class=\"wide\">\n<img src=\"data:{};base64,{}\" alt=\"{}\"/>\n",
+            escaped(media),
+            STANDARD.encode(bytes),
+            escaped(alternative)
+        );
+        self.caption(name, caption);
+        self.body.push_str("</figure>\n");
+    }
+
+    /// The whole page, with a last line.
+    pub fn finish(mut self, foot: &str) -> String {
+        self.close();
+        let mut contents = String::new();
+        if self.contents.len() > 2 {
+            contents.push_str("<nav>\n<ol>\n");
+            for (id, title) in &self.contents {
+                let _ = writeln!(contents, "<li><a href=\"#{id}\">{}</a></li>", escaped(title));
+            }
+            contents.push_str("</ol>\n</nav>\n");
+        }
+        // The contents stand before the first section, after what leads to it.
+        let (lead, sections) = self.body.split_at(self.body.find("<section").unwrap_or(self.body.len()));
+        format!(
+            "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\"/>\n\
+             <meta name=\"generator\" content=\"squeezefilm {}\"/>\n\
+             <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}{lead}{contents}{sections}\
+             <footer><p>{}</p></footer>\n</main>\n</body>\n</html>\n",
+            env!("CARGO_PKG_VERSION"),
+            escaped(&self.title),
+            self.head,
+            escaped(foot),
+        )
+    }
+}
+
+/// Text for HTML and XML; characters that neither may hold are replaced.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' | '\t' => out.push(c),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A command line as a shell takes it.
+pub fn shell(words: &[String]) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_=./:,+%@".contains(c);
+    let quoted = |word: &String| {
+        if !word.is_empty() && word.chars().all(plain) {
+            word.clone()
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''"))
+        }
+    };
+    words.iter().map(quoted).collect::<Vec<_>>().join(" ")
+}
+
+/// No `<` and no `&` in here: it is read as XML too.
+const STYLE: &str = "\
+:root { --ink: #1d2530; --quiet: #606670; --rule: #cfd4db; --pale: #f4f6f8; --film: #0072b2; --contact: #b54f00;
+  --serif: Charter, 'Bitstream Charter', 'Source Serif 4', 'Iowan Old Style', Georgia, 'Liberation Serif', 'DejaVu Serif', serif;
+  --sans: 'Liberation Sans', Arial, Helvetica, 'DejaVu Sans', sans-serif;
+  --mono: 'Liberation Mono', 'DejaVu Sans Mono', Menlo, Consolas, monospace; }
+* { box-sizing: border-box; }
+html { font-size: clamp(16px, 0.55vw + 11px, 21px); -webkit-text-size-adjust: 100%; }
+body { margin: 0; background: #fff; color: var(--ink); font: 1rem/1.55 var(--serif); }
+main { max-width: 72rem; margin: 0 auto; padding: 3.2rem 2rem 2rem; }
+header { border-bottom: 3px solid var(--film); padding-bottom: 1.4rem; }
+.kicker { margin: 0 0 .5rem; font: 600 .82rem/1.3 var(--sans); letter-spacing: .04em; color: var(--film); }
+h1 { margin: 0 0 .8rem; font-size: 2.5rem; line-height: 1.14; font-weight: 600; letter-spacing: -.012em; text-wrap: balance; }
+.lead { margin: 0; font-size: 1.16rem; line-height: 1.5; max-width: 46rem; color: #38414d; }
+h2 { margin: 3.4rem 0 .9rem; padding-top: .7rem; border-top: 1px solid var(--rule); font-size: 1.6rem; line-height: 1.2;
+  font-weight: 600; }
+h3 { margin: 2rem 0 .5rem; font-size: 1.15rem; line-height: 1.3; font-weight: 600; }
+p, ul { margin: 0 0 .9rem; max-width: 46rem; }
+ul { padding-left: 1.2rem; }
+li { margin: .2rem 0; }
+.note { font-size: .88rem; color: var(--quiet); }
+.warning { border-left: 4px solid var(--contact); padding: .3rem 0 .3rem .9rem; color: var(--contact); font-weight: 600; }
+nav { margin: 1.6rem 0 0; font: .9rem/1.5 var(--sans); }
+nav ol { margin: 0; padding: 0; list-style: none; display: flex; flex-wrap: wrap; gap: .15rem 1.6rem; }
+a { color: var(--film); text-decoration: none; border-bottom: 1px solid #b9d6e8; }
+.highlights { display: flex; flex-wrap: wrap; gap: 1.1rem 3.2rem; margin: 1.7rem 0 0; }
+.highlights div { display: flex; flex-direction: column; }
+.highlights dd { margin: 0; font: 600 1.75rem/1.2 var(--sans); font-variant-numeric: tabular-nums; color: var(--film); }
+.highlights dt { font: .86rem/1.4 var(--sans); color: var(--quiet); max-width: 17rem; }
+.table { overflow-x: auto; margin: 1.1rem 0 1.6rem; }
+table { border-collapse: collapse; font: .88rem/1.35 var(--sans); font-variant-numeric: tabular-nums;
+  border-top: 2px solid var(--ink); border-bottom: 2px solid var(--ink); }
+caption { text-align: left; padding: 0 0 .5rem; font-weight: 600; }
+th { font-weight: 600; vertical-align: bottom; }
+thead tr:last-child th { border-bottom: 1px solid var(--ink); }
+th, td { padding: .34rem .9rem .34rem 0; text-align: left; }
+th + th, td + td { padding-left: .5rem; }
+.groups th { padding-bottom: .1rem; color: var(--quiet); text-align: center; }
+.groups th.g { border-bottom: 1px solid var(--rule); }
+tbody tr + tr td { border-top: 1px solid #e9ecf0; }
+.n { text-align: right; white-space: pre; }
+th.n { white-space: normal; }
+td.w:first-child { min-width: 9.5rem; }
+.s { font-weight: 600; color: var(--film); }
+.q { color: var(--quiet); }
+.a { color: var(--contact); font-weight: 600; }
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(27rem, 100%), 1fr)); gap: 1.6rem 2.4rem;
+  margin: 1.2rem 0 1.8rem; }
+figure { margin: 0; }
+section > figure { margin: 1.2rem 0 1.8rem; }
+.figures .wide { grid-column: 1 / -1; }
+figure svg, figure img { display: block; width: 100%; height: auto; max-width: 44rem; }
+figure.wide svg, figure.wide img { max-width: 62rem; }
+figcaption { margin-top: .55rem; font: .84rem/1.45 var(--sans); color: var(--quiet); max-width: 44rem; }
+figcaption b { color: var(--ink); }
+pre { margin: .6rem 0 1.1rem; padding: .8rem 1rem; background: var(--pale); font: .82rem/1.5 var(--mono); overflow-x: auto;
+  white-space: pre-wrap; overflow-wrap: anywhere; }
+details { margin: .5rem 0; }
+summary { cursor: pointer; font: .9rem/1.5 var(--sans); color: var(--film); }
+footer { margin-top: 3.6rem; padding-top: .8rem; border-top: 1px solid var(--rule); font: .8rem/1.5 var(--sans);
+  color: var(--quiet); }
+footer p { max-width: none; }
+@media print {
+  @page { size: A4; margin: 16mm 15mm; }
+  html { font-size: 9.6pt; }
+  main { max-width: none; padding: 0; }
+  nav { display: none; }
+  h2, h3 { break-after: avoid; }
+  h2 { margin-top: 2rem; }
+  figure, tr, pre { break-inside: avoid; }
+  figure svg { max-width: 74mm; }
+  figure.wide svg, figure.wide img { max-width: 150mm; }
+  .figures { grid-template-columns: 1fr 1fr; gap: 1rem 1.4rem; }
+  .table { overflow: visible; }
+  .highlights { gap: .6rem 1.6rem; }
+  .highlights div { flex: 1 1 0; }
+  .highlights dd { font-size: 1.3rem; white-space: nowrap; }
+  table { font-size: .8rem; }
+  th, td { padding: .22rem .5rem .22rem 0; }
+  a { color: inherit; border: 0; }
+}
+";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::figure::{Axis, Line, Panel, Style};
+
+    #[test]
+    fn a_page_is_well_formed_and_fetches_nothing() {
+        let panel = Panel::new("", Axis::new("x <&>", "mm"), Axis::new("y", "")).layer(Line::new(
+            "a",
+            [[0.0, 1.0], [1.0, 2.0]],
+            Style::nth(0),
+        ));
+        let mut page = Page::new("report", "A & B <i>\u{1}", "lead");
+        page.highlights([("1", "one")]);
+        for section in ["one", "two", "three"] {
+            page.section(section);
+            page.text("words");
+        }
+        let mut table = Table::new("t").groups([(1, ""), (1, "g")]).heads([(Kind::Words, "h"), (Kind::Number, "n")]);
+        table.row([(Kind::Words, "<b>"), (Kind::Strong, "1")]);
+        page.table(&table);
+        page.figures([("Fig. 1", &Figure::new("f").panel(panel))]);
+        page.picture("image/gif", b"GIF89a", "\"a\"", "", "c");
+        page.folded("line", "text\n");
+        page.code("a\tb");
+        let html = page.finish("foot");
+        let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
+        let read = roxmltree::Document::parse_with_options(&html, options).unwrap();
+        let count = |name: &str| read.descendants().filter(|node| node.tag_name().name() == name).count();
+        assert_eq!((count("section"), count("svg"), count("table"), count("script"), count("link")), (3, 1, 1, 0, 0));
+        assert_eq!(
+            read.descendants().filter(|node| node.has_tag_name(("http://www.w3.org/1999/xhtml", "a"))).count(),
+            3
+        );
+        let h1 = read.descendants().find(|node| node.tag_name().name() == "h1").unwrap();
+        assert_eq!(h1.text(), Some("A & B <i>\u{fffd}"));
+        assert!(!STYLE.contains(['<', '&']) && !STYLE.contains("]]") && !STYLE.contains("url("));
+    }
+
+    #[test]
+    fn command_lines_can_be_pasted() {
+        let words = ["squeezefilm", "compare", "a b.toml", "it's", "--set", "film.slip=none"].map(str::to_owned);
+        assert_eq!(shell(&words), r"squeezefilm compare 'a b.toml' 'it'\''s' --set film.slip=none");
+    }
+}
