@@ -81,6 +81,11 @@ pub struct Plan {
 /// Effect on α, relative, of leaving out the wedge term, as a multiple of U/(2ω) over the length that gas or gap vary
 /// along (measured, and bounded by `tests/plan.rs`).
 const WEDGE_EFFECT: f64 = 2.0;
+/// Effect on α, relative, of solving the wedge term where a cell's Péclet number is above 1, per unit of that number: the
+/// upwinding it then needs spreads the gas in its stead; and more of it, the more unevenly a crown holds it (measured, and
+/// bounded by `tests/plan.rs`).
+const UPWINDING: f64 = 1e-4;
+const UPWINDING_UNEVEN: f64 = 0.1;
 /// Effect on α, relative, of leaving out the leaks at one pair of edges, as a multiple of their layer over the length
 /// between them, the layer being that of the closed film times how far the gap opens in the mean. Of a plate whose gap
 /// is uniform it is 1 as the amplitude vanishes, tanh(κ/2)/(κ/2), and less for a larger one (`film::exact`); a rotor that
@@ -117,7 +122,7 @@ impl Plan {
 
         let time = time(numerics, &numbers, motor, fidelity, spec);
         let flow = flow(numerics, &numbers, motor, fidelity, spec);
-        let wedge = wedge(numerics, &numbers, motor, fidelity, spec);
+        let wedge = wedge(numerics, &numbers, motor, along, fidelity, spec);
         let trapped = time.chosen == Time::Trapped.name();
         let half_width = numerics.width != Width::Full;
         let every_tooth = numerics.teeth == Teeth::All;
@@ -227,6 +232,8 @@ struct Reduction {
     asked: Option<bool>,
     /// Bound of what the reduction changes, relative to α.
     effect: f64,
+    /// Bound of what solving it costs, because the grid is too coarse for it, relative to α.
+    unresolved: f64,
     /// Words for the whole model and for the reduced one, and the number that decides.
     words: [&'static str; 2],
     because: String,
@@ -234,7 +241,7 @@ struct Reduction {
 
 impl Reduction {
     fn decide(self, fidelity: Fidelity, spec: &Spec) -> Decision {
-        let allowed = self.effect <= SHARE * spec.aim;
+        let allowed = self.effect <= SHARE * spec.aim || self.effect < self.unresolved;
         let reduced = self.asked.unwrap_or(allowed);
         let overruled = self.asked.is_some_and(|asked| asked != allowed);
         let may = if reduced { "changes α by less than" } else { "would change α by up to" };
@@ -244,13 +251,18 @@ impl Reduction {
             key: Some(self.key),
             chosen: self.values[usize::from(reduced)],
             overruled,
-            effect: if reduced { self.effect } else { 0.0 },
+            effect: if reduced { self.effect } else { self.unresolved },
             words: format!(
-                "{}: {asked}{}, leaving it out {may} {} of itself, and {fidelity} aims at {}",
+                "{}: {asked}{}, leaving it out {may} {} of itself, and {fidelity} aims at {}{}",
                 self.words[usize::from(reduced)],
                 self.because,
                 percent(self.effect),
-                percent(spec.aim)
+                percent(spec.aim),
+                if self.unresolved > 0.0 {
+                    format!("; this grid is too coarse for it, solving it errs by up to {}", percent(self.unresolved))
+                } else {
+                    String::new()
+                }
             ),
         }
     }
@@ -262,7 +274,14 @@ fn percent(share: f64) -> String {
     if value >= 0.0995 { format!("{value:.1} %") } else { format!("{value:.0e} %") }
 }
 
-fn wedge(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: Fidelity, spec: &Spec) -> Decision {
+fn wedge(
+    numerics: &Numerics,
+    numbers: &Dimensionless,
+    motor: &Motor,
+    along: usize,
+    fidelity: Fidelity,
+    spec: &Spec,
+) -> Decision {
     if !motor.shear {
         return Decision {
             term: "wedge term",
@@ -283,6 +302,7 @@ fn wedge(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: 
             Wedge::Off => Some(true),
         },
         effect: wedge_effect(numbers, motor),
+        unresolved: upwinding(numbers, motor, along),
         words: ["solved", "left out"],
         because: format!("Λ/σ = {:.1e}", numbers.bearing_to_squeeze),
     }
@@ -302,8 +322,10 @@ fn time(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
         },
         effect: leaks(motor, layer, active_length(motor))
             + leaks(motor, layer, motor.contact_width)
-            + 2.0 * unevenness(motor) * (motor.contact_width / motor.tooth_width).min(1.0)
+            + 2.0 * unevenness(motor) * end_share(motor)
+            + yielding(motor, layer)
             + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 },
+        unresolved: 0.0,
         words: ["marched in time", "none, the gas is trapped (σ → ∞)"],
         because: format!(
             "the boundary layer is {} of the shorter side",
@@ -340,6 +362,7 @@ fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
             Flow::Across | Flow::Along => Some(true),
         },
         effect: if along { sides } else { ends },
+        unresolved: 0.0,
         words: [
             "in the plane of the film",
             if along {
@@ -363,12 +386,41 @@ fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
     LEAK_EFFECT * open * layer / length
 }
 
-/// Effect of the wedge term, relative to α: Λ/σ = U/(2ωb) for what it carries over the ends of a tooth; and for what it
-/// squeezes, U k h/(2ωA), by how much ∂x(hU/2) adds to the wave's ∂h/∂t, h being the mean gap.
+/// Effect of the wedge term, relative to α, the sum of four:
+///
+/// * Λ/σ = U/(2ωb) for what it carries over the ends of a tooth, and U k h/(2ωA) for what it squeezes, by how much ∂x(hU/2)
+///   adds to the wave's ∂h/∂t, h being the mean gap: the larger of the two;
+/// * the square of B/2 over the boundary layer, by which it shifts the layer at the ends to and fro, and with it the gas that
+///   they hold in the long run: in as much of the tooth as the film is wide;
+/// * if the rotor turns, how far that carries gas along a tooth, V_R τ/(2b), until it has leaked out of the closed film after
+///   τ = 1/(π² D (1/b² + 1/w²)).
 fn wedge_effect(numbers: &Dimensionless, motor: &Motor) -> f64 {
     let wave = std::f64::consts::TAU * motor.tooth_width / motor.wavelength();
     let squeezed = wave * (1.0 + motor.min_spacing / motor.normal_amplitude);
-    (WEDGE_EFFECT * numbers.bearing_to_squeeze * squeezed.max(1.0)).min(1.0)
+    let shifted = (0.5 * motor.tangential_amplitude / numbers.boundary_layer).powi(2).min(1.0);
+    let oscillating = numbers.bearing_to_squeeze * squeezed.max(1.0) + shifted * end_share(motor);
+    let wavenumber = std::f64::consts::PI.powi(2) * (motor.tooth_width.powi(-2) + motor.contact_width.powi(-2));
+    let carried = 0.5 * motor.rotor_speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width);
+    (WEDGE_EFFECT * oscillating + carried).min(1.0)
+}
+
+/// Share of a tooth whose gas is, in the long run, that of its ends rather than of its sides.
+fn end_share(motor: &Motor) -> f64 {
+    (motor.contact_width / motor.tooth_width).min(1.0)
+}
+
+/// Diffusivity of the gas in the closed film \[m²/s\].
+fn diffusivity(numbers: &Dimensionless, motor: &Motor) -> f64 {
+    0.5 * numbers.boundary_layer.powi(2) * std::f64::consts::TAU * motor.frequency
+}
+
+/// Effect of the upwinding that the wedge term needs on a grid of so many intervals along a tooth, relative to α. None below a
+/// cell Péclet number U Δ/(2D) of 1, where exponential fitting is of second order.
+fn upwinding(numbers: &Dimensionless, motor: &Motor, along: usize) -> f64 {
+    let speed = motor.rotor_speed.abs() + std::f64::consts::TAU * motor.frequency * motor.tangential_amplitude;
+    let peclet = 0.5 * speed * motor.tooth_width / (along as f64 * diffusivity(numbers, motor));
+    let each = UPWINDING + UPWINDING_UNEVEN * unevenness(motor) * end_share(motor);
+    (each * (peclet - 1.0)).clamp(0.0, 1.0)
 }
 
 /// Height of a tooth's crown above its ends \[m\].
@@ -379,6 +431,16 @@ fn crown(motor: &Motor) -> f64 {
 /// Share of the mean gap at a tooth's ends that is its crown's.
 fn unevenness(motor: &Motor) -> f64 {
     crown(motor) / (crown(motor) + motor.normal_amplitude + motor.min_spacing)
+}
+
+/// What the rotor's yielding to the film itself changes, relative to α: in the layer at a tooth's ends the pressure falls to
+/// that of the room, the gap with it, and so the gas that the layer lets stay. How much of the mean gap that is, times the
+/// force of the compressed gas over the load.
+fn yielding(motor: &Motor, layer: f64) -> f64 {
+    let pressure = motor.gas.ambient_pressure * motor.contact_width;
+    let bulge = motor.rotor.at(1.0 / layer) * pressure / (motor.normal_amplitude + motor.min_spacing);
+    let stiffness = pressure * motor.tooth_width * motor.teeth as f64 / motor.load;
+    2.0 * bulge * end_share(motor) * stiffness.max(1.0)
 }
 
 /// Length of tooth \[m\] over which a crown opens the gap by no more than the wave does.

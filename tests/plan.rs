@@ -368,6 +368,25 @@ const MOTORS: &[(&str, Changes)] = &[
     ("fundamental", &[("motor.rotor_speed_rpm", "300")]),
     ("fundamental", &[("motor.rotor_speed_rpm", "300"), ("stator.tooth_width_mm", "0.5")]),
     ("fundamental", &[("motor.rotor_speed_rpm", "-3000")]),
+    ("fundamental", &[("motor.rotor_speed_rpm", "30"), ("stator.frequency_khz", "3")]),
+    (
+        "fundamental",
+        &[("motor.rotor_speed_rpm", "-100"), ("stator.frequency_khz", "3"), ("film.min_spacing_nm", "1000")],
+    ),
+    ("fundamental", &[("motor.rotor_speed_rpm", "10000"), ("stator.frequency_khz", "300")]),
+    (
+        "fundamental",
+        &[("motor.rotor_speed_rpm", "2000"), ("stator.frequency_khz", "1000"), ("film.min_spacing_nm", "100")],
+    ),
+    ("fundamental", &[("stator.frequency_khz", "10000"), ("film.ambient_pressure_kpa", "3")]),
+    (
+        "fundamental",
+        &[("stator.frequency_khz", "10000"), ("film.ambient_pressure_kpa", "3"), ("film.min_spacing_nm", "20")],
+    ),
+    (
+        "fundamental",
+        &[("stator.frequency_khz", "10000"), ("film.ambient_pressure_kpa", "3"), ("film.min_spacing_nm", "60")],
+    ),
     ("fundamental", &[("motor.rotor_speed_rpm", "-3000"), ("stator.tooth_width_mm", "0.5")]),
     ("fundamental", &[("stator.tangential_amplitude_um", "10"), ("stator.frequency_khz", "300")]),
     ("fundamental", &[("motor.load_per_wave_n", "20"), ("stator.frequency_khz", "1000")]),
@@ -485,16 +504,6 @@ struct Measured {
     chosen: bool,
 }
 
-/// Péclet number of a cell of the finest grid, U Δ/(2D), with the gap closed: beyond 1 the wedge term's exponential
-/// fitting is upwinding, of first order, and the whole model is no measure of what the term does.
-fn cell_peclet(motor: &Motor, plan: &Plan) -> f64 {
-    let omega = std::f64::consts::TAU * motor.frequency;
-    let speed = motor.rotor_speed.abs() + omega * motor.tangential_amplitude;
-    let layer = Dimensionless::of_motor(motor).boundary_layer;
-    let cell = motor.tooth_width / plan.grids.last().unwrap().along as f64;
-    0.5 * speed * cell / (0.5 * layer * layer * omega)
-}
-
 fn measure(preset: &str, changes: Changes, fidelity: Fidelity) -> Vec<Measured> {
     let motor = motor_with(preset, changes);
     let still = Numerics { wedge: Wedge::Off, ..WHOLE };
@@ -510,7 +519,7 @@ fn measure(preset: &str, changes: Changes, fidelity: Fidelity) -> Vec<Measured> 
         let reduced = plan(&reduced);
         let decision = decision(&reduced, key);
         // Beyond its own size there is no bound.
-        if decision.effect >= 1.0 || key == "numerics.wedge" && cell_peclet(&motor, &reduced) > 1.0 {
+        if decision.effect >= 1.0 {
             continue;
         }
         let auto = |fidelity| {
@@ -526,7 +535,8 @@ fn measure(preset: &str, changes: Changes, fidelity: Fidelity) -> Vec<Measured> 
             what,
             reduced: found,
             change: (found - full).abs(),
-            effect: decision.effect,
+            // What the whole model cannot resolve is not known to it.
+            effect: decision.effect + self::decision(&plan(&whole), key).effect,
             // The wedge changes next to nothing, on the same grid: their errors are the same to a few per cent.
             errors: if key == "numerics.wedge" { 0.02 * (e1 + e2) + 1e-6 } else { e1 + e2 },
             chosen: Fidelity::ALL.into_iter().any(auto),
@@ -597,20 +607,28 @@ fn the_plan_leaves_out_only_what_is_below_its_share() {
         let motor = motor_with(preset, changes);
         for fidelity in Fidelity::ALL {
             let plan = Plan::motor(&motor, fidelity, &Numerics::default());
+            let share = 0.2 * fidelity.spec().aim;
+            let asked = |numerics: &Numerics| Plan::motor(&motor, fidelity, numerics);
+            // The wedge term, where the grid is too coarse for it: the lesser of two evils, and stated.
+            let solved =
+                decision(&asked(&Numerics { wedge: Wedge::On, ..Numerics::default() }), "numerics.wedge").effect;
+            let coarse = solved > share && !plan.trapped;
             for decision in &plan.decisions {
                 assert!(!decision.overruled, "{changes:?} {fidelity}: {decision:?}");
-                assert!(decision.effect <= 0.2 * fidelity.spec().aim, "{changes:?} {fidelity}: {decision:?}");
+                let wedge = coarse && decision.key == Some("numerics.wedge");
+                assert!(wedge || decision.effect <= share, "{changes:?} {fidelity}: {decision:?}");
             }
-            assert!(plan.left_out <= 0.6 * fidelity.spec().aim, "{changes:?} {fidelity}: {}", plan.left_out);
-            // What is solved at all would have been above the share.
+            assert!(coarse || plan.left_out <= 3.0 * share, "{changes:?} {fidelity}: {}", plan.left_out);
+            // What is solved at all would have been above the share, or worse left out.
             for (key, reduced) in [
                 ("numerics.wedge", Numerics { wedge: Wedge::Off, ..Numerics::default() }),
                 ("numerics.time", Numerics { time: Time::Trapped, ..Numerics::default() }),
             ] {
-                let asked = Plan::motor(&motor, fidelity, &reduced);
+                let asked = asked(&reduced);
                 let effect = decision(&asked, key).effect;
                 let same = decision(&asked, key).chosen == decision(&plan, key).chosen;
-                assert_eq!(same, effect <= 0.2 * fidelity.spec().aim, "{changes:?} {fidelity} {key} {effect}");
+                let allowed = effect <= share || key == "numerics.wedge" && effect < solved;
+                assert_eq!(same, allowed, "{changes:?} {fidelity} {key} {effect}");
                 assert_eq!(decision(&asked, key).overruled, !same, "{changes:?} {fidelity} {key}");
             }
         }
