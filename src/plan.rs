@@ -2,7 +2,7 @@
 
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
-use crate::numerics::grading::clustering;
+use crate::numerics::grading::{clustering, middle_clustering};
 use crate::problem::{Flow, Motor, Named, Numerics, Plate, Teeth, Time, Wedge, Width};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
@@ -93,6 +93,9 @@ const UPWINDING_UNEVEN: f64 = 0.1;
 const LEAK_EFFECT: f64 = 1.2;
 /// Share of the fidelity's aim that may be left out with each term.
 const SHARE: f64 = 0.2;
+/// Intervals along a tooth for each factor of e between those in the middle of a crown and uniform ones, over those of a flat
+/// tooth.
+const MIDDLE: f64 = 1.0;
 /// Intervals along a tooth that leave a node to solve on the coarsest grid.
 const FEWEST_ALONG: usize = 2 << (GRIDS - 1);
 const ROUND_LIMIT: usize = 300;
@@ -109,12 +112,18 @@ impl Plan {
         let layer = numbers.boundary_layer;
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let edge = spec.edge_fraction * layer;
-        let (along, clustering_along) = graded(
-            spec.along.max(per_wave),
-            numerics.film_nodes_along.map(|n| (n - 1).max(FEWEST_ALONG)),
-            motor.tooth_width,
-            edge,
-        );
+        let base = spec.along.max(per_wave);
+        let asked = numerics.film_nodes_along.map(|n| (n - 1).max(FEWEST_ALONG));
+        let crowned = 2.0 * crown_length(motor) / spec.along as f64;
+        let middle = crowned < motor.tooth_width / base as f64;
+        let (along, clustering_along) = if middle {
+            let ratio = |intervals: usize| crowned * intervals as f64 / motor.tooth_width;
+            let intervals =
+                asked.map_or_else(|| round_up(base + (MIDDLE * base as f64 * -ratio(base).ln()) as usize), round_up);
+            (intervals, middle_clustering(ratio(intervals)))
+        } else {
+            graded(base, asked, motor.tooth_width, edge)
+        };
         let (across, clustering_across) =
             graded(spec.across, numerics.film_nodes_across.map(|n| n / 2), 0.5 * motor.contact_width, edge);
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
@@ -134,9 +143,10 @@ impl Plan {
             effect: 0.0,
             words: format!(
                 "{along} intervals along a tooth and {across} across half the width, the first {} of the film's \
-                 boundary layer of {:.3} µm; {steps} steps a cycle; two coarser grids for the error estimate",
+                 boundary layer of {:.3} µm{}; {steps} steps a cycle; two coarser grids for the error estimate",
                 spec.edge_fraction,
-                layer * 1e6
+                layer * 1e6,
+                if middle { ", those along densest where the crown is highest" } else { "" }
             ),
         };
         let decisions = vec![time, flow, wedge, teeth(numerics, motor), width(numerics), grid];
@@ -426,6 +436,11 @@ fn upwinding(numbers: &Dimensionless, motor: &Motor, along: usize) -> f64 {
 /// Height of a tooth's crown above its ends \[m\].
 fn crown(motor: &Motor) -> f64 {
     motor.tooth_radius.map_or(0.0, |radius| motor.tooth_width * motor.tooth_width / (8.0 * radius))
+}
+
+/// Length \[m\] in the middle of a crowned tooth over which its crown opens the gap by H_m: the film that carries, at the least.
+fn crown_length(motor: &Motor) -> f64 {
+    motor.tooth_radius.map_or(f64::INFINITY, |radius| (8.0 * radius * motor.min_spacing).sqrt())
 }
 
 /// Share of the mean gap at a tooth's ends that is its crown's.

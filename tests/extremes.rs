@@ -395,9 +395,8 @@ fn thousands_of_scenes() {
         .collect();
     let (astray, faults) = survey(scenes, Fidelity::Draft);
     println!("{}", faults.join("\n"));
-    // 49 and 7 when this was written; five of the faults are contact problems of rotors without local compliance. The aim
-    // is none.
-    assert!(faults.len() < 20 && astray < 80, "{astray} not converged, {} faults", faults.len());
+    // 16 and none when this was written.
+    assert!(faults.is_empty() && astray < 40, "{astray} not converged, {} faults", faults.len());
 }
 
 // ---- limits
@@ -441,6 +440,30 @@ fn at_low_frequency_the_gas_has_time_to_leave() {
     println!("{frequencies:?} kHz: α {alphas:?}");
     assert!(alphas.windows(2).all(|pair| pair[1].abs() < 0.6 * pair[0].abs() + 1e-9), "{alphas:?}");
     assert!(alphas[4].abs() < 1e-5, "{alphas:?}");
+}
+
+#[test]
+fn a_strongly_crowned_tooth_is_resolved_where_it_carries() {
+    // What carries is √(8RH) long, down to a hundredth of the tooth.
+    for (radius, spacing, frequency) in [
+        (0.01, 200.0, 398.0),
+        (0.01, 200.0, 3.0),
+        (0.03, 50.0, 30.0),
+        (0.1, 200.0, 398.0),
+        (0.3, 20.0, 30.0),
+        (0.01, 5.0, 398.107),
+    ] {
+        let changes =
+            [("stator.tooth_radius_m", radius), ("film.min_spacing_nm", spacing), ("stator.frequency_khz", frequency)];
+        let [draft, standard, fine] =
+            [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine].map(|fidelity| alpha(fidelity, &changes, &[]).result);
+        println!("R {radius} m, H_m {spacing} nm, {frequency} kHz: {} {} {}", draft.alpha, standard.alpha, fine.alpha);
+        for (coarse, within) in [(draft, 0.1), (standard, 0.05)] {
+            let error = coarse.alpha_error + fine.alpha_error;
+            assert!((coarse.alpha - fine.alpha).abs() < error, "{changes:?}: {coarse:?} {fine:?}");
+            assert!((coarse.alpha / fine.alpha - 1.0).abs() < within, "{changes:?}: {coarse:?} {fine:?}");
+        }
+    }
 }
 
 #[test]

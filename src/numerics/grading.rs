@@ -1,28 +1,45 @@
-//! Graded node positions that cluster at the ends of an interval, by a smooth map.
+//! Graded node positions that cluster at the ends of an interval or in its middle, by a smooth map.
 //!
-//! η ∈ [−1, 1] ↦ tanh(βη)/tanh β. The spacing at the ends is 2β/sinh 2β times the uniform one. The map is smooth and
-//! does not depend on the number of nodes, so central differences on it keep their second order, and a grid of half as
-//! many intervals consists of every other node.
+//! η ∈ [−1, 1] ↦ tanh(βη)/tanh β for β > 0: the spacing at the ends is 2β/sinh 2β times the uniform one. For β < 0,
+//! sinh(βη)/sinh β: the spacing in the middle is β/sinh β times the uniform one. The map is smooth and does not depend on the
+//! number of nodes, so central differences on it keep their second order, and a grid of half as many intervals consists of
+//! every other node.
 
 /// β of the map whose end spacing is `ratio` times the uniform one; 0 (no grading) for `ratio` ≥ 1.
 pub fn clustering(ratio: f64) -> f64 {
+    0.5 * inverse(ratio)
+}
+
+/// β of the map whose spacing in the middle is `ratio` times the uniform one; 0 (no grading) for `ratio` ≥ 1.
+pub fn middle_clustering(ratio: f64) -> f64 {
+    -inverse(ratio)
+}
+
+/// s ≥ 0 with s/sinh s = `ratio`; 0 for `ratio` ≥ 1.
+fn inverse(ratio: f64) -> f64 {
     if ratio >= 1.0 {
         return 0.0;
     }
-    // 2β/sinh 2β falls monotonically from 1; 700 keeps sinh finite.
-    let (mut low, mut high) = (0.0_f64, 350.0_f64);
+    // s/sinh s falls monotonically from 1; 700 keeps sinh finite.
+    let (mut low, mut high) = (0.0_f64, 700.0_f64);
     for _ in 0..200 {
-        let beta = 0.5 * (low + high);
-        if 2.0 * beta / (2.0 * beta).sinh() > ratio { low = beta } else { high = beta }
+        let s = 0.5 * (low + high);
+        if s / s.sinh() > ratio { low = s } else { high = s }
     }
     0.5 * (low + high)
 }
 
 fn map(beta: f64, eta: f64) -> f64 {
-    if beta < 1e-9 { eta } else { (beta * eta).tanh() / beta.tanh() }
+    if beta.abs() < 1e-9 {
+        eta
+    } else if beta > 0.0 {
+        (beta * eta).tanh() / beta.tanh()
+    } else {
+        (beta * eta).sinh() / beta.sinh()
+    }
 }
 
-/// `intervals + 1` nodes from −half to half \[m\], clustered at both ends, symmetric to the last bit.
+/// `intervals + 1` nodes from −half to half \[m\], clustered as β says, symmetric to the last bit.
 pub fn two_sided(half: f64, intervals: usize, beta: f64) -> Vec<f64> {
     (0..=intervals)
         .map(|i| {
@@ -53,6 +70,16 @@ mod tests {
         let nodes = one_sided(1.0, intervals, clustering(0.1));
         let end = (nodes[intervals] - nodes[intervals - 1]) * intervals as f64;
         assert!((end - 0.1).abs() < 1e-3, "{end}");
+    }
+
+    #[test]
+    fn middle_spacing_is_the_one_asked_for() {
+        let intervals = 4000;
+        let nodes = two_sided(0.5, intervals, middle_clustering(0.1));
+        let middle = (nodes[intervals / 2 + 1] - nodes[intervals / 2]) * intervals as f64;
+        assert!((middle - 0.1).abs() < 1e-3, "{middle}");
+        assert_eq!((nodes[0], nodes[intervals], middle_clustering(2.0)), (-0.5, 0.5, 0.0));
+        assert_eq!(one_sided(0.5, intervals / 2, middle_clustering(0.1))[..], nodes[intervals / 2..]);
     }
 
     #[test]
