@@ -85,3 +85,4 @@ pub mod rotor;
 pub mod scene;
 pub mod solution;
 pub mod solve;
+pub mod startup;

@@ -65,17 +65,91 @@ pub fn periodic(
         }
     }
     let estimate = extrapolate(&loads);
-    let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let result = PlateResult {
         film_load: estimate.value,
         film_load_error: estimate.error + plan.tolerance * estimate.value.abs(),
-        film_load_min: least(&recording.film_load),
-        film_load_max: most(&recording.film_load),
-        min_gap: least(&recording.min_film_thickness),
-        max_pressure: most(&recording.max_pressure),
+        ..PlateResult::of(&recording)
     };
     Ok(Periodic { status, result, loads, stats, recording })
+}
+
+/// A plate from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
+pub struct Transient<'a> {
+    plate: &'a Plate,
+    maps: bool,
+    levels: Vec<Level>,
+    stats: Stats,
+}
+
+impl std::fmt::Debug for Transient<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Transient").field("cycles", &self.stats.cycles).finish()
+    }
+}
+
+impl<'a> Transient<'a> {
+    /// At rest at the gap of t = 0, gas at ambient pressure.
+    pub fn at_rest(plate: &'a Plate, plan: &Plan) -> Self {
+        let levels = plan
+            .grids
+            .iter()
+            .map(|grid| {
+                let mut level = Level::new(plate, plan, grid);
+                level.rest();
+                level
+            })
+            .collect();
+        Self { plate, maps: plan.maps, levels, stats: Stats::default() }
+    }
+
+    /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
+    /// of ln Z over it. `None` if cancelled.
+    ///
+    /// # Errors
+    /// [`Interrupted::Failed`] if a film step has no solution to working precision.
+    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(PlateResult, Recording, f64)>, Interrupted> {
+        let finest = self.levels.len() - 1;
+        let mut loads = Vec::with_capacity(self.levels.len());
+        let mut last = (Recording::default(), f64::INFINITY);
+        for (number, level) in self.levels.iter_mut().enumerate() {
+            let maps = self.maps && number == finest;
+            last = match level.transient_cycle(self.plate, maps, &mut self.stats, cancel) {
+                Ok(cycle) => cycle,
+                Err(Interrupted::Cancelled) => return Ok(None),
+                Err(failed) => return Err(failed),
+            };
+            loads.push(level.mean_load());
+            self.stats.film_nodes = level.cycle.grid().len();
+            self.stats.steps_per_cycle = level.steps;
+        }
+        self.stats.cycles += 1;
+        let (recording, change) = last;
+        let estimate = extrapolate(&loads);
+        let result =
+            PlateResult { film_load: estimate.value, film_load_error: estimate.error, ..PlateResult::of(&recording) };
+        Ok(Some((result, recording, change)))
+    }
+
+    /// What it has cost so far, all grids.
+    pub fn stats(&self) -> Stats {
+        self.stats
+    }
+}
+
+impl PlateResult {
+    /// Cycle mean and extremes of a recording; no error is known.
+    pub fn of(recording: &Recording) -> Self {
+        let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Self {
+            film_load: recording.film_load.iter().sum::<f64>() / recording.frames as f64,
+            film_load_error: 0.0,
+            film_load_min: least(&recording.film_load),
+            film_load_max: most(&recording.film_load),
+            min_gap: least(&recording.min_film_thickness),
+            max_pressure: most(&recording.max_pressure),
+        }
+    }
 }
 
 /// The periodic state on one grid.
@@ -114,6 +188,46 @@ impl Level {
             line: vec![0.0; steps * nx],
             cycle: FilmCycle::new(nodes, &plate.gas, steps),
         }
+    }
+
+    /// Rest, at the gap of step 0, gas at ambient pressure.
+    fn rest(&mut self) {
+        let nx = self.cycle.grid().x.len();
+        self.state = FilmState::at_rest(vec![self.gap[0]; self.state.trapped.len()]);
+        self.cycle.grid().line_integral(&self.state.trapped, &mut self.line[..nx]);
+        self.cycle.remember(false);
+    }
+
+    /// One cycle on, with nothing accelerated: its recording, the first frame being the present, and the largest change of ln Z.
+    fn transient_cycle(
+        &mut self,
+        plate: &Plate,
+        maps: bool,
+        stats: &mut Stats,
+        cancel: &Cancel,
+    ) -> Result<(Recording, f64), Interrupted> {
+        let nx = self.cycle.grid().x.len();
+        let before = self.state.clone();
+        let mut recording = Recording::default();
+        for step in 1..=self.steps {
+            if cancel.is_cancelled() {
+                return Err(Interrupted::Cancelled);
+            }
+            if step == self.steps {
+                recording = self.recording(plate, maps);
+            }
+            let m = step % self.steps;
+            let here = m * nx..(m + 1) * nx;
+            let taken = self
+                .cycle
+                .advance(m, &self.gap[here.clone()], None, self.dt, &mut self.state, &mut self.line[here])
+                .map_err(|source| Interrupted::Failed { step, source })?;
+            stats.film_steps += 1;
+            stats.film_solves += u64::from(taken.solves);
+            stats.limited_steps += u64::from(taken.limited);
+        }
+        self.cycle.remember(true);
+        Ok((recording, self.state.change_since(&before)))
     }
 
     fn converge(

@@ -123,6 +123,11 @@ impl Contact {
         }
     }
 
+    /// The same teeth and rotor without a film: dry contact.
+    pub fn dry(&self) -> Self {
+        Self { ambient: vec![0.0; self.nodes()], tolerance: ROUND_OFF, ..self.clone() }
+    }
+
     /// Accepts an imbalance of `tolerance` times the sum of all forces, for rounds whose trapped gas is not final yet; never
     /// less than round-off. Complementarity stays exact.
     pub fn accept(&mut self, tolerance: f64) {

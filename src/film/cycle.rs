@@ -13,7 +13,7 @@
 //! Anderson acceleration by the caller.
 
 use super::grid::FilmGrid;
-use super::stepper::{Film, FilmError, FilmState};
+use super::stepper::{Film, FilmError, FilmState, StepCost};
 use crate::control::Cancel;
 use crate::numerics::five_point::{BlockSolver, FivePoint};
 use crate::problem::Gas;
@@ -117,7 +117,7 @@ impl FilmCycle {
         line: &mut [f64],
         cancel: &Cancel,
     ) -> Result<CycleCost, Interrupted> {
-        let (nx, unknowns) = (self.grid().x.len(), self.before.len());
+        let nx = self.grid().x.len();
         let mut cost = CycleCost::default();
         self.before.copy_from_slice(&state.carried);
         self.leak.clear();
@@ -126,21 +126,47 @@ impl FilmCycle {
                 return Err(Interrupted::Cancelled);
             }
             let m = step % self.steps;
-            let gap = &h[m * nx..(m + 1) * nx];
-            let slide = speed.map(|u| &u[m * nx..(m + 1) * nx]);
-            // The last cycle's pressure is the guess: as cycles converge, one linear solve a step is left.
-            let guess = self.marched.then(|| &self.pressure[m * unknowns..(m + 1) * unknowns]);
-            let taken =
-                self.film.step(gap, slide, dt, state, guess).map_err(|source| Interrupted::Failed { step, source })?;
+            let here = m * nx..(m + 1) * nx;
+            let gap = &h[here.clone()];
+            let slide = speed.map(|u| &u[here.clone()]);
+            let taken = self
+                .advance(m, gap, slide, dt, state, &mut line[here])
+                .map_err(|source| Interrupted::Failed { step, source })?;
             cost.steps += 1;
             cost.solves += u64::from(taken.solves);
             cost.limited += u64::from(taken.limited);
-            self.film.gather_pressure(&mut self.pressure[m * unknowns..(m + 1) * unknowns]);
-            self.film.grid().line_integral(&state.trapped, &mut line[m * nx..(m + 1) * nx]);
             self.accumulate_leak(gap);
         }
         self.marched = true;
         Ok(cost)
+    }
+
+    /// One step, to step `m` of the cycle: `state` to the gap `h[ix]` \[m\], with sliding speeds `speed[ix]` \[m/s\], and the
+    /// trapped height integrated across the width, `line[ix]` \[m²\].
+    ///
+    /// # Errors
+    /// When the step fails; `state` is then unchanged.
+    pub fn advance(
+        &mut self,
+        m: usize,
+        h: &[f64],
+        speed: Option<&[f64]>,
+        dt: f64,
+        state: &mut FilmState,
+        line: &mut [f64],
+    ) -> Result<StepCost, FilmError> {
+        let unknowns = self.before.len();
+        // The last cycle's pressure is the guess: as cycles converge, one linear solve a step is left.
+        let guess = self.marched.then(|| &self.pressure[m * unknowns..(m + 1) * unknowns]);
+        let taken = self.film.step(h, speed, dt, state, guess)?;
+        self.film.gather_pressure(&mut self.pressure[m * unknowns..(m + 1) * unknowns]);
+        self.film.grid().line_integral(&state.trapped, line);
+        Ok(taken)
+    }
+
+    /// Whether the pressures of all steps are first guesses for the next time that they are reached.
+    pub fn remember(&mut self, marched: bool) {
+        self.marched = marched;
     }
 
     /// Adds this step's ∂(Δt div flux)/∂Z to T Ā.

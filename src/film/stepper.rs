@@ -39,6 +39,11 @@ impl FilmState {
     pub fn at_rest(trapped: Vec<f64>) -> Self {
         Self { carried: trapped.clone(), trapped }
     }
+
+    /// Largest change of ln Z since `earlier`.
+    pub fn change_since(&self, earlier: &Self) -> f64 {
+        self.trapped.iter().zip(&earlier.trapped).map(|(now, then)| (now / then).ln().abs()).fold(0.0, f64::max)
+    }
 }
 
 /// What one step took.

@@ -1,5 +1,7 @@
 //! The coupled problem on one grid.
 
+mod startup;
+
 use super::{MotorError, Stop};
 use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
 use crate::control::{Cancel, Reporter};

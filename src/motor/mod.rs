@@ -172,6 +172,72 @@ pub fn periodic_from(
     Ok(found)
 }
 
+/// A motor from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
+pub struct Transient<'a> {
+    motor: &'a Motor,
+    plan: Plan,
+    levels: Vec<Level>,
+    stats: Stats,
+}
+
+impl std::fmt::Debug for Transient<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Transient").field("cycles", &self.stats.cycles).finish()
+    }
+}
+
+impl<'a> Transient<'a> {
+    /// At rest, every tooth by itself.
+    ///
+    /// # Errors
+    /// [`MotorError::Contact`] if the teeth at rest have no solution to working precision.
+    pub fn at_rest(motor: &'a Motor, plan: &Plan) -> Result<Self, MotorError> {
+        let plan = Plan { every_tooth: true, trapped: false, ..plan.clone() };
+        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(motor, &plan, grid)).collect();
+        for level in &mut levels {
+            level.rest()?;
+        }
+        Ok(Self { motor, plan, levels, stats: Stats::default() })
+    }
+
+    /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
+    /// of ln Z over it. `None` if cancelled.
+    ///
+    /// # Errors
+    /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
+    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
+        let tolerance = 0.1 * self.plan.tolerance;
+        let finest = self.levels.len() - 1;
+        let mut alphas = Vec::with_capacity(self.levels.len());
+        let mut last = (Recording::default(), f64::INFINITY);
+        for (number, level) in self.levels.iter_mut().enumerate() {
+            let maps = self.plan.maps && number == finest;
+            last = match level.transient_cycle(self.motor, maps, tolerance, &mut self.stats, cancel) {
+                Ok(cycle) => cycle,
+                Err(Stop::Cancelled) => return Ok(None),
+                Err(Stop::Failed(error)) => return Err(error),
+            };
+            alphas.push(level.alpha(self.motor));
+            self.stats.film_nodes = level.film_nodes();
+            self.stats.contact_nodes = level.contact_nodes();
+            self.stats.steps_per_cycle = level.steps();
+        }
+        self.stats.cycles += 1;
+        let (recording, change) = last;
+        let mut result = summarise(self.motor, &recording);
+        let estimate = extrapolate(&alphas);
+        result.set_alpha(self.motor, if result.levitated { 1.0 } else { estimate.value });
+        let left_out = if result.levitated { 0.0 } else { self.plan.left_out * estimate.value.abs() };
+        result.alpha_error = estimate.error.min(1.0) + left_out + tolerance;
+        Ok(Some((result, recording, change)))
+    }
+
+    /// What it has cost so far, all grids.
+    pub fn stats(&self) -> Stats {
+        self.stats
+    }
+}
+
 /// The numbers, their error and the fields, from the finest grid and what each grid gave.
 fn finish(
     motor: &Motor,

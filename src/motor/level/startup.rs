@@ -1,0 +1,146 @@
+//! The transient from rest, instant after instant: every tooth, nothing accelerated.
+//!
+//! At each instant film and contact have to agree: contact asks how much gas is trapped, ζ, the film's step asks for the gap. A
+//! fixed point of the two, driven by Anderson acceleration of ln ζ, starts from ζ continued from the last two instants. What it
+//! settles to is a step of the same scheme as the periodic state's, so that this is where the transient ends, to the last digits.
+
+use super::{CONTACT_SHARE, Level, step_tolerance};
+use crate::contact::{Instant, Shape};
+use crate::control::Cancel;
+use crate::film::stepper::FilmState;
+use crate::motor::{MotorError, Stop};
+use crate::numerics::anderson::Anderson;
+use crate::problem::Motor;
+use crate::recording::Recording;
+use crate::solution::Stats;
+
+const DEPTH: usize = 6;
+const LONGEST_STEP: f64 = 1.0;
+const ROUND_LIMIT: usize = 60;
+
+impl Level {
+    /// Rest: the wave stands still, pressed against the rotor without a film, and the gas is at ambient pressure.
+    ///
+    /// # Errors
+    /// [`MotorError::Contact`] if the dry contact problem has no solution to working precision.
+    pub(in crate::motor) fn rest(&mut self) -> Result<(), MotorError> {
+        let nodes = self.contact.nodes();
+        let mut fields = Instant::default();
+        self.shapes.fill(Shape::unknown());
+        let mut shape = Shape::unknown();
+        self.contact
+            .dry()
+            .solve(&self.stator[..nodes], &vec![0.0; nodes], &mut shape, &mut fields)
+            .map_err(|source| MotorError::Contact { instant: 0, source })?;
+        let (nx, steps) = (self.nx, self.steps);
+        let columns = self.grid().y.unknown().len();
+        for tooth in 0..self.teeth {
+            let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
+            let to = tooth * steps * nx;
+            self.film_thickness[to..to + nx].copy_from_slice(gap);
+            self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
+            let trapped: Vec<f64> =
+                self.grid().x.unknown().flat_map(|ix| std::iter::repeat_n(gap[ix], columns)).collect();
+            let line = &mut self.line[to..to + nx];
+            self.films[tooth].grid().line_integral(&trapped, line);
+            self.trapped[to..to + nx].copy_from_slice(line);
+            self.states[tooth] = FilmState::at_rest(trapped);
+            self.films[tooth].remember(false);
+        }
+        Ok(())
+    }
+
+    /// One cycle on from the present instant, t = 0 of the cycle, each step solved to `tolerance` in ln ζ. Returns the cycle's
+    /// recording, its first frame being the present, and the largest change of ln Z over the cycle.
+    pub(in crate::motor) fn transient_cycle(
+        &mut self,
+        motor: &Motor,
+        maps: bool,
+        tolerance: f64,
+        stats: &mut Stats,
+        cancel: &Cancel,
+    ) -> Result<(Recording, f64), Stop> {
+        let exact = step_tolerance(tolerance / self.stiffness);
+        self.films.iter_mut().for_each(|film| film.accept(exact));
+        self.contact.accept(CONTACT_SHARE * tolerance);
+        let before: Vec<FilmState> = self.states.clone();
+        let mut recording = Recording::default();
+        for step in 1..=self.steps {
+            if cancel.is_cancelled() {
+                return Err(Stop::Cancelled);
+            }
+            if step == self.steps {
+                recording = self.recording(motor, maps);
+            }
+            self.transient_step(step % self.steps, tolerance, stats)?;
+        }
+        self.films.iter_mut().for_each(|film| film.remember(true));
+        let change = self.states.iter().zip(&before).map(|(now, then)| now.change_since(then)).fold(0.0, f64::max);
+        Ok((recording, change))
+    }
+
+    /// One step, to instant `m` of the cycle.
+    fn transient_step(&mut self, m: usize, tolerance: f64, stats: &mut Stats) -> Result<(), Stop> {
+        let (teeth, nx, steps, nodes) = (self.teeth, self.nx, self.steps, self.contact.nodes());
+        let line = |tooth: usize, m: usize| (tooth * steps + m) * nx;
+        let (last, earlier) = ((m + steps - 1) % steps, (m + steps - 2) % steps);
+        // Gas that is trapped changes slowly, and steadily.
+        let mut present = vec![0.0; nodes];
+        for tooth in 0..teeth {
+            for ix in 0..nx {
+                let now = self.line[line(tooth, last) + ix];
+                let then = self.line[line(tooth, earlier) + ix];
+                present[tooth * nx + ix] = if then > 0.0 { now * (now / then).clamp(0.5, 2.0) } else { now };
+            }
+        }
+        if self.shapes[m] == Shape::unknown() {
+            self.shapes[m] = self.shapes[last].clone();
+        }
+        let inside: Vec<usize> = (0..nodes).filter(|i| self.grid().x.unknown().contains(&(i % nx))).collect();
+        let before = self.states.clone();
+        let mut anderson = Anderson::new(DEPTH, LONGEST_STEP);
+        let mut fields = Instant::default();
+        let mut x: Vec<f64> = inside.iter().map(|i| present[*i].ln()).collect();
+        let mut image = vec![0.0; x.len()];
+        for _ in 0..ROUND_LIMIT {
+            for (i, x) in inside.iter().zip(&x) {
+                present[*i] = x.exp();
+            }
+            let stator = &self.stator[m * nodes..(m + 1) * nodes];
+            let iterations = self
+                .contact
+                .solve(stator, &present, &mut self.shapes[m], &mut fields)
+                .map_err(|source| Stop::Failed(MotorError::Contact { instant: m, source }))?;
+            stats.contact_solves += 1;
+            stats.contact_iterations += u64::from(iterations);
+            stats.coupling_iterations += 1;
+            for tooth in 0..teeth {
+                let here = line(tooth, m)..line(tooth, m) + nx;
+                let gap = &fields.film_thickness[tooth * nx..(tooth + 1) * nx];
+                self.film_thickness[here.clone()].copy_from_slice(gap);
+                self.contact_load[here.clone()].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
+                self.states[tooth].clone_from(&before[tooth]);
+                let speed = self.speed.as_ref().map(|u| &u[here.clone()]);
+                let taken = self.films[tooth]
+                    .advance(m, gap, speed, self.dt, &mut self.states[tooth], &mut self.line[here])
+                    .map_err(|source| Stop::Failed(MotorError::Film { step: m, source }))?;
+                stats.film_steps += 1;
+                stats.film_solves += u64::from(taken.solves);
+                stats.limited_steps += u64::from(taken.limited);
+            }
+            for (i, image) in inside.iter().zip(&mut image) {
+                *image = self.line[line(i / nx, m) + i % nx].ln();
+            }
+            self.residual = image.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            if self.residual < tolerance {
+                break;
+            }
+            anderson.advance(&mut x, &image);
+        }
+        for tooth in 0..teeth {
+            let here = line(tooth, m)..line(tooth, m) + nx;
+            self.trapped[here].copy_from_slice(&present[tooth * nx..(tooth + 1) * nx]);
+        }
+        Ok(())
+    }
+}
