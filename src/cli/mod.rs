@@ -14,6 +14,7 @@ mod progress;
 mod reproduce;
 mod solve;
 mod stability;
+mod startup;
 mod summary;
 mod sweep;
 mod table1;
@@ -50,6 +51,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
     Tradeoff(tradeoff::Arguments),
     Stability(stability::Arguments),
+    Startup(startup::Arguments),
     Animate(animate::Arguments),
     Presets(presets::Arguments),
 }
@@ -62,6 +64,7 @@ Examples:
   squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
   squeezefilm compare fundamental min-spacing-100nm --out results
   squeezefilm reproduce
+  squeezefilm startup fundamental
   squeezefilm animate fundamental --out wave.gif
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
 
@@ -98,6 +101,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Reproduce(arguments)) => reproduce::run(&arguments, &command_line(words)),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
         Some(Command::Stability(arguments)) => stability::run(&arguments, &command_line(words)),
+        Some(Command::Startup(arguments)) => startup::run(&arguments, &command_line(words)),
         Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };

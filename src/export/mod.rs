@@ -13,6 +13,7 @@ pub mod json;
 pub mod npz;
 pub mod reproduce;
 pub mod stability;
+pub mod startup;
 pub mod sweep;
 pub mod table1;
 pub mod tradeoff;

@@ -1,0 +1,216 @@
+//! `squeezefilm startup`: the transient from rest.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::figures::FigureOptions;
+use super::interrupt::cancel_on_interrupt;
+use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::progress::Bar;
+use super::solve::written;
+use super::summary::duration;
+use super::terminal;
+use crate::export::digits::{significant, with_error};
+use crate::export::folder::Staged;
+use crate::export::json::{self, force_unit};
+use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, write_csv};
+use crate::fidelity::Fidelity;
+use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::solution::Status;
+use crate::solve::{Method, Record, Settings, solve};
+use crate::startup::{self, Cycle, Startup};
+use clap::Args;
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm startup fundamental
+  squeezefilm startup frequency-100khz --fidelity fine --out results
+  squeezefilm startup plate-trapped --cycles 500 --json";
+
+const FILES: &str = "\
+Files of --out:
+  startup.csv   a row for each cycle
+  startup.json  what --json prints
+  startup.svg   cycle means, and the film load at every instant; and startup.png
+  scene.toml    the scene: a preset again";
+
+/// Starts a preset from rest and follows it, cycle by cycle, until the cycle repeats
+///
+/// At t = 0 the wave stands still, pressed against the rotor, and the gas is at ambient pressure. Every tooth is marched. The
+/// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: String,
+
+    /// Cycles at most; if the cycle does not repeat by then, exit status 3
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    cycles: u32,
+
+    /// What ln(p h) may still change for the cycle to count as repeating
+    #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = tolerance)]
+    tolerance: f64,
+
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    #[command(flatten)]
+    solve: SolveOptions,
+
+    #[command(flatten)]
+    output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let allowed = 1e-8..=0.1;
+    match text.parse::<f64>() {
+        Ok(change) if allowed.contains(&change) => Ok(change),
+        _ => Err(format!("expected {:e} to {}", allowed.start(), allowed.end())),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scene = arguments.scene.scene(&arguments.preset)?;
+    let problem = Problem::new(&scene)?;
+    let chosen = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    if chosen.method == Method::Paper {
+        return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
+    }
+    if let Some(folder) = &arguments.output.out {
+        // Finds out whether it can be written before anything is solved.
+        Staged::new(folder)?.add("startup.csv", |_| Ok(()))?;
+    }
+    let cancel = cancel_on_interrupt();
+    let settings = startup::Settings {
+        fidelity: chosen.fidelity,
+        cycles: arguments.cycles as usize,
+        tolerance: arguments.tolerance,
+    };
+
+    let bar = Bar::share();
+    let (mut rows, mut loads, mut frames) = (Vec::new(), Vec::new(), 0);
+    let mut each = |cycle: Cycle| {
+        let row = Row::of(&problem, &cycle);
+        let what = format!("cycle {}: {}", row.cycle, significant(row.main().0, 4));
+        bar.share_done(share(&row, &settings), &what);
+        loads.extend_from_slice(&cycle.recording.film_load);
+        frames = cycle.recording.frames;
+        rows.push(row);
+    };
+    let started = Instant::now();
+    let ended = startup::startup(&problem, &settings, &mut each, &cancel);
+    let wall_s = started.elapsed().as_secs_f64();
+    drop(bar);
+    let ended = ended?;
+    let periodic = solve(
+        &problem,
+        &Settings { fidelity: settings.fidelity, record: Record::Numbers, ..Settings::default() },
+        &mut (),
+        &cancel,
+    )?;
+    let steady = steady(&problem, &periodic);
+
+    let object = Object {
+        schema: SCHEMA,
+        preset: &scene.name,
+        scene: scene.scene(),
+        fidelity: settings.fidelity.name(),
+        converged: converged(&ended),
+        remaining: ended.remaining.is_finite().then_some(ended.remaining),
+        tolerance: settings.tolerance,
+        steady: steady.map(|(value, _)| value),
+        steady_error: steady.map(|(_, error)| error),
+        film_steps: ended.stats.film_steps,
+        contact_solves: ended.stats.contact_solves,
+        coupling_iterations: ended.stats.coupling_iterations,
+        wall_s,
+        rows: &rows,
+        version: env!("CARGO_PKG_VERSION"),
+        command,
+    };
+    let human = text(&scene, &problem, &rows, &ended, steady);
+    terminal::data(&if arguments.output.json { json::text(&object) } else { human })?;
+    terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
+    if let Some(folder) = &arguments.output.out {
+        let mut staged = Staged::new(folder)?;
+        staged.add("startup.csv", |out| write_csv(&rows, out))?;
+        staged.add("startup.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+        let mut drawn = figure(&problem, &rows, steady, &loads, frames);
+        drawn.provenance.fidelity = settings.fidelity.name().to_owned();
+        if let Some((value, error)) = rows.last().map(Row::main) {
+            drawn.provenance.error = format!("ends at {}", with_error(value, error));
+        }
+        arguments.figures.stage(&mut staged, "startup", &drawn)?;
+        staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
+        terminal::note(&written(folder, &staged.commit()?));
+    }
+    Ok(match ended.status {
+        Status::Converged => Exit::Solved,
+        Status::NotConverged { .. } => Exit::NotConverged,
+        Status::Cancelled => Exit::Other,
+    })
+}
+
+/// How much of the way is done, 0 to 1, as ln of what remains.
+fn share(row: &Row, settings: &startup::Settings) -> f64 {
+    let by_cycles = row.cycle as f64 / settings.cycles as f64;
+    let by_change = row.remaining.map_or(0.0, |left| (left.ln() / settings.tolerance.ln()).clamp(0.0, 1.0));
+    by_cycles.max(by_change)
+}
+
+/// Cycles shown to people at the beginning, and as powers of two after that.
+const SHOWN: usize = 8;
+
+fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady: Option<(f64, f64)>) -> String {
+    let how = match ended.status {
+        Status::Converged => format!("the cycle repeats after {}", ended.cycles),
+        Status::NotConverged { .. } => format!("NOT REPEATING after {}", ended.cycles),
+        Status::Cancelled => format!("CANCELLED after {}", ended.cycles),
+    };
+    let mut text = paragraph(&format!("{}, start-up from rest: {how}", scene.name), "", "");
+    text.push('\n');
+    let motor = scene.scene() == "motor";
+    let unit = force_unit(problem);
+    let mut columns = Columns::new();
+    let main = if motor { "film share α" } else { "load ratio" };
+    columns.row([
+        "cycle",
+        "t, µs",
+        main,
+        &format!("film load, {unit}"),
+        "least gap, nm",
+        "highest p, kPa",
+        "changed by",
+    ]);
+    for row in rows {
+        let last = row.cycle == rows.len();
+        if row.cycle > SHOWN && !row.cycle.is_power_of_two() && !last {
+            continue;
+        }
+        let (value, error) = row.main();
+        columns.row([
+            row.cycle.to_string(),
+            significant(row.time_us, 4),
+            with_error(value, error),
+            significant(row.film_load_n, 4),
+            significant(row.min_gap_nm, 4),
+            significant(row.max_pressure_kpa, 4),
+            format!("{:.1e}", row.change),
+        ]);
+    }
+    text.push_str(&columns.text("  ", &[0, 1, 2, 3, 4, 5, 6]));
+    if let Some((value, error)) = steady {
+        text.push_str(&paragraph(
+            &format!("The periodic solve, which does not march there: {main} = {}.", with_error(value, error)),
+            "\n",
+            "",
+        ));
+    }
+    text
+}

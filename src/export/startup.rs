@@ -1,0 +1,197 @@
+//! A start-up as JSON and as CSV, with the same names, and as a figure.
+
+use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
+use crate::export::json::force_unit;
+use crate::problem::{Problem, Scenario};
+use crate::solution::{Outcome, PlateResult, Solution, Status};
+use crate::startup::{Cycle, Startup};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The version of the object and of the columns.
+pub const SCHEMA: u32 = 1;
+
+/// One cycle. Means and extremes are over this cycle; what its scene does not have is null.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// From 1.
+    pub cycle: usize,
+    /// Time at its end.
+    pub time_us: f64,
+    /// The film's share of the load.
+    pub alpha: Option<f64>,
+    /// Error that the grids show, absolute.
+    pub alpha_error: Option<f64>,
+    /// Film load over ambient pressure × area (plate).
+    pub load_ratio: Option<f64>,
+    /// Error that the grids show, absolute.
+    pub load_ratio_error: Option<f64>,
+    /// Mean of the film's net gauge force on one wavelength or the plate.
+    pub film_load_n: f64,
+    /// Its least value.
+    pub film_load_min_n: f64,
+    /// Its greatest value.
+    pub film_load_max_n: f64,
+    /// Mean of the contact force on one wavelength.
+    pub contact_load_n: Option<f64>,
+    /// Mean of the number of teeth that touch.
+    pub teeth_in_contact: Option<f64>,
+    /// Least film thickness.
+    pub min_gap_nm: f64,
+    /// Greatest absolute pressure.
+    pub max_pressure_kpa: f64,
+    /// Largest change of ln Z over the cycle.
+    pub change: f64,
+    /// By how much ln Z may still change; null while nothing is known.
+    pub remaining: Option<f64>,
+}
+
+impl Row {
+    /// The numbers of a cycle.
+    pub fn of(problem: &Problem, cycle: &Cycle) -> Self {
+        let base = |load: f64, least: f64, most: f64, gap: f64, pressure: f64| Self {
+            cycle: cycle.number,
+            time_us: cycle.number as f64 * cycle.recording.period * 1e6,
+            alpha: None,
+            alpha_error: None,
+            load_ratio: None,
+            load_ratio_error: None,
+            film_load_n: load,
+            film_load_min_n: least,
+            film_load_max_n: most,
+            contact_load_n: None,
+            teeth_in_contact: None,
+            min_gap_nm: gap * 1e9,
+            max_pressure_kpa: pressure * 1e-3,
+            change: cycle.change,
+            remaining: finite(cycle.remaining),
+        };
+        match (&cycle.outcome, &problem.scenario) {
+            (Outcome::Motor(r), _) => Self {
+                alpha: finite(r.alpha),
+                alpha_error: finite(r.alpha_error),
+                contact_load_n: finite(r.contact_load),
+                teeth_in_contact: finite(r.teeth_in_contact),
+                ..base(r.film_load, r.film_load_min, r.film_load_max, r.min_gap, r.max_pressure)
+            },
+            (Outcome::Plate(r), Scenario::Plate(plate)) => Self {
+                load_ratio: finite(PlateResult::ratio(r.film_load, plate)),
+                load_ratio_error: finite(PlateResult::ratio(r.film_load_error, plate)),
+                ..base(r.film_load, r.film_load_min, r.film_load_max, r.min_gap, r.max_pressure)
+            },
+            (Outcome::Plate(r), Scenario::Motor(_)) => {
+                base(r.film_load, r.film_load_min, r.film_load_max, r.min_gap, r.max_pressure)
+            }
+        }
+    }
+
+    /// What rises to the steady state, and its error: α, or the load ratio.
+    pub fn main(&self) -> (f64, f64) {
+        let value = self.alpha.or(self.load_ratio).unwrap_or(f64::NAN);
+        (value, self.alpha_error.or(self.load_ratio_error).unwrap_or(f64::NAN))
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// The object of `--json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Object<'a> {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// The scene's name.
+    pub preset: &'a str,
+    /// `motor` or `plate`.
+    pub scene: &'static str,
+    /// `draft`, `standard`, …
+    pub fidelity: &'static str,
+    /// The cycle repeats to the tolerance.
+    pub converged: bool,
+    /// By how much ln Z may still change; null if nothing is known.
+    pub remaining: Option<f64>,
+    /// What that had to fall below.
+    pub tolerance: f64,
+    /// Where the periodic solve says that this ends: α, or the load ratio …
+    pub steady: Option<f64>,
+    /// … and its stated error.
+    pub steady_error: Option<f64>,
+    /// Time steps of one tooth's film, all grids.
+    pub film_steps: u64,
+    /// Contact problems solved.
+    pub contact_solves: u64,
+    /// Rounds of film and contact.
+    pub coupling_iterations: u64,
+    /// Wall time \[s\].
+    pub wall_s: f64,
+    /// One for each cycle.
+    pub rows: &'a [Row],
+    /// Version of this program.
+    pub version: &'static str,
+    /// The command line, word by word; empty if there was none.
+    pub command: &'a [String],
+}
+
+/// What the periodic solve says of where a start-up ends: α, or the load ratio, and its stated error.
+pub fn steady(problem: &Problem, periodic: &Solution) -> Option<(f64, f64)> {
+    if periodic.status != Status::Converged {
+        return None;
+    }
+    match (&periodic.outcome, &problem.scenario) {
+        (Outcome::Motor(result), _) => Some((result.alpha, result.alpha_error)),
+        (Outcome::Plate(result), Scenario::Plate(plate)) => {
+            Some((PlateResult::ratio(result.film_load, plate), PlateResult::ratio(result.film_load_error, plate)))
+        }
+        (Outcome::Plate(_), Scenario::Motor(_)) => None,
+    }
+}
+
+/// Whether it ended because the cycle repeats.
+pub fn converged(startup: &Startup) -> bool {
+    startup.status == Status::Converged
+}
+
+/// Writes the rows as CSV, the header first; what is null is empty.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_csv(rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    writer.flush()
+}
+
+/// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] at `frames` equal steps a cycle.
+pub fn figure(problem: &Problem, rows: &[Row], steady: Option<(f64, f64)>, loads: &[f64], frames: usize) -> Figure {
+    let motor = matches!(problem.scenario, Scenario::Motor(_));
+    let label = if motor { "film share of the load α" } else { "film load over p_a × area" };
+    let at = |row: &Row| (row.cycle as f64, row.main());
+    let band = rows.iter().map(at).map(|(x, (value, error))| [x, value - error, value + error]);
+    let line = rows.iter().map(at).map(|(x, (value, _))| [x, value]);
+    let mut means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))
+        .layer(Band::new("error of the grids", band, Colour::FILM))
+        .layer(Line::new("mean of the cycle", line, Style::solid(Colour::FILM)));
+    if let Some((value, _)) = steady {
+        let mut mark = Mark::horizontal(value, "periodic solve");
+        mark.style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
+        means = means.layer(mark);
+    }
+    let instants = loads.iter().enumerate().map(|(i, load)| [i as f64 / frames.max(1) as f64, *load]);
+    let film = Panel::new("", Axis::new("t/T", ""), Axis::new("film load", force_unit(problem))).layer(Line::new(
+        "",
+        instants,
+        Style::solid(Colour::FILM),
+    ));
+    let mut figure = Figure::new("start-up from rest").panel(means).panel(film);
+    figure.caption =
+        "From rest, the film pumps up until the cycle repeats: cycle means above, every instant below.".to_owned();
+    figure.provenance = Provenance {
+        preset: problem.name.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        ..Provenance::default()
+    };
+    figure
+}

@@ -1,0 +1,127 @@
+//! The start-up from rest ends where the periodic solve says, by another way: every tooth marched, nothing accelerated.
+
+use squeezefilm::control::Cancel;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::problem::{Problem, Scenario};
+use squeezefilm::scene::presets;
+use squeezefilm::solution::{Outcome, PlateResult, Status};
+use squeezefilm::solve::{self, solve};
+use squeezefilm::startup::{Cycle, Settings, Startup, startup};
+
+fn problem(preset: &str, changes: &[(&str, &str)]) -> Problem {
+    let mut scene = presets::find(preset).unwrap();
+    scene.set_all(changes.iter().copied()).unwrap();
+    Problem::new(&scene).unwrap()
+}
+
+fn run(problem: &Problem, settings: &Settings) -> (Vec<Cycle>, Startup) {
+    let mut cycles = Vec::new();
+    let ended = startup(problem, settings, &mut |cycle| cycles.push(cycle), &Cancel::new()).unwrap();
+    assert_eq!(ended.cycles, cycles.len());
+    (cycles, ended)
+}
+
+/// α or load ratio, and its error.
+fn main_number(problem: &Problem, outcome: &Outcome) -> (f64, f64) {
+    match (outcome, &problem.scenario) {
+        (Outcome::Motor(result), _) => (result.alpha, result.alpha_error),
+        (Outcome::Plate(result), Scenario::Plate(plate)) => {
+            (PlateResult::ratio(result.film_load, plate), PlateResult::ratio(result.film_load_error, plate))
+        }
+        _ => panic!("a plate's result of a motor"),
+    }
+}
+
+#[test]
+fn a_start_up_ends_at_the_periodic_state() {
+    for (preset, changes) in [
+        ("fundamental", &[][..]),
+        ("fundamental", &[("film.min_spacing_nm", "20")]),
+        ("fundamental", &[("motor.rotor_speed_rpm", "1000")]),
+        ("frequency-3khz", &[]),
+        ("frequency-100khz", &[]),
+        ("tooth-radius-3m", &[]),
+        ("rotor-width-0.6mm", &[]),
+        ("levitating", &[]),
+        ("plate-viscous", &[]),
+        ("plate-crossover", &[]),
+    ] {
+        let problem = problem(preset, changes);
+        for fidelity in [Fidelity::Draft, Fidelity::Standard] {
+            let settings = Settings { fidelity, tolerance: 1e-4, ..Settings::default() };
+            let (cycles, ended) = run(&problem, &settings);
+            assert_eq!(ended.status, Status::Converged, "{preset} {changes:?}: {ended:?}");
+            let asked = solve::Settings { fidelity, ..solve::Settings::default() };
+            let periodic = solve(&problem, &asked, &mut (), &Cancel::new()).unwrap();
+            let (found, error) = main_number(&problem, &ended.outcome);
+            let (expected, stated) = main_number(&problem, &periodic.outcome);
+            println!(
+                "{preset} {changes:?} {fidelity}: {} cycles, {found} ± {error}, {expected} ± {stated}",
+                cycles.len()
+            );
+            // Either states its error; what a start-up has still to go is its own.
+            assert!((found - expected).abs() <= stated + ended.remaining, "{preset}: {found} {expected} ± {stated}");
+            assert!((found - expected).abs() <= error + stated, "{preset}: {found} ± {error}, {expected} ± {stated}");
+            // The fields of the last cycle are those of the periodic state.
+            let mean = |loads: &[f64]| loads.iter().sum::<f64>() / loads.len() as f64;
+            let (last, there) = (&cycles[cycles.len() - 1].recording, &periodic.recording);
+            let (a, b) = (mean(&last.film_load), mean(&there.film_load));
+            assert!((a / b - 1.0).abs() < 0.01, "{preset} {fidelity}: {a} N, {b} N");
+        }
+    }
+}
+
+#[test]
+fn cycles_follow_each_other_without_a_gap() {
+    let problem = problem("fundamental", &[]);
+    let (cycles, _) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 3, ..Settings::default() });
+    let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
+    assert_eq!(cycles.len(), 3);
+    for cycle in &cycles {
+        let recording = &cycle.recording;
+        assert_eq!((recording.stored_teeth, recording.teeth), (motor.teeth, motor.teeth));
+        // At every instant film and contact carry the load.
+        for frame in 0..recording.frames {
+            let total = recording.film_load[frame] + recording.contact_load[frame];
+            assert!((total / motor.load - 1.0).abs() < 2e-3, "cycle {}, frame {frame}: {total} N", cycle.number);
+        }
+    }
+    // Rest: gas at ambient pressure, the whole load on the teeth.
+    let first = &cycles[0].recording;
+    assert!(first.film_load[0].abs() < 1e-9 && (first.contact_load[0] / motor.load - 1.0).abs() < 1e-9);
+    // A cycle begins where the one before would have gone on: no jump larger than within a cycle.
+    let (a, b) = (&cycles[1].recording, &cycles[2].recording);
+    let step = |m: usize| (a.film_load[m + 1] - a.film_load[m]).abs();
+    let largest = (0..a.frames - 1).map(step).fold(0.0, f64::max);
+    assert!((b.film_load[0] - a.film_load[a.frames - 1]).abs() < 1.5 * largest);
+}
+
+#[test]
+fn the_film_pumps_up_from_rest() {
+    let problem = problem("frequency-100khz", &[]);
+    let (cycles, _) = run(&problem, &Settings { fidelity: Fidelity::Draft, ..Settings::default() });
+    let alphas: Vec<f64> = cycles.iter().map(|cycle| main_number(&problem, &cycle.outcome).0).collect();
+    assert!(alphas.len() > 8, "{alphas:?}");
+    assert!(alphas.windows(2).all(|pair| pair[1] > pair[0] - 1e-4), "{alphas:?}");
+    assert!(alphas[0] < 0.7 * alphas[alphas.len() - 1], "{alphas:?}");
+    // Two rounds of film and contact a step: it is cheap.
+    assert!(cycles.iter().all(|cycle| cycle.change.is_finite()));
+}
+
+#[test]
+fn a_limit_and_a_cancelled_run_say_so_and_keep_their_cycles() {
+    let problem = problem("plate-trapped", &[]);
+    let (cycles, ended) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 5, ..Settings::default() });
+    assert_eq!(cycles.len(), 5);
+    assert!(matches!(ended.status, Status::NotConverged { residual, tolerance } if residual > tolerance));
+    let cancel = Cancel::new();
+    let mut seen = 0;
+    let mut stop = |cycle: Cycle| {
+        seen = cycle.number;
+        if cycle.number == 3 {
+            cancel.cancel();
+        }
+    };
+    let ended = startup(&problem, &Settings::default(), &mut stop, &cancel).unwrap();
+    assert_eq!((ended.status, ended.cycles, seen), (Status::Cancelled, 3, 3));
+}
