@@ -179,7 +179,7 @@ fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> 
         window.get_by_label("Add a second…").click();
         settle(&mut window);
     }
-    window.get_by_label("Sweep").click();
+    window.get_by_label("Start the sweep").click();
     window.run_steps(2);
     until(&mut window, "swept", |app| app.sweeps().swept().is_some_and(|swept| !swept.running()));
     window

@@ -11,10 +11,9 @@ use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What is varied at first, along x and y, and what else is tried if a scene does not have it.
+/// What is varied at first, along x and y: the first that a scene has.
 const FIRST: [&[&str]; 2] =
-    [&["film.min_spacing_nm", "plate.frequency_khz"], &["motor.load_per_wave_n", "plate.mean_gap_um"]];
-const LATER: [&str; 2] = ["plate.frequency_khz", "plate.mean_gap_um"];
+    [&["plate.frequency_khz", "film.min_spacing_nm"], &["plate.mean_gap_um", "motor.load_per_wave_n"]];
 /// Points of a line, and along each side of a map.
 const LINE: usize = 25;
 const SIDE: usize = 12;
@@ -169,7 +168,7 @@ impl Form {
     /// What is asked for at first.
     pub fn of(scene: &Scene) -> Self {
         let first = |axis: usize| {
-            let key = FIRST[axis].iter().copied().find(|key| varies(scene, key)).unwrap_or(LATER[axis]);
+            let key = FIRST[axis].iter().copied().find(|key| varies(scene, key)).unwrap_or(FIRST[axis][0]);
             AxisForm::around(scene, key, if axis == 0 { LINE } else { SIDE })
         };
         Self { x: first(0), y: first(1), second: false, fidelity: Fidelity::default() }

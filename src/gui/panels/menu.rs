@@ -87,7 +87,7 @@ const TRADEOFF: &[(&str, Export)] =
 
 /// A button with a menu of exports.
 pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], commands: &mut Vec<Command>) {
-    ui.menu_button("Export ⏷", |ui| {
+    ui.menu_button("Export ▾", |ui| {
         for (text, export) in group {
             item(ui, text, true, Command::Export(*export), commands);
         }

@@ -19,6 +19,9 @@ use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2}
 const WIDEST_LABEL: f32 = 16.0;
 /// Between a pin's parts.
 const CHIP_MARGIN: i8 = 4;
+const CHIP_GAP: f32 = 5.0;
+/// With more runs than this, differences stand below the values instead of beside them.
+const BESIDE: usize = 3;
 
 /// What the tab shows.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +89,7 @@ fn add_buttons(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     if button.on_hover_text(keys::of(&pin)).clicked() {
         commands.push(pin);
     }
-    ui.menu_button("Pin a preset ⏷", |ui| {
+    ui.menu_button("Pin a preset ▾", |ui| {
         presets_menu(ui, |name| Command::Pin(Pinning::Preset(name)), commands);
     });
 }
@@ -135,11 +138,33 @@ fn frame(ui: &Ui, colour: Color32) -> egui::Frame {
 
 fn chip(ui: &mut Ui, id: u64, run: &Run, colour: Color32, present: bool, commands: &mut Vec<Command>) {
     let em = ui.text_style_height(&TextStyle::Body);
+    let font = TextStyle::Body.resolve(ui.style());
+    let wide = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
+    let button = |text: &str| wide(text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
+    // All but the label.
+    let rest = 2.0 * f32::from(CHIP_MARGIN) + em + CHIP_GAP + button("✕") + if present { 0.0 } else { button("Open") };
+    let label = wide(&run.label) + 4.0;
+    let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
+    // In one piece, so that it is a whole that goes to the next line.
+    let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
+    let row = egui::Layout::left_to_right(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, row, |ui| chip_parts(ui, id, run, (colour, label), present, commands));
+}
+
+fn chip_parts(
+    ui: &mut Ui,
+    id: u64,
+    run: &Run,
+    (colour, label): (Color32, f32),
+    present: bool,
+    commands: &mut Vec<Command>,
+) {
+    let em = ui.text_style_height(&TextStyle::Body);
     frame(ui, colour).show(ui, |ui| {
-        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.spacing_mut().item_spacing.x = CHIP_GAP;
         let (swatch, _) = ui.allocate_exact_size(vec2(0.8 * em, 0.8 * em), Sense::hover());
         ui.painter().rect_filled(swatch, 2.0, colour);
-        name_field(ui, id, run, em, commands);
+        name_field(ui, id, run, label, commands);
         if !present {
             let open = ui.small_button("Open").on_hover_text("Makes this the present scene; undo brings back what was");
             if open.accessible_name(format!("Open {}", run.label)).clicked() {
@@ -154,16 +179,15 @@ fn chip(ui: &mut Ui, id: u64, run: &Run, colour: Color32, present: bool, command
 }
 
 /// The label, to be typed over; Enter or leaving takes it, Escape does not.
-fn name_field(ui: &mut Ui, pin: u64, run: &Run, em: f32, commands: &mut Vec<Command>) {
+fn name_field(ui: &mut Ui, pin: u64, run: &Run, width: f32, commands: &mut Vec<Command>) {
     let id = Id::unique(("label of a pin", pin));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
-    let font = TextStyle::Body.resolve(ui.style());
-    let wide = ui.painter().layout_no_wrap(text.clone(), font, Color32::PLACEHOLDER).size().x + 2.0;
     let field = egui::TextEdit::singleline(&mut text)
         .id(id)
         .frame(egui::Frame::NONE)
         .clip_text(true)
-        .desired_width(wide.clamp(2.0 * em, WIDEST_LABEL * em));
+        .margin(egui::Margin::ZERO)
+        .desired_width(width);
     let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
     let response = ui.add(field).on_hover_text(about);
     response.widget_info(|| {
@@ -216,15 +240,18 @@ fn numbers(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec
 }
 
 /// The labels above the columns, in the colours of the curves.
-fn heads(ui: &mut Ui, shown: &Shown<'_>, first: &str, colours: &Palette) {
+fn heads(ui: &mut Ui, shown: &Shown<'_>, beside: bool, colours: &Palette) {
     let em = ui.text_style_height(&TextStyle::Body);
-    ui.label(RichText::new(first).color(colours.quiet));
-    for (pin, run) in shown.pins.pins().iter().zip(shown.pins.runs()) {
+    ui.label("");
+    for (i, (pin, run)) in shown.pins.pins().iter().zip(shown.pins.runs()).enumerate() {
         ui.scope(|ui| {
             ui.set_max_width(11.0 * em);
             let text = RichText::new(&run.label).color(run_colour(pin.slot, shown.dark)).strong();
             ui.add(egui::Label::new(text).wrap()).on_hover_text(&run.label);
         });
+        if beside && i > 0 {
+            ui.label(RichText::new("difference").color(colours.quiet));
+        }
     }
     ui.end_row();
 }
@@ -234,13 +261,23 @@ fn grid(id: &str, columns: usize) -> egui::Grid {
 }
 
 fn results(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette) {
-    grid("results of pins", shown.pins.runs().len() + 1).show(ui, |ui| {
-        heads(ui, shown, "", colours);
+    let count = shown.pins.runs().len();
+    let beside = count <= BESIDE;
+    grid("results of pins", if beside { 2 * count } else { count + 1 }).show(ui, |ui| {
+        heads(ui, shown, beside, colours);
         for row in shown.pins.results() {
             let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
             let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
             ui.label(strong(capitalised(&row.quantity.label())));
-            for cell in &row.cells {
+            for (i, cell) in row.cells.iter().enumerate() {
+                if beside {
+                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
+                    if i > 0 {
+                        let difference = RichText::new(difference_text(cell)).color(colours.quiet);
+                        ui.add(egui::Label::new(difference).extend());
+                    }
+                    continue;
+                }
                 ui.vertical(|ui| {
                     ui.spacing_mut().item_spacing.y = 0.0;
                     ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
@@ -257,7 +294,7 @@ fn results(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette) {
 
 fn parameters(ui: &mut Ui, shown: &Shown<'_>, rows: &[&ParameterRow], colours: &Palette) {
     grid("parameters of pins", shown.pins.runs().len() + 1).show(ui, |ui| {
-        heads(ui, shown, "", colours);
+        heads(ui, shown, false, colours);
         for row in rows {
             let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
             ui.label(format!("{}{unit}", label(row.parameter))).on_hover_text(row.parameter.key);

@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Ve
     let visuals = ui.visuals_mut();
     visuals.widgets.inactive.bg_stroke = visuals.widgets.noninteractive.bg_stroke;
     let good = ask(ui, shown, form, colours, commands);
-    buttons(ui, shown, form, good, colours, commands);
+    buttons(ui, shown, form, good, commands);
     let Some(swept) = shown.sweeps.swept() else {
         introduction(ui, colours);
         return;
@@ -128,7 +128,6 @@ fn axis_row(
     if let Some(unit) = parameter.map(|parameter| parameter.unit).filter(|unit| !unit.is_empty()) {
         ui.label(RichText::new(unit).color(colours.quiet));
     }
-    ui.label("in");
     field(ui, "Values", &axis.count, 2.2, Sweeping::Count);
     ui.label("values");
     let mut log = axis.log;
@@ -151,7 +150,7 @@ fn axis_row(
     }
 }
 
-fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, colours: &Palette, commands: &mut Vec<Command>) {
+fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, commands: &mut Vec<Command>) {
     let swept = shown.sweeps.swept();
     ui.horizontal_wrapped(|ui| {
         match swept.filter(|swept| swept.running()) {
@@ -167,7 +166,7 @@ fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, colours: &Pa
             }
             None => {
                 let about = "Solves every point on all cores; the window stays usable";
-                if ui.add_enabled(good, egui::Button::new("Sweep")).on_hover_text(about).clicked() {
+                if ui.add_enabled(good, egui::Button::new("Start the sweep")).on_hover_text(about).clicked() {
                     send(commands, Sweeping::Start);
                 }
                 if let Some(swept) = swept.filter(|swept| !swept.complete()) {
@@ -186,7 +185,7 @@ fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, colours: &Pa
                 combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
             }
         }
-        quantity(ui, shown, colours, commands);
+        quantity(ui, shown, commands);
         if swept.is_some_and(|swept| !swept.rows().is_empty()) {
             export_button(ui, SWEEP, commands);
         }
@@ -194,7 +193,7 @@ fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, colours: &Pa
 }
 
 /// What is drawn of the points: changing it solves nothing.
-fn quantity(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
+fn quantity(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let all: Vec<Quantity> = match shown.sweeps.swept() {
         Some(swept) => swept.sweep().quantities(),
         None => match Problem::new(shown.scene) {
@@ -203,7 +202,6 @@ fn quantity(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Ve
         },
     };
     let present = shown.sweeps.quantity(&all);
-    ui.label(RichText::new("show").color(colours.quiet));
     let em = ui.text_style_height(&TextStyle::Body);
     let combo = ComboBox::from_id_salt("quantity")
         .selected_text(capitalised(present.words()))
@@ -223,7 +221,7 @@ fn introduction(ui: &mut Ui, colours: &Palette) {
     ui.add_space(8.0);
     for text in [
         "How do the results of this scene change with one of its parameters, or with two?",
-        "Choose what to vary and press Sweep. Every point is a solve of its own, with its own stated error; click one to \
+        "Choose what to vary and start. Every point is a solve of its own, with its own stated error; click one to \
          make its scene the present one. Nothing is solved before you ask.",
     ] {
         ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());

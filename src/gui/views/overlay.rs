@@ -20,7 +20,7 @@ const LOCAL: f64 = 1e9;
 /// Wavelengths, or lengths of plates, that differ by less are the same.
 const SAME: f64 = 1e-9;
 /// Heights of the drawings, in lines of text: least of a plot, of a map of a motor, of a map of a plate.
-const LEAST_PLOT: f32 = 5.0;
+const LEAST_PLOT: f32 = 3.8;
 const LEAST_MAP: f32 = 1.8;
 const MOST_MAP: f32 = 4.0;
 const PLATE_MAP: f32 = 7.0;
@@ -494,11 +494,11 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, view: &mut View,
     // Over the cycle, and against the gap.
     let (plots, bottom) = (top + title, area.bottom() - axis);
     let middle = 0.5 * (area.left() + right);
-    let left = Rect::from_min_max(pos2(area.left() + gutter, plots), pos2(middle - 0.4 * ink.row, bottom));
+    let left = Rect::from_min_max(pos2(area.left() + gutter, plots), pos2(middle - 2.2 * ink.row, bottom));
     let right = Rect::from_min_max(pos2(middle + 0.4 * ink.row + gutter, plots), pos2(right, bottom));
     let period = common_period(runs.iter().map(|run| run.recording.period));
     let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.kept.film)).collect();
-    let title = "Mean pressure over the cycle, kPa gauge";
+    let title = "Mean pressure, kPa gauge";
     over_cycle(ui, &painter, &ink, left, title, &kept, (1e3, period, view.phase), commands);
     draw_loops(&painter, &ink, right, runs, view.phase);
 

@@ -31,6 +31,8 @@ const NEAR: f32 = 40.0;
 const LEVELS: usize = 7;
 /// An axis of equal ratios has ticks at 2 and 5 if it spans fewer decades than this.
 const FEW_DECADES: f64 = 2.5;
+/// Values whose greatest is more than this many times the least have many sizes.
+const MANY_SIZES: f64 = 300.0;
 /// An axis of values that reach below this share of the greatest begins at zero.
 const FROM_ZERO: f64 = 0.6;
 
@@ -337,7 +339,12 @@ fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Op
         if at - places[right - 1] < places[right] - at { right - 1 } else { right }
     };
     let cell = |row: &Row| (nearest(&xs, place(x, row.values[0])), nearest(&ys, place(y, row.values[1])));
-    let range = span(plotted.rows.iter().filter_map(|row| plotted.sound(row)).map(|(value, _)| value));
+    let shown = || plotted.rows.iter().filter_map(|row| plotted.sound(row)).map(|(value, _)| value);
+    let extent = span(shown());
+    // Values of many sizes get colours by their logarithm: else all but the greatest look the same.
+    let log = extent[0] > 0.0 && extent[1] > MANY_SIZES * extent[0];
+    let tone = |value: f64| if log { value.log10() } else { value };
+    let range = extent.map(tone);
     let limits = [[x_edges[0], x_edges[x_edges.len() - 1]], [y_edges[0], y_edges[y_edges.len() - 1]]];
     let most = (area.height() / (2.6 * ink.row)).clamp(2.0, 10.0) as usize;
     let y_marks = marks(y, limits[1], most);
@@ -346,8 +353,9 @@ fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Op
     let axes = Axes::new(rect, limits[0], limits[1]);
     axes.canvas(&painter, &ink);
     let title = capitalised(&plotted.quantity.label());
+    let title = if log { format!("{title}, logarithmic colours") } else { title };
     if plotted.rows.iter().any(|row| plotted.sound(row).is_some()) {
-        let ends = range.map(|end| significant(end, 3));
+        let ends = extent.map(|end| significant(end, 3));
         let above = rect.translate(vec2(0.0, -ink.row - 6.0));
         title_with_ends(&painter, &ink, above, [&title, &title], ends.each_ref().map(String::as_str));
     }
@@ -371,13 +379,14 @@ fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Op
     for row in plotted.rows {
         let at = cell(row);
         if let Some((value, _)) = plotted.sound(row) {
+            let value = tone(value);
             values[at.0 * ys.len() + at.1] = value;
             let colour = ((value - range[0]) * per_colour).clamp(0.0, 255.0) as usize;
             mesh.add_colored_rect(area_of(at), colours[colour]);
         }
     }
     inner.add(Shape::Mesh(Arc::new(mesh)));
-    contours(&inner, &ink, &axes, &xs, &ys, &values, range);
+    contours(&inner, &ink, &axes, [&xs, &ys], &values, (range, log));
     for row in plotted.rows.iter().filter(|row| plotted.sound(row).is_none()) {
         cross(&inner, area_of(cell(row)).center(), 4.0, Stroke::new(1.8, ink.palette.alarm));
     }
@@ -403,13 +412,21 @@ fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Op
 }
 
 /// Lines of equal value where all neighbours are known, each with its value once.
-fn contours(painter: &Painter, ink: &Ink, axes: &Axes, xs: &[f64], ys: &[f64], values: &[f64], range: [f64; 2]) {
+fn contours(
+    painter: &Painter,
+    ink: &Ink,
+    axes: &Axes,
+    [xs, ys]: [&[f64]; 2],
+    values: &[f64],
+    (range, log): ([f64; 2], bool),
+) {
     let ticks = Ticks::new(range, LEVELS);
+    let whole = |level: &f64| !log || (level - level.round()).abs() < 1e-6;
     let mut written: Vec<Rect> = Vec::new();
-    for level in ticks.values().filter(|level| *level > range[0] && *level < range[1]) {
+    for level in ticks.values().filter(|level| *level > range[0] && *level < range[1]).filter(whole) {
         let part = (level - range[0]) / (range[1] - range[0]);
         let colour = if part > 0.55 { Color32::from_black_alpha(190) } else { Color32::from_white_alpha(190) };
-        let text = ticks.format(level);
+        let text = if log { short(10f64.powf(level.round())) } else { ticks.format(level) };
         let size = vec2(ink.width(painter, &text) + 4.0, ink.row);
         for piece in contour(xs, ys, values, level) {
             let points: Vec<Pos2> = piece.iter().map(|[x, y]| axes.at(*x, *y)).collect();
