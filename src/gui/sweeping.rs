@@ -199,8 +199,8 @@ pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '
 /// What the worker tells.
 #[derive(Debug)]
 pub enum Told {
-    /// A point is done.
-    Row(Row),
+    /// Points that are done.
+    Some(Vec<Row>),
     /// All that there is, in order.
     All(Vec<Row>),
 }
@@ -291,9 +291,11 @@ impl Swept {
         let mut all = false;
         for told in told {
             match told {
-                Told::Row(row) => {
-                    let place = self.rows.partition_point(|other| other.point < row.point);
-                    self.rows.insert(place, row);
+                Told::Some(rows) => {
+                    for row in rows {
+                        let place = self.rows.partition_point(|other| other.point < row.point);
+                        self.rows.insert(place, row);
+                    }
                 }
                 Told::All(rows) => {
                     self.rows = rows;

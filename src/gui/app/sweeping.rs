@@ -58,7 +58,7 @@ impl App {
         };
         let (theirs, before) = (Arc::clone(&sweep), done.clone());
         let task = Task::start("sweep", wake, move |cancel, tell| {
-            let solve = || theirs.run(&before, cancel, &|row| tell(Told::Row(row.clone())));
+            let solve = || theirs.run(&before, cancel, &|row| tell(Told::Some(vec![row.clone()])));
             // A pool of its own: an export or another task need not wait until this is done.
             let rows = match rayon::ThreadPoolBuilder::new().build() {
                 Ok(pool) => pool.install(solve),

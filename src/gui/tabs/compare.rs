@@ -98,18 +98,18 @@ fn add_buttons(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
 fn chips(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
     let pins = shown.pins;
     ui.horizontal_wrapped(|ui| {
+        for (page, name) in [(Page::Fields, "Fields"), (Page::Numbers, "Numbers")] {
+            if ui.selectable_label(pins.page == page, name).clicked() {
+                commands.push(Command::Pin(Pinning::Look(page)));
+            }
+        }
+        ui.separator();
         add_buttons(ui, shown, commands);
         if pins.runs().len() > 1 && ui.button("Remove all").clicked() {
             commands.push(Command::Pin(Pinning::Clear));
         }
         if pins.runs().len() > 1 {
             export_button(ui, COMPARISON, commands);
-        }
-        ui.separator();
-        for (page, name) in [(Page::Fields, "Fields"), (Page::Numbers, "Numbers")] {
-            if ui.selectable_label(pins.page == page, name).clicked() {
-                commands.push(Command::Pin(Pinning::Look(page)));
-            }
         }
     });
     ui.add_space(2.0);
@@ -187,6 +187,8 @@ fn name_field(ui: &mut Ui, pin: u64, run: &Run, width: f32, commands: &mut Vec<C
         .frame(egui::Frame::NONE)
         .clip_text(true)
         .margin(egui::Margin::ZERO)
+        .align(egui::Align2::LEFT_CENTER)
+        .min_size(vec2(width, ui.spacing().interact_size.y))
         .desired_width(width);
     let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
     let response = ui.add(field).on_hover_text(about);

@@ -177,7 +177,7 @@ impl Along {
         if self.alike { x } else { x * self.first }
     }
 
-    fn from_metres(&self, x: f64) -> f64 {
+    fn on_axis(&self, x: f64) -> f64 {
         if self.alike { x } else { x / self.first }
     }
 }
@@ -214,7 +214,7 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, view: &mut View,
         [-half * metre, (run.recording.length - half) * metre]
     });
     let x = common(ends);
-    let cursor = view.cursor_x.map(|x| along.from_metres(x));
+    let cursor = view.cursor_x.map(|x| along.on_axis(x));
 
     let axes = draw_surfaces(&painter, &ink, wave, runs, x, &along, cursor);
     let names = ["Contact pressure, kPa", "Film pressure, kPa gauge"];
@@ -245,7 +245,8 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, view: &mut View,
     let period = common_period(runs.iter().map(|run| run.recording.period));
     let middle = 0.5 * (area.left() + right);
     let halves = [(area.left() + gutter, middle - 0.4 * ink.row), (middle + 0.4 * ink.row + gutter, right)];
-    let curves: [(&str, fn(&Kept) -> &Curve); 2] =
+    type Of = fn(&Kept) -> &Curve;
+    let curves: [(&str, Of); 2] =
         [("Film load on one wave, N", |kept| &kept.film), ("Contact load on one wave, N", |kept| &kept.contact)];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
         let rect = Rect::from_x_y_ranges(left..=right, loads.y_range());
@@ -438,7 +439,7 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, view: &mut View,
     let profile = across(area.top() + title, 0.52 * body);
     let along = Along::of(runs.iter().map(|run| run.plate.length));
     let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.plate.length * along.metre(run.plate.length))));
-    let cursor = view.cursor_x.map(|x| along.from_metres(x));
+    let cursor = view.cursor_x.map(|x| along.on_axis(x));
     let range = common(runs.iter().map(|run| run.of.kept.pressure()));
     let ambient = common(runs.iter().map(|run| [run.plate.gas.ambient_pressure; 2]));
     let [low, high] = common([range, ambient].into_iter());

@@ -121,7 +121,10 @@ impl Axes {
     /// Horizontal grid lines with their values, written left of the plot. `unit`: size of the written unit.
     pub(super) fn y_ticks(&self, painter: &Painter, ink: &Ink, unit: f64) {
         let about = (self.rect.height() / (2.2 * ink.row)).clamp(1.0, 6.0) as usize;
-        let ticks = Ticks::new([self.y[0] / unit, self.y[1] / unit], about);
+        let range = [self.y[0] / unit, self.y[1] / unit];
+        // One value alone says nothing about the scale.
+        let mut several = (about..about + 3).map(|about| Ticks::new(range, about));
+        let ticks = several.find(|ticks| ticks.values().count() > 1).unwrap_or_else(|| Ticks::new(range, about));
         for value in ticks.values() {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, ink.grid));
