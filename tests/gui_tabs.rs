@@ -313,8 +313,14 @@ fn export(window: &mut Window, entry: &str, path: &Path) {
 }
 
 fn begin_export(window: &mut Window, entry: &str, path: &Path) {
-    window.get_by_label("File").click();
-    window.run_steps(3);
+    // A modal that has just been closed takes the first click while it fades.
+    for _ in 0..5 {
+        window.get_by_label("File").click();
+        window.run_steps(10);
+        if window.query_by_label("Export").is_some() {
+            break;
+        }
+    }
     window.get_by_label("Export").hover();
     window.run_steps(5);
     window.get_by_label_contains(entry).click();
