@@ -233,9 +233,22 @@ fn motors_and_plates_are_compared_as_far_as_they_go() {
 }
 
 #[test]
+fn one_preset_alone_has_a_report_without_differences() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let said = done(&["compare", "plate-crossover", "--fidelity", "draft", "--out", path]);
+    assert!(String::from_utf8_lossy(&said.stdout).starts_with("one preset, fidelity draft"));
+    let html = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    let text: String = page(&html).descendants().filter_map(|node| node.text()).collect();
+    assert!(text.contains("Plate, crossover") && !text.contains("difference"), "{text}");
+    let parameters = fs::read_to_string(folder.path().join("parameters.csv")).unwrap();
+    assert!(parameters.lines().count() > 5, "all of its parameters: {parameters}");
+}
+
+#[test]
 fn what_cannot_be_compared_is_refused() {
     for (arguments, word) in [
-        (&["compare", "fundamental"][..], "PRESET"),
+        (&["compare"][..], "PRESET"),
         (&["compare", "fundamental", "fundamentl"], "fundamental"),
         (&["compare", "fundamental", "plate-viscous", "--method", "paper"], "motors"),
     ] {

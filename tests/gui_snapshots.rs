@@ -14,12 +14,16 @@ use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, default_wgpu_setup};
 use egui_kittest::{Harness, SnapshotResults};
+use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::dialogs::Answer;
 use squeezefilm::gui::world::World;
+use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets;
+use squeezefilm::solve::Method;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 const USUAL: [f32; 2] = [1400.0, 900.0];
@@ -46,6 +50,24 @@ fn standing() -> Instant {
     *MOMENT.get_or_init(Instant::now)
 }
 
+/// The same, but the measurement of error against time sees time pass, as much each time as the last time and a little more.
+fn measuring() -> Instant {
+    static LOOKED: AtomicU32 = AtomicU32::new(0);
+    if std::thread::current().name() != Some("squeezefilm-measure") {
+        return standing();
+    }
+    let looked = LOOKED.fetch_add(1, Ordering::Relaxed);
+    standing() + looked * looked * Duration::from_micros(40)
+}
+
+/// The fidelities and a few others, in this order, twice each.
+fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
+    let mut few = candidates(problem);
+    few.retain(|candidate| candidate.name != "reference" && candidate.settings.method == Method::Auto);
+    few.truncate(6);
+    (few, Effort { repeats: Some(2), ..Effort::default() })
+}
+
 /// Name of the picture, preset, size of the window, keys that are pressed.
 type Look = (&'static str, &'static str, [f32; 2], &'static [(Modifiers, Key)]);
 
@@ -69,7 +91,7 @@ fn pollster_wait<T>(future: impl std::future::Future<Output = T>) -> T {
 /// The window on a preset, solved, standing at a phase in which several teeth touch.
 fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let world = World { now: standing, ask: |_, _| Answer::NoDialog, ..World::default() };
+    let world = World { now: measuring, ask: |_, _| Answer::NoDialog, measure: few };
     let mut window = Harness::builder()
         .with_size(Vec2::from(size))
         .with_pixels_per_point(1.0)
@@ -105,6 +127,64 @@ fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'s
     window
 }
 
+/// Presses a key with Ctrl.
+fn ctrl(window: &mut Harness<'static, App>, key: Key) {
+    window.key_press_modifiers(Modifiers::COMMAND, key);
+    settle(window);
+}
+
+/// Steps until `ready`.
+fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
+    for _ in 0..12_000 {
+        window.step();
+        if ready(window.state()) {
+            settle(window);
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what}: did not happen");
+}
+
+/// Two pinned runs of a preset that differ in one key, and a preset beside them.
+fn compared(
+    preset: &str,
+    (field, text): (&str, &str),
+    size: [f32; 2],
+    keys: &[(Modifiers, Key)],
+) -> Harness<'static, App> {
+    let mut window = window(preset, size, keys);
+    ctrl(&mut window, Key::D);
+    window.get_by_role_and_label(Role::TextInput, field).click();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    until(&mut window, "solved", |app| {
+        let number = app.activity().number;
+        app.shown().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
+    });
+    ctrl(&mut window, Key::D);
+    ctrl(&mut window, Key::Num2);
+    window
+}
+
+/// A sweep that has ended.
+fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
+    let mut window = window(preset, size, keys);
+    ctrl(&mut window, Key::Num3);
+    if two {
+        window.get_by_label("Add a second…").click();
+        settle(&mut window);
+    }
+    window.get_by_label("Start the sweep").click();
+    window.run_steps(2);
+    until(&mut window, "swept", |app| app.sweeps().swept().is_some_and(|swept| !swept.running()));
+    window
+}
+
 /// Until panels have their sizes and nothing fades in any more.
 fn settle(window: &mut Harness<'static, App>) {
     window.run_steps(20);
@@ -124,7 +204,39 @@ fn the_window_looks_as_it_did() {
         window.snapshot(name);
         results.extend_harness(&mut window);
     }
-    // A path to type, and what cannot be opened, in a small window with large text.
+    let spacing = ("Minimum spacing H_m in nm", "100");
+    let mut window = compared("fundamental", spacing, USUAL, &[]);
+    window.snapshot("compare-dark");
+    window.get_by_label("Numbers").click();
+    settle(&mut window);
+    window.snapshot("compare-numbers");
+    results.extend_harness(&mut window);
+    let mut window = compared("plate-crossover", ("Frequency in kHz", "40"), SMALL, &[THEME]);
+    window.snapshot("compare-plates-small-light");
+    results.extend_harness(&mut window);
+    let mut window = compared("fundamental", spacing, USUAL, &[LECTURE]);
+    window.snapshot("compare-lecture");
+    results.extend_harness(&mut window);
+    for (name, preset, two, size, keys) in [
+        ("sweep-dark", "fundamental", false, USUAL, &[][..]),
+        ("sweep-lecture", "fundamental", false, USUAL, &[LECTURE]),
+        ("sweep-map-small-light", "plate-crossover", true, SMALL, &[THEME]),
+    ] {
+        let mut window = swept(preset, two, size, keys);
+        window.snapshot(name);
+        results.extend_harness(&mut window);
+    }
+    let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num4)]);
+    window.get_by_label("Measure").click();
+    window.run_steps(2);
+    until(&mut window, "measured", |app| app.measured().is_some_and(|measured| !measured.running()));
+    window.snapshot("trade-off");
+    results.extend_harness(&mut window);
+    open_by_path(&mut results);
+}
+
+/// A path to type, and what cannot be opened, in a small window with large text.
+fn open_by_path(results: &mut SnapshotResults) {
     let mut window = window("fundamental", SMALL, &[LECTURE, OPEN]);
     for _ in 0..200 {
         if window.query_all_by_label("Path").next().is_some() {

@@ -12,6 +12,7 @@ use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value};
 use crate::solution::{Solution, Status};
 use crate::solve::{Settings, SolveError};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// One scene, solved.
 #[derive(Clone, Debug)]
@@ -23,7 +24,7 @@ pub struct Run {
     /// The same, checked and in SI units.
     pub problem: Problem,
     /// What came of it, or why nothing did.
-    pub solved: Result<Solution, String>,
+    pub solved: Result<Arc<Solution>, String>,
 }
 
 impl Run {
@@ -67,7 +68,7 @@ pub fn runs(
     }
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
     let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
-        let solved = attempt(&problem, settings, &mut (), cancel);
+        let solved = attempt(&problem, settings, &mut (), cancel).map(Arc::new);
         let run = Run { label, scene: scene.clone(), problem, solved };
         finished(&run);
         run
@@ -79,16 +80,21 @@ pub fn runs(
 fn labels(scenes: &[Scene]) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     for scene in scenes {
-        let name = if scene.name.is_empty() { "unnamed scene" } else { &scene.name };
-        let mut label = name.to_owned();
-        let mut count = 1;
-        while labels.contains(&label) {
-            count += 1;
-            label = format!("{name} ({count})");
-        }
-        labels.push(label);
+        labels.push(unique(&scene.name, |label| labels.iter().any(|other| other == label)));
     }
     labels
+}
+
+/// `name`, numbered from 2 if it is taken.
+pub fn unique(name: &str, taken: impl Fn(&str) -> bool) -> String {
+    let name = if name.trim().is_empty() { "unnamed scene" } else { name.trim() };
+    let mut label = name.to_owned();
+    let mut count = 1;
+    while taken(&label) {
+        count += 1;
+        label = format!("{name} ({count})");
+    }
+    label
 }
 
 /// One key, and its value in every scene.

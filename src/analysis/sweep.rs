@@ -73,6 +73,49 @@ pub struct Axis {
     pub scale: Scale,
 }
 
+impl Axis {
+    /// Checks what is to be varied against the scene, and spaces its values. The keys are not yet checked together.
+    ///
+    /// # Errors
+    /// [`SweepError`], which names the key, the value and what is allowed.
+    pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, SweepError> {
+        let Vary { key, from, to, count, scale } = vary;
+        let parameter = match Parameter::find(key) {
+            Some(parameter) => parameter,
+            // Setting it tells what is wrong with it.
+            None => {
+                return match scene.clone().set(key, "0") {
+                    Err(error) => Err(error.into()),
+                    Ok(()) => Err(SweepError::Syntax { found: key.clone() }),
+                };
+            }
+        };
+        let whole = match parameter.kind {
+            ParameterKind::Number { .. } => false,
+            ParameterKind::Whole { .. } => true,
+            _ => return Err(SweepError::NotANumber { parameter }),
+        };
+        for end in [from, to] {
+            scene.clone().set_value(key, Value::Number(*end))?;
+        }
+        if !(2..=MOST_VALUES).contains(count) {
+            return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
+        }
+        if from == to {
+            return Err(SweepError::Nothing { key: key.clone(), at: *from });
+        }
+        if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
+            return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
+        }
+        let mut values = spaced(*from, *to, *count, *scale);
+        if whole {
+            values.iter_mut().for_each(|value| *value = value.round());
+            values.dedup();
+        }
+        Ok(Self { parameter, values, scale: *scale })
+    }
+}
+
 /// What cannot be swept. Found before anything is solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SweepError {
@@ -184,7 +227,7 @@ impl Sweep {
         if !(1..=2).contains(&vary.len()) {
             return Err(SweepError::Axes { found: vary.len() });
         }
-        let axes = vary.iter().map(|vary| axis(scene, vary)).collect::<Result<Vec<_>, _>>()?;
+        let axes = vary.iter().map(|vary| Axis::new(scene, vary)).collect::<Result<Vec<_>, _>>()?;
         if axes.len() == 2 && axes[0].parameter.key == axes[1].parameter.key {
             return Err(SweepError::Twice { key: vary[0].key.clone() });
         }
@@ -345,44 +388,6 @@ impl Sweep {
         }
         rows
     }
-}
-
-/// Checks one axis against the scene and spaces its values.
-fn axis(scene: &Scene, vary: &Vary) -> Result<Axis, SweepError> {
-    let Vary { key, from, to, count, scale } = vary;
-    let parameter = match Parameter::find(key) {
-        Some(parameter) => parameter,
-        // Setting it tells what is wrong with it.
-        None => {
-            return match scene.clone().set(key, "0") {
-                Err(error) => Err(error.into()),
-                Ok(()) => Err(SweepError::Syntax { found: key.clone() }),
-            };
-        }
-    };
-    let whole = match parameter.kind {
-        ParameterKind::Number { .. } => false,
-        ParameterKind::Whole { .. } => true,
-        _ => return Err(SweepError::NotANumber { parameter }),
-    };
-    for end in [from, to] {
-        scene.clone().set_value(key, Value::Number(*end))?;
-    }
-    if !(2..=MOST_VALUES).contains(count) {
-        return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
-    }
-    if from == to {
-        return Err(SweepError::Nothing { key: key.clone(), at: *from });
-    }
-    if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
-        return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
-    }
-    let mut values = spaced(*from, *to, *count, *scale);
-    if whole {
-        values.iter_mut().for_each(|value| *value = value.round());
-        values.dedup();
-    }
-    Ok(Axis { parameter, values, scale: *scale })
 }
 
 /// `count` values from `from` to `to`, both exact; those between to ten digits, so that they can be written down.

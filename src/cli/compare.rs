@@ -11,20 +11,15 @@ use super::summary::duration;
 use super::terminal;
 use crate::analysis::compare::{Run, results, runs};
 use crate::analysis::sweep::Ending;
-use crate::control::Cancel;
-use crate::export::animation::{AnimationError, Options};
-use crate::export::compare::{
-    Object, Report, all_figures, difference_text, ending, frames, movies, parameter_rows, report, status, value_text,
-    write_csv, write_parameters_csv,
-};
-use crate::export::folder::{Staged, WriteError};
+use crate::export::animation::Options;
+use crate::export::compare::{Object, difference_text, ending, frames, parameter_rows, status, value_text};
+use crate::export::files::{self, Control, ExportError};
+use crate::export::folder::Staged;
 use crate::export::json;
 use crate::fidelity::Fidelity;
 use crate::scene::{Scene, Value};
 use crate::solve::{Method, Settings};
 use clap::Args;
-use std::io;
-use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -32,6 +27,7 @@ Examples:
   squeezefilm compare fundamental min-spacing-100nm
   squeezefilm compare fundamental rotor-width-0.6mm tooth-width-2.31mm --out results
   squeezefilm compare fundamental my.toml --set film.slip=fukui-kaneko --json
+  squeezefilm compare fundamental --out report
   squeezefilm compare plate-viscous plate-crossover plate-trapped --out plates";
 
 const FILES: &str = "\
@@ -52,8 +48,8 @@ Files of --out:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// Built-in presets (see: squeezefilm presets) or paths of TOML files, two or more
-    #[arg(value_name = "PRESET", required = true, num_args = 2..)]
+    /// Built-in presets (see: squeezefilm presets) or paths of TOML files; of one alone a report
+    #[arg(value_name = "PRESET", required = true, num_args = 1..)]
     presets: Vec<String>,
 
     /// Lists all parameters, not only those that differ
@@ -103,64 +99,23 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     let object = || json::text(&Object::new(&runs, &settings, command));
     terminal::data(&if arguments.output.json { object() } else { text(&runs, &settings, arguments.all) })?;
-    terminal::note(&format!("{} presets in {}", runs.len(), duration(wall_s)));
+    let presets = if runs.len() == 1 { "preset" } else { "presets" };
+    terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
     if let Some(folder) = &arguments.output.out {
-        match write(folder, &runs, &settings, arguments, command, &cancel)? {
-            Some(paths) => terminal::note(&written(folder, &paths)),
-            None => {
-                terminal::note("cancelled; no file was written");
+        let bar = Bar::frames(frames(&runs, Options::default().frames));
+        let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
+        let how = (&settings, arguments.all, command);
+        let paths = files::comparison(folder, &runs, how, &arguments.figures.formats(), &control);
+        drop(bar);
+        match paths {
+            Err(ExportError::Cancelled) => {
+                terminal::note(&ExportError::Cancelled.to_string());
                 return Ok(Exit::Other);
             }
+            paths => terminal::note(&written(folder, &paths?)),
         }
     }
     Ok(exit(&runs))
-}
-
-/// Writes the files of `--out`; `None` if it was cancelled meanwhile, and then no file is there.
-fn write(
-    folder: &Path,
-    runs: &[Run],
-    settings: &Settings,
-    arguments: &Arguments,
-    command: &[String],
-    cancel: &Cancel,
-) -> Result<Option<Vec<PathBuf>>, CliError> {
-    let options = Options::default();
-    let bar = Bar::frames(frames(runs, options.frames));
-    let drawn = movies(runs, &options, &|| bar.row_done(""), cancel);
-    drop(bar);
-    let drawn = match drawn {
-        Err(AnimationError::Cancelled) => return Ok(None),
-        drawn => drawn?,
-    };
-    let mut animations = Vec::new();
-    for (name, movie) in drawn {
-        let mut gif = Vec::new();
-        match movie.gif(&mut gif, cancel) {
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => return Ok(None),
-            gif => gif.map_err(|source| WriteError { path: folder.join("cycle.gif"), source })?,
-        }
-        animations.push((name.to_owned(), gif));
-    }
-    let mut staged = Staged::new(folder)?;
-    let page = report(runs, &Report { settings, all: arguments.all, movies: &animations, command });
-    staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
-    staged.add("compare.csv", |out| write_csv(runs, out))?;
-    staged.add("parameters.csv", |out| write_parameters_csv(runs, arguments.all, out))?;
-    staged.add("compare.json", |out| out.write_all(json::text(&Object::new(runs, settings, command)).as_bytes()))?;
-    for (name, gif) in &animations {
-        staged.add(&format!("{name}.gif"), |out| out.write_all(gif))?;
-    }
-    for (name, figure) in all_figures(runs) {
-        if cancel.is_cancelled() {
-            return Ok(None);
-        }
-        arguments.figures.stage(&mut staged, &name, &figure)?;
-    }
-    if cancel.is_cancelled() {
-        return Ok(None);
-    }
-    Ok(Some(staged.commit()?))
 }
 
 /// The worst of the runs decides.
@@ -181,7 +136,13 @@ fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
         Method::Auto => format!("fidelity {}", settings.fidelity),
         Method::Paper => "the paper's algorithm".to_owned(),
     };
-    let mut text = paragraph(&format!("{} presets, {how}; differences are against {}", runs.len(), letter(0)), "", "");
+    let all = all || runs.len() < 2;
+    let title = if runs.len() < 2 {
+        format!("one preset, {how}")
+    } else {
+        format!("{} presets, {how}; differences are against {}", runs.len(), letter(0))
+    };
+    let mut text = paragraph(&title, "", "");
     text.push('\n');
     let mut columns = Columns::new();
     for (i, run) in runs.iter().enumerate() {

@@ -4,6 +4,7 @@ use crate::analysis::compare::CompareError;
 use crate::analysis::sweep::SweepError;
 use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
+use crate::export::files::ExportError;
 use crate::export::folder::WriteError;
 use crate::export::sweep::ReadError;
 use crate::scene::SceneError;
@@ -79,6 +80,9 @@ pub(super) enum CliError {
     /// A figure of `--out`.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// What `--out` writes.
+    #[error(transparent)]
+    Export(#[from] ExportError),
     /// An animation.
     #[error(transparent)]
     Animation(#[from] AnimationError),
@@ -119,6 +123,7 @@ impl CliError {
             | Self::Write(_)
             | Self::Figure(_)
             | Self::Animation(_)
+            | Self::Export(_)
             | Self::Threads { .. }
             | Self::Output(_) => Exit::Other,
         }

@@ -1,11 +1,10 @@
 //! Figures among the files of `--out`.
 
 use super::options::{FigureFormat, figure_format};
-use crate::export::figure::{Figure, to_bytes};
-use crate::export::folder::Staged;
-use crate::export::folder::WriteError;
+use crate::export::figure::{Figure, Format};
+use crate::export::files::stage_figure;
+use crate::export::folder::{Staged, WriteError};
 use clap::Args;
-use std::io;
 
 /// Which formats figures are written in.
 #[derive(Clone, Debug, Args)]
@@ -16,16 +15,13 @@ pub(super) struct FigureOptions {
 }
 
 impl FigureOptions {
+    /// The formats asked for.
+    pub(super) fn formats(&self) -> Vec<Format> {
+        self.figures.iter().filter_map(|format| format.0).collect()
+    }
+
     /// Stages a figure under a name, once in each format.
     pub(super) fn stage(&self, staged: &mut Staged, name: &str, figure: &Figure) -> Result<(), WriteError> {
-        let mut formats: Vec<_> = self.figures.iter().filter_map(|format| format.0).collect();
-        formats.sort_unstable();
-        formats.dedup();
-        for format in formats {
-            staged.add(&format!("{name}.{}", format.name()), |out| {
-                out.write_all(&to_bytes(figure, format).map_err(io::Error::other)?)
-            })?;
-        }
-        Ok(())
+        stage_figure(staged, name, figure, &self.formats())
     }
 }

@@ -1,24 +1,18 @@
 //! `squeezefilm solve`: one scene's periodic steady state.
 
 use super::exit::{CliError, Exit};
+use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
-use super::options::{FigureFormat, OutputOptions, SceneOptions, SolveOptions, figure_format};
+use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::{summary, terminal};
-use crate::control::{Cancel, Progress};
-use crate::export::csv;
-use crate::export::figure::{FigureError, Format, to_bytes};
-use crate::export::figures;
-use crate::export::folder::Staged;
+use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::{Summary, force_unit};
-use crate::export::npz;
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
-use crate::scene::Scene;
-use crate::solution::{Solution, Status};
+use crate::solution::Status;
 use crate::solve::{Method, solve};
 use clap::Args;
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -66,9 +60,8 @@ pub(super) struct Arguments {
     #[command(flatten)]
     output: OutputOptions,
 
-    /// Formats of the figures in --out: svg, png, pdf; none for no figures
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_format())]
-    figures: Vec<FigureFormat>,
+    #[command(flatten)]
+    figures: FigureOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
@@ -95,77 +88,17 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     terminal::data(&if arguments.output.json { result.to_text() } else { summary::text(&scene, &problem, &result) })?;
     if let Some(folder) = &arguments.output.out {
-        let figures = Figures { formats: &arguments.figures, history: &history };
-        match write(folder, &scene, &problem, &solution, &result, &figures, &cancel)? {
-            Some(paths) => terminal::note(&written(folder, &paths)),
-            None => {
-                terminal::note("cancelled; no file was written");
+        let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &history };
+        let control = Control { cancel: &cancel, drawn: &|_, _| () };
+        match files::solve(folder, &solved, &result, &arguments.figures.formats(), &control) {
+            Err(ExportError::Cancelled) => {
+                terminal::note(&ExportError::Cancelled.to_string());
                 return Ok(Exit::Other);
             }
+            paths => terminal::note(&written(folder, &paths?)),
         }
     }
     Ok(Exit::of(&solution.status))
-}
-
-/// Writes the files of `--out`; `None` if it was cancelled meanwhile, and then no file is there.
-fn write(
-    folder: &Path,
-    scene: &Scene,
-    problem: &Problem,
-    solution: &Solution,
-    summary: &Summary,
-    figures: &Figures<'_>,
-    cancel: &Cancel,
-) -> Result<Option<Vec<PathBuf>>, CliError> {
-    let mut staged = Staged::new(folder)?;
-    staged.add("summary.json", |out| out.write_all(summary.to_text().as_bytes()))?;
-    staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
-    staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
-    staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
-    staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
-    staged.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
-    for (name, bytes) in figures.drawn(problem, solution, cancel)? {
-        staged.add(&name, |out| out.write_all(&bytes))?;
-    }
-    if cancel.is_cancelled() {
-        return Ok(None);
-    }
-    Ok(Some(staged.commit()?))
-}
-
-/// Which figures are to be written.
-struct Figures<'a> {
-    formats: &'a [FigureFormat],
-    history: &'a [Progress],
-}
-
-impl Figures<'_> {
-    /// Names and contents of the files; fewer if it was cancelled meanwhile.
-    fn drawn(
-        &self,
-        problem: &Problem,
-        solution: &Solution,
-        cancel: &Cancel,
-    ) -> Result<Vec<(String, Vec<u8>)>, FigureError> {
-        let mut formats: Vec<_> = self.formats.iter().filter_map(|format| format.0).collect();
-        formats.sort_unstable();
-        formats.dedup();
-        if formats.is_empty() {
-            return Ok(Vec::new());
-        }
-        let figures = figures::of(problem, solution, self.history);
-        let files: Vec<_> =
-            figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
-        let draw = |((name, figure), format): &(&(&str, _), _)| {
-            let format: Format = *format;
-            if cancel.is_cancelled() {
-                return Ok(None);
-            }
-            Ok(Some((format!("{name}.{}", format.name()), to_bytes(figure, format)?)))
-        };
-        let drawn: Result<Vec<_>, FigureError> = files.par_iter().map(draw).collect();
-        Ok(drawn?.into_iter().flatten().collect())
-    }
 }
 
 /// `wrote results: summary.json, scene.toml, …`

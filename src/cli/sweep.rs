@@ -12,9 +12,10 @@ use super::terminal;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
 use crate::export::digits::{significant, with_error};
+use crate::export::files;
 use crate::export::folder::{Staged, WriteError};
 use crate::export::json;
-use crate::export::sweep::{Object, ReadError, figure, read_csv, write_csv};
+use crate::export::sweep::{Object, ReadError, read_csv, write_csv};
 use crate::fidelity::Fidelity;
 use crate::solve::Method;
 use clap::Args;
@@ -127,7 +128,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     terminal::data(&if arguments.output.json { json::text(&object) } else { human })?;
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::note(&written(folder.path, &folder.save(&rows, &object, &arguments.figures)?));
+        terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.figures)?));
     }
     Ok(exit(&rows))
 }
@@ -167,13 +168,8 @@ impl<'a> Folder<'a> {
         Ok(self.path.join(INCOMPLETE))
     }
 
-    fn save(&self, rows: &[Row], object: &Object<'_>, figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
-        let mut staged = Staged::new(self.path)?;
-        staged.add("sweep.csv", |out| write_csv(self.sweep, rows, out))?;
-        staged.add("sweep.json", |out| out.write_all(json::text(object).as_bytes()))?;
-        figures.stage(&mut staged, "sweep", &figure(self.sweep, rows))?;
-        staged.add("scene.toml", |out| out.write_all(self.sweep.scene().to_toml().as_bytes()))?;
-        let paths = staged.commit()?;
+    fn save(&self, rows: &[Row], command: &[String], figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
+        let paths = files::swept(self.path, self.sweep, rows, command, &figures.formats())?;
         let path = self.path.join(INCOMPLETE);
         match std::fs::remove_file(&path) {
             Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),

@@ -363,27 +363,44 @@ pub struct Report<'a> {
 pub fn report(runs: &[Run], report: &Report<'_>) -> String {
     let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
     let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
+    let mut fidelities: Vec<&str> = Vec::new();
+    for solution in runs.iter().filter_map(|run| run.solved.as_ref().ok()) {
+        if !fidelities.contains(&solution.model.fidelity.as_str()) {
+            fidelities.push(&solution.model.fidelity);
+        }
+    }
     let how = match report.settings.method {
-        Method::Auto => format!("fidelity {}", report.settings.fidelity),
+        Method::Auto if fidelities.is_empty() => format!("fidelity {}", report.settings.fidelity),
+        Method::Auto => format!("fidelity {}", fidelities.join(", ")),
         Method::Paper => "the algorithm of Maeno and Bogy on its own meshes".to_owned(),
     };
-    let lead = format!(
-        "{} scenes, each solved by itself for its periodic steady state ({how}). Differences are against the first. The ± is the \
-         solver's estimate of its numerical error; that of a difference is the sum of both.",
-        runs.len()
-    );
-    let mut page =
-        Page::new("squeezefilm · comparison", &format!("{} beside {}", first.label, others.join(", ")), &lead);
+    let lead = if others.is_empty() {
+        format!(
+            "One scene, solved for its periodic steady state ({how}). The ± is the solver's estimate of its numerical error."
+        )
+    } else {
+        format!(
+            "{} scenes, each solved by itself for its periodic steady state ({how}). Differences are against the first. The \
+             ± is the solver's estimate of its numerical error; that of a difference is the sum of both.",
+            runs.len()
+        )
+    };
+    let mut page = if others.is_empty() {
+        Page::new("squeezefilm · report", &first.label, &lead)
+    } else {
+        Page::new("squeezefilm · comparison", &format!("{} beside {}", first.label, others.join(", ")), &lead)
+    };
     for run in runs {
         if !run.converged() {
             page.warning(&format!("{}: {}", run.label, status(run)));
         }
     }
 
-    page.section("What differs");
+    page.section(if others.is_empty() { "Parameters" } else { "What differs" });
     let rows = parameter_rows(runs);
-    page.table(&parameter_table(runs, rows.iter().filter(|row| report.all || row.differs())));
-    if rows.iter().all(|row| !row.differs()) {
+    let all = report.all || others.is_empty();
+    page.table(&parameter_table(runs, rows.iter().filter(|row| all || row.differs())));
+    if !others.is_empty() && rows.iter().all(|row| !row.differs()) {
         page.text("The scenes do not differ in any parameter.");
     }
 
@@ -392,8 +409,14 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
 
     page.section("Fields");
     for (name, gif) in report.movies {
-        let alternative = "One cycle of all runs in phase";
-        let caption = "All runs at the same phase of their own cycle, whatever its frequency; the cycle repeats.";
+        let [alternative, caption] = if others.is_empty() {
+            ["One cycle", "The cycle repeats."]
+        } else {
+            [
+                "One cycle of all runs in phase",
+                "All runs at the same phase of their own cycle, whatever its frequency; the cycle repeats.",
+            ]
+        };
         page.picture(
             "image/gif",
             gif,

@@ -7,6 +7,7 @@ pub mod csv;
 pub mod digits;
 pub mod figure;
 pub mod figures;
+pub mod files;
 pub mod folder;
 pub mod html;
 pub mod json;

@@ -262,6 +262,11 @@ impl<'a> Object<'a> {
 /// The sweep as a figure. Over one key: its first quantity with the error as a band, and a second one below. Over two: a
 /// map with lines of equal value. With the published points of Table I, and crosses where it did not converge.
 pub fn figure(sweep: &Sweep, rows: &[Row]) -> Figure {
+    figure_of(sweep, rows, primary(sweep))
+}
+
+/// The same of one of its quantities; only the first has another below.
+pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let settings = sweep.settings();
     let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
     let missing = sweep.len() - rows.iter().filter(|row| row.ending == Ending::Converged).count();
@@ -277,9 +282,10 @@ pub fn figure(sweep: &Sweep, rows: &[Row]) -> Figure {
     };
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
     match sweep.axes() {
-        [x, y] => figure.panels.push(map_panel(sweep, rows, x, y)),
+        [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity)),
+        [x, ..] if quantity != primary(sweep) => figure.panels.push(curve_panel(sweep, rows, x, quantity)),
         [x, ..] => {
-            figure.panels.push(curve_panel(sweep, rows, x, primary(sweep)));
+            figure.panels.push(curve_panel(sweep, rows, x, quantity));
             let below = if sweep.quantities().contains(&Quantity::MaxTorque) {
                 Quantity::MaxTorque
             } else {
@@ -339,8 +345,12 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
     if !unsound.is_empty() {
         panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
     }
-    let published: Vec<[f64; 2]> =
-        within(sweep).filter(|_| quantity == Quantity::Alpha).map(|point| [point.values[0], point.alpha]).collect();
+    let value = |point: &Published| match quantity {
+        Quantity::Alpha => Some(point.alpha),
+        Quantity::FilmLoad => Some(point.film_load),
+        _ => None,
+    };
+    let published: Vec<[f64; 2]> = within(sweep).filter_map(|point| Some([point.values[0], value(&point)?])).collect();
     if !published.is_empty() {
         let marker = Marker::hollow(Shape::Square);
         panel = panel.layer(Points::new("published (Table I)", published, Colour::BLACK, marker));
@@ -362,13 +372,12 @@ fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
     sweep.published().into_iter().filter(inside).collect::<Vec<_>>().into_iter()
 }
 
-fn map_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, y: &SweepAxis) -> Panel {
+fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Quantity) -> Panel {
     let ascending = |values: &[f64]| {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);
         values
     };
-    let quantity = primary(sweep);
     let (xs, ys) = (ascending(&x.values), ascending(&y.values));
     let mut values = vec![f64::NAN; xs.len() * ys.len()];
     let mut unsound = Vec::new();

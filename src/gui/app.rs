@@ -1,16 +1,23 @@
 //! The application: drains events, carries out commands, lays out panels and views. It never solves.
 
+mod exporting;
+mod pinning;
+mod sweeping;
+
 use super::command::Command;
 use super::comparison::Comparison;
 use super::dialogs::{Answer, Dialogs, Export, Purpose};
 use super::document::Document;
 use super::edit::{Change, Refusals};
+use super::exporting::{self as exports, Exports};
 use super::keys;
 use super::measured::{Measured, with_present};
 use super::modal::{self, Modal, PathPrompt};
 use super::panels::model::Model;
 use super::panels::{menu, parameters, results, sheet, timeline};
+use super::pinned::{Page, Pins};
 use super::state::{Tab, View};
+use super::sweeping::Sweeps;
 use super::tabs;
 use super::theme;
 use super::views;
@@ -23,6 +30,7 @@ use crate::fidelity::Fidelity;
 use crate::job::measurement::Measurement;
 use crate::job::{Event, Request, Run, Solver};
 use crate::problem::{Numerics, Problem};
+use crate::recording::Recording;
 use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -117,6 +125,9 @@ pub struct App {
     picture: Option<Arc<egui::ColorImage>>,
     comparison: Comparison,
     measured: Option<Measured>,
+    exports: Exports,
+    pins: Pins,
+    sweeps: Sweeps,
     modal: Option<Modal>,
     /// What to do after a save that a question led to.
     after_save: Option<Command>,
@@ -174,6 +185,9 @@ impl App {
             picture: None,
             comparison: Comparison::default(),
             measured: None,
+            exports: Exports::default(),
+            pins: Pins::default(),
+            sweeps: Sweeps::default(),
             modal: None,
             after_save: None,
             sheet: false,
@@ -221,6 +235,17 @@ impl App {
     fn apply_theme(&self, ctx: &egui::Context) {
         ctx.set_theme(if self.dark { egui::Theme::Dark } else { egui::Theme::Light });
         ctx.set_zoom_factor(if self.lecture { LECTURE_ZOOM } else { 1.0 });
+    }
+
+    /// What moves in the middle: its frames are those of the timeline.
+    fn on_timeline(&self) -> Option<&Recording> {
+        let pinned = || self.pins.runs().iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
+        let recording = match self.view.tab {
+            Tab::Motion => self.shown.as_ref().map(|run| &run.solution.recording),
+            Tab::Compare if self.pins.page == Page::Fields => pinned(),
+            _ => None,
+        };
+        recording.filter(|recording| recording.frames > 0)
     }
 
     /// Asks for the present scene, draft first, then refined up to what is aimed at.
@@ -271,6 +296,14 @@ impl App {
         }
         if let Some(measured) = &mut self.measured {
             measured.drain();
+        }
+        if let Some(error) = self.exports.drain() {
+            self.modal = Some(Modal::Error(error));
+        }
+        self.pins.drain();
+        self.sweeps.drain();
+        if self.view.tab == Tab::Sweep {
+            self.sweeps.review(self.document.scene());
         }
         let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
         for (purpose, answer) in answers {
@@ -448,6 +481,8 @@ impl App {
                 self.activity.running = None;
             }
             Command::Show(tab) => self.view.tab = tab,
+            Command::Pin(asked) => self.pin(ctx, asked),
+            Command::Sweep(asked) => self.sweep(ctx, asked),
             Command::Measure => self.measure(ctx),
             Command::CancelMeasure => {
                 if let Some(measured) = &mut self.measured {
@@ -457,12 +492,13 @@ impl App {
             Command::Wish(Wish::Accuracy(share)) => self.view.accuracy = share,
             Command::Wish(Wish::Budget(seconds)) => self.view.budget = seconds,
             Command::Export(export) => self.ask(ctx, Purpose::Export(export), export.file_name()),
-            Command::WriteExport(export, path) => self.write_export(export, &path),
+            Command::WriteExport(export, path) => self.export(ctx, export, &path),
+            Command::Exporting(asked) => self.exports.carry_out(asked),
             Command::TogglePlay => self.view.playing = !self.view.playing,
             Command::StepFrames(by) => {
-                if let Some(run) = &self.shown {
+                if let Some(phase) = self.on_timeline().map(|recording| self.view.stepped(recording, by)) {
                     self.view.playing = false;
-                    self.view.phase = self.view.stepped(&run.solution.recording, by);
+                    self.view.phase = phase;
                 }
             }
             Command::Seek(phase) => {
@@ -559,12 +595,12 @@ impl App {
         }
     }
 
-    fn write_export(&mut self, export: Export, path: &Path) {
+    fn write_tradeoff(&mut self, export: Export, path: &Path) {
         let Some(measured) = &self.measured else { return };
         let tradeoff = measured.tradeoff();
         let written = match export {
             Export::TradeoffTable => write_file(path, |out| write_csv(tradeoff, out)),
-            Export::TradeoffFigure => {
+            _ => {
                 let wishes = [Wish::Accuracy(self.view.accuracy), Wish::Budget(self.view.budget)];
                 let chosen: Vec<usize> = wishes.into_iter().filter_map(|wish| tradeoff.choose(wish)).collect();
                 let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
@@ -575,8 +611,9 @@ impl App {
                 })
             }
         };
-        if let Err(error) = written {
-            self.modal = Some(Modal::Error(error.to_string()));
+        match written {
+            Ok(()) => self.exports.wrote(vec![path.to_owned()]),
+            Err(error) => self.modal = Some(Modal::Error(error.to_string())),
         }
     }
 
@@ -595,7 +632,7 @@ impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.drain(ctx);
         let now = (self.world.now)();
-        if self.view.playing && self.shown.is_some() && self.view.tab == Tab::Motion {
+        if self.view.playing && self.on_timeline().is_some() {
             // A frame after a pause must not leap.
             let elapsed = self.last_frame.map_or(0.0, |last| (now - last).as_secs_f64().min(0.1));
             self.view.phase = (self.view.phase + elapsed / self.view.seconds_per_cycle).rem_euclid(1.0);
@@ -630,12 +667,16 @@ impl eframe::App for App {
         let shown = self.shown.clone();
         self.view.cursor_x = self.view.hover_x.take();
 
-        egui::Panel::top("menu").show(ui, |ui| menu::show(ui, &self.document, &self.recent, self.dark, &mut commands));
+        egui::Panel::top("menu").show(ui, |ui| {
+            let available = |export| self.can_export(export);
+            menu::show(ui, &self.document, &self.recent, &available, self.dark, &mut commands);
+        });
         egui::Panel::bottom("status").show(ui, |ui| {
-            if let (Some(run), Tab::Motion) = (&shown, self.view.tab) {
+            if let Some(recording) = self.on_timeline() {
                 ui.add_space(2.0);
-                timeline::show(ui, run, &self.view, &mut commands);
+                timeline::show(ui, recording, &self.view, &mut commands);
             }
+            exports::show(ui, &self.exports, (self.world.now)(), &palette, &mut commands);
             timeline::status(ui, shown.as_deref(), &self.activity, &palette, &mut commands);
         });
         let width = ui.available_width();
@@ -660,10 +701,20 @@ impl eframe::App for App {
             });
         }
         egui::CentralPanel::default().show(ui, |ui| {
-            tabs::labels(ui, self.view.tab, &mut commands);
+            tabs::labels(ui, self.view.tab, self.pins.runs().len(), shown.is_some(), &mut commands);
             match (self.view.tab, &shown) {
                 (Tab::Motion, Some(run)) => views::show(ui, run, &mut self.view, &mut commands),
                 (Tab::Motion, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+                (Tab::Compare, _) => {
+                    let (scene, solved, dark) = (self.document.scene(), shown.is_some(), self.dark);
+                    let pins = tabs::compare::Shown { pins: &self.pins, scene, solved, dark };
+                    tabs::compare::show(ui, &pins, &mut self.view, &palette, &mut commands);
+                }
+                (Tab::Sweep, _) => {
+                    let (scene, now) = (self.document.scene(), (self.world.now)());
+                    let shown = tabs::sweep::Shown { sweeps: &self.sweeps, scene, now };
+                    tabs::sweep::show(ui, &shown, &palette, &mut commands);
+                }
                 (Tab::Tradeoff, _) => {
                     let shown = tabs::tradeoff::Shown {
                         scene: self.document.scene(),

@@ -1,7 +1,10 @@
 //! What a panel or a key asks the application to do. Panels push commands; only the application carries them out.
 
 use super::dialogs::Export;
+use super::exporting::Exporting;
+use super::pinned::Pinning;
 use super::state::Tab;
+use super::sweeping::Sweeping;
 use crate::analysis::tradeoff::Wish;
 use crate::fidelity::Fidelity;
 use crate::problem::Numerics;
@@ -67,6 +70,10 @@ pub enum Command {
     CancelSolve,
     /// Shows this in the middle of the window.
     Show(Tab),
+    /// Asks something of the pinned runs.
+    Pin(Pinning),
+    /// Asks something of the sweep.
+    Sweep(Sweeping),
     /// Measures error against time, now.
     Measure,
     /// Ends the measurement.
@@ -75,6 +82,8 @@ pub enum Command {
     Wish(Wish),
     /// Asks where to write this, and writes it.
     Export(Export),
+    /// Asks something of the export under way.
+    Exporting(Exporting),
     /// Writes this to a file.
     WriteExport(Export, PathBuf),
     /// Play or pause.

@@ -4,9 +4,29 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// What can be written to a file of its own.
+/// What can be written to a file, or into a folder, of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Export {
+    /// All results of the run on screen, as `solve --out` writes them.
+    Data,
+    /// The figures of the run on screen, in every format.
+    Figures,
+    /// The fields of the run on screen as a NumPy archive.
+    Fields,
+    /// The cycle of the run on screen as moving pictures.
+    Animation,
+    /// A report of the run on screen.
+    Report,
+    /// All that `compare --out` writes of the pinned runs.
+    Comparison,
+    /// A report of the pinned runs.
+    ComparisonReport,
+    /// The points of the sweep as a table.
+    SweepTable,
+    /// The sweep as a figure.
+    SweepFigure,
+    /// All that `sweep --out` writes.
+    Sweep,
     /// The measured trade-off as a table.
     TradeoffTable,
     /// The measured trade-off as a figure.
@@ -17,6 +37,15 @@ impl Export {
     /// What its file is called at first.
     pub fn file_name(self) -> &'static str {
         match self {
+            Self::Data => "results",
+            Self::Figures => "figures",
+            Self::Fields => "fields.npz",
+            Self::Animation => "cycle.gif",
+            Self::Report | Self::ComparisonReport => "report.html",
+            Self::Comparison => "comparison",
+            Self::SweepTable => "sweep.csv",
+            Self::SweepFigure => "sweep.svg",
+            Self::Sweep => "sweep",
             Self::TradeoffTable => "tradeoff.csv",
             Self::TradeoffFigure => "tradeoff.svg",
         }
@@ -25,17 +54,34 @@ impl Export {
     /// What is asked.
     pub fn title(self) -> &'static str {
         match self {
-            Self::TradeoffTable => "Export the table as CSV",
-            Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
+            Self::Data => "Export all results into a folder",
+            Self::Figures => "Export the figures as SVG, PNG and PDF into a folder",
+            Self::Fields => "Export the fields as a NumPy archive",
+            Self::Animation => "Export the animation as GIF or animated PNG",
+            Self::Report => "Export a report of this run as HTML",
+            Self::Comparison => "Export the comparison into a folder",
+            Self::ComparisonReport => "Export a report of the pinned runs as HTML",
+            Self::Sweep => "Export the sweep into a folder",
+            Self::SweepTable | Self::TradeoffTable => "Export the table as CSV",
+            Self::SweepFigure | Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
         }
     }
 
-    /// Kind of file and its extensions.
-    fn filter(self) -> (&'static str, &'static [&'static str]) {
+    /// Kind of file and its extensions; `None` for a folder.
+    fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
         match self {
-            Self::TradeoffTable => ("Table", &["csv"]),
-            Self::TradeoffFigure => ("Figure", &["svg", "png", "pdf"]),
+            Self::Data | Self::Figures | Self::Comparison | Self::Sweep => None,
+            Self::Fields => Some(("NumPy archive", &["npz"])),
+            Self::Animation => Some(("Animation", &["gif", "png", "apng"])),
+            Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
+            Self::SweepTable | Self::TradeoffTable => Some(("Table", &["csv"])),
+            Self::SweepFigure | Self::TradeoffFigure => Some(("Figure", &["svg", "png", "pdf"])),
         }
+    }
+
+    /// Whether it is several files, which go into a folder.
+    pub fn is_folder(self) -> bool {
+        self.filter().is_none()
     }
 }
 
@@ -71,14 +117,15 @@ pub fn native(purpose: Purpose, name: &str) -> Answer {
     let started = Instant::now();
     let dialog = match purpose {
         Purpose::Screenshot => rfd::FileDialog::new().add_filter("Picture", &["png"]),
-        Purpose::Export(export) => {
-            let (kind, extensions) = export.filter();
-            rfd::FileDialog::new().add_filter(kind, extensions)
-        }
+        Purpose::Export(export) => match export.filter() {
+            Some((kind, extensions)) => rfd::FileDialog::new().add_filter(kind, extensions),
+            None => rfd::FileDialog::new(),
+        },
         Purpose::Open | Purpose::Save => rfd::FileDialog::new().add_filter("Preset", &["toml"]),
     };
     let path = match purpose {
         Purpose::Open => dialog.set_title("Open a preset").pick_file(),
+        Purpose::Export(export) if export.is_folder() => dialog.set_title(export.title()).pick_folder(),
         Purpose::Export(export) => dialog.set_title(export.title()).set_file_name(name).save_file(),
         Purpose::Save | Purpose::Screenshot => dialog.set_title("Save").set_file_name(name).save_file(),
     };

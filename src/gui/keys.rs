@@ -1,6 +1,7 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use super::command::Command;
+use super::pinned::Pinning;
 use super::state::Tab;
 use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
 
@@ -54,6 +55,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         &[
             always(key(CTRL, Key::Z), "Undo", || Command::Undo),
             always(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo),
+            always(key(CTRL, Key::D), "Pin the run on screen", || Command::Pin(Pinning::Shown)),
             idle(key(NONE, Key::Escape), "Stop solving", || Command::CancelSolve),
         ],
     ),
@@ -70,7 +72,9 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         "Window",
         &[
             always(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
-            always(key(CTRL, Key::Num2), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+            always(key(CTRL, Key::Num2), "Compare pinned runs", || Command::Show(Tab::Compare)),
+            always(key(CTRL, Key::Num3), "Sweep a parameter", || Command::Show(Tab::Sweep)),
+            always(key(CTRL, Key::Num4), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
             always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
@@ -92,7 +96,7 @@ pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>
     ctx.input_mut(|input| {
         // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
         for shift in [true, false] {
-            let groups = GROUPS.iter().filter(|(group, _)| *group != MOTION || tab == Tab::Motion);
+            let groups = GROUPS.iter().filter(|(group, _)| *group != MOTION || tab.moves());
             let shortcuts = groups.flat_map(|(_, shortcuts)| shortcuts.iter());
             for shortcut in shortcuts.filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
                 if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {

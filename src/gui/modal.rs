@@ -1,7 +1,7 @@
 //! What is in the way until it is answered: an error, a question, a path to type.
 
 use super::command::Command;
-use super::dialogs::{Export, Purpose};
+use super::dialogs::Purpose;
 use super::theme::Palette;
 use eframe::egui::{self, Id, Key, RichText, Ui};
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ pub enum Modal {
 /// A path, and what it may be used for.
 #[derive(Clone, Debug)]
 pub struct PathPrompt {
-    purposes: &'static [Purpose],
+    purposes: Vec<Purpose>,
     path: String,
     no_dialog: bool,
     fresh: bool,
@@ -38,20 +38,13 @@ pub struct PathPrompt {
 
 impl PathPrompt {
     /// A prompt that was asked for.
-    pub fn asked(purposes: &'static [Purpose], path: String) -> Self {
-        Self { purposes, path, no_dialog: false, fresh: true }
+    pub fn asked(purposes: &[Purpose], path: String) -> Self {
+        Self { purposes: purposes.to_vec(), path, no_dialog: false, fresh: true }
     }
 
     /// A prompt in place of a file dialog that could not be shown.
     pub fn instead_of_dialog(purpose: Purpose, path: String) -> Self {
-        let purposes: &[Purpose] = match purpose {
-            Purpose::Open => &[Purpose::Open],
-            Purpose::Save => &[Purpose::Save],
-            Purpose::Screenshot => &[Purpose::Screenshot],
-            Purpose::Export(Export::TradeoffTable) => &[Purpose::Export(Export::TradeoffTable)],
-            Purpose::Export(Export::TradeoffFigure) => &[Purpose::Export(Export::TradeoffFigure)],
-        };
-        Self { purposes, path, no_dialog: true, fresh: true }
+        Self { purposes: vec![purpose], path, no_dialog: true, fresh: true }
     }
 }
 
@@ -135,7 +128,7 @@ fn path(
 ) -> bool {
     heading(
         ui,
-        match prompt.purposes {
+        match prompt.purposes[..] {
             [Purpose::Open] => "Open a preset",
             [Purpose::Save] => "Save the preset",
             [Purpose::Screenshot] => "Save a picture of the window",
@@ -148,7 +141,8 @@ fn path(
         ui.add(egui::Label::new(RichText::new(text).color(palette.quiet)).wrap());
         ui.add_space(6.0);
     }
-    let label = ui.label("Path");
+    let folder = matches!(prompt.purposes[..], [Purpose::Export(export)] if export.is_folder());
+    let label = ui.label(if folder { "Folder" } else { "Path" });
     let field = ui.add(egui::TextEdit::singleline(&mut prompt.path).desired_width(f32::INFINITY)).labelled_by(label.id);
     if std::mem::take(&mut prompt.fresh) {
         field.request_focus();

@@ -8,13 +8,23 @@ pub enum Tab {
     /// The cycle of the present run, animated.
     #[default]
     Motion,
+    /// Pinned runs beside each other.
+    Compare,
+    /// One parameter varied, or two.
+    Sweep,
     /// Error against solve time.
     Tradeoff,
 }
 
 impl Tab {
     /// All, in the order of their labels.
-    pub const ALL: &[(Self, &str)] = &[(Self::Motion, "Motion"), (Self::Tradeoff, "Trade-off")];
+    pub const ALL: &[(Self, &str)] =
+        &[(Self::Motion, "Motion"), (Self::Compare, "Compare"), (Self::Sweep, "Sweep"), (Self::Tradeoff, "Trade-off")];
+
+    /// Whether it moves with the cycle.
+    pub fn moves(self) -> bool {
+        matches!(self, Self::Motion | Self::Compare)
+    }
 }
 
 /// How the present run is looked at.

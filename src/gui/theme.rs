@@ -55,6 +55,33 @@ pub fn palette(dark: bool) -> Palette {
     }
 }
 
+/// Colours of runs laid over each other, in the order of those in printed figures.
+pub const RUNS: usize = 7;
+
+/// Colour of one of several runs; after [`RUNS`] they begin again.
+pub fn run_colour(slot: usize, dark: bool) -> Color32 {
+    const DARK: [[u8; 3]; RUNS] = [
+        [0x56, 0xb4, 0xe9],
+        [0xf0, 0x8a, 0x3c],
+        [0x3f, 0xc7, 0x9a],
+        [0xe3, 0x9a, 0xc6],
+        [0xf0, 0xd4, 0x42],
+        [0xa9, 0xb4, 0xff],
+        [0xdf, 0xe3, 0xe9],
+    ];
+    const LIGHT: [[u8; 3]; RUNS] = [
+        [0x00, 0x72, 0xb2],
+        [0xd5, 0x5e, 0x00],
+        [0x00, 0x8a, 0x64],
+        [0xb0, 0x4c, 0x8a],
+        [0xa6, 0x76, 0x00],
+        [0x52, 0x5c, 0xc8],
+        [0x22, 0x26, 0x2c],
+    ];
+    let [r, g, b] = if dark { DARK } else { LIGHT }[slot % RUNS];
+    Color32::from_rgb(r, g, b)
+}
+
 /// Colour of a value between 0 and 1 in a field: perceptually uniform.
 pub fn field_colour(value: f64) -> Color32 {
     let colour = colorous::VIRIDIS.eval_continuous(value.clamp(0.0, 1.0));

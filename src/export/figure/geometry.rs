@@ -106,7 +106,7 @@ pub(super) fn clipped_area(points: &[[f64; 2]], rect: &Rect) -> Vec<[f64; 2]> {
 
 /// The lines on which values at the nodes `x` × `y` (`[ix][iy]`) equal `level`, each in one piece. Cells with a value
 /// that is not a number have none.
-pub(super) fn contour(x: &[f64], y: &[f64], values: &[f64], level: f64) -> Vec<Vec<[f64; 2]>> {
+pub(crate) fn contour(x: &[f64], y: &[f64], values: &[f64], level: f64) -> Vec<Vec<[f64; 2]>> {
     let (nx, ny) = (x.len(), y.len());
     if nx < 2 || ny < 2 || values.len() != nx * ny {
         return Vec::new();

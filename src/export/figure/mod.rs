@@ -51,6 +51,9 @@ pub use description::{
 };
 pub use files::{FigureError, Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
 
+#[cfg(feature = "gui")]
+pub(crate) use geometry::contour;
+
 pub(super) use files::{Pixels, pixels, png_bytes};
 
 use layout::{FOOT, Layout, TITLE};

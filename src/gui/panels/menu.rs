@@ -2,6 +2,7 @@
 
 use super::hint::beside;
 use crate::gui::command::Command;
+use crate::gui::dialogs::Export;
 use crate::gui::document::Document;
 use crate::gui::keys;
 use crate::gui::state::Tab;
@@ -10,9 +11,16 @@ use eframe::egui::{self, Button};
 use std::path::PathBuf;
 
 /// Shows the menus.
-pub fn show(ui: &mut egui::Ui, document: &Document, recent: &[PathBuf], dark: bool, commands: &mut Vec<Command>) {
+pub fn show(
+    ui: &mut egui::Ui,
+    document: &Document,
+    recent: &[PathBuf],
+    available: &dyn Fn(Export) -> bool,
+    dark: bool,
+    commands: &mut Vec<Command>,
+) {
     egui::MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| file(ui, recent, commands));
+        ui.menu_button("File", |ui| file(ui, recent, available, commands));
         ui.menu_button("Presets", |ui| built_in(ui, commands));
         ui.menu_button("Edit", |ui| {
             item(ui, "Undo", document.can_undo(), Command::Undo, commands);
@@ -52,7 +60,52 @@ fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, commands
     }
 }
 
-fn file(ui: &mut egui::Ui, recent: &[PathBuf], commands: &mut Vec<Command>) {
+/// What can be exported, in groups: of the run on screen, of the pinned runs, of the sweep, of the trade-off.
+const EXPORTS: &[&[(&str, Export)]] = &[RUN, COMPARISON, SWEEP, TRADEOFF];
+
+const RUN: &[(&str, Export)] = &[
+    ("All results, into a folder…", Export::Data),
+    ("Figures, into a folder…", Export::Figures),
+    ("Fields as NumPy archive…", Export::Fields),
+    ("Animation…", Export::Animation),
+    ("Report as HTML…", Export::Report),
+];
+
+/// What can be exported of the pinned runs.
+pub const COMPARISON: &[(&str, Export)] =
+    &[("Comparison, into a folder…", Export::Comparison), ("Comparison as HTML…", Export::ComparisonReport)];
+
+/// What can be exported of the sweep.
+pub const SWEEP: &[(&str, Export)] = &[
+    ("Sweep, into a folder…", Export::Sweep),
+    ("Sweep as table…", Export::SweepTable),
+    ("Sweep as figure…", Export::SweepFigure),
+];
+
+const TRADEOFF: &[(&str, Export)] =
+    &[("Trade-off as table…", Export::TradeoffTable), ("Trade-off as figure…", Export::TradeoffFigure)];
+
+/// A button with a menu of exports.
+pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], commands: &mut Vec<Command>) {
+    ui.menu_button("Export ▾", |ui| {
+        for (text, export) in group {
+            item(ui, text, true, Command::Export(*export), commands);
+        }
+    });
+}
+
+fn exports(ui: &mut egui::Ui, available: &dyn Fn(Export) -> bool, commands: &mut Vec<Command>) {
+    for (i, group) in EXPORTS.iter().enumerate() {
+        if i > 0 {
+            ui.separator();
+        }
+        for (text, export) in *group {
+            item(ui, text, available(*export), Command::Export(*export), commands);
+        }
+    }
+}
+
+fn file(ui: &mut egui::Ui, recent: &[PathBuf], available: &dyn Fn(Export) -> bool, commands: &mut Vec<Command>) {
     item(ui, "Open…", true, Command::OpenDialog, commands);
     item(ui, "Open or save by path…", true, Command::OpenPathPrompt, commands);
     ui.menu_button("Recent", |ui| {
@@ -67,10 +120,17 @@ fn file(ui: &mut egui::Ui, recent: &[PathBuf], commands: &mut Vec<Command>) {
     item(ui, "Save", true, Command::Save, commands);
     item(ui, "Save as…", true, Command::SaveAs, commands);
     ui.separator();
+    ui.menu_button("Export", |ui| exports(ui, available, commands));
+    ui.separator();
     item(ui, "Quit", true, Command::Quit, commands);
 }
 
 fn built_in(ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    presets_menu(ui, Command::OpenBuiltIn, commands);
+}
+
+/// All built-in presets; `command` is asked with the one that is clicked.
+pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command, commands: &mut Vec<Command>) {
     let room = 0.85 * ui.ctx().content_rect().height();
     egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
         let mut kind = "motor";
@@ -82,7 +142,7 @@ fn built_in(ui: &mut egui::Ui, commands: &mut Vec<Command>) {
             }
             let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));
             if beside(ui.max_rect(), entry, &scene.about).clicked() {
-                commands.push(Command::OpenBuiltIn(preset.name));
+                commands.push(command(preset.name));
                 ui.close();
             }
         }

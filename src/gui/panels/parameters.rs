@@ -428,13 +428,13 @@ fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {
     ui.add(egui::Label::new(RichText::new(text).size(size).color(colours.quiet)).wrap().selectable(false));
 }
 
-fn capitalised(text: &str) -> String {
+pub(in crate::gui) fn capitalised(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
 /// The range of a slider: the part worth one, within what the other keys leave. And whether it is logarithmic.
-fn slider_range(scene: &Scene, parameter: &Parameter) -> (Range, bool) {
+pub(in crate::gui) fn slider_range(scene: &Scene, parameter: &Parameter) -> (Range, bool) {
     let allowed = scene.range(parameter.key).unwrap_or(Range::new(0.0, 1.0));
     let (wanted, logarithmic) = match parameter.kind {
         ParameterKind::Number { slider, scale, .. } => (slider, scale == Scale::Log),
@@ -464,7 +464,7 @@ fn inside(value: f64, range: Range) -> f64 {
 }
 
 /// `value` to a number of significant digits, `round` deciding which way.
-pub(super) fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
+pub(in crate::gui) fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
     }

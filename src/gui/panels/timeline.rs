@@ -7,6 +7,7 @@ use crate::gui::keys;
 use crate::gui::state::View;
 use crate::gui::theme::Palette;
 use crate::job::Run;
+use crate::recording::Recording;
 use crate::solution::{Outcome, Status};
 use eframe::egui::{self, ProgressBar, RichText, Slider};
 
@@ -14,8 +15,7 @@ use eframe::egui::{self, ProgressBar, RichText, Slider};
 const SPEEDS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 30.0];
 
 /// Play, step, scrub and speed.
-pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Command>) {
-    let recording = &run.solution.recording;
+pub fn show(ui: &mut egui::Ui, recording: &Recording, view: &View, commands: &mut Vec<Command>) {
     let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
     ui.horizontal(|ui| {
         let play = if view.playing { "Pause" } else { "Play" };

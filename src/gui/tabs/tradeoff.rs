@@ -9,6 +9,7 @@ use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
 use crate::gui::dialogs::Export;
 use crate::gui::measured::{Measured, is_present};
+use crate::gui::tabs::sweep::rough;
 use crate::gui::theme::Palette;
 use crate::scene::Scene;
 use crate::solve::Method;
@@ -421,11 +422,6 @@ fn duration(seconds: f64) -> String {
         s => (s / 60.0, "min"),
     };
     format!("{}{NO_BREAK}{unit}", trimmed(&significant(value, 3)))
-}
-
-/// A time that is left, in whole seconds or minutes.
-fn rough(seconds: f64) -> String {
-    if seconds < 99.5 { format!("{:.0} s", seconds.max(1.0)) } else { format!("{:.0} min", seconds / 60.0) }
 }
 
 /// A share in per cent, two digits, written out however small.

@@ -7,11 +7,13 @@ mod field;
 mod loads;
 mod map;
 mod motor;
+pub mod overlay;
 mod paint;
 mod plate;
 mod sample;
 mod scales;
 mod series;
+pub mod swept;
 mod tooth;
 mod wave;
 

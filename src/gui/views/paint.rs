@@ -121,7 +121,10 @@ impl Axes {
     /// Horizontal grid lines with their values, written left of the plot. `unit`: size of the written unit.
     pub(super) fn y_ticks(&self, painter: &Painter, ink: &Ink, unit: f64) {
         let about = (self.rect.height() / (2.2 * ink.row)).clamp(1.0, 6.0) as usize;
-        let ticks = Ticks::new([self.y[0] / unit, self.y[1] / unit], about);
+        let range = [self.y[0] / unit, self.y[1] / unit];
+        // One value alone says nothing about the scale.
+        let mut several = (about..about + 3).map(|about| Ticks::new(range, about));
+        let ticks = several.find(|ticks| ticks.values().count() > 1).unwrap_or_else(|| Ticks::new(range, about));
         for value in ticks.values() {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, ink.grid));
@@ -273,17 +276,20 @@ pub(super) fn field_colours() -> &'static [Color32; 256] {
 
 /// A title above `plot` with the colour bar and its ends at the right end of the same line.
 pub(super) fn title_with_bar(painter: &Painter, ink: &Ink, plot: Rect, titles: [&str; 2], range: [f64; 2]) {
-    let bottom = plot.top() - 2.0;
     let ends = range.map(|pascal| number(pascal / 1e3));
-    let ends = [ends[0].clone(), format!("{} kPa", ends[1])];
-    let written = ink.width(painter, &ends[0]) + ink.width(painter, &ends[1]) + 2.0 * ink.row;
+    title_with_ends(painter, ink, plot, titles, [&ends[0], &format!("{} kPa", ends[1])]);
+}
+
+/// The same with what is written at the ends of the bar.
+pub(super) fn title_with_ends(painter: &Painter, ink: &Ink, plot: Rect, titles: [&str; 2], ends: [&str; 2]) {
+    let bottom = plot.top() - 2.0;
+    let written = ink.width(painter, ends[0]) + ink.width(painter, ends[1]) + 2.0 * ink.row;
     let room = plot.width() - written - 2.0 * ink.row;
     // The longer title if a bar of some length is left.
     let title = if ink.width(painter, titles[0]) < room { titles[0] } else { titles[1] };
     let length = (room - ink.width(painter, title)).clamp(2.0 * ink.row, 9.0 * ink.row);
     ink.write(painter, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, ink.text);
-    let right =
-        ink.write(painter, pos2(plot.right(), bottom), Align2::RIGHT_BOTTOM, &ends[1], ink.palette.quiet).left();
+    let right = ink.write(painter, pos2(plot.right(), bottom), Align2::RIGHT_BOTTOM, ends[1], ink.palette.quiet).left();
     let bar = Rect::from_min_max(
         pos2(right - 4.0 - length, bottom - 0.8 * ink.row),
         pos2(right - 4.0, bottom - 0.2 * ink.row),
@@ -301,7 +307,7 @@ pub(super) fn title_with_bar(painter: &Painter, ink: &Ink, plot: Rect, titles: [
         }
     }
     painter.add(Shape::Mesh(Arc::new(mesh)));
-    ink.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, &ends[0], ink.palette.quiet);
+    ink.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], ink.palette.quiet);
 }
 
 /// A vertical bar left of `plot`, as long as a round number of micrometres, `scale` points to a metre.

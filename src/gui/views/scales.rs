@@ -12,6 +12,11 @@ use std::sync::Arc;
 pub(super) struct Curve(Vec<f64>);
 
 impl Curve {
+    /// One value for each frame.
+    pub(super) fn new(values: impl IntoIterator<Item = f64>) -> Self {
+        Self(values.into_iter().collect())
+    }
+
     /// The value at a phase; any number of cycles away.
     pub(super) fn at(&self, phase: f64) -> f64 {
         let count = self.0.len();

@@ -25,7 +25,7 @@ pub(super) struct Series<'a> {
     pub(super) range: [f64; 2],
     /// Size of the unit in the title.
     pub(super) unit: f64,
-    /// Period \[s\].
+    /// Period \[s\]; not a number for curves of several periods.
     pub(super) period: f64,
     /// Phase at which the markers stand.
     pub(super) phase: f64,
@@ -43,7 +43,11 @@ impl Series<'_> {
         let quiet = ink.palette.quiet;
         let top = rect.bottom() + 1.0;
         let (scale, unit) = if self.period < 1e-3 { (1e6, "µs") } else { (1e3, "ms") };
-        let (start, period) = (format!("0 {unit}"), format!("{} {unit}", number(self.period * scale)));
+        let (start, period) = if self.period.is_finite() {
+            (format!("0 {unit}"), format!("{} {unit}", number(self.period * scale)))
+        } else {
+            ("0".to_owned(), "one cycle".to_owned())
+        };
         let last = ink.write(painter, pos2(rect.right(), top), Align2::RIGHT_TOP, &period, quiet);
         if ink.width(painter, &start) + ink.row < last.left() - rect.left() {
             ink.write(painter, pos2(rect.left(), top), Align2::LEFT_TOP, &start, quiet);

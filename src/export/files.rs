@@ -1,0 +1,278 @@
+//! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
+//! under its name only when all of them are complete; whoever cancels leaves nothing behind.
+
+use super::animation::{AnimationError, Movie, Options, cycle, frames};
+use super::compare::{self, Report, all_figures, movies, report};
+use super::figure::{Figure, FigureError, Format, to_bytes};
+use super::folder::{Staged, WriteError, write_file};
+use super::json::{self, Summary};
+use super::{csv, figures, npz, sweep};
+use crate::analysis::compare::Run;
+use crate::analysis::sweep::{Row, Sweep};
+use crate::control::{Cancel, Progress};
+use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::solution::Solution;
+use crate::solve::Settings;
+use rayon::prelude::*;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Results that were not written.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The caller cancelled; no file was written.
+    #[error("cancelled; no file was written")]
+    Cancelled,
+    /// A folder or a file.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A figure.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// An animation.
+    #[error(transparent)]
+    Animation(AnimationError),
+}
+
+impl From<AnimationError> for ExportError {
+    fn from(error: AnimationError) -> Self {
+        match error {
+            AnimationError::Cancelled => Self::Cancelled,
+            AnimationError::Write(error) => Self::Write(error),
+            AnimationError::Figure(error) => Self::Figure(error),
+            other => Self::Animation(other),
+        }
+    }
+}
+
+/// How far an export is, and whether it is to go on.
+#[derive(Clone, Copy)]
+pub struct Control<'a> {
+    /// Looked at between pictures.
+    pub cancel: &'a Cancel,
+    /// Told how many pictures of how many are drawn, from several threads.
+    pub drawn: &'a (dyn Fn(usize, usize) + Sync),
+}
+
+impl Control<'_> {
+    fn check(&self) -> Result<(), ExportError> {
+        if self.cancel.is_cancelled() { Err(ExportError::Cancelled) } else { Ok(()) }
+    }
+
+    /// Runs `draw`, which counts what it has drawn of `all`.
+    fn counted<R>(&self, all: usize, draw: impl FnOnce(&(dyn Fn() + Sync)) -> R) -> R {
+        let count = std::sync::atomic::AtomicUsize::new(0);
+        draw(&|| (self.drawn)(count.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1, all))
+    }
+}
+
+/// One solve, with all that its files say of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Solved<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The same, checked and in SI units.
+    pub problem: &'a Problem,
+    /// What came of it.
+    pub solution: &'a Solution,
+    /// The rounds, if they were kept.
+    pub history: &'a [Progress],
+}
+
+/// Stages a figure under a name, once in each format.
+///
+/// # Errors
+/// [`WriteError`], also of what cannot be drawn.
+pub fn stage_figure(staged: &mut Staged, name: &str, figure: &Figure, formats: &[Format]) -> Result<(), WriteError> {
+    for format in each(formats) {
+        staged.add(&format!("{name}.{}", format.name()), |out| {
+            out.write_all(&to_bytes(figure, format).map_err(io::Error::other)?)
+        })?;
+    }
+    Ok(())
+}
+
+fn each(formats: &[Format]) -> Vec<Format> {
+    let mut formats = formats.to_vec();
+    formats.sort_unstable();
+    formats.dedup();
+    formats
+}
+
+/// What `squeezefilm solve --out` writes into a folder.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn solve(
+    folder: &Path,
+    solved: &Solved<'_>,
+    summary: &Summary,
+    formats: &[Format],
+    control: &Control<'_>,
+) -> Result<Vec<PathBuf>, ExportError> {
+    let Solved { scene, problem, solution, .. } = *solved;
+    let mut staged = Staged::new(folder)?;
+    staged.add("summary.json", |out| out.write_all(summary.to_text().as_bytes()))?;
+    staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
+    staged.add("series.csv", |out| csv::series(problem, &solution.recording, out))?;
+    staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
+    staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
+    staged.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
+    add_figures(&mut staged, solved, formats, control)?;
+    control.check()?;
+    Ok(staged.commit()?)
+}
+
+/// The figures of a solve alone.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn solve_figures(
+    folder: &Path,
+    solved: &Solved<'_>,
+    formats: &[Format],
+    control: &Control<'_>,
+) -> Result<Vec<PathBuf>, ExportError> {
+    let mut staged = Staged::new(folder)?;
+    add_figures(&mut staged, solved, formats, control)?;
+    control.check()?;
+    Ok(staged.commit()?)
+}
+
+fn add_figures(
+    staged: &mut Staged,
+    solved: &Solved<'_>,
+    formats: &[Format],
+    control: &Control<'_>,
+) -> Result<(), ExportError> {
+    let formats = each(formats);
+    if formats.is_empty() {
+        return Ok(());
+    }
+    let figures = figures::of(solved.problem, solved.solution, solved.history);
+    let files: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
+    let drawn = control.counted(files.len(), |done| {
+        let draw = |((name, figure), format): &(&(&str, Figure), Format)| {
+            control.check()?;
+            let bytes = to_bytes(figure, *format)?;
+            done();
+            Ok((format!("{name}.{}", format.name()), bytes))
+        };
+        files.par_iter().map(draw).collect::<Result<Vec<_>, ExportError>>()
+    })?;
+    for (name, bytes) in drawn {
+        staged.add(&name, |out| out.write_all(&bytes))?;
+    }
+    Ok(())
+}
+
+/// The fields of a solve as a NumPy archive.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn fields(path: &Path, solved: &Solved<'_>) -> Result<Vec<PathBuf>, ExportError> {
+    write_file(path, |out| npz::write(solved.scene, solved.problem, solved.solution, out))?;
+    Ok(vec![path.to_owned()])
+}
+
+/// The cycle of a solve as moving pictures, in the format of its path.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn animation(
+    path: &Path,
+    solved: &Solved<'_>,
+    options: &Options,
+    control: &Control<'_>,
+) -> Result<Vec<PathBuf>, ExportError> {
+    // A wrong extension is told before the work, not after it.
+    super::animation::Format::of(path)?;
+    let all = frames(&solved.solution.recording, options.frames);
+    let movie = control.counted(all, |done| cycle(solved.problem, solved.solution, options, done, control.cancel))?;
+    Ok(movie.write(path, control.cancel)?)
+}
+
+/// Animations of several runs as GIF, each with its name.
+fn moving(runs: &[Run], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
+    let options = Options::default();
+    let all = compare::frames(runs, options.frames);
+    let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;
+    let gif = |(name, movie): (&str, Movie)| {
+        let mut gif = Vec::new();
+        match movie.gif(&mut gif, control.cancel) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(ExportError::Cancelled),
+            Err(source) => Err(WriteError { path: folder.join(format!("{name}.gif")), source }.into()),
+            Ok(()) => Ok((name.to_owned(), gif)),
+        }
+    };
+    drawn.into_iter().map(gif).collect()
+}
+
+/// What `squeezefilm compare --out` writes into a folder. `all`: parameters are listed that do not differ, too.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn comparison(
+    folder: &Path,
+    runs: &[Run],
+    (settings, all, command): (&Settings, bool, &[String]),
+    formats: &[Format],
+    control: &Control<'_>,
+) -> Result<Vec<PathBuf>, ExportError> {
+    let all = all || runs.len() < 2;
+    let movies = moving(runs, folder, control)?;
+    let mut staged = Staged::new(folder)?;
+    let page = report(runs, &Report { settings, all, movies: &movies, command });
+    staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
+    staged.add("compare.csv", |out| compare::write_csv(runs, out))?;
+    staged.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
+    let object = compare::Object::new(runs, settings, command);
+    staged.add("compare.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+    for (name, gif) in &movies {
+        staged.add(&format!("{name}.gif"), |out| out.write_all(gif))?;
+    }
+    for (name, figure) in all_figures(runs) {
+        control.check()?;
+        stage_figure(&mut staged, &name, &figure, formats)?;
+    }
+    control.check()?;
+    Ok(staged.commit()?)
+}
+
+/// The report of one run, or of several, as one HTML file.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn html(
+    path: &Path,
+    runs: &[Run],
+    settings: &Settings,
+    control: &Control<'_>,
+) -> Result<Vec<PathBuf>, ExportError> {
+    let movies = moving(runs, path, control)?;
+    let page = report(runs, &Report { settings, all: runs.len() < 2, movies: &movies, command: &[] });
+    control.check()?;
+    write_file(path, |out| out.write_all(page.as_bytes()))?;
+    Ok(vec![path.to_owned()])
+}
+
+/// What `squeezefilm sweep --out` writes into a folder.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn swept(
+    folder: &Path,
+    swept: &Sweep,
+    rows: &[Row],
+    command: &[String],
+    formats: &[Format],
+) -> Result<Vec<PathBuf>, WriteError> {
+    let mut staged = Staged::new(folder)?;
+    staged.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
+    let object = sweep::Object::new(swept, rows, command);
+    staged.add("sweep.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+    stage_figure(&mut staged, "sweep", &sweep::figure(swept, rows), formats)?;
+    staged.add("scene.toml", |out| out.write_all(swept.scene().to_toml().as_bytes()))?;
+    staged.commit()
+}

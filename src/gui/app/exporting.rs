@@ -1,0 +1,152 @@
+//! Exports: the same code and the same names as those of the command line, on a thread of their own.
+
+use super::App;
+use crate::control::Cancel;
+use crate::export::animation::Options;
+use crate::export::figure::{Format, to_bytes};
+use crate::export::files::{self, Control, ExportError, Solved};
+use crate::export::folder::write_file;
+use crate::export::json::Summary;
+use crate::export::sweep::{figure_of, write_csv};
+use crate::fidelity::Fidelity;
+use crate::gui::dialogs::Export;
+use crate::gui::exporting::{Exports, Told};
+use crate::gui::modal::Modal;
+use crate::gui::pinned::{fidelity, of_window};
+use crate::job::Run;
+use crate::job::task::Task;
+use crate::solve::Settings;
+use eframe::egui;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Progress is drawn at most this often.
+const REDRAW: Duration = Duration::from_millis(100);
+/// Formats of the figures beside data, as without `--figures`.
+const BESIDE_DATA: [Format; 2] = [Format::Svg, Format::Png];
+
+/// What is left to do once everything that it needs is at hand.
+type Work = Box<dyn FnOnce(&Control<'_>) -> Result<Vec<PathBuf>, ExportError> + Send>;
+
+impl App {
+    /// The exports.
+    pub fn exports(&self) -> &Exports {
+        &self.exports
+    }
+
+    /// Whether there is what `export` writes.
+    pub(super) fn can_export(&self, export: Export) -> bool {
+        match export {
+            Export::Data | Export::Figures | Export::Fields | Export::Animation | Export::Report => {
+                self.shown.is_some()
+            }
+            Export::Comparison | Export::ComparisonReport => self.pins.runs().len() > 1,
+            Export::SweepTable | Export::SweepFigure | Export::Sweep => {
+                self.sweeps.swept().is_some_and(|swept| !swept.rows().is_empty())
+            }
+            Export::TradeoffTable | Export::TradeoffFigure => {
+                self.measured.as_ref().is_some_and(|measured| !measured.tradeoff().points.is_empty())
+            }
+        }
+    }
+
+    pub(super) fn export(&mut self, ctx: &egui::Context, export: Export, path: &Path) {
+        if matches!(export, Export::TradeoffTable | Export::TradeoffFigure) {
+            self.write_tradeoff(export, path);
+            return;
+        }
+        if self.exports.running() {
+            let text = "Another export goes on: wait until it has ended, or cancel it.";
+            self.modal = Some(Modal::Error(text.to_owned()));
+            return;
+        }
+        let Some(work) = self.work(export, path.to_owned()) else { return };
+        let wake = ctx.clone();
+        let wake = move |ended: bool| {
+            if ended { wake.request_repaint() } else { wake.request_repaint_after(REDRAW) }
+        };
+        let task = Task::start("export", wake, move |cancel: &Cancel, tell: &(dyn Fn(Told) + Sync)| {
+            let control = Control { cancel, drawn: &|drawn, all| tell(Told::Drawn(drawn, all)) };
+            tell(Told::Done(work(&control).map_err(|error| match error {
+                ExportError::Cancelled => None,
+                error => Some(error.to_string()),
+            })));
+        });
+        match task {
+            Ok(task) => self.exports.begin(export, task, (self.world.now)()),
+            Err(error) => self.modal = Some(Modal::Error(format!("The export cannot be started: {error}"))),
+        }
+    }
+
+    /// What is to be done, with its own share of all that it needs.
+    fn work(&self, export: Export, path: PathBuf) -> Option<Work> {
+        Some(match export {
+            Export::Data => {
+                let run = self.shown.clone()?;
+                Box::new(move |control| {
+                    let summary = Summary::new(&run.problem, &run.solution, run.wall_s, &[]);
+                    files::solve(&path, &solved(&run), &summary, &BESIDE_DATA, control)
+                })
+            }
+            Export::Figures => {
+                let run = self.shown.clone()?;
+                Box::new(move |control| files::solve_figures(&path, &solved(&run), &Format::ALL, control))
+            }
+            Export::Fields => {
+                let run = self.shown.clone()?;
+                Box::new(move |_| files::fields(&path, &solved(&run)))
+            }
+            Export::Animation => {
+                let run = self.shown.clone()?;
+                Box::new(move |control| files::animation(&path, &solved(&run), &Options::default(), control))
+            }
+            Export::Report => {
+                let run = of_window(self.shown.as_ref()?);
+                let settings = at(&[fidelity(&run)]);
+                Box::new(move |control| files::html(&path, &[run], &settings, control))
+            }
+            Export::Comparison | Export::ComparisonReport => {
+                let runs = self.pins.runs().to_vec();
+                let settings = at(&runs.iter().map(fidelity).collect::<Vec<_>>());
+                if export == Export::ComparisonReport {
+                    Box::new(move |control| files::html(&path, &runs, &settings, control))
+                } else {
+                    let all = self.pins.all_parameters;
+                    Box::new(move |control| {
+                        files::comparison(&path, &runs, (&settings, all, &[]), &BESIDE_DATA, control)
+                    })
+                }
+            }
+            Export::SweepTable | Export::SweepFigure | Export::Sweep => {
+                let swept = self.sweeps.swept()?;
+                let (sweep, rows) = (Arc::clone(swept.sweep()), swept.rows().to_vec());
+                let quantity = self.sweeps.quantity(&sweep.quantities());
+                Box::new(move |_| match export {
+                    Export::SweepTable => {
+                        write_file(&path, |out| write_csv(&sweep, &rows, out))?;
+                        Ok(vec![path])
+                    }
+                    Export::SweepFigure => {
+                        let format = Format::of(&path)?;
+                        let bytes = to_bytes(&figure_of(&sweep, &rows, quantity), format)?;
+                        write_file(&path, |out| out.write_all(&bytes))?;
+                        Ok(vec![path])
+                    }
+                    _ => Ok(files::swept(&path, &sweep, &rows, &[], &BESIDE_DATA)?),
+                })
+            }
+            Export::TradeoffTable | Export::TradeoffFigure => return None,
+        })
+    }
+}
+
+fn solved(run: &Run) -> Solved<'_> {
+    Solved { scene: &run.scene, problem: &run.problem, solution: &run.solution, history: &run.history }
+}
+
+/// Settings of runs at these fidelities: of several, the coarsest.
+fn at(fidelities: &[&str]) -> Settings {
+    let known = fidelities.iter().filter_map(|name| name.parse::<Fidelity>().ok());
+    Settings { fidelity: known.min().unwrap_or_default(), ..Settings::default() }
+}

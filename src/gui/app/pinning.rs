@@ -1,0 +1,76 @@
+//! What is asked of the pins, carried out.
+
+use super::App;
+use crate::analysis::compare::runs;
+use crate::gui::modal::Modal;
+use crate::gui::pinned::{Pinning, Pins, of_window};
+use crate::job::task::Task;
+use crate::scene::{Scene, presets};
+use crate::solve::Settings;
+use eframe::egui;
+
+impl App {
+    /// The pinned runs.
+    pub fn pins(&self) -> &Pins {
+        &self.pins
+    }
+
+    pub(super) fn pin(&mut self, ctx: &egui::Context, asked: Pinning) {
+        match asked {
+            Pinning::Shown => {
+                if let Some(run) = &self.shown {
+                    self.pins.add(of_window(run));
+                }
+            }
+            Pinning::Preset(name) => self.pin_preset(ctx, name),
+            Pinning::Forget(id) => self.pins.forget(id),
+            Pinning::Rename(id, name) => self.pins.rename(id, &name),
+            Pinning::Remove(id) => self.pins.remove(id),
+            Pinning::Clear => self.pins.clear(),
+            Pinning::Open(id) => {
+                if let Some(scene) = self.pins.run(id).map(|run| run.scene.clone()) {
+                    self.change_scene(scene);
+                }
+            }
+            Pinning::Look(page) => self.pins.page = page,
+            Pinning::AllParameters(all) => self.pins.all_parameters = all,
+        }
+    }
+
+    fn pin_preset(&mut self, ctx: &egui::Context, name: &'static str) {
+        let scene = match presets::find(name) {
+            Ok(scene) => scene,
+            Err(error) => {
+                self.modal = Some(Modal::Error(error.to_string()));
+                return;
+            }
+        };
+        let settings = Settings { fidelity: self.document.aim(), ..Settings::default() };
+        let (wake, title) = (ctx.clone(), scene.name.clone());
+        let task = Task::start(
+            "pin",
+            move |_| wake.request_repaint(),
+            move |cancel, tell| {
+                // Built-in presets are solved by this method, and a run that was cancelled has nobody who waits for it.
+                if let Ok(solved) = runs(&[scene], &settings, cancel, &|_| ())
+                    && !cancel.is_cancelled()
+                {
+                    solved.into_iter().for_each(tell);
+                }
+            },
+        );
+        match task {
+            Ok(task) => self.pins.wait(title, task),
+            Err(error) => self.modal = Some(Modal::Error(format!("The preset cannot be solved: {error}"))),
+        }
+    }
+
+    /// Another scene, as one edit.
+    pub(super) fn change_scene(&mut self, next: Scene) {
+        if self.document.change(next, self.document.aim()) {
+            self.comparison.edited();
+            self.refusals.clear();
+            self.refine();
+        }
+    }
+}

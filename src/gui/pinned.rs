@@ -1,0 +1,291 @@
+//! Runs that were pinned to be compared: what they are called, their colours, and the numbers of all of them.
+
+use super::views::overlay::Kept;
+use crate::analysis::compare::{ParameterRow, ResultRow, Run, parameters, results, unique};
+use crate::job::task::Task;
+use crate::scene::Scene;
+use std::sync::Arc;
+
+/// What is asked of the pins.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pinning {
+    /// Pins the run on screen.
+    Shown,
+    /// Solves a built-in preset in the background and pins it.
+    Preset(&'static str),
+    /// Forgets a preset that is being solved.
+    Forget(u64),
+    /// Calls a pin something else.
+    Rename(u64, String),
+    /// Takes a pin away.
+    Remove(u64),
+    /// Takes all pins away.
+    Clear,
+    /// Makes the scene of a pin the present scene: one edit.
+    Open(u64),
+    /// Shows this of them.
+    Look(Page),
+    /// Lists all parameters, or only those that differ.
+    AllParameters(bool),
+}
+
+/// What is shown of the pins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Page {
+    /// Their fields, in motion.
+    #[default]
+    Fields,
+    /// Their parameters and results.
+    Numbers,
+}
+
+/// One pinned run, beside its entry in [`Pins::runs`].
+#[derive(Debug)]
+pub struct Pin {
+    /// Its own number, which no other pin ever has.
+    pub id: u64,
+    /// Which colour.
+    pub slot: usize,
+    /// What drawings need.
+    pub kept: Kept,
+}
+
+/// A preset that is being solved.
+#[derive(Debug)]
+pub struct Waiting {
+    /// Its own number.
+    pub id: u64,
+    /// Name of its scene.
+    pub name: String,
+    task: Task<Run>,
+}
+
+/// All pins, the first being what differences are from.
+#[derive(Debug, Default)]
+pub struct Pins {
+    pins: Vec<Pin>,
+    runs: Vec<Run>,
+    results: Vec<ResultRow>,
+    parameters: Vec<ParameterRow>,
+    waiting: Vec<Waiting>,
+    next: u64,
+    /// What is shown.
+    pub page: Page,
+    /// Whether parameters are listed that do not differ.
+    pub all_parameters: bool,
+    note: Option<String>,
+}
+
+impl Pins {
+    /// The pins, in the order of [`Self::runs`].
+    pub fn pins(&self) -> &[Pin] {
+        &self.pins
+    }
+
+    /// The pinned runs.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Their numbers, computed when the pins change.
+    pub fn results(&self) -> &[ResultRow] {
+        &self.results
+    }
+
+    /// Their parameters.
+    pub fn parameters(&self) -> &[ParameterRow] {
+        &self.parameters
+    }
+
+    /// Presets that are being solved.
+    pub fn waiting(&self) -> &[Waiting] {
+        &self.waiting
+    }
+
+    /// What became of the last request, if that cannot be seen.
+    pub fn note(&self) -> Option<&str> {
+        self.note.as_deref()
+    }
+
+    /// A pin by its number.
+    pub fn run(&self, id: u64) -> Option<&Run> {
+        Some(&self.runs[self.place(id)?])
+    }
+
+    fn place(&self, id: u64) -> Option<usize> {
+        self.pins.iter().position(|pin| pin.id == id)
+    }
+
+    fn number(&mut self) -> u64 {
+        self.next += 1;
+        self.next
+    }
+
+    /// Pins `run`; one that is there already, solved the same way, is not pinned twice.
+    pub fn add(&mut self, mut run: Run) {
+        let twin = self.runs.iter().find(|other| other.scene == run.scene && fidelity(other) == fidelity(&run));
+        if let Some(twin) = twin {
+            self.note = Some(format!("“{}” is this run already", twin.label));
+            return;
+        }
+        self.note = run.solved.as_ref().err().map(|reason| format!("{}: {reason}", run.label));
+        if run.solved.is_err() {
+            return;
+        }
+        run.label = self.name_of(&run);
+        let slot = (0..).find(|slot| self.pins.iter().all(|pin| pin.slot != *slot)).unwrap_or_default();
+        let id = self.number();
+        self.pins.push(Pin { id, slot, kept: Kept::new(&run) });
+        self.runs.push(run);
+        self.tabulate();
+    }
+
+    /// The scene's name, and what it differs in from a pin of that name.
+    fn name_of(&self, run: &Run) -> String {
+        let name = &run.scene.name;
+        let taken = |label: &str| self.runs.iter().any(|other| other.label == label);
+        let namesake = self.runs.iter().find(|other| other.scene.name == *name);
+        if let Some(other) = namesake.filter(|_| taken(name)) {
+            let differing: Vec<String> = parameters(&[&other.scene, &run.scene])
+                .iter()
+                .filter(|row| row.differs())
+                .map(|row| {
+                    let value = row.values[1].as_ref().map_or_else(|| "none".to_owned(), ToString::to_string);
+                    format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned()
+                })
+                .collect();
+            match &differing[..] {
+                [] => return unique(&format!("{name}, {}", fidelity(run)), taken),
+                [_] | [_, _] => return unique(&format!("{name}, {}", differing.join(", ")), taken),
+                _ => {}
+            }
+        }
+        unique(name, taken)
+    }
+
+    /// Waits for `task`, which solves a scene of this name.
+    pub fn wait(&mut self, name: String, task: Task<Run>) {
+        let id = self.number();
+        self.note = None;
+        self.waiting.push(Waiting { id, name, task });
+    }
+
+    /// Takes what has been solved since the last time.
+    pub fn drain(&mut self) {
+        let mut solved = Vec::new();
+        let mut failed = None;
+        self.waiting.retain(|waiting| {
+            let (runs, ended) = waiting.task.drain();
+            if ended && runs.is_empty() {
+                failed = Some(format!("{} could not be solved", waiting.name));
+            }
+            solved.extend(runs);
+            !ended
+        });
+        self.note = failed.or(self.note.take());
+        solved.into_iter().for_each(|run| self.add(run));
+    }
+
+    /// Forgets a preset that is being solved: cancels it.
+    pub fn forget(&mut self, id: u64) {
+        self.waiting.retain(|waiting| waiting.id != id);
+    }
+
+    /// Calls a pin something else; a name that another has is numbered.
+    pub fn rename(&mut self, id: u64, name: &str) {
+        if let Some(i) = self.place(id) {
+            let label = unique(name, |label| self.runs.iter().enumerate().any(|(j, run)| j != i && run.label == label));
+            self.runs[i].label = label;
+        }
+    }
+
+    /// Takes a pin away.
+    pub fn remove(&mut self, id: u64) {
+        if let Some(i) = self.place(id) {
+            self.pins.remove(i);
+            self.runs.remove(i);
+            self.note = None;
+            self.tabulate();
+        }
+    }
+
+    /// Takes all away, also those that are being solved.
+    pub fn clear(&mut self) {
+        *self = Self { next: self.next, page: self.page, all_parameters: self.all_parameters, ..Self::default() };
+    }
+
+    fn tabulate(&mut self) {
+        self.results = results(&self.runs);
+        self.parameters = parameters(&self.runs.iter().map(|run| &run.scene).collect::<Vec<&Scene>>());
+    }
+}
+
+/// The fidelity that a run was solved at, in a word.
+pub fn fidelity(run: &Run) -> &str {
+    run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
+}
+
+/// A run of the window as one to be compared.
+pub fn of_window(run: &crate::job::Run) -> Run {
+    Run {
+        label: run.scene.name.clone(),
+        scene: run.scene.clone(),
+        problem: run.problem.clone(),
+        solved: Ok(Arc::new(run.solution.clone())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::compare::runs;
+    use crate::control::Cancel;
+    use crate::fidelity::Fidelity;
+    use crate::scene::presets;
+    use crate::solve::Settings;
+
+    fn solved(preset: &str, set: &[(&str, &str)], fidelity: Fidelity) -> Run {
+        let mut scene = presets::find(preset).unwrap();
+        scene.set_all(set.iter().copied()).unwrap();
+        let settings = Settings { fidelity, ..Settings::default() };
+        runs(&[scene], &settings, &Cancel::new(), &|_| ()).unwrap().remove(0)
+    }
+
+    #[test]
+    fn pins_are_told_apart_by_what_differs() {
+        let mut pins = Pins::default();
+        let plate = |set: &[(&str, &str)], fidelity| solved("plate-crossover", set, fidelity);
+        pins.add(plate(&[], Fidelity::Draft));
+        pins.add(plate(&[("plate.frequency_khz", "12")], Fidelity::Draft));
+        pins.add(plate(&[], Fidelity::Standard));
+        pins.add(plate(&[], Fidelity::Draft));
+        let name = &presets::find("plate-crossover").unwrap().name;
+        let labels: Vec<&str> = pins.runs().iter().map(|run| run.label.as_str()).collect();
+        assert_eq!(labels, [name.as_str(), &format!("{name}, frequency 12 kHz"), &format!("{name}, standard")]);
+        assert!(pins.note().unwrap().contains("already"));
+    }
+
+    #[test]
+    fn a_colour_is_used_again_and_names_stay_unique() {
+        let mut pins = Pins::default();
+        for spacing in ["2", "3", "4"] {
+            pins.add(solved("plate-crossover", &[("plate.frequency_khz", spacing)], Fidelity::Draft));
+        }
+        let second = pins.pins()[1].id;
+        pins.remove(second);
+        pins.add(solved("plate-viscous", &[], Fidelity::Draft));
+        let slots: Vec<usize> = pins.pins().iter().map(|pin| pin.slot).collect();
+        assert_eq!(slots, [0, 2, 1]);
+        let last = pins.pins()[2].id;
+        assert!(last > second);
+        pins.rename(last, "one");
+        let first = pins.pins()[0].id;
+        pins.rename(first, "one");
+        assert_eq!(pins.run(first).unwrap().label, "one (2)");
+        pins.rename(first, " one (2)  ");
+        assert_eq!(pins.run(first).unwrap().label, "one (2)");
+        assert_eq!(pins.results()[0].cells.len(), 3);
+        pins.clear();
+        assert!(pins.runs().is_empty() && pins.results().is_empty());
+    }
+}

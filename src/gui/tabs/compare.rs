@@ -1,0 +1,318 @@
+//! Pinned runs beside each other: who they are, their fields in phase, and their numbers with differences from the first.
+
+use crate::analysis::compare::{ParameterRow, Run};
+use crate::analysis::quantity::Quantity;
+use crate::export::compare::{difference_text, value_text};
+use crate::gui::command::Command;
+use crate::gui::keys;
+use crate::gui::panels::labels::label;
+use crate::gui::panels::menu::{COMPARISON, export_button, presets_menu};
+use crate::gui::panels::parameters::capitalised;
+use crate::gui::pinned::{Page, Pinning, Pins, fidelity};
+use crate::gui::state::View;
+use crate::gui::theme::{Palette, run_colour};
+use crate::gui::views::overlay::{self, Overlaid};
+use crate::scene::Scene;
+use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
+
+/// Widest field for a label, in heights of the text.
+const WIDEST_LABEL: f32 = 16.0;
+/// Between a pin's parts.
+const CHIP_MARGIN: i8 = 4;
+const CHIP_GAP: f32 = 5.0;
+/// With more runs than this, differences stand below the values instead of beside them.
+const BESIDE: usize = 3;
+
+/// What the tab shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// The pins.
+    pub pins: &'a Pins,
+    /// The scene as edited.
+    pub scene: &'a Scene,
+    /// Whether there is a run on screen to pin.
+    pub solved: bool,
+    /// Whether the theme is dark.
+    pub dark: bool,
+}
+
+/// Shows the tab.
+pub fn show(ui: &mut Ui, shown: &Shown<'_>, view: &mut View, colours: &Palette, commands: &mut Vec<Command>) {
+    let pins = shown.pins;
+    if pins.runs().is_empty() && pins.waiting().is_empty() {
+        introduction(ui, shown, colours, commands);
+        return;
+    }
+    chips(ui, shown, colours, commands);
+    if let Some(note) = pins.note() {
+        ui.add(egui::Label::new(RichText::new(note).color(colours.alarm)).wrap());
+    }
+    if pins.runs().is_empty() {
+        return;
+    }
+    ui.add_space(2.0);
+    match pins.page {
+        Page::Fields => {
+            let overlaid: Vec<Overlaid<'_>> = pins
+                .pins()
+                .iter()
+                .zip(pins.runs())
+                .map(|(pin, run)| Overlaid {
+                    id: pin.id,
+                    colour: run_colour(pin.slot, shown.dark),
+                    run,
+                    kept: &pin.kept,
+                })
+                .collect();
+            overlay::show(ui, &overlaid, view, commands);
+        }
+        Page::Numbers => numbers(ui, shown, colours, commands),
+    }
+}
+
+fn introduction(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
+    ui.add_space(8.0);
+    let text = "Pin a run, change the scene, pin the next: their waves, pressures and loads are laid over each other in \
+                phase, their maps share one scale of colours, and a table tells what differs.";
+    ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
+    ui.add_space(6.0);
+    ui.horizontal_wrapped(|ui| add_buttons(ui, shown, commands));
+    if let Some(note) = shown.pins.note() {
+        ui.add(egui::Label::new(RichText::new(note).color(colours.alarm)).wrap());
+    }
+}
+
+/// What adds a pin.
+fn add_buttons(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    let pin = Command::Pin(Pinning::Shown);
+    let button = ui.add_enabled(shown.solved, egui::Button::new("Pin the run on screen"));
+    if button.on_hover_text(keys::of(&pin)).clicked() {
+        commands.push(pin);
+    }
+    ui.menu_button("Pin a preset ▾", |ui| {
+        presets_menu(ui, |name| Command::Pin(Pinning::Preset(name)), commands);
+    });
+}
+
+/// Who is pinned: the legend of all drawings.
+fn chips(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
+    let pins = shown.pins;
+    ui.horizontal_wrapped(|ui| {
+        for (page, name) in [(Page::Fields, "Fields"), (Page::Numbers, "Numbers")] {
+            if ui.selectable_label(pins.page == page, name).clicked() {
+                commands.push(Command::Pin(Pinning::Look(page)));
+            }
+        }
+        ui.separator();
+        add_buttons(ui, shown, commands);
+        if pins.runs().len() > 1 && ui.button("Remove all").clicked() {
+            commands.push(Command::Pin(Pinning::Clear));
+        }
+        if pins.runs().len() > 1 {
+            export_button(ui, COMPARISON, commands);
+        }
+    });
+    ui.add_space(2.0);
+    ui.horizontal_wrapped(|ui| {
+        for (pin, run) in pins.pins().iter().zip(pins.runs()) {
+            let colour = run_colour(pin.slot, shown.dark);
+            chip(ui, pin.id, run, colour, run.scene == *shown.scene, commands);
+        }
+        for waiting in pins.waiting() {
+            frame(ui, colours.quiet).show(ui, |ui| {
+                ui.spinner();
+                ui.label(&waiting.name);
+                let forget = ui.small_button("✕").on_hover_text("Do not pin it");
+                if forget.accessible_name(format!("Do not pin {}", waiting.name)).clicked() {
+                    commands.push(Command::Pin(Pinning::Forget(waiting.id)));
+                }
+            });
+        }
+    });
+}
+
+fn frame(ui: &Ui, colour: Color32) -> egui::Frame {
+    let fill = ui.visuals().extreme_bg_color;
+    egui::Frame::new().fill(fill).stroke((1.0, colour)).corner_radius(5).inner_margin(egui::Margin::same(CHIP_MARGIN))
+}
+
+fn chip(ui: &mut Ui, id: u64, run: &Run, colour: Color32, present: bool, commands: &mut Vec<Command>) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    let font = TextStyle::Body.resolve(ui.style());
+    let wide = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
+    let button = |text: &str| wide(text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
+    // All but the label.
+    let rest = 2.0 * f32::from(CHIP_MARGIN) + em + CHIP_GAP + button("✕") + if present { 0.0 } else { button("Open") };
+    let label = wide(&run.label) + 4.0;
+    let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
+    // In one piece, so that it is a whole that goes to the next line.
+    let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
+    let row = egui::Layout::left_to_right(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, row, |ui| chip_parts(ui, id, run, (colour, label), present, commands));
+}
+
+fn chip_parts(
+    ui: &mut Ui,
+    id: u64,
+    run: &Run,
+    (colour, label): (Color32, f32),
+    present: bool,
+    commands: &mut Vec<Command>,
+) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    frame(ui, colour).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.x = CHIP_GAP;
+        let (swatch, _) = ui.allocate_exact_size(vec2(0.8 * em, 0.8 * em), Sense::hover());
+        ui.painter().rect_filled(swatch, 2.0, colour);
+        name_field(ui, id, run, label, commands);
+        if !present {
+            let open = ui.small_button("Open").on_hover_text("Makes this the present scene; undo brings back what was");
+            if open.accessible_name(format!("Open {}", run.label)).clicked() {
+                commands.push(Command::Pin(Pinning::Open(id)));
+            }
+        }
+        let remove = ui.small_button("✕").on_hover_text("Remove this pin");
+        if remove.accessible_name(format!("Remove {}", run.label)).clicked() {
+            commands.push(Command::Pin(Pinning::Remove(id)));
+        }
+    });
+}
+
+/// The label, to be typed over; Enter or leaving takes it, Escape does not.
+fn name_field(ui: &mut Ui, pin: u64, run: &Run, width: f32, commands: &mut Vec<Command>) {
+    let id = Id::unique(("label of a pin", pin));
+    let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
+    let field = egui::TextEdit::singleline(&mut text)
+        .id(id)
+        .frame(egui::Frame::NONE)
+        .clip_text(true)
+        .margin(egui::Margin::ZERO)
+        .align(egui::Align2::LEFT_CENTER)
+        .min_size(vec2(width, ui.spacing().interact_size.y))
+        .desired_width(width);
+    let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
+    let response = ui.add(field).on_hover_text(about);
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, format!("Label of {}", run.label))
+    });
+    if response.lost_focus() {
+        let escaped = ui.input(|input| input.key_pressed(Key::Escape));
+        if !escaped && text != run.label {
+            commands.push(Command::Pin(Pinning::Rename(pin, text)));
+        }
+        ui.data_mut(|data| data.remove::<String>(id));
+    } else if response.changed() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    }
+}
+
+/// Results and parameters of all pins.
+fn numbers(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
+    let pins = shown.pins;
+    let quiet = |text: &str| RichText::new(text).color(colours.quiet);
+    egui::ScrollArea::both().id_salt("numbers of pins").auto_shrink(false).show(ui, |ui| {
+        let [motors, plates] = ["motor", "plate"].map(|kind| pins.runs().iter().any(|run| run.scene.scene() == kind));
+        if pins.runs().len() < 2 {
+            ui.label(quiet("Pin another run to see differences"));
+        } else {
+            ui.label(quiet("Differences are from the first. The ± is the solver's estimate of its numerical error"));
+        }
+        if motors && plates {
+            ui.label(quiet("Motors and plates have few numbers in common; what one does not have is left empty"));
+        }
+        ui.add_space(4.0);
+        ui.label(RichText::new("Results").strong());
+        results(ui, shown, colours);
+        ui.add_space(10.0);
+        ui.label(RichText::new("Parameters").strong());
+        let mut differing = !pins.all_parameters;
+        if ui.checkbox(&mut differing, "Only those that differ").changed() {
+            commands.push(Command::Pin(Pinning::AllParameters(!differing)));
+        }
+        let rows: Vec<&ParameterRow> =
+            pins.parameters().iter().filter(|row| pins.all_parameters || row.differs()).collect();
+        if rows.is_empty() {
+            let text = if pins.runs().len() < 2 { "There is nothing to differ from" } else { "None differs" };
+            ui.label(quiet(text));
+        } else {
+            parameters(ui, shown, &rows, colours);
+        }
+        ui.add_space(8.0);
+    });
+}
+
+/// The labels above the columns, in the colours of the curves.
+fn heads(ui: &mut Ui, shown: &Shown<'_>, beside: bool, colours: &Palette) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    ui.label("");
+    for (i, (pin, run)) in shown.pins.pins().iter().zip(shown.pins.runs()).enumerate() {
+        ui.scope(|ui| {
+            ui.set_max_width(11.0 * em);
+            let text = RichText::new(&run.label).color(run_colour(pin.slot, shown.dark)).strong();
+            ui.add(egui::Label::new(text).wrap()).on_hover_text(&run.label);
+        });
+        if beside && i > 0 {
+            ui.label(RichText::new("difference").color(colours.quiet));
+        }
+    }
+    ui.end_row();
+}
+
+fn grid(id: &str, columns: usize) -> egui::Grid {
+    egui::Grid::new(id).num_columns(columns).striped(true).spacing([18.0, 4.0])
+}
+
+fn results(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette) {
+    let count = shown.pins.runs().len();
+    let beside = count <= BESIDE;
+    grid("results of pins", if beside { 2 * count } else { count + 1 }).show(ui, |ui| {
+        heads(ui, shown, beside, colours);
+        for row in shown.pins.results() {
+            let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
+            let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
+            ui.label(strong(capitalised(&row.quantity.label())));
+            for (i, cell) in row.cells.iter().enumerate() {
+                if beside {
+                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
+                    if i > 0 {
+                        let difference = RichText::new(difference_text(cell)).color(colours.quiet);
+                        ui.add(egui::Label::new(difference).extend());
+                    }
+                    continue;
+                }
+                ui.vertical(|ui| {
+                    ui.spacing_mut().item_spacing.y = 0.0;
+                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
+                    let difference = difference_text(cell);
+                    if !difference.is_empty() {
+                        ui.add(egui::Label::new(RichText::new(difference).color(colours.quiet)).extend());
+                    }
+                });
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn parameters(ui: &mut Ui, shown: &Shown<'_>, rows: &[&ParameterRow], colours: &Palette) {
+    grid("parameters of pins", shown.pins.runs().len() + 1).show(ui, |ui| {
+        heads(ui, shown, false, colours);
+        for row in rows {
+            let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
+            ui.label(format!("{}{unit}", label(row.parameter))).on_hover_text(row.parameter.key);
+            for value in &row.values {
+                match value {
+                    Some(value) => {
+                        let text = RichText::new(value.to_string());
+                        ui.label(if row.differs() { text.strong() } else { text.color(colours.quiet) });
+                    }
+                    None => {
+                        let text = row.parameter.absent.map_or("–", |_| "none");
+                        ui.label(RichText::new(text).color(colours.quiet));
+                    }
+                }
+            }
+            ui.end_row();
+        }
+    });
+}

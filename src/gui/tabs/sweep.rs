@@ -1,0 +1,266 @@
+//! One parameter varied, or two: what is asked for, the points as they are solved, and any number of their results.
+
+use crate::analysis::quantity::Quantity;
+use crate::analysis::sweep::Ending;
+use crate::fidelity::Fidelity;
+use crate::gui::command::Command;
+use crate::gui::panels::labels::label;
+use crate::gui::panels::menu::{SWEEP, export_button};
+use crate::gui::panels::parameters::capitalised;
+use crate::gui::sweeping::{AxisForm, Form, Sweeping, Sweeps, Swept, candidates};
+use crate::gui::theme::Palette;
+use crate::gui::views::swept::{self, Plotted};
+use crate::problem::Problem;
+use crate::scene::{Parameter, Scene};
+use eframe::egui::accesskit::Role;
+use eframe::egui::{self, ComboBox, RichText, TextStyle, Ui, WidgetInfo};
+use std::time::Instant;
+
+/// Names of the groups of parameters, by table.
+const TABLES: &[(&str, &str)] = &[
+    ("motor", "Motor"),
+    ("stator", "Stator"),
+    ("rotor", "Rotor"),
+    ("plate", "Plate"),
+    ("film", "Film"),
+    ("numerics", "Numerics"),
+];
+
+/// What the tab shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// The sweep.
+    pub sweeps: &'a Sweeps,
+    /// The scene as edited.
+    pub scene: &'a Scene,
+    /// The present moment.
+    pub now: Instant,
+}
+
+/// Shows the tab.
+pub fn show(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
+    let Some(form) = shown.sweeps.form() else { return };
+    // Fields and boxes get an outline: in the light theme their fill is nearly that of the panel.
+    let visuals = ui.visuals_mut();
+    visuals.widgets.inactive.bg_stroke = visuals.widgets.noninteractive.bg_stroke;
+    let good = ask(ui, shown, form, colours, commands);
+    buttons(ui, shown, form, good, commands);
+    let Some(swept) = shown.sweeps.swept() else {
+        introduction(ui, colours);
+        return;
+    };
+    state(ui, shown, swept, colours);
+    let sweep = swept.sweep();
+    let quantity = shown.sweeps.quantity(&sweep.quantities());
+    let present = if swept.stale(shown.scene) { None } else { swept.present(shown.scene) };
+    let plotted =
+        Plotted { sweep, rows: swept.rows(), quantity, published: swept.published(), present: present.as_deref() };
+    swept::show(ui, &plotted, commands);
+}
+
+fn send(commands: &mut Vec<Command>, asked: Sweeping) {
+    commands.push(Command::Sweep(asked));
+}
+
+/// The form; whether it can be begun.
+fn ask(ui: &mut Ui, shown: &Shown<'_>, form: &Form, colours: &Palette, commands: &mut Vec<Command>) -> bool {
+    let mut good = true;
+    for (i, axis) in form.axes().enumerate() {
+        ui.push_id(i, |ui| {
+            ui.horizontal_wrapped(|ui| axis_row(ui, shown.scene, form, i, axis, colours, commands));
+            if let Err(fault) = axis.vary(shown.scene) {
+                good = false;
+                ui.add(egui::Label::new(RichText::new(fault).color(colours.alarm)).wrap());
+            }
+        });
+    }
+    if let Some(refusal) = shown.sweeps.refusal() {
+        ui.add(egui::Label::new(RichText::new(refusal).color(colours.alarm)).wrap());
+    }
+    good
+}
+
+fn axis_row(
+    ui: &mut Ui,
+    scene: &Scene,
+    form: &Form,
+    i: usize,
+    axis: &AxisForm,
+    colours: &Palette,
+    commands: &mut Vec<Command>,
+) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    let which = ["x", "y"][i];
+    ui.label(if i == 0 { "Vary" } else { "and" });
+    let parameter = Parameter::find(axis.key);
+    let chosen = parameter.map_or(axis.key, label);
+    let combo = ComboBox::from_id_salt("parameter").selected_text(chosen).width(11.0 * em).height(24.0 * em).show_ui(
+        ui,
+        |ui| {
+            for (table, title) in TABLES {
+                let group: Vec<_> = candidates(scene).filter(|parameter| parameter.table() == *table).collect();
+                if group.is_empty() {
+                    continue;
+                }
+                ui.label(RichText::new(*title).color(colours.quiet));
+                for parameter in group {
+                    let entry = ui.selectable_label(parameter.key == axis.key, label(parameter));
+                    if entry.on_hover_text(parameter.about).clicked() {
+                        send(commands, Sweeping::Choose(i, parameter.key));
+                    }
+                }
+            }
+        },
+    );
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("Parameter along {which}")));
+    let mut field = |ui: &mut Ui, name: &str, text: &str, wide: f32, send_it: fn(usize, String) -> Sweeping| {
+        let mut text = text.to_owned();
+        let response = ui.add(egui::TextEdit::singleline(&mut text).desired_width(wide * em));
+        response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, format!("{name} along {which}")));
+        if response.changed() {
+            send(commands, send_it(i, text));
+        }
+    };
+    ui.label("from");
+    field(ui, "From", &axis.from, 3.6, Sweeping::From);
+    ui.label("to");
+    field(ui, "To", &axis.to, 3.6, Sweeping::To);
+    if let Some(unit) = parameter.map(|parameter| parameter.unit).filter(|unit| !unit.is_empty()) {
+        ui.label(RichText::new(unit).color(colours.quiet));
+    }
+    field(ui, "Values", &axis.count, 2.2, Sweeping::Count);
+    ui.label("values");
+    let mut log = axis.log;
+    let checkbox =
+        ui.checkbox(&mut log, "log").on_hover_text("Equal ratios from value to value instead of equal steps");
+    let checkbox = checkbox.accessible_name(format!("Equal ratios along {which}"));
+    if checkbox.changed() {
+        send(commands, Sweeping::Log(i, log));
+    }
+    if i == 0 && !form.second {
+        let more = ui.button("Add a second…").on_hover_text("A map over two parameters");
+        if more.clicked() {
+            send(commands, Sweeping::Second(true));
+        }
+    } else if i == 1 {
+        let less = ui.small_button("✕").on_hover_text("Back to one parameter");
+        if less.accessible_name("Back to one parameter").clicked() {
+            send(commands, Sweeping::Second(false));
+        }
+    }
+}
+
+fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, commands: &mut Vec<Command>) {
+    let swept = shown.sweeps.swept();
+    ui.horizontal_wrapped(|ui| {
+        match swept.filter(|swept| swept.running()) {
+            Some(swept) => {
+                if ui.button("Cancel the sweep").clicked() {
+                    send(commands, Sweeping::Cancel);
+                }
+                let left = swept.left(shown.now).map_or_else(String::new, |left| format!(", {} left", rough(left)));
+                let text = format!("{} of {}{left}", swept.rows().len(), swept.sweep().len());
+                ui.add(egui::ProgressBar::new(swept.share() as f32).desired_width(190.0).text(text));
+                // What is left grows less even while nothing new is told.
+                ui.ctx().request_repaint_after(std::time::Duration::from_secs(1));
+            }
+            None => {
+                let about = "Solves every point on all cores; the window stays usable";
+                if ui.add_enabled(good, egui::Button::new("Start the sweep")).on_hover_text(about).clicked() {
+                    send(commands, Sweeping::Start);
+                }
+                if let Some(swept) = swept.filter(|swept| !swept.complete()) {
+                    let about = format!("{} of {} points are solved", swept.rows().len(), swept.sweep().len());
+                    if ui.button("Continue").on_hover_text(about).clicked() {
+                        send(commands, Sweeping::Continue);
+                    }
+                }
+                let combo = ComboBox::from_id_salt("fidelity").selected_text(form.fidelity.name()).show_ui(ui, |ui| {
+                    for fidelity in Fidelity::ALL {
+                        if ui.selectable_label(fidelity == form.fidelity, fidelity.name()).clicked() {
+                            send(commands, Sweeping::Fidelity(fidelity));
+                        }
+                    }
+                });
+                combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
+            }
+        }
+        quantity(ui, shown, commands);
+        if swept.is_some_and(|swept| !swept.rows().is_empty()) {
+            export_button(ui, SWEEP, commands);
+        }
+    });
+}
+
+/// What is drawn of the points: changing it solves nothing.
+fn quantity(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    let all: Vec<Quantity> = match shown.sweeps.swept() {
+        Some(swept) => swept.sweep().quantities(),
+        None => match Problem::new(shown.scene) {
+            Ok(problem) => Quantity::of(&problem).collect(),
+            Err(_) => return,
+        },
+    };
+    let present = shown.sweeps.quantity(&all);
+    let em = ui.text_style_height(&TextStyle::Body);
+    let combo = ComboBox::from_id_salt("quantity")
+        .selected_text(capitalised(present.words()))
+        .width(11.0 * em)
+        .height(24.0 * em)
+        .show_ui(ui, |ui| {
+            for quantity in all {
+                if ui.selectable_label(quantity == present, capitalised(&quantity.label())).clicked() {
+                    send(commands, Sweeping::Draw(quantity));
+                }
+            }
+        });
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Result shown"));
+}
+
+fn introduction(ui: &mut Ui, colours: &Palette) {
+    ui.add_space(8.0);
+    for text in [
+        "How do the results of this scene change with one of its parameters, or with two?",
+        "Choose what to vary and start. Every point is a solve of its own, with its own stated error; click one to \
+         make its scene the present one. Nothing is solved before you ask.",
+    ] {
+        ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
+        ui.add_space(4.0);
+    }
+}
+
+/// Of what the points are, and what is wrong with some.
+fn state(ui: &mut Ui, shown: &Shown<'_>, swept: &Swept, colours: &Palette) {
+    let mut say = |text: String, colour| drop(ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap()));
+    if swept.stale(shown.scene) {
+        let text = format!("Swept on “{}” before the scene changed; sweep again", swept.sweep().scene().name);
+        say(text, colours.alarm);
+    }
+    if swept.failed() {
+        say("The sweep ended early; Continue goes on with it".to_owned(), colours.alarm);
+    } else if !swept.running() && !swept.complete() {
+        let text = format!("Cancelled; {} of {} points are solved", swept.rows().len(), swept.sweep().len());
+        say(text, colours.quiet);
+    }
+    let count = |failed: bool| {
+        swept
+            .rows()
+            .iter()
+            .filter(|row| matches!(row.ending, Ending::Failed(_)) == failed && !converged(&row.ending))
+            .count()
+    };
+    for (number, what) in [(count(false), "did not converge"), (count(true), "have no solution")] {
+        if number > 0 {
+            say(format!("{number} of the points {what}: crosses, point at one to read why"), colours.quiet);
+        }
+    }
+}
+
+fn converged(ending: &Ending) -> bool {
+    *ending == Ending::Converged
+}
+
+/// A time that is left, in whole seconds or minutes.
+pub fn rough(seconds: f64) -> String {
+    if seconds < 99.5 { format!("{:.0} s", seconds.max(1.0)) } else { format!("{:.0} min", seconds / 60.0) }
+}
