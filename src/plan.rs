@@ -366,9 +366,19 @@ fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
 /// Effect of the wedge term, relative to α: Λ/σ = U/(2ωb) for what it carries over the ends of a tooth; and for what it
 /// squeezes, U k h/(2ωA), by how much ∂x(hU/2) adds to the wave's ∂h/∂t, h being the mean gap.
 fn wedge_effect(numbers: &Dimensionless, motor: &Motor) -> f64 {
+    sliding_effect(numbers.bearing_to_squeeze, motor)
+}
+
+/// Bound of what the wedge changes, relative to α, if the teeth slide at up to `speed` \[m/s\].
+pub fn wedge_bound(motor: &Motor, speed: f64) -> f64 {
+    let omega = std::f64::consts::TAU * motor.frequency;
+    sliding_effect(speed.abs() / (2.0 * omega * motor.tooth_width), motor)
+}
+
+fn sliding_effect(bearing_to_squeeze: f64, motor: &Motor) -> f64 {
     let wave = std::f64::consts::TAU * motor.tooth_width / motor.wavelength();
     let squeezed = wave * (1.0 + motor.min_spacing / motor.normal_amplitude);
-    (WEDGE_EFFECT * numbers.bearing_to_squeeze * squeezed.max(1.0)).min(1.0)
+    (WEDGE_EFFECT * bearing_to_squeeze * squeezed.max(1.0)).min(1.0)
 }
 
 /// Height of a tooth's crown above its ends \[m\].

@@ -5,17 +5,20 @@ use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureFormat, OutputOptions, SceneOptions, SolveOptions, figure_format};
 use super::progress::Bar;
 use super::{summary, terminal};
+use crate::analysis::torque::Merit;
 use crate::control::{Cancel, Progress};
 use crate::export::csv;
 use crate::export::figure::{FigureError, Format, to_bytes};
 use crate::export::figures;
 use crate::export::folder::Staged;
 use crate::export::json::{Summary, force_unit};
+use crate::export::merit::{MeritObject, write_csv};
 use crate::export::npz;
 use crate::fidelity::Fidelity;
-use crate::problem::Problem;
+use crate::motor::MotorError;
+use crate::problem::{Problem, Scenario};
 use crate::scene::Scene;
-use crate::solution::{Solution, Status};
+use crate::solution::{Outcome, Solution, Status};
 use crate::solve::{Method, solve};
 use clap::Args;
 use rayon::prelude::*;
@@ -40,12 +43,14 @@ Files of --out, with the unit in every column's name:
                  summed over one time_s, is the load in series.csv
   pressure.csv   pressure under one tooth, over one cycle
   fields.npz     all of these fields as NumPy arrays: numpy.load
-  wave, loads, map, convergence (.svg .png)
+  torque.csv     torque, power and efficiency of a motor over the speed of
+                 its rotor, with the film and without (dry_)
+  wave, loads, map, torque, convergence (.svg .png)
                  figures of a motor: surfaces and pressures along the
-                 wave, loads over the cycle, pressure map, rounds of the
-                 solve
-  profile, loads, loop, map, convergence (.svg .png)
-                 figures of a plate
+                 wave, loads over the cycle, pressure map, torque and
+                 power over speed, rounds of the solve
+  profile, loads, loop, map, exact, convergence (.svg .png)
+                 figures of a plate; exact: beside what is known exactly
 Of a symmetric film only the half that was solved is there: y_m >= 0,
 and of a plate x_m >= 0 as well.";
 
@@ -89,13 +94,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("cancelled {reached}"));
         return Ok(Exit::Other);
     }
-    let result = Summary::new(&problem, &solution, wall_s, command);
+    let mut result = Summary::new(&problem, &solution, wall_s, command);
+    let merit = match merit(&problem, settings.fidelity, &solution, &cancel) {
+        Ok(merit) => merit,
+        Err(error) => {
+            result.warnings.push(format!("torque over speed is not known: without film, {error}"));
+            None
+        }
+    };
+    result.merit = merit.as_ref().map(MeritObject::new);
     for warning in &result.warnings {
         terminal::warning(warning);
     }
     terminal::data(&if arguments.output.json { result.to_text() } else { summary::text(&scene, &problem, &result) })?;
     if let Some(folder) = &arguments.output.out {
-        let figures = Figures { formats: &arguments.figures, history: &history };
+        let figures = Figures { formats: &arguments.figures, history: &history, merit: merit.as_ref() };
         match write(folder, &scene, &problem, &solution, &result, &figures, &cancel)? {
             Some(paths) => terminal::note(&written(folder, &paths)),
             None => {
@@ -124,6 +137,9 @@ fn write(
     staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
     staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
     staged.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
+    if let Some(merit) = figures.merit {
+        staged.add("torque.csv", |out| write_csv(merit, out))?;
+    }
     for (name, bytes) in figures.drawn(problem, solution, cancel)? {
         staged.add(&name, |out| out.write_all(&bytes))?;
     }
@@ -133,10 +149,26 @@ fn write(
     Ok(Some(staged.commit()?))
 }
 
-/// Which figures are to be written.
+/// What a designer wants of a motor; nothing of a plate, and if it was cancelled.
+fn merit(
+    problem: &Problem,
+    fidelity: Fidelity,
+    solution: &Solution,
+    cancel: &Cancel,
+) -> Result<Option<Merit>, MotorError> {
+    match (&problem.scenario, &solution.outcome) {
+        (Scenario::Motor(motor), Outcome::Motor(result)) => {
+            Merit::of(motor, &problem.numerics, fidelity, result, &solution.recording, cancel)
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Which figures are to be written, and torque over speed.
 struct Figures<'a> {
     formats: &'a [FigureFormat],
     history: &'a [Progress],
+    merit: Option<&'a Merit>,
 }
 
 impl Figures<'_> {
@@ -153,7 +185,10 @@ impl Figures<'_> {
         if formats.is_empty() {
             return Ok(Vec::new());
         }
-        let figures = figures::of(problem, solution, self.history);
+        let mut figures = figures::of(problem, solution, self.history);
+        if let Some(merit) = self.merit {
+            figures.push(("torque", figures::dressed(problem, solution, figures::torque::torque(merit))));
+        }
         let files: Vec<_> =
             figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
         let draw = |((name, figure), format): &(&(&str, _), _)| {

@@ -1,6 +1,10 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
+use crate::analysis::exact::Comparison;
 use crate::dimensionless::Dimensionless;
+use crate::estimate::Estimate;
+use crate::export::exact::ExactObject;
+use crate::export::merit::MeritObject;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Model, MotorResult, Outcome, PlateResult, Solution, Stats, Status};
 use serde::Serialize;
@@ -69,6 +73,10 @@ pub struct Summary {
     pub bearing_number: Option<f64>,
     /// Kn.
     pub knudsen_number: Option<f64>,
+    /// Torque, power and efficiency (motor), if they were asked for.
+    pub merit: Option<MeritObject>,
+    /// What is known exactly beside what was computed (plate).
+    pub exact: Option<ExactObject>,
     /// Cost.
     pub stats: StatsObject,
     /// What was modelled.
@@ -168,7 +176,12 @@ impl Summary {
             summary.tolerance = numbers.take("tolerance", tolerance);
         }
         match (&problem.scenario, &solution.outcome) {
-            (Scenario::Plate(plate), Outcome::Plate(result)) => summary.fill_plate(plate, result, &mut numbers),
+            (Scenario::Plate(plate), Outcome::Plate(result)) => {
+                summary.fill_plate(plate, result, &mut numbers);
+                let film_load = Estimate { value: result.film_load, error: result.film_load_error };
+                let found = Comparison::of(plate, film_load, &solution.recording);
+                summary.exact = Some(ExactObject::new(&found));
+            }
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 summary.fill_motor(motor, result, &mut numbers);
             }

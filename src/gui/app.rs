@@ -7,6 +7,7 @@ use super::document::Document;
 use super::edit::{Change, Refusals};
 use super::keys;
 use super::measured::{Measured, with_present};
+use super::merits::Merits;
 use super::modal::{self, Modal, PathPrompt};
 use super::panels::model::Model;
 use super::panels::{menu, parameters, results, sheet, timeline};
@@ -22,7 +23,7 @@ use crate::export::tradeoff::{figure, write_csv};
 use crate::fidelity::Fidelity;
 use crate::job::measurement::Measurement;
 use crate::job::{Event, Request, Run, Solver};
-use crate::problem::{Numerics, Problem};
+use crate::problem::{Numerics, Problem, Scenario};
 use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -117,6 +118,7 @@ pub struct App {
     picture: Option<Arc<egui::ColorImage>>,
     comparison: Comparison,
     measured: Option<Measured>,
+    merits: Merits,
     modal: Option<Modal>,
     /// What to do after a save that a question led to.
     after_save: Option<Command>,
@@ -174,6 +176,7 @@ impl App {
             picture: None,
             comparison: Comparison::default(),
             measured: None,
+            merits: Merits::default(),
             modal: None,
             after_save: None,
             sheet: false,
@@ -211,6 +214,11 @@ impl App {
     /// Error against time, if it was measured.
     pub fn measured(&self) -> Option<&Measured> {
         self.measured.as_ref()
+    }
+
+    /// Torque over speed, if its tab was shown.
+    pub fn merits(&self) -> &Merits {
+        &self.merits
     }
 
     /// What the switches of the model changed.
@@ -272,6 +280,7 @@ impl App {
         if let Some(measured) = &mut self.measured {
             measured.drain();
         }
+        self.merits.drain();
         let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
         for (purpose, answer) in answers {
             match (purpose, answer) {
@@ -602,6 +611,9 @@ impl eframe::App for App {
             ctx.request_repaint_after(Duration::from_millis(16));
         }
         self.last_frame = Some(now);
+        if let (Tab::Torque, Some(run)) = (self.view.tab, &self.shown) {
+            self.merits.follow(run, ctx);
+        }
         let mut commands = Vec::new();
         keys::pressed(ctx, self.modal.is_some() || self.sheet, self.view.tab, &mut commands);
         let dropped: Vec<PathBuf> = ctx.input(|input| {
@@ -660,10 +672,15 @@ impl eframe::App for App {
             });
         }
         egui::CentralPanel::default().show(ui, |ui| {
-            tabs::labels(ui, self.view.tab, &mut commands);
+            let plate = matches!(self.document.scene().kind, Kind::Plate { .. });
+            tabs::labels(ui, self.view.tab, plate, &mut commands);
             match (self.view.tab, &shown) {
                 (Tab::Motion, Some(run)) => views::show(ui, run, &mut self.view, &mut commands),
-                (Tab::Motion, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+                (Tab::Torque, Some(run)) => match run.problem.scenario {
+                    Scenario::Motor(_) => tabs::torque::show(ui, run, &self.merits, &palette),
+                    Scenario::Plate(_) => tabs::exact::show(ui, run, &palette),
+                },
+                (Tab::Motion | Tab::Torque, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
                 (Tab::Tradeoff, _) => {
                     let shown = tabs::tradeoff::Shown {
                         scene: self.document.scene(),

@@ -70,7 +70,8 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         "Window",
         &[
             always(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
-            always(key(CTRL, Key::Num2), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+            always(key(CTRL, Key::Num2), "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
+            always(key(CTRL, Key::Num3), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
             always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),

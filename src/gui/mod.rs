@@ -11,6 +11,7 @@ pub mod document;
 pub mod edit;
 pub mod keys;
 pub mod measured;
+pub mod merits;
 pub mod modal;
 pub mod panels;
 pub mod state;

@@ -8,13 +8,16 @@ pub enum Tab {
     /// The cycle of the present run, animated.
     #[default]
     Motion,
+    /// Of a motor, torque and power over speed; of a plate, what is known exactly beside what was computed.
+    Torque,
     /// Error against solve time.
     Tradeoff,
 }
 
 impl Tab {
     /// All, in the order of their labels.
-    pub const ALL: &[(Self, &str)] = &[(Self::Motion, "Motion"), (Self::Tradeoff, "Trade-off")];
+    pub const ALL: &[(Self, &str)] =
+        &[(Self::Motion, "Motion"), (Self::Torque, "Torque"), (Self::Tradeoff, "Trade-off")];
 }
 
 /// How the present run is looked at.
