@@ -632,7 +632,7 @@ fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
     {
         window.get_by_label(name);
     }
-    window.get_by_label_contains("A model without film needs the friction coefficient 0.528");
+    window.get_by_label_contains("A model without film needs the friction coefficient 0.527");
     window.get_by_label("Point at a chart to read its values");
     window.get_by_role_and_label(Role::Image, "Power, W").hover();
     window.run_steps(3);
@@ -681,7 +681,7 @@ fn a_plate_has_exact_results_in_place_of_torque() {
         for name in ["Spring and damping against the squeeze number", "Load over the cycle and its limits"] {
             window.get_by_role_and_label(Role::Image, name);
         }
-        for name in ["Spring S", "Damping D", "Invariant, greatest deviation"] {
+        for name in ["Spring S", "Damping D", "Invariant, off by"] {
             window.get_by_label(name);
         }
         window.get_by_label_contains("κ²");

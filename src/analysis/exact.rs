@@ -230,7 +230,7 @@ mod tests {
                 }
                 set
             };
-            let (_, recording, found) = compared("plate-viscous", &with(&[("plate.frequency_khz", "0.02")]));
+            let (_, recording, found) = compared("plate-viscous", &with(&[("plate.frequency_khz", "0.001")]));
             let off = far(&recording.film_load, &found.limits.viscous);
             assert!(off < 0.02, "incompressible, width {width}: {off} at {}", found.effective_squeeze_number);
             let (_, recording, found) = compared("plate-trapped", &with(&[("plate.frequency_khz", "500")]));

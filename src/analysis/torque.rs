@@ -206,8 +206,8 @@ pub struct Performance {
     pub no_load_speed: Option<Estimate>,
     /// Greatest output \[W\].
     pub max_power: Estimate,
-    /// Speed of the greatest output \[m/s\].
-    pub max_power_speed: Estimate,
+    /// Speed of the greatest output \[m/s\]; `None` without contact.
+    pub max_power_speed: Option<Estimate>,
     /// Greatest efficiency; `None` without contact.
     pub max_efficiency: Option<Estimate>,
     /// Its speed \[m/s\].
@@ -307,7 +307,7 @@ impl Scaled<'_> {
             stall_torque: if driven { self.scaled(unit, |drive| drive.at(0.0).0) } else { Estimate::default() },
             no_load_speed: driven.then(|| self.scaled(v0, |drive| drive.no_load().unwrap_or(0.0))),
             max_power: self.scaled(power, |drive| output(drive).1),
-            max_power_speed: self.scaled(v0, |drive| output(drive).0),
+            max_power_speed: driven.then(|| self.scaled(v0, |drive| output(drive).0)),
             max_efficiency: driven.then(|| self.scaled(relative, |drive| efficient(drive).1)),
             max_efficiency_speed: driven.then(|| self.scaled(v0, |drive| efficient(drive).0)),
             present: self.point(self.motor.rotor_speed),

@@ -105,7 +105,7 @@ impl PerformanceObject {
         let [max_torque_nm, max_torque_error_nm] = pair(Some(found.max_torque));
         let [no_load_speed_rpm, no_load_speed_error_rpm] = pair(found.no_load_speed.map(rpm));
         let [max_power_w, max_power_error_w] = pair(Some(found.max_power));
-        let [max_power_speed_rpm, max_power_speed_error_rpm] = pair(Some(rpm(found.max_power_speed)));
+        let [max_power_speed_rpm, max_power_speed_error_rpm] = pair(found.max_power_speed.map(rpm));
         let [max_efficiency, max_efficiency_error] = pair(found.max_efficiency);
         let [max_efficiency_speed_rpm, max_efficiency_speed_error_rpm] = pair(found.max_efficiency_speed.map(rpm));
         Self {

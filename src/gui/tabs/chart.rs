@@ -7,6 +7,10 @@ use egui_plot::{GridInput, GridMark, LineStyle, Plot};
 const NUMBERS: f32 = 3.6;
 /// A number at the left at most every so many heights of the text.
 const NUMBER_EVERY: f32 = 2.6;
+/// A number below at most every so many.
+const COLUMN_EVERY: f32 = 4.5;
+/// A line without gaps. As one long path it would be drawn thinner where it is steep; this is a chain of segments.
+pub(super) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
@@ -14,6 +18,7 @@ const SAMPLE: f32 = 1.5;
 pub(super) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
     let em = ui.text_style_height(&TextStyle::Body);
     let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
+    let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
     Plot::new(id.to_owned())
         .height(height)
         .allow_zoom(false)
@@ -27,7 +32,10 @@ pub(super) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
         .show_y(false)
         .grid_color(ui.visuals().widgets.noninteractive.bg_stroke.color)
         .y_axis_min_width(NUMBERS * em)
+        .x_grid_spacer(move |input| round_ticks(&input, columns))
         .y_grid_spacer(move |input| round_ticks(&input, lines))
+        .x_axis_formatter(|mark, _| tick(mark))
+        .y_axis_formatter(|mark, _| tick(mark))
         .label_formatter(|_| None)
         .set_margin_fraction(egui::Vec2::ZERO)
 }
@@ -53,6 +61,7 @@ pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) 
             match style {
                 LineStyle::Solid => drop(ui.painter().line_segment(ends, stroke)),
                 LineStyle::Dashed { length } => {
+                    // A solid one is one dash.
                     ui.painter().extend(egui::Shape::dashed_line(&ends, stroke, *length, 0.6 * length));
                 }
                 LineStyle::Dotted { spacing } => {
@@ -75,6 +84,12 @@ pub(super) fn powers(input: &GridInput, most: f64) -> Vec<GridMark> {
     let every = (count / most.max(1.0)).ceil().max(1.0);
     let [first, last] = [(from / every).ceil() as i64, (to / every).floor() as i64];
     (first..=last).map(|k| GridMark { value: k as f64 * every, step_size: every }).collect()
+}
+
+/// As many decimals as the steps between ticks need, with a true minus sign.
+fn tick(mark: GridMark) -> String {
+    let decimals = (-mark.step_size.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
+    format!("{:.decimals$}", mark.value + 0.0).replace('-', "−")
 }
 
 /// Ticks at 1, 2 or 5 times a power of ten, at most about `most`.
@@ -105,6 +120,8 @@ mod tests {
         assert_eq!(values(&round_ticks(&input((-30.0, 150.0)), 5.0)), [0.0, 50.0, 100.0, 150.0]);
         assert_eq!(values(&powers(&input((-1.5, 3.4)), 10.0)), [-1.0, 0.0, 1.0, 2.0, 3.0]);
         assert_eq!(values(&powers(&input((-4.0, 5.0)), 3.0)), [-3.0, 0.0, 3.0]);
+        let texts: Vec<String> = round_ticks(&input((-0.5, 1.6)), 5.0).into_iter().map(tick).collect();
+        assert_eq!(texts, ["−0.5", "0.0", "0.5", "1.0", "1.5"]);
         for bounds in [(0.0, 0.0), (f64::NEG_INFINITY, f64::INFINITY)] {
             assert!(round_ticks(&input(bounds), 4.0).is_empty() && powers(&input(bounds), 4.0).is_empty());
         }

@@ -1,13 +1,14 @@
 //! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
 //! invariant.
 
-use super::chart::{chart, legend, powers, title};
+use super::chart::{SOLID, chart, legend, powers, title};
 use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
 use crate::estimate::Estimate;
-use crate::export::digits::{significant, with_error};
+use crate::export::digits::significant;
 use crate::export::json::force_unit;
 use crate::fidelity::Fidelity;
 use crate::gui::panels::convergence::power_of_ten;
+use crate::gui::panels::results::uncertain;
 use crate::gui::theme::Palette;
 use crate::job::Run;
 use crate::problem::{Plate, Scenario};
@@ -26,6 +27,8 @@ const AROUND: f64 = 2.5;
 const BEYOND: f64 = 0.6;
 /// A limit whose range is at most this many times that of the load is shown whole.
 const WHOLE: f64 = 2.0;
+/// A tab wider than this, in heights of the text, has room for a column of remarks.
+const WIDE: f32 = 28.0;
 const WIDTH: f32 = 2.0;
 const RADIUS: f32 = 5.0;
 
@@ -149,8 +152,8 @@ pub fn show(ui: &mut Ui, run: &Run, colours: &Palette) {
     let height = ui.available_height();
     let known = Known::of(ui, run, plate);
     egui::ScrollArea::vertical().id_salt("exact").auto_shrink(false).show(ui, |ui| {
-        // Room for the scroll bar, which floats.
-        ui.set_max_width(ui.available_width() - 8.0);
+        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
+        ui.set_max_width(ui.available_width() - 14.0);
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         title(ui, "Spring and damping against the squeeze number");
@@ -179,9 +182,9 @@ fn coefficients(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
     legend(
         ui,
         &[
-            (spring.0, spring.1, LineStyle::Solid),
-            (damping.0, damping.1, LineStyle::Solid),
-            ("present σ/Q, points as computed", colours.accent, LineStyle::Solid),
+            (spring.0, spring.1, SOLID),
+            (damping.0, damping.1, SOLID),
+            ("present σ/Q, points as computed", colours.accent, SOLID),
         ],
     );
     let em = ui.text_style_height(&TextStyle::Body);
@@ -199,7 +202,13 @@ fn coefficients(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
         let present = known.comparison.effective_squeeze_number.log10();
         plot.vline(VLine::new("", present).color(colours.accent).width(1.5).allow_hover(false));
         for (points, (_, colour)) in [(&known.spring, spring), (&known.damping, damping)] {
-            plot.line(Line::new("", PlotPoints::from(points.clone())).color(colour).width(WIDTH).allow_hover(false));
+            plot.line(
+                Line::new("", PlotPoints::from(points.clone()))
+                    .color(colour)
+                    .width(WIDTH)
+                    .style(SOLID)
+                    .allow_hover(false),
+            );
         }
         for (value, (_, colour)) in computed.into_iter().flatten().zip([spring, damping]) {
             plot.points(Points::new("", vec![[present, value]]).color(colour).radius(RADIUS).allow_hover(false));
@@ -214,7 +223,7 @@ fn cycle(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
     legend(
         ui,
         &[
-            ("computed", colours.film, LineStyle::Solid),
+            ("computed", colours.film, SOLID),
             ("gas trapped, Boyle (σ → ∞)", boyle, dash),
             ("incompressible (σ → 0)", viscous, LineStyle::dashed_dense()),
         ],
@@ -227,7 +236,7 @@ fn cycle(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
         let lines = [
             (&known.boyle, boyle, dash),
             (&known.viscous, viscous, LineStyle::dashed_dense()),
-            (&known.load, colours.film, LineStyle::Solid),
+            (&known.load, colours.film, SOLID),
         ];
         for (points, colour, style) in lines {
             let line = Line::new("", PlotPoints::from(points.clone())).color(colour).width(WIDTH);
@@ -261,33 +270,38 @@ fn table(ui: &mut Ui, known: &Known, colours: &Palette) {
             "Part of the load in phase with the speed of the approach, over p_a · area · ε",
         ],
         [
-            "Mean pressure ⟨P⟩",
+            "Mean pressure",
             &stated(found.mean_pressure),
             &number(found.trapped_mean_pressure),
             "for σ → ∞",
-            "Mean over plate and cycle, over ambient pressure; it saturates as σ grows (Langlois 1962, Salbu 1964)",
+            "⟨P⟩: mean over plate and cycle, over ambient pressure; it saturates as σ grows (Langlois 1962, Salbu 1964)",
         ],
         [
-            "Invariant, greatest deviation",
+            "Invariant, off by",
             &invariant,
             "0 %",
             "at every σ and ε",
-            "How far ⟨hΦ⟩ at any point of the film is from its exact value: a check of the solution that needs no other one",
+            "How far ⟨H (Z²/2 + 6mZ)⟩ at any point of the film is from its exact value: a check of the solution that needs no other one",
         ],
     ];
-    let grid = egui::Grid::new("exact").num_columns(4).striped(true).spacing([18.0, 4.0]);
+    // In a narrow tab when the exact value holds is said on hover alone.
+    let wide = ui.available_width() > WIDE * ui.text_style_height(&TextStyle::Body);
+    let grid = egui::Grid::new("exact").num_columns(if wide { 4 } else { 3 }).striped(true).spacing([14.0, 4.0]);
     egui::ScrollArea::horizontal().id_salt("exact table").auto_shrink(true).show(ui, |ui| {
         grid.show(ui, |ui| {
-            for head in ["", "Computed", "Exact", ""] {
+            for head in ["", "Computed", "Exact"] {
                 ui.label(RichText::new(head).color(colours.quiet));
             }
             ui.end_row();
             for [name, computed, exact, when, about] in rows {
-                ui.label(RichText::new(name).color(colours.quiet)).on_hover_text(about);
+                let about = format!("{about}\nExact {when}");
+                ui.label(RichText::new(name).color(colours.quiet)).on_hover_text(&about);
                 for value in [computed, exact] {
-                    ui.label(RichText::new(value).color(ui.visuals().strong_text_color())).on_hover_text(about);
+                    ui.label(RichText::new(value).color(ui.visuals().strong_text_color())).on_hover_text(&about);
                 }
-                ui.label(RichText::new(when).color(colours.quiet));
+                if wide {
+                    ui.label(RichText::new(when).color(colours.quiet));
+                }
                 ui.end_row();
             }
         });
@@ -295,7 +309,7 @@ fn table(ui: &mut Ui, known: &Known, colours: &Palette) {
 }
 
 fn stated(found: Estimate) -> String {
-    with_error(found.value, found.error).replace('-', "−")
+    uncertain(found.value, found.error)
 }
 
 fn number(value: f64) -> String {

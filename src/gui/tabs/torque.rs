@@ -1,11 +1,12 @@
 //! Torque, power and efficiency of a motor over the speed of its rotor, with the film and without it, and what a designer
 //! reads off them.
 
-use super::chart::{chart, legend, title};
+use super::chart::{SOLID, chart, legend, title};
 use crate::analysis::torque::{Merit, Performance, Point};
 use crate::estimate::Estimate;
-use crate::export::digits::{significant, with_error};
+use crate::export::digits::significant;
 use crate::gui::merits::Merits;
+use crate::gui::panels::results::uncertain;
 use crate::gui::theme::Palette;
 use crate::job::Run;
 use crate::problem::{Motor, Scenario};
@@ -29,8 +30,8 @@ pub fn show(ui: &mut egui::Ui, run: &Run, merits: &Merits, colours: &Palette) {
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let height = ui.available_height();
     egui::ScrollArea::vertical().id_salt("torque").auto_shrink(false).show(ui, |ui| {
-        // Room for the scroll bar, which floats.
-        ui.set_max_width(ui.available_width() - 8.0);
+        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
+        ui.set_max_width(ui.available_width() - 14.0);
         match merits.found() {
             None => drop(ui.label("Solving the contact without film…")),
             Some(Err(why)) => {
@@ -55,10 +56,10 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, height: f32, colours: 
     legend(
         ui,
         &[
-            ("with film", film, LineStyle::Solid),
+            ("with film", film, SOLID),
             ("without film", dry, LineStyle::dashed_loose()),
             ("friction heat, with film", heat, LineStyle::dashed_dense()),
-            ("rotor speed of the scene", colours.accent, LineStyle::Solid),
+            ("rotor speed of the scene", colours.accent, SOLID),
         ],
     );
     let em = ui.text_style_height(&TextStyle::Body);
@@ -74,22 +75,16 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, height: f32, colours: 
     let efficiency: Value<'_> = &|point| point.efficiency.map(|share| 100.0 * share);
     let dash = LineStyle::dashed_loose();
     let charts = [
-        (
-            "Torque of the ring, N·m",
-            vec![(curve(without, torque), dry, dash), (curve(with, torque), film, LineStyle::Solid)],
-        ),
+        ("Torque of the ring, N·m", vec![(curve(without, torque), dry, dash), (curve(with, torque), film, SOLID)]),
         (
             "Power, W",
             vec![
                 (curve(with, friction), heat, LineStyle::dashed_dense()),
                 (curve(without, output), dry, dash),
-                (curve(with, output), film, LineStyle::Solid),
+                (curve(with, output), film, SOLID),
             ],
         ),
-        (
-            "Efficiency, %",
-            vec![(curve(without, efficiency), dry, dash), (curve(with, efficiency), film, LineStyle::Solid)],
-        ),
+        ("Efficiency, %", vec![(curve(without, efficiency), dry, dash), (curve(with, efficiency), film, SOLID)]),
     ];
     let side_by_side = ui.available_width() > BESIDE * em;
     let mut one = |ui: &mut egui::Ui, i: usize, bottom: bool| {
@@ -189,7 +184,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
         let rpm = |found: Estimate| Estimate { value: merit.rpm(found.value), error: merit.rpm(found.error) };
         stated(found.map(rpm), 1.0, "rpm")
     };
-    let present = format!("Torque at {} rpm", short(merit.rpm(motor.rotor_speed)));
+    let present = format!("Torque at {} rpm", trimmed(merit.rpm(motor.rotor_speed)));
     type Cell<'a> = Box<dyn Fn(&Performance) -> String + 'a>;
     let rows: Vec<(&str, Cell<'_>, &str)> = vec![
         ("Stall torque", Box::new(|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Torque on the rotor at rest"),
@@ -208,7 +203,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
             Box::new(|of| stated(Some(of.max_power), 1.0, "W")),
             "Torque times angular speed of the rotor, at the speed where it is greatest",
         ),
-        ("at", Box::new(move |of| speed(Some(of.max_power_speed))), "The speed of the greatest output"),
+        ("at", Box::new(move |of| speed(of.max_power_speed)), "The speed of the greatest output"),
         (
             "Greatest efficiency",
             Box::new(|of| stated(of.max_efficiency, 100.0, "%")),
@@ -245,24 +240,29 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
 
 /// What else follows, in sentences.
 fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
-    let dry = stated(Some(merit.dry_equivalent), 1.0, "");
-    let lines = [
-        format!(
-            "A model without film needs the friction coefficient {} for this torque, where {} was measured.",
-            dry.trim_end(),
-            short(motor.dry_friction)
-        ),
-        format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")),
-        format!(
-            "The film's own drag is at most {} N·m. Pressures are those of the scene's rotor speed; at another speed the film \
-             changes the torque by less than {} %.",
-            short(merit.viscous_drag.abs()),
-            significant(100.0 * merit.speed_effect, 2)
-        ),
-    ];
-    for line in lines {
-        quiet(ui, colours, &line);
+    let drag = significant(1e6 * merit.viscous_drag.abs(), 2);
+    quiet(
+        ui,
+        colours,
+        &format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")),
+    );
+    quiet(ui, colours, &format!("The film's own viscous drag, not counted here, is at most {drag} µN·m."));
+    if merit.with_film.no_load_speed.is_none() {
+        quiet(ui, colours, "No tooth touches the rotor: nothing but that drag drives it.");
+        return;
     }
+    let dry = stated(Some(merit.dry_equivalent), 1.0, "");
+    let text = format!(
+        "A model without film needs the friction coefficient {} for the same greatest torque, instead of {}.",
+        dry.trim_end(),
+        trimmed(motor.dry_friction)
+    );
+    quiet(ui, colours, &text);
+    let text = format!(
+        "Pressures are those of the scene's rotor speed; at another speed the film changes the torque by less than {} %.",
+        significant(100.0 * merit.speed_effect, 2)
+    );
+    quiet(ui, colours, &text);
 }
 
 fn quiet(ui: &mut egui::Ui, colours: &Palette, text: &str) {
@@ -275,8 +275,8 @@ fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
         || "none".to_owned(),
         |found| {
             let [value, error] = [found.value, found.error].map(|number| number * factor);
-            let text = if error == 0.0 { significant(value, 4) } else { with_error(value, error) };
-            format!("{text} {unit}").replace('-', "−")
+            let text = if error == 0.0 { short(value) } else { uncertain(value, error) };
+            format!("{text} {unit}")
         },
     )
 }
@@ -284,4 +284,10 @@ fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
 /// Four digits, with a true minus sign.
 fn short(value: f64) -> String {
     significant(value, 4).replace('-', "−")
+}
+
+/// A number of the scene as it was given: conversions leave a last bit that nobody wrote.
+fn trimmed(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{rounded}")
 }
