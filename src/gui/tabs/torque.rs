@@ -217,7 +217,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
             "Friction stress times sliding speed, over all contacts and the cycle",
         ),
     ];
-    let grid = egui::Grid::new("figures of merit").num_columns(3).striped(true).spacing([18.0, 4.0]);
+    let grid = egui::Grid::new("figures of merit").num_columns(3).striped(true).spacing([10.0, 4.0]);
     // Wider than the tab only in a small window with large text.
     egui::ScrollArea::horizontal().id_salt("figures of merit").auto_shrink(true).show(ui, |ui| {
         grid.show(ui, |ui| {
