@@ -253,7 +253,7 @@ fn table(ui: &mut Ui, known: &Known, colours: &Palette) {
         Some(solved) => [solved.spring, solved.damping].map(stated),
         None => ["nothing vibrates"; 2].map(str::to_owned),
     };
-    let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), |share| percent(share));
+    let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
     let rows = [
         [
             "Spring S",
