@@ -6,7 +6,7 @@
 //! third-order remainder would be a seventh of it), but never less than a fraction of the correction itself.
 
 /// A result and its estimated absolute error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// The extrapolated result.
     pub value: f64,

@@ -5,6 +5,7 @@
 //! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
 
 pub mod measurement;
+pub mod merit;
 pub mod task;
 
 use crate::control::{Cancel, Progress};

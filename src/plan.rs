@@ -405,13 +405,28 @@ fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
 /// * if the rotor turns, how far that carries gas along a tooth, V_R τ/(2b), until it has leaked out of the closed film after
 ///   τ = 1/(π² D (1/b² + 1/w²)).
 fn wedge_effect(numbers: &Dimensionless, motor: &Motor) -> f64 {
+    let shifted = (0.5 * motor.tangential_amplitude / numbers.boundary_layer).powi(2).min(1.0);
+    let oscillating = sliding_effect(numbers.bearing_to_squeeze, motor) + WEDGE_EFFECT * shifted * end_share(motor);
+    (oscillating + carried(numbers, motor, motor.rotor_speed)).min(1.0)
+}
+
+/// Bound of what the wedge changes, relative to α, if the rotor's speed changes by `speed` \[m/s\].
+pub fn wedge_bound(motor: &Motor, speed: f64) -> f64 {
+    let omega = std::f64::consts::TAU * motor.frequency;
+    let sliding = sliding_effect(speed.abs() / (2.0 * omega * motor.tooth_width), motor);
+    (sliding + carried(&Dimensionless::of_motor(motor), motor, speed)).min(1.0)
+}
+
+fn sliding_effect(bearing_to_squeeze: f64, motor: &Motor) -> f64 {
     let wave = std::f64::consts::TAU * motor.tooth_width / motor.wavelength();
     let squeezed = wave * (1.0 + motor.min_spacing / motor.normal_amplitude);
-    let shifted = (0.5 * motor.tangential_amplitude / numbers.boundary_layer).powi(2).min(1.0);
-    let oscillating = numbers.bearing_to_squeeze * squeezed.max(1.0) + shifted * end_share(motor);
+    WEDGE_EFFECT * bearing_to_squeeze * squeezed.max(1.0)
+}
+
+/// How far steady sliding at `speed` \[m/s\] carries gas along a tooth until it has leaked out, over twice its length.
+fn carried(numbers: &Dimensionless, motor: &Motor, speed: f64) -> f64 {
     let wavenumber = std::f64::consts::PI.powi(2) * (motor.tooth_width.powi(-2) + motor.contact_width.powi(-2));
-    let carried = 0.5 * motor.rotor_speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width);
-    (WEDGE_EFFECT * oscillating + carried).min(1.0)
+    0.5 * speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width)
 }
 
 /// Share of a tooth whose gas is, in the long run, that of its ends rather than of its sides.

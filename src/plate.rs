@@ -46,6 +46,7 @@ pub fn periodic(
     let mut loads = Vec::new();
     let mut status = Status::Cancelled;
     let mut recording = Recording::default();
+    let mut coarser = Vec::new();
     for (number, grid) in plan.grids.iter().enumerate() {
         let mut level = Level::new(plate, plan, grid);
         let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
@@ -59,11 +60,14 @@ pub fn periodic(
         stats.steps_per_cycle = grid.steps;
         if status == Status::Cancelled || number + 1 == plan.grids.len() {
             recording = level.recording(plate, plan.maps);
+        } else {
+            coarser.push(level.loads());
         }
         if status == Status::Cancelled {
             break;
         }
     }
+    recording.coarser_film_load = coarser;
     let estimate = extrapolate(&loads);
     let result = PlateResult {
         film_load: estimate.value,
@@ -277,6 +281,14 @@ impl Level {
         let x = &self.cycle.grid().x;
         let sum: f64 = (0..self.line.len()).map(|i| self.line_load(i) * x.lengths[i % x.len()]).sum();
         x.copies() * sum / self.steps as f64
+    }
+
+    /// Film load at each step \[N\].
+    fn loads(&self) -> Vec<f64> {
+        let x = &self.cycle.grid().x;
+        let nx = x.len();
+        let at = |m: usize| (0..nx).map(|i| self.line_load(m * nx + i) * x.lengths[i]).sum::<f64>() * x.copies();
+        (0..self.steps).map(at).collect()
     }
 
     fn recording(&self, plate: &Plate, maps: bool) -> Recording {

@@ -51,6 +51,34 @@ pub struct Recording {
     pub min_film_thickness: Vec<f64>,
     /// Per frame: greatest pressure on any tooth \[Pa\].
     pub max_pressure: Vec<f64>,
+    /// The line loads on the coarser grids of the same solve, coarse to fine: what is made of them has its error from these.
+    /// Empty if there was one grid only, and of a plate.
+    pub coarser: Vec<LineLoads>,
+    /// Film load of a plate over the cycle \[N\] on the coarser grids, coarse to fine.
+    pub coarser_film_load: Vec<Vec<f64>>,
+}
+
+/// Contact and film of a motor over one cycle on one grid, in the conventions of [`Recording`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LineLoads {
+    /// Frames in the cycle.
+    pub frames: usize,
+    /// Length along x of one period of the scene, the wavelength \[m\].
+    pub length: f64,
+    /// Teeth in a wavelength.
+    pub teeth: usize,
+    /// Teeth stored: 1 (lag symmetry) or `teeth`.
+    pub stored_teeth: usize,
+    /// Pitch of the teeth \[m\].
+    pub pitch: f64,
+    /// Node positions from the tooth's middle \[m\], `nodes`.
+    pub x: Vec<f64>,
+    /// Length of tooth that each node stands for \[m\], `nodes`.
+    pub node_length: Vec<f64>,
+    /// Contact line load \[N/m\], `[tooth][frame][node]` over the stored teeth.
+    pub contact: Vec<f64>,
+    /// Film's net gauge line load \[N/m\], likewise; zero without film.
+    pub film: Vec<f64>,
 }
 
 impl Recording {
@@ -85,6 +113,21 @@ impl Recording {
             self.teeth_in_contact.push(touching);
             self.min_film_thickness.push(least);
             self.max_pressure.push(most);
+        }
+    }
+
+    /// Contact and film alone.
+    pub fn line_loads(&self) -> LineLoads {
+        LineLoads {
+            frames: self.frames,
+            length: self.length,
+            teeth: self.teeth,
+            stored_teeth: self.stored_teeth,
+            pitch: self.pitch,
+            x: self.x.clone(),
+            node_length: self.node_length.clone(),
+            contact: self.contact.clone(),
+            film: self.film.clone(),
         }
     }
 

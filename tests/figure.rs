@@ -315,7 +315,7 @@ fn a_description_survives_json() {
 #[test]
 fn every_scene_has_its_figures() {
     let motor = ["wave", "loads", "map"];
-    let plate = ["profile", "loads", "loop", "map"];
+    let plate = ["profile", "loads", "loop", "map", "exact"];
     for (preset, changes, expected) in [
         ("fundamental", vec![], motor.as_slice()),
         ("levitating", vec![], &motor),

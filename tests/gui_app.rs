@@ -324,6 +324,13 @@ fn edit_spacing(window: &mut Harness<'static, App>, text: &str) {
     type_into(window, "Minimum spacing H_m in nm", text);
 }
 
+/// Presses the keys of a tab.
+fn show(window: &mut Harness<'static, App>, tab: Tab) {
+    let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
+    let place = Tab::ALL.iter().position(|(other, _)| *other == tab).unwrap();
+    window.key_press_modifiers(Modifiers::COMMAND, keys[place]);
+}
+
 /// Types into the field of a parameter.
 fn type_into(window: &mut Harness<'static, App>, field: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, field).click();
@@ -499,7 +506,7 @@ fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
     let mut window = window("fundamental");
     solved(&mut window);
     window.get_by_label("Pause");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
+    show(&mut window, Tab::Tradeoff);
     window.run_steps(3);
     assert_eq!(window.state().view().tab, Tab::Tradeoff);
     assert!(window.query_by_label("Pause").is_none() && window.query_by_label("Time in the cycle").is_none());
@@ -520,7 +527,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tall_window(little);
     solved(&mut window);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
+    show(&mut window, Tab::Tradeoff);
     window.run_steps(2);
     window.get_by_label("Measure").click();
     window.run_steps(2);
@@ -582,7 +589,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
 #[test]
 fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
     let mut window = tall_window(endless);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
+    show(&mut window, Tab::Tradeoff);
     window.run_steps(2);
     window.get_by_label("Measure").click();
     window.run_steps(2);
@@ -600,4 +607,84 @@ fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
     window.run_steps(2);
     assert!(window.state().measured().unwrap().running());
     drop(window);
+}
+
+/// Whether torque over speed is known of the run on screen.
+fn has_torque(app: &App) -> bool {
+    app.shown().is_some_and(|run| app.merits().is_of(run))
+}
+
+#[test]
+fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
+    let mut window = tall_window(little);
+    solved(&mut window);
+    assert!(window.state().merits().found().is_none(), "nothing is computed for a tab that is not shown");
+    show(&mut window, Tab::Torque);
+    window.run_steps(2);
+    until(&mut window, "torque over speed", has_torque);
+    window.run_steps(2);
+    let merit = |window: &Harness<'static, App>| window.state().merits().found().unwrap().as_ref().unwrap().clone();
+    let before = merit(&window);
+    for name in ["Torque of the ring, N·m", "Power, W", "Efficiency, %"] {
+        window.get_by_role_and_label(Role::Image, name);
+    }
+    for name in ["Stall torque", "No-load speed", "Greatest output", "Greatest efficiency", "With film", "Without film"]
+    {
+        window.get_by_label(name);
+    }
+    window.get_by_label_contains("A model without film needs the friction coefficient 0.527");
+    window.get_by_label("Point at a chart to read its values");
+    window.get_by_role_and_label(Role::Image, "Power, W").hover();
+    window.run_steps(3);
+    window.get_by_label_contains("rpm: with film");
+
+    // The film carries more under smoother faces, and the curve falls.
+    edit_spacing(&mut window, "100");
+    solved(&mut window);
+    until(&mut window, "torque of the edited scene", has_torque);
+    let after = merit(&window);
+    assert!(after.with_film.stall_torque.value < 0.8 * before.with_film.stall_torque.value);
+    assert_eq!(after.without_film.max_torque, before.without_film.max_torque);
+    // Back in the motion nothing more is computed.
+    show(&mut window, Tab::Motion);
+    edit_spacing(&mut window, "150");
+    solved(&mut window);
+    window.run_steps(2);
+    assert!(!has_torque(window.state()));
+}
+
+#[test]
+fn a_floating_rotor_and_a_still_stator_have_a_torque_tab_too() {
+    let mut window = window("levitating");
+    solved(&mut window);
+    show(&mut window, Tab::Torque);
+    window.run_steps(2);
+    until(&mut window, "torque over speed", has_torque);
+    window.run_steps(2);
+    assert!(window.query_all_by_label("none").next().is_some());
+    type_into(&mut window, "Tangential amplitude in µm", "0");
+    solved(&mut window);
+    until(&mut window, "torque over speed", has_torque);
+    window.run_steps(2);
+    window.get_by_label_contains("it drives nothing");
+}
+
+#[test]
+fn a_plate_has_exact_results_in_place_of_torque() {
+    for preset in ["plate-crossover", "plate-viscous", "plate-trapped"] {
+        let mut window = window(preset);
+        solved(&mut window);
+        window.get_by_label("Exact");
+        assert!(window.query_by_label("Torque").is_none());
+        show(&mut window, Tab::Torque);
+        window.run_steps(3);
+        for name in ["Spring and damping against the squeeze number", "Load over the cycle and its limits"] {
+            window.get_by_role_and_label(Role::Image, name);
+        }
+        for name in ["Spring S", "Damping D", "Invariant, off by"] {
+            window.get_by_label(name);
+        }
+        window.get_by_label_contains("κ²");
+        assert!(window.state().merits().found().is_none());
+    }
 }

@@ -18,8 +18,10 @@ use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::dialogs::Answer;
+use squeezefilm::gui::state::Tab;
 use squeezefilm::gui::world::World;
-use squeezefilm::problem::Problem;
+use squeezefilm::job::Run;
+use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::presets;
 use squeezefilm::solve::Method;
 use std::sync::OnceLock;
@@ -31,6 +33,7 @@ const SMALL: [f32; 2] = [1024.0, 700.0];
 const THEME: (Modifiers, Key) = (Modifiers::COMMAND, Key::T);
 const LECTURE: (Modifiers, Key) = (Modifiers::COMMAND, Key::L);
 const SHEET: (Modifiers, Key) = (Modifiers::NONE, Key::F1);
+const TORQUE: (Modifiers, Key) = (Modifiers::COMMAND, Key::Num4);
 const OPEN: (Modifiers, Key) = (Modifiers::COMMAND, Key::O);
 
 const LOOKS: &[Look] = &[
@@ -41,6 +44,12 @@ const LOOKS: &[Look] = &[
     ("levitating-small-light", "levitating", SMALL, &[THEME]),
     ("plate-dark", "plate-crossover", USUAL, &[]),
     ("plate-small-light", "plate-trapped", SMALL, &[THEME]),
+    ("torque-dark", "fundamental", USUAL, &[TORQUE]),
+    ("torque-lecture", "fundamental", USUAL, &[LECTURE, TORQUE]),
+    ("torque-small-light", "tooth-radius-6.5m", SMALL, &[THEME, TORQUE]),
+    ("exact-dark", "plate-crossover", USUAL, &[TORQUE]),
+    ("exact-lecture", "plate-viscous", USUAL, &[LECTURE, TORQUE]),
+    ("exact-small-light", "plate-trapped", SMALL, &[THEME, TORQUE]),
     ("shortcuts-lecture", "plate-viscous", USUAL, &[LECTURE, SHEET]),
 ];
 
@@ -123,6 +132,16 @@ fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'s
         window.key_press_modifiers(*modifiers, *key);
         settle(&mut window);
     }
+    // What a tab computes in the background.
+    for _ in 0..1000 {
+        let app = window.state();
+        let waits = app.view().tab == Tab::Torque && app.shown().is_some_and(|run| needs_torque(app, run));
+        if !waits {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+        window.step();
+    }
     settle(&mut window);
     window
 }
@@ -185,6 +204,11 @@ fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> 
     window
 }
 
+/// Whether torque over speed is still to come.
+fn needs_torque(app: &App, run: &Run) -> bool {
+    matches!(run.problem.scenario, Scenario::Motor(_)) && !app.merits().is_of(run)
+}
+
 /// Until panels have their sizes and nothing fades in any more.
 fn settle(window: &mut Harness<'static, App>) {
     window.run_steps(20);
@@ -226,7 +250,7 @@ fn the_window_looks_as_it_did() {
         window.snapshot(name);
         results.extend_harness(&mut window);
     }
-    let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num4)]);
+    let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num5)]);
     window.get_by_label("Measure").click();
     window.run_steps(2);
     until(&mut window, "measured", |app| app.measured().is_some_and(|measured| !measured.running()));

@@ -5,10 +5,12 @@
 
 pub mod attempt;
 pub mod compare;
+pub mod exact;
 pub mod quantity;
 pub mod regime;
 pub mod reproduce;
 pub mod stability;
 pub mod sweep;
 pub mod table1;
+pub mod torque;
 pub mod tradeoff;

@@ -6,6 +6,7 @@ use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::{summary, terminal};
+use crate::analysis::torque::Merit;
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::{Summary, force_unit};
 use crate::fidelity::Fidelity;
@@ -34,12 +35,14 @@ Files of --out, with the unit in every column's name:
                  summed over one time_s, is the load in series.csv
   pressure.csv   pressure under one tooth, over one cycle
   fields.npz     all of these fields as NumPy arrays: numpy.load
-  wave, loads, map, convergence (.svg .png)
+  torque.csv     torque, power and efficiency of a motor over the speed of
+                 its rotor, with the film and without (dry_)
+  wave, loads, map, torque, convergence (.svg .png)
                  figures of a motor: surfaces and pressures along the
-                 wave, loads over the cycle, pressure map, rounds of the
-                 solve
-  profile, loads, loop, map, convergence (.svg .png)
-                 figures of a plate
+                 wave, loads over the cycle, pressure map, torque and
+                 power over speed, rounds of the solve
+  profile, loads, loop, map, exact, convergence (.svg .png)
+                 figures of a plate; exact: beside what is known exactly
 Of a symmetric film only the half that was solved is there: y_m >= 0,
 and of a plate x_m >= 0 as well.";
 
@@ -82,13 +85,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("cancelled {reached}"));
         return Ok(Exit::Other);
     }
-    let result = Summary::new(&problem, &solution, wall_s, command);
+    let mut result = Summary::new(&problem, &solution, wall_s, command);
+    let merit = result.add_merit(Merit::of_solve(&problem, settings.fidelity, &solution, &cancel));
     for warning in &result.warnings {
         terminal::warning(warning);
     }
     terminal::data(&if arguments.output.json { result.to_text() } else { summary::text(&scene, &problem, &result) })?;
     if let Some(folder) = &arguments.output.out {
-        let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &history };
+        let solved =
+            Solved { scene: &scene, problem: &problem, solution: &solution, history: &history, merit: merit.as_ref() };
         let control = Control { cancel: &cancel, drawn: &|_, _| () };
         match files::solve(folder, &solved, &result, &arguments.figures.formats(), &control) {
             Err(ExportError::Cancelled) => {

@@ -4,7 +4,9 @@ use super::columns::{Columns, paragraph};
 use crate::analysis::regime;
 use crate::dimensionless::Dimensionless;
 use crate::export::digits::{significant, with_error};
+use crate::export::exact::ExactObject;
 use crate::export::json::Summary;
+use crate::export::merit::{MeritObject, PerformanceObject};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::Scene;
 use std::fmt::Write as _;
@@ -25,6 +27,12 @@ pub(super) fn text(scene: &Scene, problem: &Problem, summary: &Summary) -> Strin
         Scenario::Plate(plate) => plate_rows(&mut columns, plate, summary),
     }
     text.push_str(&columns.text("  ", &[]));
+    if let (Some(merit), Scenario::Motor(motor)) = (&summary.merit, &problem.scenario) {
+        text.push('\n');
+        let mut columns = Columns::new();
+        merit_rows(&mut columns, motor, merit);
+        text.push_str(&columns.text("  ", &[]));
+    }
     text.push('\n');
     let mut columns = Columns::new();
     number_rows(&mut columns, &Dimensionless::of(problem));
@@ -86,6 +94,40 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     extremes(columns, summary, &spacing, motor.gas.ambient_pressure);
 }
 
+/// Torque, power and efficiency over speed; the last column is the same motor in a vacuum.
+fn merit_rows(columns: &mut Columns, motor: &Motor, merit: &MeritObject) {
+    let (wet, dry) = (&merit.with_film, &merit.without_film);
+    let number = |value: Option<f64>, error: Option<f64>, factor: f64, unit: &str| match value {
+        Some(value) if error == Some(0.0) => format!("{} {unit}", shown(value * factor)),
+        Some(value) => format!("{} {unit}", with_error(value * factor, error.map_or(f64::INFINITY, |e| e * factor))),
+        None => "none".to_owned(),
+    };
+    let without = |text: String| format!("{text} without film");
+    let mut row = |name: &str, value: &dyn Fn(&PerformanceObject) -> String| {
+        columns.row([name, &value(wet), &without(value(dry))]);
+    };
+    row("stall torque", &|of| number(of.stall_torque_nm, of.stall_torque_error_nm, 1.0, "N·m"));
+    row("no-load speed", &|of| number(of.no_load_speed_rpm, of.no_load_speed_error_rpm, 1.0, "rpm"));
+    row("greatest output", &|of| number(of.max_power_w, of.max_power_error_w, 1.0, "W"));
+    row("  at", &|of| number(of.max_power_speed_rpm, of.max_power_speed_error_rpm, 1.0, "rpm"));
+    row("greatest efficiency", &|of| number(of.max_efficiency, of.max_efficiency_error, 100.0, "%"));
+    row("  at", &|of| number(of.max_efficiency_speed_rpm, of.max_efficiency_speed_error_rpm, 1.0, "rpm"));
+    if motor.rotor_speed != 0.0 {
+        let speed = format!("torque at {} rpm", plain(or_nan(wet.present.speed_rpm)));
+        row(&speed, &|of| number(of.present.torque_nm, of.present.torque_error_nm, 1.0, "N·m"));
+    }
+    columns.row([
+        "power lost in the film",
+        &number(merit.film_power_w, merit.film_power_error_w, 1.0, "W"),
+        "squeezed by the stator, mean over the cycle",
+    ]);
+    columns.row([
+        "friction of a dry model",
+        number(merit.dry_equivalent_friction, merit.dry_equivalent_friction_error, 1.0, "").trim_end(),
+        &format!("explains the same torque as {} with the film", plain(motor.dry_friction)),
+    ]);
+}
+
 fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
     let area = match plate.width {
         Some(_) => "of p_a × area, mean over the cycle",
@@ -102,8 +144,40 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
         &format!("{} … {}", shown(or_nan(summary.load_ratio_min)), shown(or_nan(summary.load_ratio_max))),
         "least and greatest in the cycle",
     ]);
+    if let Some(exact) = &summary.exact {
+        exact_rows(columns, exact);
+    }
     let mean = format!("the mean gap is {} nm", plain(plate.mean_gap * 1e9));
     extremes(columns, summary, &mean, plate.gas.ambient_pressure);
+}
+
+/// What is known exactly beside what was computed.
+fn exact_rows(columns: &mut Columns, exact: &ExactObject) {
+    let limit = |value: Option<f64>, when: &str| format!("exact {} {when}", shown(or_nan(value)));
+    if exact.spring.is_some() {
+        columns.row([
+            "spring of the film",
+            &with_error(or_nan(exact.spring), or_nan(exact.spring_error)),
+            &limit(exact.linear_spring, "for a small amplitude, of p_a × area × ε"),
+        ]);
+        columns.row([
+            "damping of the film",
+            &with_error(or_nan(exact.damping), or_nan(exact.damping_error)),
+            &limit(exact.linear_damping, "for a small amplitude"),
+        ]);
+    }
+    columns.row([
+        "mean pressure ratio",
+        &with_error(or_nan(exact.mean_pressure_ratio), or_nan(exact.mean_pressure_ratio_error)),
+        &limit(exact.trapped_mean_pressure_ratio, "for σ → ∞"),
+    ]);
+    if let Some(deviation) = exact.invariant_deviation {
+        columns.row([
+            "invariant of the cycle",
+            &format!("{} %", significant(100.0 * deviation, 2)),
+            "greatest deviation at any point, exactly 0 for every σ",
+        ]);
+    }
 }
 
 fn film_load(columns: &mut Columns, summary: &Summary) {

@@ -6,9 +6,10 @@ use super::compare::{self, Report, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::folder::{Staged, WriteError, write_file};
 use super::json::{self, Summary};
-use super::{csv, figures, npz, sweep};
+use super::{csv, figures, merit, npz, sweep};
 use crate::analysis::compare::Run;
 use crate::analysis::sweep::{Row, Sweep};
+use crate::analysis::torque::Merit;
 use crate::control::{Cancel, Progress};
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -78,6 +79,8 @@ pub struct Solved<'a> {
     pub solution: &'a Solution,
     /// The rounds, if they were kept.
     pub history: &'a [Progress],
+    /// Torque over speed, of a motor.
+    pub merit: Option<&'a Merit>,
 }
 
 /// Stages a figure under a name, once in each format.
@@ -119,6 +122,9 @@ pub fn solve(
     staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
     staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
     staged.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
+    if let Some(merit) = solved.merit {
+        staged.add("torque.csv", |out| merit::write_csv(merit, out))?;
+    }
     add_figures(&mut staged, solved, formats, control)?;
     control.check()?;
     Ok(staged.commit()?)
@@ -150,7 +156,11 @@ fn add_figures(
     if formats.is_empty() {
         return Ok(());
     }
-    let figures = figures::of(solved.problem, solved.solution, solved.history);
+    let mut figures = figures::of(solved.problem, solved.solution, solved.history);
+    if let Some(merit) = solved.merit {
+        let torque = figures::torque::torque(merit);
+        figures.push(("torque", figures::dressed(solved.problem, solved.solution, torque)));
+    }
     let files: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();
     let drawn = control.counted(files.len(), |done| {
         let draw = |((name, figure), format): &(&(&str, Figure), Format)| {

@@ -1,6 +1,12 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
+use crate::analysis::exact::Comparison;
+use crate::analysis::torque::Merit;
 use crate::dimensionless::Dimensionless;
+use crate::estimate::Estimate;
+use crate::export::exact::ExactObject;
+use crate::export::merit::MeritObject;
+use crate::motor::MotorError;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Model, MotorResult, Outcome, PlateResult, Solution, Stats, Status};
 use serde::Serialize;
@@ -69,6 +75,10 @@ pub struct Summary {
     pub bearing_number: Option<f64>,
     /// Kn.
     pub knudsen_number: Option<f64>,
+    /// Torque, power and efficiency (motor), if they were asked for.
+    pub merit: Option<MeritObject>,
+    /// What is known exactly beside what was computed (plate).
+    pub exact: Option<ExactObject>,
     /// Cost.
     pub stats: StatsObject,
     /// What was modelled.
@@ -142,6 +152,20 @@ impl Numbers {
 }
 
 impl Summary {
+    /// Adds torque over speed, or the warning that it is not known, and returns it.
+    pub fn add_merit(&mut self, found: Result<Option<Merit>, MotorError>) -> Option<Merit> {
+        match found {
+            Ok(merit) => {
+                self.merit = merit.as_ref().map(MeritObject::new);
+                merit
+            }
+            Err(error) => {
+                self.warnings.push(format!("torque over speed is not known: without film, {error}"));
+                None
+            }
+        }
+    }
+
     /// The object of a solution. `wall_s`: how long the solve took, by the caller's clock. `command`: the words of the
     /// command line, kept as they are.
     pub fn new(problem: &Problem, solution: &Solution, wall_s: f64, command: &[String]) -> Self {
@@ -168,7 +192,12 @@ impl Summary {
             summary.tolerance = numbers.take("tolerance", tolerance);
         }
         match (&problem.scenario, &solution.outcome) {
-            (Scenario::Plate(plate), Outcome::Plate(result)) => summary.fill_plate(plate, result, &mut numbers),
+            (Scenario::Plate(plate), Outcome::Plate(result)) => {
+                summary.fill_plate(plate, result, &mut numbers);
+                let film_load = Estimate { value: result.film_load, error: result.film_load_error };
+                let found = Comparison::of(plate, film_load, &solution.recording);
+                summary.exact = Some(ExactObject::new(&found));
+            }
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 summary.fill_motor(motor, result, &mut numbers);
             }

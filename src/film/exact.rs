@@ -49,16 +49,26 @@ pub fn linear_rectangle(squeeze_number: f64, knudsen: f64, aspect: f64) -> (f64,
     // −iσ'/q² [1 − tanh(qa/2)/(qa/2)], q² = n²π² + iσ'. Load = Σ 8/(n²π²) ⟨f_n⟩.
     let sigma = squeeze_number / (1.0 + 6.0 * knudsen);
     let mut load = Complex::new(0.0, 0.0);
-    for n in (1..20_001).step_by(2) {
+    for n in (1..MOST_TERMS).step_by(2) {
         let k = f64::from(n) * PI;
         let square = Complex::new(k * k, sigma);
         let half = square.sqrt() * (0.5 * aspect);
         let tanh = if half.re > 20.0 { Complex::new(1.0, 0.0) } else { half.tanh() };
         let profile = Complex::new(1.0, 0.0) - tanh / half;
-        load += -Complex::new(0.0, sigma) / square * profile * (8.0 / (k * k));
+        let term = -Complex::new(0.0, sigma) / square * profile * (8.0 / (k * k));
+        load += term;
+        // Terms fall at least as 1/n²: what is left is no more than n/2 times the last.
+        if f64::from(n) * term.norm() < 2.0 * SERIES_TOLERANCE * load.norm() {
+            break;
+        }
     }
     (load.re, load.im)
 }
+
+/// A series ends when what is left of it is below this share.
+const SERIES_TOLERANCE: f64 = 1e-10;
+/// Or here.
+const MOST_TERMS: i32 = 20_001;
 
 /// Force per metre of an incompressible strip film (σ → 0), −μ b³ ḣ/h³/(1 + 6 λ_a/h) \[N/m\], from viscosity \[Pa s\], length
 /// b \[m\], gap h \[m\], its rate ḣ \[m/s\] and the mean free path \[m\].
@@ -66,9 +76,46 @@ pub fn viscous_strip_force(viscosity: f64, length: f64, gap: f64, rate: f64, mea
     -viscosity * length.powi(3) * rate / gap.powi(3) / (1.0 + 6.0 * mean_free_path / gap)
 }
 
+/// Force of an incompressible film under a rectangle \[N\], of `width` along y \[m\] beside what the strip has: the strip's, times
+/// the width, times 1 − (192/π⁵)(b/w) Σ tanh(nπw/2b)/n⁵, n odd, by which a duct's flow falls short of a slit's.
+pub fn viscous_rectangle_force(
+    viscosity: f64,
+    length: f64,
+    width: f64,
+    gap: f64,
+    rate: f64,
+    mean_free_path: f64,
+) -> f64 {
+    width * rectangle_to_strip(width / length) * viscous_strip_force(viscosity, length, gap, rate, mean_free_path)
+}
+
+/// Incompressible load of a rectangle of length 1 and width `aspect`, for each unit of width, over that of a strip.
+pub fn rectangle_to_strip(aspect: f64) -> f64 {
+    let sum: f64 = (1..400)
+        .step_by(2)
+        .map(|n| {
+            let n = f64::from(n);
+            (0.5 * n * PI * aspect).tanh() / n.powi(5)
+        })
+        .sum();
+    1.0 - 192.0 / PI.powi(5) / aspect * sum
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_viscous_rectangle_looks_the_same_from_both_sides_and_is_the_slow_limit() {
+        let force = |b: f64, w: f64| viscous_rectangle_force(2.0, b, w, 0.3, 0.7, 0.01);
+        assert!((force(1.0, 0.4) / force(0.4, 1.0) - 1.0).abs() < 1e-9);
+        assert!((force(1.0, 1e6) / (1e6 * viscous_strip_force(2.0, 1.0, 0.3, 0.7, 0.01)) - 1.0).abs() < 1e-5);
+        for aspect in [0.2, 1.0, 7.0] {
+            let slow = 1e-4;
+            let damping = -linear_rectangle(slow, 0.0, aspect).1;
+            assert!((damping / (slow / 12.0 * rectangle_to_strip(aspect)) - 1.0).abs() < 1e-6, "{aspect}");
+        }
+    }
 
     #[test]
     fn trapped_mean_pressure_without_slip_is_langlois() {

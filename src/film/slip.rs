@@ -4,6 +4,7 @@
 //! function of the local Knudsen number Kn = λ_a/Z only. Every law here has |d ln ψ/d ln Z| ≤ 1, which makes the
 //! Jacobian of the discrete film an M-matrix (`film::stepper`).
 
+use crate::numerics::gauss_legendre;
 use crate::problem::{Gas, Slip};
 
 /// ψ and dψ/dZ of a slip law.
@@ -123,9 +124,91 @@ impl Mobility for SlipLaw {
     }
 }
 
+/// Φ(Z) = ∫ψ dZ over a range of Z, up to a constant: for uniform gaps the flux is −M h ∇Φ.
+#[derive(Clone, Debug)]
+pub enum Potential {
+    /// Z²/2 + sZ + 6 λ_a² ln Z, of all laws but the last.
+    Closed {
+        /// s \[m\].
+        offset: f64,
+        /// 6 λ_a² \[m²\], or 0.
+        logarithm: f64,
+    },
+    /// Linearised Boltzmann: cubics in ln Z between nodes.
+    Table {
+        /// ln Z of the first node, and from node to node.
+        first: f64,
+        /// Spacing of the nodes in ln Z.
+        step: f64,
+        /// Φ and dΦ/d ln Z at the nodes \[m²\].
+        nodes: Vec<(f64, f64)>,
+    },
+}
+
+impl Potential {
+    /// Of a law, for trapped heights between `low` and `high` \[m\].
+    pub fn new(law: SlipLaw, [low, high]: [f64; 2]) -> Self {
+        const INTERVALS: usize = 400;
+        match law {
+            SlipLaw::Affine(law) => Self::Closed { offset: law.offset, logarithm: 0.0 },
+            SlipLaw::SecondOrder(SecondOrder { mean_free_path }) => {
+                Self::Closed { offset: 6.0 * mean_free_path, logarithm: 6.0 * mean_free_path * mean_free_path }
+            }
+            SlipLaw::FukuiKaneko(law) => {
+                let first = low.ln();
+                let step = ((high.ln() - first) / INTERVALS as f64).max(1e-9);
+                let slope = |s: f64| s.exp() * law.at(s.exp()).0;
+                let (mut sum, mut nodes) = (0.0, Vec::with_capacity(INTERVALS + 1));
+                for i in 0..=INTERVALS {
+                    let here = first + i as f64 * step;
+                    nodes.push((sum, slope(here)));
+                    sum += gauss_legendre(here, here + step, slope);
+                }
+                Self::Table { first, step, nodes }
+            }
+        }
+    }
+
+    /// Φ \[m²\] at trapped height `z` \[m\] within the range.
+    pub fn at(&self, z: f64) -> f64 {
+        match self {
+            Self::Closed { offset, logarithm } => {
+                let algebraic = z * (0.5 * z + offset);
+                if *logarithm > 0.0 { algebraic + logarithm * z.ln() } else { algebraic }
+            }
+            Self::Table { first, step, nodes } => {
+                let place = ((z.ln() - first) / step).clamp(0.0, (nodes.len() - 1) as f64);
+                let left = (place as usize).min(nodes.len() - 2);
+                let t = place - left as f64;
+                let ((a, slope_a), (b, slope_b)) = (nodes[left], nodes[left + 1]);
+                let (rise, start, end) = (b - a, slope_a * step, slope_b * step);
+                a + t * (start + t * (3.0 * rise - 2.0 * start - end + t * (start + end - 2.0 * rise)))
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_potential_is_the_integral_of_the_mobility() {
+        let range = [1e-8, 3e-6];
+        for law in laws() {
+            let potential = Potential::new(law, range);
+            let exact = |z: f64| {
+                let parts = 40;
+                let (from, to) = (range[0].ln(), z.ln());
+                let at = |i: usize| from + (to - from) * i as f64 / parts as f64;
+                (0..parts).map(|i| gauss_legendre(at(i), at(i + 1), |s| s.exp() * law.at(s.exp()).0)).sum::<f64>()
+            };
+            for z in [2e-8, 1e-7, 7.7e-7, 2.9e-6] {
+                let found = potential.at(z) - potential.at(range[0]);
+                assert!((found / exact(z) - 1.0).abs() < 1e-6, "{law:?} {z}: {found} {}", exact(z));
+            }
+        }
+    }
 
     fn laws() -> Vec<SlipLaw> {
         let mean_free_path = 64e-9;

@@ -12,6 +12,7 @@ use super::edit::{Change, Refusals};
 use super::exporting::{self as exports, Exports};
 use super::keys;
 use super::measured::{Measured, with_present};
+use super::merits::Merits;
 use super::modal::{self, Modal, PathPrompt};
 use super::panels::model::Model;
 use super::panels::{menu, parameters, results, sheet, timeline};
@@ -29,7 +30,7 @@ use crate::export::tradeoff::{figure, write_csv};
 use crate::fidelity::Fidelity;
 use crate::job::measurement::Measurement;
 use crate::job::{Event, Request, Run, Solver};
-use crate::problem::{Numerics, Problem};
+use crate::problem::{Numerics, Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
 use eframe::egui;
@@ -128,6 +129,7 @@ pub struct App {
     exports: Exports,
     pins: Pins,
     sweeps: Sweeps,
+    merits: Merits,
     modal: Option<Modal>,
     /// What to do after a save that a question led to.
     after_save: Option<Command>,
@@ -188,6 +190,7 @@ impl App {
             exports: Exports::default(),
             pins: Pins::default(),
             sweeps: Sweeps::default(),
+            merits: Merits::default(),
             modal: None,
             after_save: None,
             sheet: false,
@@ -225,6 +228,11 @@ impl App {
     /// Error against time, if it was measured.
     pub fn measured(&self) -> Option<&Measured> {
         self.measured.as_ref()
+    }
+
+    /// Torque over speed, if its tab was shown.
+    pub fn merits(&self) -> &Merits {
+        &self.merits
     }
 
     /// What the switches of the model changed.
@@ -305,6 +313,7 @@ impl App {
         if self.view.tab == Tab::Sweep {
             self.sweeps.review(self.document.scene());
         }
+        self.merits.drain();
         let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
         for (purpose, answer) in answers {
             match (purpose, answer) {
@@ -639,6 +648,9 @@ impl eframe::App for App {
             ctx.request_repaint_after(Duration::from_millis(16));
         }
         self.last_frame = Some(now);
+        if let (Tab::Torque, Some(run)) = (self.view.tab, &self.shown) {
+            self.merits.follow(run, ctx);
+        }
         let mut commands = Vec::new();
         keys::pressed(ctx, self.modal.is_some() || self.sheet, self.view.tab, &mut commands);
         let dropped: Vec<PathBuf> = ctx.input(|input| {
@@ -701,10 +713,17 @@ impl eframe::App for App {
             });
         }
         egui::CentralPanel::default().show(ui, |ui| {
-            tabs::labels(ui, self.view.tab, self.pins.runs().len(), shown.is_some(), &mut commands);
+            let plate = matches!(self.document.scene().kind, Kind::Plate { .. });
+            let bar =
+                tabs::Bar { present: self.view.tab, pinned: self.pins.runs().len(), solved: shown.is_some(), plate };
+            tabs::labels(ui, &bar, &mut commands);
             match (self.view.tab, &shown) {
                 (Tab::Motion, Some(run)) => views::show(ui, run, &mut self.view, &mut commands),
-                (Tab::Motion, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+                (Tab::Torque, Some(run)) => match run.problem.scenario {
+                    Scenario::Motor(_) => tabs::torque::show(ui, run, &self.merits, &palette),
+                    Scenario::Plate(_) => tabs::exact::show(ui, run, &palette),
+                },
+                (Tab::Motion | Tab::Torque, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
                 (Tab::Compare, _) => {
                     let (scene, solved, dark) = (self.document.scene(), shown.is_some(), self.dark);
                     let pins = tabs::compare::Shown { pins: &self.pins, scene, solved, dark };

@@ -12,6 +12,7 @@ pub mod edit;
 pub mod exporting;
 pub mod keys;
 pub mod measured;
+pub mod merits;
 pub mod modal;
 pub mod panels;
 pub mod pinned;

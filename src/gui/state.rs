@@ -12,14 +12,21 @@ pub enum Tab {
     Compare,
     /// One parameter varied, or two.
     Sweep,
+    /// Of a motor, torque and power over speed; of a plate, what is known exactly beside what was computed.
+    Torque,
     /// Error against solve time.
     Tradeoff,
 }
 
 impl Tab {
     /// All, in the order of their labels.
-    pub const ALL: &[(Self, &str)] =
-        &[(Self::Motion, "Motion"), (Self::Compare, "Compare"), (Self::Sweep, "Sweep"), (Self::Tradeoff, "Trade-off")];
+    pub const ALL: &[(Self, &str)] = &[
+        (Self::Motion, "Motion"),
+        (Self::Compare, "Compare"),
+        (Self::Sweep, "Sweep"),
+        (Self::Torque, "Torque"),
+        (Self::Tradeoff, "Trade-off"),
+    ];
 
     /// Whether it moves with the cycle.
     pub fn moves(self) -> bool {

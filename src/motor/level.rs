@@ -13,7 +13,7 @@ use crate::film::trapped::TrappedFilm;
 use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
-use crate::recording::Recording;
+use crate::recording::{LineLoads, Recording};
 use crate::solution::{Stats, Status};
 
 /// Earlier rounds that the acceleration remembers.
@@ -503,6 +503,22 @@ impl Level {
     /// Cycle mean of the imbalance: by how much α would differ if it were taken from the contact load.
     pub(super) fn mean_imbalance(&self) -> f64 {
         self.imbalances().sum::<f64>().abs() / self.instants() as f64
+    }
+
+    /// Contact and film alone.
+    pub(super) fn line_loads(&self, motor: &Motor) -> LineLoads {
+        let x = &self.grid().x;
+        LineLoads {
+            frames: self.steps,
+            length: motor.wavelength(),
+            teeth: self.teeth,
+            stored_teeth: self.stored,
+            pitch: motor.pitch(),
+            x: x.nodes.clone(),
+            node_length: x.lengths.clone(),
+            contact: self.contact_load.clone(),
+            film: (0..self.line.len()).map(|i| self.film_line_load(i)).collect(),
+        }
     }
 
     pub(super) fn recording(&self, motor: &Motor, maps: bool) -> Recording {

@@ -9,7 +9,10 @@
 //! the same everywhere. One tooth, and the contact problems of the first T/n_t, then stand for all. Solving every tooth
 //! gives the same (tested).
 
+mod dry;
 mod level;
+
+pub use dry::without_film;
 
 use crate::contact::ContactError;
 use crate::control::{Cancel, Observer, Reporter};
@@ -165,7 +168,7 @@ pub fn periodic_from(
             break;
         }
     }
-    let found = finish(motor, plan, levels.last(), status, alphas, stats);
+    let found = finish(motor, plan, &levels, status, alphas, stats);
     if status == Status::Converged {
         warm.levels = levels;
     }
@@ -238,19 +241,22 @@ impl<'a> Transient<'a> {
     }
 }
 
-/// The numbers, their error and the fields, from the finest grid and what each grid gave.
+/// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.
 fn finish(
     motor: &Motor,
     plan: &Plan,
-    finest: Option<&Level>,
+    levels: &[Level],
     status: Status,
     alphas: Vec<f64>,
     mut stats: Stats,
 ) -> Periodic {
-    let Some(level) = finest else {
+    let Some((level, coarser)) = levels.split_last() else {
         return Periodic { status, result: MotorResult::default(), alphas, stats, recording: Recording::default() };
     };
-    let recording = level.recording(motor, plan.maps);
+    let mut recording = level.recording(motor, plan.maps);
+    // Those that α is extrapolated from.
+    let usable = (alphas.len() - 1).min(coarser.len());
+    recording.coarser = coarser[coarser.len() - usable..].iter().map(|level| level.line_loads(motor)).collect();
     let mut result = summarise(motor, &recording);
     let estimate = extrapolate(&alphas);
     // What floats carries the whole load, by balance.

@@ -63,6 +63,8 @@ impl Recorder {
             teeth_in_contact: vec![0; frames],
             min_film_thickness: vec![0.0; frames],
             max_pressure: vec![0.0; frames],
+            coarser: Vec::new(),
+            coarser_film_load: Vec::new(),
             x,
         };
         let mut recorder = Self { recording, places, shares, touched: vec![false; teeth] };

@@ -5,24 +5,30 @@
 //! | motor | `wave` | surfaces, contact pressure and film pressure along one wavelength at an instant, as the paper's Fig. 4 |
 //! | motor | `loads` | film load, contact load and teeth in contact over the cycle |
 //! | motor | `map` | pressure of the film under all teeth at that instant, and under the tooth in the middle |
+//! | motor | `torque` | torque, power and efficiency over the speed of the rotor, with the film and without |
 //! | plate | `profile` | pressure along the plate at four instants |
 //! | plate | `loads` | load and gap over the cycle |
 //! | plate | `loop` | mean pressure against the gap |
 //! | plate | `map` | pressure over the plate at its greatest; of a strip, along it and over the cycle |
+//! | plate | `exact` | spring and damping over the squeeze number, load over the cycle, beside what is known exactly |
 //! | several motors | `waves`, `loads`, `maps`, `teeth` | runs laid over each other, maps with one scale of colours |
 //! | several plates | `profiles`, `loads`, `loops`, `maps` | the same |
 //! | both | `convergence` | change in every round, if the rounds were kept |
 
 pub mod compare;
+pub mod exact;
 pub mod motor;
 pub mod plate;
+pub mod torque;
 mod unit;
 
 use super::figure::{Axis, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Range, Style};
+use crate::analysis::exact::Comparison;
 use crate::control::Progress;
+use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
-use crate::solution::Solution;
+use crate::solution::{Outcome, Solution};
 
 /// All figures of a solve, each with the name of its file without extension. `history`: the rounds, if they were kept.
 pub fn of(problem: &Problem, solution: &Solution, history: &[Progress]) -> Vec<(&'static str, Figure)> {
@@ -41,19 +47,26 @@ pub fn of(problem: &Problem, solution: &Solution, history: &[Progress]) -> Vec<(
             figures.push(("loads", plate::loads(scene, recording)));
             figures.push(("loop", plate::pressure_gap_loop(scene, recording)));
             figures.push(("map", plate::map(scene, recording)));
+            if let Outcome::Plate(result) = &solution.outcome {
+                let film_load = Estimate { value: result.film_load, error: result.film_load_error };
+                figures.push(("exact", exact::exact(scene, &Comparison::of(scene, film_load, recording), recording)));
+            }
         }
     }
     if !history.is_empty() {
         figures.push(("convergence", convergence(history)));
     }
-    for (_, figure) in &mut figures {
-        figure.title = match figure.title.as_str() {
-            "" => problem.name.clone(),
-            title => format!("{}: {title}", problem.name),
-        };
-        figure.provenance = Provenance::of(problem, solution);
-    }
-    figures
+    figures.into_iter().map(|(name, figure)| (name, dressed(problem, solution, figure))).collect()
+}
+
+/// With the scene's name above, and where its numbers come from below.
+pub fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Figure {
+    figure.title = match figure.title.as_str() {
+        "" => problem.name.clone(),
+        title => format!("{}: {title}", problem.name),
+    };
+    figure.provenance = Provenance::of(problem, solution);
+    figure
 }
 
 /// The change in every round of every grid, and what it had to fall below.

@@ -41,7 +41,7 @@ pub(super) fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
 }
 
 /// `N`, or of a strip `N/m`.
-fn force(plate: &Plate) -> &'static str {
+pub(super) fn force(plate: &Plate) -> &'static str {
     if plate.width.is_some() { "N" } else { "N/m" }
 }
 

@@ -1,6 +1,7 @@
 //! Exports: the same code and the same names as those of the command line, on a thread of their own.
 
 use super::App;
+use crate::analysis::torque::Merit;
 use crate::control::Cancel;
 use crate::export::animation::Options;
 use crate::export::figure::{Format, to_bytes};
@@ -15,6 +16,7 @@ use crate::gui::modal::Modal;
 use crate::gui::pinned::{fidelity, of_window};
 use crate::job::Run;
 use crate::job::task::Task;
+use crate::motor::MotorError;
 use crate::solve::Settings;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -85,13 +87,20 @@ impl App {
             Export::Data => {
                 let run = self.shown.clone()?;
                 Box::new(move |control| {
-                    let summary = Summary::new(&run.problem, &run.solution, run.wall_s, &[]);
-                    files::solve(&path, &solved(&run), &summary, &BESIDE_DATA, control)
+                    let mut summary = Summary::new(&run.problem, &run.solution, run.wall_s, &[]);
+                    let merit = summary.add_merit(merit(&run, control.cancel));
+                    let solved = Solved { merit: merit.as_ref(), ..solved(&run) };
+                    files::solve(&path, &solved, &summary, &BESIDE_DATA, control)
                 })
             }
             Export::Figures => {
                 let run = self.shown.clone()?;
-                Box::new(move |control| files::solve_figures(&path, &solved(&run), &Format::ALL, control))
+                Box::new(move |control| {
+                    // Without it the other figures are still worth having.
+                    let merit = merit(&run, control.cancel).ok().flatten();
+                    let solved = Solved { merit: merit.as_ref(), ..solved(&run) };
+                    files::solve_figures(&path, &solved, &Format::ALL, control)
+                })
             }
             Export::Fields => {
                 let run = self.shown.clone()?;
@@ -142,7 +151,12 @@ impl App {
 }
 
 fn solved(run: &Run) -> Solved<'_> {
-    Solved { scene: &run.scene, problem: &run.problem, solution: &run.solution, history: &run.history }
+    let Run { scene, problem, solution, history, .. } = run;
+    Solved { scene, problem, solution, history, merit: None }
+}
+
+fn merit(run: &Run, cancel: &Cancel) -> Result<Option<Merit>, MotorError> {
+    Merit::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
 }
 
 /// Settings of runs at these fidelities: of several, the coarsest.

@@ -91,7 +91,7 @@ fn whole(bounds: (f64, f64)) -> Vec<GridMark> {
 }
 
 /// `10⁻⁶`, with the digits that the fonts have.
-pub(super) fn power_of_ten(exponent: f64) -> String {
+pub(in crate::gui) fn power_of_ten(exponent: f64) -> String {
     let raised = |c: char| match c {
         '-' => '⁻',
         '0' => '⁰',

@@ -305,7 +305,7 @@ fn signed(text: &str) -> String {
 }
 
 /// A value with its error, an exponent raised. What is far below its error is 0.
-fn uncertain(value: f64, error: f64) -> String {
+pub(in crate::gui) fn uncertain(value: f64, error: f64) -> String {
     let value = if value.abs() < NOTHING * error { 0.0 } else { value };
     let text = signed(&with_error(value, error));
     match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {

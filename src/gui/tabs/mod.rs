@@ -1,7 +1,10 @@
 //! What can be in the middle of the window, one of them at a time: the motion is in `views`, the others are here.
 
+mod chart;
 pub mod compare;
+pub mod exact;
 pub mod sweep;
+pub mod torque;
 pub mod tradeoff;
 
 use super::command::Command;
@@ -10,10 +13,25 @@ use super::pinned::Pinning;
 use super::state::Tab;
 use eframe::egui;
 
-/// The labels above the middle, and at their right what pins the run. `pinned`: how many runs are pinned.
-pub fn labels(ui: &mut egui::Ui, present: Tab, pinned: usize, solved: bool, commands: &mut Vec<Command>) {
+/// What the labels show.
+#[derive(Clone, Copy, Debug)]
+pub struct Bar {
+    /// The tab shown.
+    pub present: Tab,
+    /// How many runs are pinned.
+    pub pinned: usize,
+    /// There is a run to pin.
+    pub solved: bool,
+    /// The scene is a plate, which has no torque.
+    pub plate: bool,
+}
+
+/// The labels above the middle, and at their right what pins the run.
+pub fn labels(ui: &mut egui::Ui, bar: &Bar, commands: &mut Vec<Command>) {
+    let &Bar { present, pinned, solved, plate } = bar;
     ui.horizontal_wrapped(|ui| {
         for &(tab, name) in Tab::ALL {
+            let name = if tab == Tab::Torque && plate { "Exact" } else { name };
             let text = if tab == Tab::Compare && pinned > 0 { format!("{name} ({pinned})") } else { name.to_owned() };
             let label = ui.selectable_label(tab == present, text).on_hover_text(keys::of(&Command::Show(tab)));
             if label.clicked() && tab != present {

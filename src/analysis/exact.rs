@@ -1,0 +1,267 @@
+//! A solved plate beside what is known exactly: both limits of the squeeze number, small amplitudes, and the invariant.
+//!
+//! The load is compared by its first harmonic. With the gap h = h₀(1 + ε cos τ) and the plate's area A,
+//!
+//! ```text
+//! F = F₀ + p_a A ε (−S cos τ + D sin τ) + …
+//! ```
+//!
+//! S is the *spring*, in phase with the approach, and D the *damping*, in phase with its speed. For ε → 0 both are known for
+//! every σ (`film::exact`); slip enters by its factor Q at the mean gap, as σ/Q.
+
+use crate::dimensionless::Dimensionless;
+use crate::estimate::{Estimate, extrapolate};
+use crate::film::exact::{linear_rectangle, linear_strip, viscous_rectangle_force, viscous_strip_force};
+use crate::film::slip::{Mobility, Potential, SlipLaw};
+use crate::film::trapped::edge_height;
+use crate::problem::Plate;
+use crate::recording::Recording;
+use std::f64::consts::TAU;
+
+/// Samples of a cycle for exact means: spectrally accurate.
+const SAMPLES: usize = 1024;
+
+/// Spring and damping: parts of the load amplitude over p_a · area · ε, both positive if they resist.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Harmonic<T> {
+    /// In phase with the approach: 1 for gas that cannot leave.
+    pub spring: T,
+    /// In phase with the speed of the approach.
+    pub damping: T,
+}
+
+/// Loads of the limits over the cycle \[N, of a strip N/m\], at the frames of a recording.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// σ → ∞: gas that cannot leave within a cycle, Boyle's law.
+    pub boyle: Vec<f64>,
+    /// σ → 0: gas that is not compressed.
+    pub viscous: Vec<f64>,
+}
+
+/// A solved plate beside what is known exactly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// σ/Q, Q = 1 + 6m for first-order slip: what the linear film depends on.
+    pub effective_squeeze_number: f64,
+    /// Of the solved load, extrapolated; `None` if nothing vibrates.
+    pub solved: Option<Harmonic<Estimate>>,
+    /// Exact for ε → 0.
+    pub linear: Harmonic<f64>,
+    /// Cycle mean of P over the plate, solved, with its error …
+    pub mean_pressure: Estimate,
+    /// … and in the limit σ → ∞ (Langlois 1962, Salbu 1964).
+    pub trapped_mean_pressure: f64,
+    /// Greatest deviation of ⟨hΦ⟩ from its exact value at any point of the film, relative; `None` without a pressure map.
+    pub invariant_deviation: Option<f64>,
+    /// The limits over the cycle.
+    pub limits: Limits,
+}
+
+impl Comparison {
+    /// Of a solve of `plate`; `film_load` is its mean \[N\] with its error.
+    pub fn of(plate: &Plate, film_load: Estimate, recording: &Recording) -> Self {
+        let force = plate.gas.ambient_pressure * plate.area();
+        let effective = effective_squeeze_number(plate);
+        let excursion = plate.amplitude / plate.mean_gap;
+        let series: Vec<&[f64]> =
+            recording.coarser_film_load.iter().map(Vec::as_slice).chain([recording.film_load.as_slice()]).collect();
+        let of = |part: fn(&Harmonic<f64>) -> f64| {
+            let all: Vec<f64> = series.iter().map(|load| part(&first_harmonic(load)) / (force * excursion)).collect();
+            extrapolate(&all)
+        };
+        let solved = (excursion > 0.0 && !recording.film_load.is_empty())
+            .then(|| Harmonic { spring: of(|h| h.spring), damping: of(|h| h.damping) });
+        let trapped = trapped_height_of(plate);
+        let mean_inverse =
+            (0..SAMPLES).map(|i| 1.0 / plate.gap(i as f64 / SAMPLES as f64)).sum::<f64>() / SAMPLES as f64;
+        Self {
+            effective_squeeze_number: effective,
+            solved,
+            linear: linear(effective, aspect(plate)),
+            mean_pressure: Estimate { value: 1.0 + film_load.value / force, error: film_load.error / force },
+            trapped_mean_pressure: trapped * mean_inverse,
+            invariant_deviation: invariant_deviation(plate, recording),
+            limits: limits(plate, trapped, recording.frames),
+        }
+    }
+}
+
+/// Width over length; `None` for a strip.
+pub fn aspect(plate: &Plate) -> Option<f64> {
+    plate.width.map(|width| width / plate.length)
+}
+
+/// Spring and damping for ε → 0 at σ/Q.
+pub fn linear(effective_squeeze_number: f64, aspect: Option<f64>) -> Harmonic<f64> {
+    let (real, imaginary) = match aspect {
+        None => linear_strip(effective_squeeze_number, 0.0),
+        Some(aspect) => linear_rectangle(effective_squeeze_number, 0.0, aspect),
+    };
+    Harmonic { spring: -real, damping: -imaginary }
+}
+
+/// σ over the slip's factor at the mean gap and ambient pressure.
+pub fn effective_squeeze_number(plate: &Plate) -> f64 {
+    let (mobility, _) = SlipLaw::of(&plate.gas).at(plate.mean_gap);
+    Dimensionless::of_plate(plate).squeeze_number * plate.mean_gap / mobility
+}
+
+/// Parts of a load over one cycle in phase with −cos τ and with sin τ \[N\].
+pub fn first_harmonic(load: &[f64]) -> Harmonic<f64> {
+    let count = load.len().max(1) as f64;
+    let mut harmonic = Harmonic { spring: 0.0, damping: 0.0 };
+    for (frame, load) in load.iter().enumerate() {
+        let (sin, cos) = (TAU * frame as f64 / count).sin_cos();
+        harmonic.spring -= 2.0 / count * cos * load;
+        harmonic.damping += 2.0 / count * sin * load;
+    }
+    harmonic
+}
+
+/// Z of gas that cannot leave within a cycle \[m\], for any law of slip.
+fn trapped_height_of(plate: &Plate) -> f64 {
+    let law = SlipLaw::of(&plate.gas);
+    edge_height(law, || (0..SAMPLES).map(|i| plate.gap(i as f64 / SAMPLES as f64)))
+}
+
+fn limits(plate: &Plate, trapped: f64, frames: usize) -> Limits {
+    let gas = &plate.gas;
+    let at = |frame: usize| {
+        let phase = frame as f64 / frames.max(1) as f64;
+        let (gap, rate) = (plate.gap(phase), -TAU * plate.frequency * plate.amplitude * (TAU * phase).sin());
+        // The slip's factor at ambient pressure, as 1 + 6 λ/h of an effective free path.
+        let factor = SlipLaw::of(gas).at(gap).0 / gap;
+        let path = (factor - 1.0) * gap / 6.0;
+        let viscous = match plate.width {
+            None => viscous_strip_force(gas.viscosity, plate.length, gap, rate, path),
+            Some(width) => viscous_rectangle_force(gas.viscosity, plate.length, width, gap, rate, path),
+        };
+        (gas.ambient_pressure * plate.area() * (trapped / gap - 1.0), viscous)
+    };
+    let (boyle, viscous) = (0..frames).map(at).unzip();
+    Limits { boyle, viscous }
+}
+
+/// Greatest |⟨hΦ(Z)⟩ − ⟨hΦ(h)⟩| over the points of the pressure map, over ⟨h²ψ(h) − h³/2⟩, which for first-order slip is
+/// ⟨h³/2 + 6λ_a h²⟩, the invariant itself.
+pub fn invariant_deviation(plate: &Plate, recording: &Recording) -> Option<f64> {
+    let (frames, size) = (recording.frames, recording.map_x.len() * recording.map_y.len());
+    if frames == 0 || size == 0 || recording.pressure.len() < frames * size {
+        return None;
+    }
+    let law = SlipLaw::of(&plate.gas);
+    let ambient = plate.gas.ambient_pressure;
+    let gaps: Vec<f64> = (0..frames).map(|m| plate.gap(m as f64 / frames as f64)).collect();
+    let (mut low, mut high) = (f64::INFINITY, 0.0f64);
+    for (gap, map) in gaps.iter().zip(recording.pressure.chunks_exact(size)) {
+        for pressure in map.iter().chain([&ambient]) {
+            let z = gap * pressure / ambient;
+            (low, high) = (low.min(z), high.max(z));
+        }
+    }
+    let potential = Potential::new(law, [low, high]);
+    let mut sums = vec![0.0; size];
+    let (mut edge, mut scale) = (0.0, 0.0);
+    for (gap, map) in gaps.iter().zip(recording.pressure.chunks_exact(size)) {
+        let factor = gap / ambient;
+        for (sum, pressure) in sums.iter_mut().zip(map) {
+            *sum += gap * potential.at(factor * pressure);
+        }
+        edge += gap * potential.at(*gap);
+        scale += gap * gap * (law.at(*gap).0 - 0.5 * gap);
+    }
+    Some(sums.iter().map(|sum| (sum - edge).abs()).fold(0.0, f64::max) / scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Cancel;
+    use crate::fidelity::Fidelity;
+    use crate::problem::{Problem, Scenario};
+    use crate::scene::presets;
+    use crate::solution::Outcome;
+    use crate::solve::{Settings, solve};
+
+    fn compared(preset: &str, set: &[(&str, &str)]) -> (Plate, Recording, Comparison) {
+        let mut scene = presets::find(preset).unwrap();
+        scene.set_all(set.iter().copied()).unwrap();
+        let problem = Problem::new(&scene).unwrap();
+        let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
+        let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+        let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {
+            panic!("a plate")
+        };
+        let film_load = Estimate { value: result.film_load, error: result.film_load_error };
+        let comparison = Comparison::of(&plate, film_load, &solution.recording);
+        (plate, solution.recording, comparison)
+    }
+
+    #[test]
+    fn a_small_amplitude_lies_on_the_linear_curves() {
+        for preset in ["plate-viscous", "plate-crossover", "plate-trapped"] {
+            for set in [vec![], vec![("plate.width_mm", "0.7")], vec![("film.slip", "second-order")]] {
+                let gap = compared(preset, &set).0.mean_gap;
+                let small = (1e-3 * gap * 1e6).to_string();
+                let set = [set.as_slice(), &[("plate.amplitude_um", small.as_str())]].concat();
+                let (_, _, found) = compared(preset, &set);
+                let solved = found.solved.unwrap();
+                for (part, exact) in [(solved.spring, found.linear.spring), (solved.damping, found.linear.damping)] {
+                    // The amplitude itself changes them by its square.
+                    assert!((part.value - exact).abs() < part.error + 3e-6, "{preset} {set:?}: {part:?} {exact}");
+                    assert!(part.error < 2e-3, "{preset} {set:?}: {part:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_limits_are_reached() {
+        let far = |load: &[f64], limit: &[f64]| {
+            let greatest = limit.iter().fold(0.0f64, |most, load| most.max(load.abs()));
+            load.iter().zip(limit).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / greatest
+        };
+        for width in ["", "0.7"] {
+            let with = |set: &[(&'static str, &'static str)]| {
+                let mut set = set.to_vec();
+                if !width.is_empty() {
+                    set.push(("plate.width_mm", width));
+                }
+                set
+            };
+            let (_, recording, found) = compared("plate-viscous", &with(&[("plate.frequency_khz", "0.001")]));
+            let off = far(&recording.film_load, &found.limits.viscous);
+            assert!(off < 0.02, "incompressible, width {width}: {off} at {}", found.effective_squeeze_number);
+            let (_, recording, found) = compared("plate-trapped", &with(&[("plate.frequency_khz", "500")]));
+            let off = far(&recording.film_load, &found.limits.boyle);
+            // The layer at the edges leaks a share of its thickness, σ to the power −1/2.
+            let layer = 6.0 / found.effective_squeeze_number.sqrt();
+            assert!(off < layer && layer < 0.2, "trapped, width {width}: {off} {layer}");
+            assert!((found.mean_pressure.value / found.trapped_mean_pressure - 1.0).abs() < layer);
+        }
+    }
+
+    #[test]
+    fn the_invariant_holds_at_every_point_for_every_law() {
+        for (slip, most) in [("none", 1e-4), ("first-order", 1e-4), ("second-order", 2e-3), ("fukui-kaneko", 2e-3)] {
+            let (plate, mut recording, found) =
+                compared("plate-crossover", &[("film.slip", slip), ("plate.width_mm", "0.5")]);
+            let deviation = found.invariant_deviation.unwrap();
+            assert!(deviation < most, "{slip}: {deviation}");
+            // It sees a film that is wrong by a tenth at one point.
+            let size = recording.map_x.len() * recording.map_y.len();
+            for map in recording.pressure.chunks_exact_mut(size) {
+                map[0] *= 1.1;
+            }
+            assert!(invariant_deviation(&plate, &recording).unwrap() > 0.05, "{slip}");
+        }
+    }
+
+    #[test]
+    fn a_plate_at_rest_has_no_harmonic() {
+        let (_, _, found) = compared("plate-crossover", &[("plate.amplitude_um", "0")]);
+        assert_eq!(found.solved, None);
+        assert!((found.trapped_mean_pressure - 1.0).abs() < 1e-12 && found.invariant_deviation.unwrap() < 1e-9);
+    }
+}

@@ -1,0 +1,90 @@
+//! A plate beside what is known exactly.
+
+use super::plate::force;
+use super::unit::prefixed;
+use super::{over_cycle, rest, span, with_margin};
+use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
+use crate::export::figure::{Axis, Colour, Dash, Figure, Legend, Line, Mark, Marker, Panel, Points, Shape, Style};
+use crate::problem::Plate;
+use crate::recording::Recording;
+
+/// Points of a curve.
+const SAMPLES: usize = 121;
+/// A limit whose range is at most this many times that of the load is shown whole.
+const WHOLE: f64 = 2.0;
+
+/// Spring and damping over the squeeze number with the present solve on them, and the load over the cycle between its limits.
+pub fn exact(plate: &Plate, found: &Comparison, recording: &Recording) -> Figure {
+    let mut figure = Figure::new("computed and exact")
+        .panel(coefficients(plate, found).height(42.0))
+        .panel(cycle(plate, found, recording).height(38.0));
+    figure.caption = format!(
+        "Spring and damping of the film, parts of the load in phase with the approach and with its speed over p_a · area · ε, for \
+         small amplitudes over the squeeze number (a) with those of this solve as points, ε = {}; load over one cycle with \
+         those of gas that cannot leave (Boyle) and of gas that is not compressed (b).",
+        crate::export::digits::significant(plate.amplitude / plate.mean_gap, 3)
+    );
+    figure
+}
+
+fn coefficients(plate: &Plate, found: &Comparison) -> Panel {
+    let present = found.effective_squeeze_number;
+    let crossover = 10.0 * (1.0 + aspect(plate).map_or(0.0, |a| 1.0 / (a * a)));
+    let (from, to) = ((crossover / 300.0).min(present / 4.0), (crossover * 300.0).max(present * 4.0));
+    let at = |i: usize| {
+        let sigma = from * (to / from).powf(i as f64 / (SAMPLES - 1) as f64);
+        let Harmonic { spring, damping } = linear(sigma, aspect(plate));
+        ([sigma, spring], [sigma, damping])
+    };
+    let (spring, damping): (Vec<_>, Vec<_>) = (0..SAMPLES).map(at).unzip();
+    let computed = found.solved.map(|solved| [solved.spring, solved.damping]);
+    let top = computed.into_iter().flatten().map(|part| part.value).fold(1.0, f64::max);
+    let x = Axis::new("squeeze number over slip factor, σ/Q", "").log().fixed(from, to);
+    let mut panel = Panel::new(
+        "(a) first harmonic of the load",
+        x,
+        Axis::new("part of load / p_{a} A ε", "").fixed(0.0, 1.12 * top),
+    )
+    .layer(Mark::vertical(present, ""))
+    .layer(Line::new("spring, exact", spring, Style::solid(Colour::FILM)))
+    .layer(Line::new("damping, exact", damping, Style::solid(Colour::CONTACT).dash(Dash::Dashed)));
+    let parts =
+        [("spring, computed", Colour::FILM, Shape::Circle), ("damping, computed", Colour::CONTACT, Shape::Square)];
+    for (part, (name, colour, shape)) in computed.into_iter().flatten().zip(parts) {
+        let marker = Marker { size: 5.0, ..Marker::solid(shape) };
+        let errors = if part.error.is_finite() { vec![part.error] } else { Vec::new() };
+        panel = panel.layer(Points { errors, ..Points::new(name, [[present, part.value]], colour, marker) });
+    }
+    panel.legend = Legend::Above;
+    panel
+}
+
+fn cycle(plate: &Plate, found: &Comparison, recording: &Recording) -> Panel {
+    let load = &recording.film_load;
+    let mut range = span(load.iter().copied(), 0.0);
+    let most = WHOLE * (range[1] - range[0]);
+    for limit in [&found.limits.boyle, &found.limits.viscous] {
+        let [low, high] = span(limit.iter().copied(), 0.0);
+        if high - low <= most {
+            range = [range[0].min(low), range[1].max(high)];
+        }
+    }
+    let (unit, scale) = prefixed(range[1].max(-range[0]), force(plate));
+    let [low, high] = with_margin(range, 0.08);
+    let y = Axis::new("film load", unit).fixed(low * scale, high * scale);
+    let mut panel = Panel::new("(b) load over the cycle", Axis::new("t/T", "").fixed(0.0, 1.0), y)
+        .layer(rest(0.0, ""))
+        .layer(Line::new(
+            "trapped (Boyle)",
+            over_cycle(&found.limits.boyle, scale),
+            Style::solid(Colour::CONTACT).dash(Dash::Dashed),
+        ))
+        .layer(Line::new(
+            "incompressible",
+            over_cycle(&found.limits.viscous, scale),
+            Style::solid(Colour::ROTOR).dash(Dash::DashDot),
+        ))
+        .layer(Line::new("computed", over_cycle(load, scale), Style::solid(Colour::FILM)));
+    panel.legend = Legend::Above;
+    panel
+}

@@ -1,0 +1,230 @@
+//! Torque, power and efficiency of solved motors: balances that hold whatever the contact is, limits, honest errors.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use squeezefilm::analysis::torque::{Drive, Merit, film_power, surface_speed};
+use squeezefilm::control::Cancel;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::motor::without_film;
+use squeezefilm::plan::Plan;
+use squeezefilm::problem::{Motor, Numerics, Problem, Scenario};
+use squeezefilm::recording::Recording;
+use squeezefilm::scene::presets;
+use squeezefilm::solution::{MotorResult, Outcome};
+use squeezefilm::solve::{Method, Settings, solve};
+use std::f64::consts::TAU;
+
+struct Solved {
+    motor: Motor,
+    result: MotorResult,
+    recording: Recording,
+    merit: Merit,
+}
+
+fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Method) -> Solved {
+    let mut scene = presets::find(preset).unwrap();
+    scene.set_all(set.iter().copied()).unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let settings = Settings { fidelity, method, ..Settings::default() };
+    let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+    let (Scenario::Motor(motor), Outcome::Motor(result)) = (problem.scenario, solution.outcome) else {
+        panic!("a motor")
+    };
+    let recording = solution.recording;
+    let merit = Merit::of(&motor, &problem.numerics, fidelity, &result, &recording, &Cancel::new()).unwrap().unwrap();
+    Solved { motor, result, recording, merit }
+}
+
+fn solved(preset: &str, set: &[(&str, &str)], fidelity: Fidelity) -> Solved {
+    solved_by(preset, set, fidelity, Method::Auto)
+}
+
+/// μ_d waves ∫ c |V_St − V| over a wavelength, averaged over the cycle, node by node and frame by frame \[W\].
+fn heat_node_by_node(solved: &Solved, speed: f64) -> f64 {
+    let (motor, recording) = (&solved.motor, &solved.recording);
+    let mut sum = 0.0;
+    for frame in 0..recording.frames {
+        for tooth in 0..recording.teeth {
+            let line = recording.line_offset(tooth, frame);
+            for (i, (x, length)) in recording.x.iter().zip(&recording.node_length).enumerate() {
+                let (x, phase) = (tooth as f64 * recording.pitch + x, frame as f64 / recording.frames as f64);
+                let slide = motor.sliding_speed(x, phase) - motor.rotor_speed + speed;
+                sum += recording.contact[line + i] * length * slide.abs();
+            }
+        }
+    }
+    motor.dry_friction * f64::from(motor.waves) * sum / recording.frames as f64
+}
+
+#[test]
+fn what_the_stator_gives_is_what_the_rotor_and_the_heat_take() {
+    let solved = solved("fundamental", &[], Fidelity::Fine);
+    let merit = &solved.merit;
+    let v0 = surface_speed(&solved.motor);
+    assert!((v0 - TAU * 30e3 * 1e-6).abs() < 1e-12);
+    // The curve is scaled to the extrapolated contact load, the sums are of the finest grid.
+    let share = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
+    let scale = share / solved.result.contact_load;
+    // Node by node the change of sign falls between two frames: an error that has the size of the steps, not of the heat.
+    let greatest = heat_node_by_node(&solved, 0.0);
+    for point in &merit.with_film.curve {
+        let heat = heat_node_by_node(&solved, point.speed);
+        assert!((point.friction * scale - heat).abs() < 1e-3 * greatest, "{}: {} {heat}", point.speed, point.friction);
+        assert!((point.output - point.torque.value * point.speed / 29e-3).abs() < 1e-12);
+        assert!(point.friction > 0.0 && point.torque.value.abs() <= merit.with_film.max_torque.value * (1.0 + 1e-12));
+        if let Some(efficiency) = point.efficiency {
+            let all = point.output + point.friction + merit.film_power.value;
+            assert!((efficiency - point.output / all).abs() < 1e-9 && efficiency < 1.0);
+        }
+    }
+}
+
+#[test]
+fn the_figures_are_those_of_the_curve() {
+    for (preset, set) in [("fundamental", vec![]), ("tooth-radius-3m", vec![("motor.rotor_speed_rpm", "25")])] {
+        let solved = solved(preset, &set, Fidelity::Standard);
+        let merit = &solved.merit;
+        assert!((merit.with_film.max_torque.value / solved.result.max_torque - 1.0).abs() < 1e-14);
+        assert!((merit.dry_equivalent.value - 0.7 * (1.0 - solved.result.alpha)).abs() < 1e-15);
+        for found in [&merit.with_film, &merit.without_film] {
+            assert!(found.stall_torque.value <= found.max_torque.value * (1.0 + 1e-12));
+            let v = found.no_load_speed.unwrap().value;
+            let there = found.curve.iter().find(|point| point.speed == v).unwrap();
+            assert!(there.torque.value.abs() < 1e-9 && v > 0.0 && v < merit.surface_speed);
+            assert!(found.curve.windows(2).all(|pair| pair[1].torque.value <= pair[0].torque.value + 1e-12));
+            let most = found.curve.iter().map(|point| point.output).fold(0.0, f64::max);
+            assert!(most <= found.max_power.value * (1.0 + 1e-9) && most > 0.999 * found.max_power.value);
+            let best = found.curve.iter().filter_map(|point| point.efficiency).fold(0.0, f64::max);
+            let stated = found.max_efficiency.unwrap().value;
+            assert!(best <= stated * (1.0 + 1e-9) && best > 0.999 * stated);
+            assert_eq!(found.present.speed, solved.motor.rotor_speed);
+        }
+        assert!(merit.with_film.max_torque.value < merit.without_film.max_torque.value);
+    }
+}
+
+#[test]
+fn the_film_takes_the_same_power_on_every_grid() {
+    let exact = solved("fundamental", &[], Fidelity::Reference).merit.film_power;
+    assert!(exact.value > 0.0 && exact.error < 0.03 * exact.value, "{exact:?}");
+    for fidelity in [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine] {
+        let found = solved("fundamental", &[], fidelity).merit.film_power;
+        assert!((found.value - exact.value).abs() < found.error + exact.error, "{fidelity}: {found:?} {exact:?}");
+    }
+}
+
+#[test]
+fn a_rotor_that_floats_is_not_driven() {
+    let solved = solved("levitating", &[], Fidelity::Draft);
+    let found = &solved.merit.with_film;
+    assert_eq!((found.max_torque.value, found.no_load_speed, found.max_efficiency), (0.0, None, None));
+    assert!(found.curve.iter().all(|point| point.torque.value == 0.0 && point.friction == 0.0));
+    // The same motor in a vacuum does drive.
+    assert!(solved.merit.without_film.stall_torque.value > 0.0);
+}
+
+#[test]
+fn without_gas_the_contact_carries_the_load_at_every_instant() {
+    let solved = solved("fundamental", &[], Fidelity::Draft);
+    let plan = Plan::motor(&solved.motor, Fidelity::Draft, &Numerics::default());
+    let cycles = without_film(&solved.motor, &plan, &Cancel::new()).unwrap().unwrap();
+    assert_eq!(cycles.len(), plan.grids.len());
+    let finest = cycles.last().unwrap();
+    let nodes = finest.x.len();
+    for frame in 0..finest.frames {
+        let lag = finest.frames / finest.teeth;
+        let total: f64 = (0..finest.teeth)
+            .map(|tooth| {
+                let line = (frame + tooth * lag) % finest.frames * nodes;
+                (0..nodes).map(|i| finest.contact[line + i] * finest.node_length[i]).sum::<f64>()
+            })
+            .sum();
+        assert!((total / solved.motor.load - 1.0).abs() < 1e-9, "{frame}: {total}");
+    }
+    let cancelled = Cancel::new();
+    cancelled.cancel();
+    assert!(without_film(&solved.motor, &plan, &cancelled).unwrap().is_none());
+}
+
+#[test]
+fn thin_gas_is_almost_no_gas() {
+    // Coupled solve at the least ambient pressure: contact all but that of a vacuum.
+    let solved = solved("fundamental", &[("film.ambient_pressure_kpa", "1")], Fidelity::Standard);
+    let (wet, dry) = (&solved.merit.with_film, &solved.merit.without_film);
+    assert!(solved.result.alpha < 0.02, "{}", solved.result.alpha);
+    let [with, without] = [wet, dry].map(|found| found.no_load_speed.unwrap().value);
+    assert!((with / without - 1.0).abs() < 5e-3, "{with} {without}");
+}
+
+#[test]
+fn stated_errors_hold_against_the_reference() {
+    for preset in ["fundamental", "tooth-radius-6.5m", "tooth-width-2.31mm"] {
+        let reference = solved(preset, &[], Fidelity::Reference).merit;
+        for fidelity in [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine] {
+            let merit = solved(preset, &[], fidelity).merit;
+            for (found, exact) in
+                [(&merit.with_film, &reference.with_film), (&merit.without_film, &reference.without_film)]
+            {
+                let pairs = [
+                    (found.stall_torque, exact.stall_torque),
+                    (found.no_load_speed.unwrap(), exact.no_load_speed.unwrap()),
+                    (found.max_power, exact.max_power),
+                    (found.max_efficiency.unwrap(), exact.max_efficiency.unwrap()),
+                ];
+                for (i, (found, exact)) in pairs.into_iter().enumerate() {
+                    let off = (found.value - exact.value).abs();
+                    assert!(off <= found.error + exact.error, "{preset} {fidelity} {i}: {found:?} {exact:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn another_rotor_speed_changes_the_torque_by_less_than_is_said() {
+    let still = solved("fundamental", &[("numerics.wedge", "on")], Fidelity::Fine);
+    let top = still.merit.rpm(surface_speed(&still.motor)).to_string();
+    let turning = solved("fundamental", &[("numerics.wedge", "on"), ("motor.rotor_speed_rpm", &top)], Fidelity::Fine);
+    let change = (turning.result.max_torque / still.result.max_torque - 1.0).abs();
+    assert!(change <= still.merit.speed_effect, "{change} {}", still.merit.speed_effect);
+}
+
+#[test]
+fn the_papers_method_has_a_curve_too_and_no_error() {
+    let solved = solved_by("fundamental", &[], Fidelity::Draft, Method::Paper);
+    let ours = self::solved("fundamental", &[], Fidelity::Standard);
+    let (theirs, mine) = (solved.merit.with_film.no_load_speed.unwrap(), ours.merit.with_film.no_load_speed.unwrap());
+    assert!((theirs.value / mine.value - 1.0).abs() < 0.03, "{theirs:?} {mine:?}");
+    assert!(theirs.error.is_infinite());
+}
+
+#[test]
+fn a_still_stator_drives_nothing() {
+    let solved = solved("fundamental", &[("stator.tangential_amplitude_um", "0")], Fidelity::Draft);
+    let found = &solved.merit.with_film;
+    assert!(found.curve.is_empty() && found.no_load_speed.is_none() && found.max_power.value == 0.0);
+    // Friction holds a rotor that is turned, whichever way.
+    for (rpm, sign) in [("10", -1.0), ("-10", 1.0)] {
+        let turned = [("stator.tangential_amplitude_um", "0"), ("motor.rotor_speed_rpm", rpm)];
+        let solved = self::solved("fundamental", &turned, Fidelity::Draft);
+        let present = solved.merit.with_film.present;
+        assert!((present.torque.value - sign * solved.merit.with_film.max_torque.value).abs() < 1e-12, "{present:?}");
+        assert!((present.friction - solved.merit.with_film.max_torque.value * 10.0 * TAU / 60.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn one_tooth_stands_for_all() {
+    let one = solved("fundamental", &[], Fidelity::Draft).merit.with_film;
+    let all = solved("fundamental", &[("numerics.teeth", "all")], Fidelity::Draft).merit.with_film;
+    let [a, b] = [one, all].map(|found| found.no_load_speed.unwrap().value);
+    assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
+}
+
+#[test]
+fn the_shapes_are_those_of_the_recorded_contact() {
+    let solved = solved("fundamental", &[], Fidelity::Draft);
+    let drive = Drive::new(&solved.recording.line_loads());
+    let mean = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
+    assert!((drive.load() / mean - 1.0).abs() < 1e-12);
+    assert_eq!(film_power(&solved.motor, &solved.recording), solved.merit.film_power);
+}
