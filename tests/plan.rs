@@ -5,7 +5,6 @@
 
 use rayon::prelude::*;
 use squeezefilm::control::Cancel;
-use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor;
 use squeezefilm::plan::{Decision, Plan};
