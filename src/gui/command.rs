@@ -1,6 +1,7 @@
 //! What a panel or a key asks the application to do. Panels push commands; only the application carries them out.
 
 use super::dialogs::Export;
+use super::lessons::Teach;
 use super::state::Tab;
 use crate::analysis::tradeoff::Wish;
 use crate::fidelity::Fidelity;
@@ -105,6 +106,8 @@ pub enum Command {
     WritePicture(PathBuf),
     /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
+    /// Something of the lessons, the tour or the glossary.
+    Teach(Teach),
     /// Closes the window.
     Quit,
 }

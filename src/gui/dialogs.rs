@@ -50,6 +50,8 @@ pub enum Purpose {
     Screenshot,
     /// Export results.
     Export(Export),
+    /// Open a folder of lessons.
+    Lessons,
 }
 
 /// What came of a dialog.
@@ -75,10 +77,12 @@ pub fn native(purpose: Purpose, name: &str) -> Answer {
             let (kind, extensions) = export.filter();
             rfd::FileDialog::new().add_filter(kind, extensions)
         }
+        Purpose::Lessons => rfd::FileDialog::new(),
         Purpose::Open | Purpose::Save => rfd::FileDialog::new().add_filter("Preset", &["toml"]),
     };
     let path = match purpose {
         Purpose::Open => dialog.set_title("Open a preset").pick_file(),
+        Purpose::Lessons => dialog.set_title("Open a folder of lessons").pick_folder(),
         Purpose::Export(export) => dialog.set_title(export.title()).set_file_name(name).save_file(),
         Purpose::Save | Purpose::Screenshot => dialog.set_title("Save").set_file_name(name).save_file(),
     };

@@ -4,6 +4,7 @@ use crate::fidelity::Fidelity;
 use crate::gui::app::Activity;
 use crate::gui::command::Command;
 use crate::gui::keys;
+use crate::gui::spot;
 use crate::gui::state::View;
 use crate::gui::theme::Palette;
 use crate::job::Run;
@@ -17,7 +18,7 @@ const SPEEDS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 30.0];
 pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Command>) {
     let recording = &run.solution.recording;
     let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
-    ui.horizontal(|ui| {
+    let row = ui.horizontal(|ui| {
         let play = if view.playing { "Pause" } else { "Play" };
         if ui
             .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
@@ -57,6 +58,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, view: &View, commands: &mut Vec<Comman
         let phase = place / frames;
         ui.label(format!("t = {}  ({:.0}°)", time(recording.period * phase), (360.0 * phase).round() % 360.0));
     });
+    spot::mark(ui, "timeline", row.response.rect);
 }
 
 /// Fidelity, error, time; progress and cancel while something runs.

@@ -9,7 +9,7 @@ use eframe::egui;
 
 /// The labels above the middle.
 pub fn labels(ui: &mut egui::Ui, present: Tab, commands: &mut Vec<Command>) {
-    ui.horizontal_wrapped(|ui| {
+    let row = ui.horizontal_wrapped(|ui| {
         for &(tab, name) in Tab::ALL {
             let label = ui.selectable_label(tab == present, name).on_hover_text(keys::of(&Command::Show(tab)));
             if label.clicked() && tab != present {
@@ -17,5 +17,6 @@ pub fn labels(ui: &mut egui::Ui, present: Tab, commands: &mut Vec<Command>) {
             }
         }
     });
+    super::spot::mark(ui, "tabs", row.response.rect);
     ui.separator();
 }

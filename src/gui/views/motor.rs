@@ -6,6 +6,7 @@ use super::scales::Scales;
 use super::{loads, map, tooth, wave};
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
+use crate::gui::spot;
 use crate::gui::state::View;
 use crate::job::Run;
 use crate::problem::{Motor, Scenario};
@@ -113,11 +114,17 @@ pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut
     map::draw(ui, &painter, &ink, layout.map, &shown);
     if let Some(rect) = layout.tooth {
         let drawn = tooth::draw(ui, &painter, &ink, rect, layout.gutter, &shown);
+        for (axes, place) in drawn.plots.iter().zip(["least gap", "loads"]) {
+            spot::mark(ui, place, axes.rect);
+        }
         for (axes, name) in drawn.plots.iter().zip(["Least gap over the cycle", "Loads over the cycle"]) {
             seek(ui, axes, name, commands);
         }
     }
     Readout::new(&shown).draw(&painter, &ink, layout.readout);
+    for (name, rect) in [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)] {
+        spot::mark(ui, name, rect);
+    }
 
     let pointed = layout.wave.union(layout.map);
     let name = "Motor along one wavelength: point to read values, click a tooth to follow it";

@@ -8,6 +8,7 @@ use super::sample::{self, Lines, Touching};
 use super::scales::{Curve, Scales};
 use super::series::{Series, Trace};
 use crate::gui::command::Command;
+use crate::gui::spot;
 use crate::gui::state::View;
 use crate::job::Run;
 use crate::problem::{Plate, Scenario};
@@ -92,6 +93,12 @@ pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut
     draw_loop(&painter, &ink, plots[1], &shown);
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
     readout.draw(&painter, &ink, place);
+    for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
+        spot::mark(ui, name, rect);
+    }
+    if with_map {
+        spot::mark(ui, "map", last);
+    }
 
     let name = "Plate along its length: point to read values";
     let response = named(ui, wall.union(last), name).on_hover_cursor(CursorIcon::Crosshair);
