@@ -726,7 +726,7 @@ impl eframe::App for App {
             if self.lecture { ["parameters, lecture", "results, lecture"] } else { ["parameters", "results"] };
         if self.view.parameters {
             PARAMETERS.fit(egui::Panel::left(left), width).show(ui, |ui| {
-                spot::mark(ui, "parameters", ui.max_rect().shrink(2.0));
+                spot::mark(ui, "parameters", ui.max_rect().expand(2.0));
                 let plan = shown.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
                 parameters::show(ui, self.document.scene(), &self.refusals, plan, &mut commands);
             });

@@ -260,7 +260,11 @@ impl Comparison {
             Expression::Name { name, .. } if !name.unit().is_empty() => format!(" {}", name.unit()),
             _ => String::new(),
         };
-        let shown = |value: f64| significant(value, DIGITS).replace('-', "−");
+        let shown = |value: f64| {
+            let text = significant(value, DIGITS).replace('-', "−");
+            let decimal = text.contains('.') && !text.contains('e');
+            if decimal { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        };
         let words = match self.operator {
             Operator::Less => "below",
             Operator::AtMost => "at most",
@@ -561,7 +565,7 @@ mod tests {
         assert_eq!(verdict(source, &halved, 0.5), Verdict::Holds);
         assert_eq!(
             verdict(source, &halved, 0.3),
-            Verdict::Not("Film share of the load α is 0.300, and should be above 0.375".to_owned())
+            Verdict::Not("Film share of the load α is 0.3, and should be above 0.375".to_owned())
         );
         assert_eq!(
             verdict(source, &[("film.min_spacing_nm", "150")], 0.5),

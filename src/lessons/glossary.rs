@@ -62,9 +62,10 @@ pub fn find(word: &str) -> Option<&'static Term> {
     let word = word.trim();
     let by_name = terms().iter().find(|term| term.name.eq_ignore_ascii_case(word));
     by_name.or_else(|| {
-        terms()
-            .iter()
-            .find(|term| (!term.symbol.is_empty() && term.symbol == word) || term.also.iter().any(|also| also == word))
+        terms().iter().find(|term| {
+            (!term.symbol.is_empty() && term.symbol == word)
+                || term.also.iter().any(|also| also.eq_ignore_ascii_case(word))
+        })
     })
 }
 

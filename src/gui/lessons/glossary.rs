@@ -9,6 +9,8 @@ use eframe::egui::{self, Id, RichText, Ui};
 
 /// Widest explanation on hover.
 const WIDTH: f32 = 320.0;
+/// Between a title and its drawing, and above it.
+const TITLE_ROOM: f32 = 6.0;
 /// Size of the window.
 const SIZE: [f32; 2] = [440.0, 520.0];
 
@@ -41,6 +43,13 @@ pub fn hover(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
             response
         }
     }
+}
+
+/// Explains `word` while the pointer rests on the title of a drawing: the row of text above `drawing`.
+pub fn over_title(ui: &Ui, drawing: egui::Rect, row: f32, word: &str) {
+    let title = egui::Rect::from_min_max(drawing.left_top() - egui::vec2(0.0, row + TITLE_ROOM), drawing.right_top());
+    let response = ui.interact(title, ui.scope_id().with(("title", word)), egui::Sense::hover());
+    hover(ui, response, word);
 }
 
 fn explanation(ui: &mut Ui, term: &Term) {

@@ -8,12 +8,15 @@ use crate::gui::keys;
 use crate::gui::spot;
 use crate::gui::theme::{Palette, palette};
 use crate::lessons::check::Name;
+use crate::lessons::text::{self, Inline};
 use crate::lessons::{Answer, Prediction, Question, Step, Task};
 use crate::scene::Scene;
 use eframe::egui::{self, Align, Button, Color32, Layout, RichText, TextStyle, Ui, vec2};
 
 /// Digits of the numbers beside the text.
 const DIGITS: usize = 4;
+/// Width of a column of numbers, in heights of the text.
+const NUMBER_WIDTH: f32 = 3.9;
 /// Changes smaller than this are none, relative.
 const UNCHANGED: f64 = 5e-4;
 
@@ -59,7 +62,8 @@ pub fn show(ui: &mut Ui, teaching: &Teaching, scene: &Scene, busy: bool, command
             let asked = step.question.is_none() || work.committed;
             if let (Some(task), true) = (&step.task, asked) {
                 ui.add_space(0.7 * look.size);
-                do_it(ui, task, &work, busy, &colours, commands);
+                let tried = *scene != running.start.scene;
+                do_it(ui, task, &work, [busy, tried], &colours, commands);
             }
             if let (Some(question), true) = (&step.question, answered(step, &work)) {
                 ui.add_space(0.7 * look.size);
@@ -99,6 +103,8 @@ fn boxed<R>(ui: &mut Ui, colour: Color32, title: &str, add: impl FnOnce(&mut Ui)
     let shown = frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = 5.0;
+        // Buttons keep an edge on the tinted ground.
+        ui.visuals_mut().widgets.inactive.bg_stroke = line;
         ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
         add(ui)
     });
@@ -113,15 +119,7 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &Work, colours: &Pale
             Answer::Choice { choices, .. } => {
                 for (i, choice) in choices.iter().enumerate() {
                     let chosen = work.prediction == Some(Prediction::Choice(i));
-                    let text = crate::lessons::text::plain(choice);
-                    let row = ui.horizontal_top(|ui| {
-                        let radio = ui.add_enabled(!work.committed, egui::RadioButton::new(chosen, ""));
-                        radio.widget_info(|| {
-                            egui::WidgetInfo::selected(egui::Role::RadioButton, !work.committed, chosen, text.as_str())
-                        });
-                        let words = ui.vertical(|ui| rich::paragraph(ui, choice, look)).inner;
-                        radio.clicked() || words.interact(egui::Sense::click()).clicked()
-                    });
+                    let row = ui.horizontal_top(|ui| choice_row(ui, choice, chosen, !work.committed, look, colours));
                     if row.inner && !work.committed {
                         commands.push(Command::Teach(Teach::Predict(Prediction::Choice(i))));
                     }
@@ -158,7 +156,33 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &Work, colours: &Pale
     });
 }
 
-fn do_it(ui: &mut Ui, task: &Task, work: &Work, busy: bool, colours: &Palette, commands: &mut Vec<Command>) {
+/// A choice with its mark; whether it was clicked.
+fn choice_row(ui: &mut Ui, choice: &[Inline], chosen: bool, open: bool, look: Look, colours: &Palette) -> bool {
+    let side = 1.25 * look.size;
+    let sense = if open { egui::Sense::click() } else { egui::Sense::hover() };
+    let (area, radio) = ui.allocate_exact_size(vec2(side, side), sense);
+    let text = text::plain(choice);
+    radio.widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, open, chosen, text.as_str()));
+    let words = ui.vertical(|ui| rich::paragraph(ui, choice, look)).inner;
+    let words = words.interact(sense);
+    let pointed = open && (radio.hovered() || words.hovered() || radio.has_focus());
+    let colour = if chosen || pointed { colours.film } else { colours.quiet };
+    let middle = area.center() + vec2(0.0, -0.06 * look.size);
+    ui.painter().circle_stroke(middle, 0.38 * look.size, egui::Stroke::new(1.4, colour));
+    if chosen {
+        ui.painter().circle_filled(middle, 0.22 * look.size, colours.film);
+    }
+    radio.clicked() || words.clicked()
+}
+
+fn do_it(
+    ui: &mut Ui,
+    task: &Task,
+    work: &Work,
+    [busy, tried]: [bool; 2],
+    colours: &Palette,
+    commands: &mut Vec<Command>,
+) {
     let look = Look::reading(ui);
     let (colour, title) = if work.fulfilled { (colours.good, "✔ Done") } else { (colours.accent, "Your turn") };
     boxed(ui, colour, title, |ui| {
@@ -174,11 +198,11 @@ fn do_it(ui: &mut Ui, task: &Task, work: &Work, busy: bool, colours: &Palette, c
         ui.add_space(2.0);
         match (&work.unmet, busy) {
             (_, true) => drop(ui.label(RichText::new("Solving…").color(colours.quiet))),
-            (Some(unmet), _) => {
+            (Some(unmet), _) if tried => {
                 ui.add(egui::Label::new(RichText::new(format!("Not yet. {unmet}.")).color(colours.contact)).wrap());
                 rich::blocks(ui, &task.hint, quiet);
             }
-            (None, _) => rich::blocks(ui, &task.hint, quiet),
+            _ => rich::blocks(ui, &task.hint, quiet),
         }
         ui.horizontal_wrapped(|ui| {
             if !task.example.is_empty()
@@ -231,35 +255,44 @@ fn numbers(ui: &mut Ui, teaching: &Teaching, step: &Step, scene: &Scene, colours
         }
     };
     let shown = |value: Option<f64>| value.map_or_else(|| "…".to_owned(), |v| significant(v, DIGITS).replace('-', "−"));
-    let grid = egui::Grid::new("lesson, numbers").num_columns(4).spacing([10.0, 3.0]);
-    let response = grid
-        .show(ui, |ui| {
-            for head in ["Your run", "at first", "now", ""] {
-                ui.label(RichText::new(head).small().color(colours.quiet));
+    // Three columns of numbers; the names have what is left.
+    let em = ui.text_style_height(&TextStyle::Body);
+    let row = |ui: &mut Ui, name: &mut dyn FnMut(&mut Ui), cells: [RichText; 3]| {
+        let height = ui.spacing().interact_size.y.min(1.3 * em);
+        ui.allocate_ui_with_layout(vec2(ui.available_width(), height), Layout::right_to_left(Align::Center), |ui| {
+            for cell in cells.into_iter().rev() {
+                let width = vec2(NUMBER_WIDTH * em, height);
+                ui.allocate_ui_with_layout(width, Layout::right_to_left(Align::Center), |ui| {
+                    ui.set_min_width(width.x);
+                    ui.add(egui::Label::new(cell).extend());
+                });
             }
-            ui.end_row();
-            for &name in &step.show {
-                let words = match name {
-                    Name::Quantity(quantity) => quantity.words().to_owned(),
-                    Name::Key(parameter) => parameter.words(),
-                };
-                let unit = if name.unit().is_empty() { String::new() } else { format!(", {}", name.unit()) };
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| name(ui));
+        });
+    };
+    let quiet = |text: &str| RichText::new(text).color(colours.quiet);
+    let table = ui.scope(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
+        row(ui, &mut |ui| drop(ui.label(quiet("Your run"))), [quiet("at first"), quiet("now"), quiet("")]);
+        for &shown_name in &step.show {
+            let words = shown_name.words();
+            let unit = if shown_name.unit().is_empty() { String::new() } else { format!(", {}", shown_name.unit()) };
+            let (first, now) = (value(shown_name, true), value(shown_name, false));
+            let ratio = match (first, now) {
+                (Some(first), Some(now)) if first.abs() > 0.0 && (now / first - 1.0).abs() > UNCHANGED => {
+                    format!("× {}", significant(now / first, 3).replace('-', "−"))
+                }
+                _ => String::new(),
+            };
+            let mut name = |ui: &mut Ui| {
                 let label = ui.add(egui::Label::new(format!("{}{unit}", capitalised(&words))).truncate());
                 super::glossary::hover(ui, label, &words);
-                let (first, now) = (value(name, true), value(name, false));
-                ui.label(RichText::new(shown(first)).color(colours.quiet));
-                ui.label(RichText::new(shown(now)).strong().color(ui.visuals().strong_text_color()));
-                let ratio = match (first, now) {
-                    (Some(first), Some(now)) if first.abs() > 0.0 && (now / first - 1.0).abs() > UNCHANGED => {
-                        format!("× {}", significant(now / first, 3).replace('-', "−"))
-                    }
-                    _ => String::new(),
-                };
-                ui.label(RichText::new(ratio).color(colours.film));
-                ui.end_row();
-            }
-        })
-        .response;
+            };
+            let present = RichText::new(shown(now)).strong().color(ui.visuals().strong_text_color());
+            row(ui, &mut name, [quiet(&shown(first)), present, RichText::new(ratio).color(colours.film)]);
+        }
+    });
+    let response = table.response;
     spot::mark(ui, "numbers", response.rect);
     ui.add_space(6.0);
 }
@@ -290,6 +323,13 @@ fn foot(ui: &mut Ui, teaching: &Teaching, step: &Step, work: &Work, commands: &m
             };
             if ui.add(button).on_hover_text(hover).clicked() {
                 commands.push(Command::Teach(Teach::Next));
+            }
+            let following = running.lesson + 1;
+            if last
+                && following < teaching.lessons().len()
+                && ui.button("Next lesson").on_hover_text("Finishes this one and begins the next").clicked()
+            {
+                commands.extend([Command::Teach(Teach::Next), Command::Teach(Teach::Open(following))]);
             }
         });
     });

@@ -54,9 +54,9 @@ pub fn beside(spot: Rect, size: Vec2, room: Rect) -> Rect {
     let level = spot.center().y - 0.5 * size.y;
     let middle = spot.center().x - 0.5 * size.x;
     let corners = [
+        pos2(middle, spot.bottom() + GAP),
         pos2(spot.right() + GAP, level),
         pos2(spot.left() - GAP - size.x, level),
-        pos2(middle, spot.bottom() + GAP),
         pos2(middle, spot.top() - GAP - size.y),
     ];
     let inside = |corner: egui::Pos2| {

@@ -4,6 +4,7 @@ use crate::fidelity::Fidelity;
 use crate::gui::app::Activity;
 use crate::gui::command::Command;
 use crate::gui::keys;
+use crate::gui::lessons::glossary;
 use crate::gui::spot;
 use crate::gui::state::View;
 use crate::gui::theme::Palette;
@@ -76,7 +77,9 @@ pub fn status(
                 Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load_error),
             };
             let ended = if run.solution.status == Status::Converged { "converged, " } else { "" };
-            ui.label(format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s));
+            let text = format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s);
+            let label = ui.label(text);
+            glossary::hover(ui, label, "Fidelity");
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(palette.alarm))),
                 _ if activity.stale(run) => drop(ui.label(RichText::new("of the scene before this edit").weak())),
