@@ -10,8 +10,8 @@ use crate::gui::theme::{Palette, palette};
 use crate::lessons::check::Name;
 use crate::lessons::text::{self, Inline};
 use crate::lessons::{Answer, Prediction, Question, Step, Task};
-use crate::scene::Scene;
-use eframe::egui::{self, Align, Button, Color32, Layout, RichText, TextStyle, Ui, vec2};
+use crate::scene::{Scene, Value};
+use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, TextStyle, Ui, vec2};
 
 /// Digits of the numbers beside the text.
 const DIGITS: usize = 4;
@@ -69,6 +69,14 @@ pub fn show(ui: &mut Ui, teaching: &Teaching, scene: &Scene, busy: bool, command
                 ui.add_space(0.7 * look.size);
                 answer(ui, question, &work, &colours);
             }
+            // What has just appeared, below the fold of a small window, comes into view.
+            let appeared = Id::unique(("lesson, appeared", running.lesson, running.step));
+            let state = (work.committed, work.fulfilled);
+            let before = ui.ctx().data(|data| data.get_temp::<(bool, bool)>(appeared));
+            if before.is_some_and(|before| before != state) {
+                ui.scroll_to_cursor(Some(Align::BOTTOM));
+            }
+            ui.ctx().data_mut(|data| data.insert_temp(appeared, state));
             ui.add_space(12.0);
         });
     });
@@ -254,7 +262,12 @@ fn numbers(ui: &mut Ui, teaching: &Teaching, step: &Step, scene: &Scene, colours
             scene.get(parameter.key).and_then(|value| value.as_number())
         }
     };
-    let shown = |value: Option<f64>| value.map_or_else(|| "…".to_owned(), |v| significant(v, DIGITS).replace('-', "−"));
+    let shown = |name: Name, value: Option<f64>| match (name, value) {
+        (_, None) => "…".to_owned(),
+        // A parameter as it was typed, a result with its digits.
+        (Name::Key(_), Some(value)) => Value::Number(value).to_string().replace('-', "−"),
+        (Name::Quantity(_), Some(value)) => significant(value, DIGITS).replace('-', "−"),
+    };
     // Three columns of numbers; the names have what is left.
     let em = ui.text_style_height(&TextStyle::Body);
     let row = |ui: &mut Ui, name: &mut dyn FnMut(&mut Ui), cells: [RichText; 3]| {
@@ -288,8 +301,8 @@ fn numbers(ui: &mut Ui, teaching: &Teaching, step: &Step, scene: &Scene, colours
                 let label = ui.add(egui::Label::new(format!("{}{unit}", capitalised(&words))).truncate());
                 super::glossary::hover(ui, label, &words);
             };
-            let present = RichText::new(shown(now)).strong().color(ui.visuals().strong_text_color());
-            row(ui, &mut name, [quiet(&shown(first)), present, RichText::new(ratio).color(colours.film)]);
+            let present = RichText::new(shown(shown_name, now)).strong().color(ui.visuals().strong_text_color());
+            row(ui, &mut name, [quiet(&shown(shown_name, first)), present, RichText::new(ratio).color(colours.film)]);
         }
     });
     let response = table.response;
