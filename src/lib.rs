@@ -58,6 +58,7 @@
 //! | [`mod@paper`] | the algorithm of Maeno and Bogy (1992), literally |
 //! | [`mod@solve`] | one call for all of it |
 //! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
+//! | [`lessons`] | lessons and the glossary: their texts, scenes, questions and checks |
 //! | [`cli`] | the command line |
 //!
 //! The equations with their derivation are in `docs/theory.md`, measured errors in `docs/validation.md`.
@@ -74,6 +75,7 @@ pub mod film;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod job;
+pub mod lessons;
 pub mod motor;
 pub mod numerics;
 pub mod paper;

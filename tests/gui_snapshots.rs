@@ -278,3 +278,71 @@ fn open_by_path(results: &mut SnapshotResults) {
     window.snapshot("error");
     results.extend_harness(&mut window);
 }
+
+/// Clicks these one after the other, by their names.
+fn click(window: &mut Harness<'static, App>, labels: &[&str]) {
+    for label in labels {
+        // A choice is there twice: its mark, and its words.
+        window.query_all_by_label_contains(label).next().unwrap().click();
+        settle(window);
+    }
+}
+
+/// Until the scene of a lesson's step is solved as far as it will be, and its motion stands at its start.
+fn solved(window: &mut Harness<'static, App>) {
+    for _ in 0..6000 {
+        window.step();
+        let app = window.state();
+        let done = |run: &squeezefilm::job::Run| run.scene == *app.document().scene() && run.fidelity == Fidelity::Fine;
+        if app.activity().running.is_none() && app.shown().is_some_and(done) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    window.hover_at(eframe::egui::pos2(700.0, 1.0));
+    settle(window);
+}
+
+#[test]
+fn lessons_tour_and_glossary_look_as_they_did() {
+    if !can_draw() {
+        return;
+    }
+    let mut results = SnapshotResults::new();
+    // A formula, a question and a task; small and light, a task that is done.
+    for (name, size, keys) in [
+        ("lesson-dark", USUAL, &[][..]),
+        ("lesson-small-light", SMALL, &[THEME][..]),
+        ("lesson-lecture", USUAL, &[LECTURE][..]),
+    ] {
+        let mut window = window("fundamental", size, keys);
+        click(&mut window, &["Lessons", "Pushing on trapped air"]);
+        window.key_press(Key::PageDown);
+        solved(&mut window);
+        if name != "lesson-lecture" {
+            click(&mut window, &["A little more than double", "This is my prediction"]);
+        }
+        if name == "lesson-small-light" {
+            click(&mut window, &["Show me"]);
+        }
+        solved(&mut window);
+        window.snapshot(name);
+        results.extend_harness(&mut window);
+    }
+    let mut window = window("fundamental", USUAL, &[]);
+    click(&mut window, &["Lessons", "Why the mean force"]);
+    for _ in 0..2 {
+        window.key_press(Key::PageDown);
+        settle(&mut window);
+    }
+    solved(&mut window);
+    window.snapshot("lesson-formula");
+    click(&mut window, &["Leave", "Help", "Take the tour", "Next"]);
+    solved(&mut window);
+    window.snapshot("tour");
+    click(&mut window, &["Skip the tour", "Help", "Glossary"]);
+    window.get_by_role_and_label(Role::TextInput, "Search").type_text("squeeze");
+    solved(&mut window);
+    window.snapshot("glossary");
+    results.extend_harness(&mut window);
+}

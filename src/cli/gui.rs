@@ -11,11 +11,16 @@ use std::path::PathBuf;
 #[derive(Debug, Default, Args)]
 #[command(after_help = "Examples:
   squeezefilm
-  squeezefilm gui levitating")]
+  squeezefilm gui levitating
+  squeezefilm gui --lessons my-course")]
 pub(super) struct Arguments {
     /// A built-in name or a path; without it, the scene that was last open
     #[arg(value_name = "PRESET")]
     preset: Option<String>,
+
+    /// A folder of lessons, shown beside the built-in ones; docs/lessons.md says how to write them
+    #[arg(long, value_name = "DIR")]
+    lessons: Option<PathBuf>,
 
     #[command(flatten)]
     scene: SceneOptions,
@@ -35,7 +40,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if no_display() {
         return Err(CliError::Window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
     }
-    gui::open(opened).map_err(|error| CliError::Window(error.to_string()))?;
+    gui::open(opened, arguments.lessons.clone()).map_err(|error| CliError::Window(error.to_string()))?;
     Ok(Exit::Solved)
 }
 

@@ -11,12 +11,14 @@ use super::document::Document;
 use super::edit::{Change, Refusals};
 use super::exporting::{self as exports, Exports};
 use super::keys;
+use super::lessons::{self, Stage, Teach, Teaching};
 use super::measured::{Measured, with_present};
 use super::merits::Merits;
 use super::modal::{self, Modal, PathPrompt};
 use super::panels::model::Model;
 use super::panels::{menu, parameters, results, sheet, timeline};
 use super::pinned::{Page, Pins};
+use super::spot;
 use super::state::{Tab, View};
 use super::sweeping::Sweeps;
 use super::tabs;
@@ -54,6 +56,8 @@ struct Side {
 }
 
 const PARAMETERS: Side = Side { default: 300.0, least: 210.0, share: 0.3 };
+/// A lesson is read: wider than the results, whose place it takes.
+const LESSON: Side = Side { default: 392.0, least: 240.0, share: 0.36 };
 const RESULTS: Side = Side { default: 304.0, least: 190.0, share: 0.29 };
 
 impl Side {
@@ -130,6 +134,7 @@ pub struct App {
     pins: Pins,
     sweeps: Sweeps,
     merits: Merits,
+    teaching: Teaching,
     modal: Option<Modal>,
     /// What to do after a save that a question led to.
     after_save: Option<Command>,
@@ -167,6 +172,9 @@ impl App {
         let solver = Solver::start_with_clock(world.now, move || wake.request_repaint())?;
         let stored = |key: &str| context.storage.and_then(|storage| storage.get_string(key));
         let aim = stored("fidelity").and_then(|name| name.parse().ok());
+        // The tour is for whoever has never seen the window, and not over a file that was asked for.
+        let first_start =
+            opened.is_none() && context.storage.is_some() && stored("tour").is_none() && stored("scene").is_none();
         let document = match opened {
             Some((scene, path)) => Document::opened(scene, path),
             None => match restore(&stored) {
@@ -191,6 +199,7 @@ impl App {
             pins: Pins::default(),
             sweeps: Sweeps::default(),
             merits: Merits::default(),
+            teaching: Teaching::new(stored("lessons")),
             modal: None,
             after_save: None,
             sheet: false,
@@ -200,6 +209,9 @@ impl App {
             quitting: false,
             last_frame: None,
         };
+        if first_start {
+            app.teaching.tour = Some(0);
+        }
         app.apply_theme(&context.egui_ctx);
         app.refine();
         Ok(app)
@@ -238,6 +250,57 @@ impl App {
     /// What the switches of the model changed.
     pub fn comparison(&self) -> &Comparison {
         &self.comparison
+    }
+
+    /// Lessons, tour and glossary.
+    pub fn teaching(&self) -> &Teaching {
+        &self.teaching
+    }
+
+    /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
+    pub fn load_lessons(&mut self, folder: &Path) {
+        self.teaching.load(folder);
+        self.say_faults();
+    }
+
+    fn say_faults(&mut self) {
+        let text = self.teaching.fault_text();
+        if !text.is_empty() {
+            self.modal = Some(Modal::Error(text));
+        }
+    }
+
+    /// Something of the lessons, the tour or the glossary.
+    fn teach(&mut self, ctx: &egui::Context, teach: Teach) {
+        match teach {
+            Teach::ChooseFolder => self.ask(ctx, Purpose::Lessons, ""),
+            Teach::LoadFolder(folder) => {
+                self.leave_lesson();
+                self.load_lessons(&folder);
+            }
+            Teach::Faults => self.say_faults(),
+            teach => {
+                let stage = Stage { document: &mut self.document, view: &mut self.view };
+                if self.teaching.carry_out(teach, stage) {
+                    self.scene_replaced();
+                }
+            }
+        }
+    }
+
+    /// Another scene is on the table.
+    fn scene_replaced(&mut self) {
+        self.refusals.clear();
+        self.comparison.edited();
+        self.refine();
+    }
+
+    /// Brings the student's own scene back, if a lesson has set it aside.
+    fn leave_lesson(&mut self) {
+        let stage = Stage { document: &mut self.document, view: &mut self.view };
+        if self.teaching.leave(stage) {
+            self.scene_replaced();
+        }
     }
 
     fn apply_theme(&self, ctx: &egui::Context) {
@@ -318,6 +381,9 @@ impl App {
         for (purpose, answer) in answers {
             match (purpose, answer) {
                 (Purpose::Open, Answer::Path(path)) => self.carry_out(ctx, Command::OpenPath(path)),
+                (Purpose::Lessons, Answer::Path(path)) => {
+                    self.carry_out(ctx, Command::Teach(Teach::LoadFolder(path)));
+                }
                 (Purpose::Save, Answer::Path(path)) => self.carry_out(ctx, Command::SavePath(path)),
                 (Purpose::Screenshot, Answer::Path(path)) => self.carry_out(ctx, Command::WritePicture(path)),
                 (Purpose::Export(export), Answer::Path(path)) => {
@@ -326,7 +392,7 @@ impl App {
                 (_, Answer::Cancelled) => self.carry_out(ctx, Command::Dismissed),
                 (purpose, Answer::NoDialog) => {
                     let path = match purpose {
-                        Purpose::Open => String::new(),
+                        Purpose::Open | Purpose::Lessons => String::new(),
                         Purpose::Save => self.suggested_name(),
                         Purpose::Screenshot => PICTURE_NAME.to_owned(),
                         Purpose::Export(export) => export.file_name().to_owned(),
@@ -407,6 +473,9 @@ impl App {
     /// Whether `command` would lose unsaved changes; then the user is asked first.
     fn would_lose(&mut self, command: &Command) -> bool {
         let loses = matches!(command, Command::OpenBuiltIn(_) | Command::OpenPath(_) | Command::Quit);
+        if loses {
+            self.leave_lesson();
+        }
         if loses && self.document.is_dirty() && !self.quitting {
             let name = self.document.scene().name.clone();
             self.modal = Some(Modal::Unsaved { name, next: Box::new(command.clone()) });
@@ -541,6 +610,7 @@ impl App {
             Command::ToggleParameters => self.view.parameters = !self.view.parameters,
             Command::ToggleResults => self.view.results = !self.view.results,
             Command::ToggleShortcuts => self.sheet = !self.sheet,
+            Command::Teach(teach) => self.teach(ctx, teach),
             Command::Quit => {
                 self.quitting = true;
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -627,6 +697,12 @@ impl App {
     }
 
     fn modals(&mut self, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        if let Some(query) = self.teaching.glossary.clone() {
+            lessons::glossary::show(ctx, &query, commands);
+        }
+        if let Some(stop) = self.teaching.tour {
+            lessons::tour::show(ctx, stop, commands);
+        }
         if self.sheet {
             self.sheet = sheet::show(ctx);
         }
@@ -663,7 +739,10 @@ impl eframe::App for App {
                 .collect()
         });
         commands.extend(dropped.into_iter().map(Command::OpenPath));
-        if ctx.input(|input| input.viewport().close_requested()) && !self.quitting && self.document.is_dirty() {
+        if ctx.input(|input| input.viewport().close_requested())
+            && !self.quitting
+            && self.teaching.own(&self.document).is_dirty()
+        {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             commands.push(Command::Quit);
         }
@@ -678,10 +757,11 @@ impl eframe::App for App {
         let mut commands = Vec::new();
         let shown = self.shown.clone();
         self.view.cursor_x = self.view.hover_x.take();
+        self.teaching.observe(&ctx, &self.document, shown.as_deref());
 
         egui::Panel::top("menu").show(ui, |ui| {
             let available = |export| self.can_export(export);
-            menu::show(ui, &self.document, &self.recent, &available, self.dark, &mut commands);
+            menu::show(ui, &self.document, &self.recent, &available, self.dark, &self.teaching, &mut commands);
         });
         egui::Panel::bottom("status").show(ui, |ui| {
             if let Some(recording) = self.on_timeline() {
@@ -697,14 +777,25 @@ impl eframe::App for App {
             if self.lecture { ["parameters, lecture", "results, lecture"] } else { ["parameters", "results"] };
         if self.view.parameters {
             PARAMETERS.fit(egui::Panel::left(left), width).show(ui, |ui| {
+                spot::mark(ui, "parameters", ui.max_rect().expand(2.0));
                 let plan = shown.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
                 parameters::show(ui, self.document.scene(), &self.refusals, plan, &mut commands);
             });
         }
-        if self.view.results {
+        let lesson = self.teaching.running().is_some_and(|running| !running.all_results);
+        if self.view.results && lesson {
+            let [_, right] = if self.lecture { ["", "lesson, lecture"] } else { ["", "lesson"] };
+            LESSON.fit(egui::Panel::right(right), width).show(ui, |ui| {
+                let busy = shown.as_ref().is_none_or(|run| self.activity.stale(run)) && self.activity.failure.is_none();
+                lessons::show(ui, &self.teaching, self.document.scene(), busy, &mut commands);
+            });
+        } else if self.view.results {
             RESULTS.fit(egui::Panel::right(right), width).show(ui, |ui| {
                 // As wide before the first result as after it.
                 ui.set_min_width(ui.available_width());
+                if self.teaching.running().is_some() && ui.button("Back to the lesson").clicked() {
+                    commands.push(Command::Teach(Teach::AllResults(false)));
+                }
                 if let Some(run) = &shown {
                     let (scene, aim) = (self.document.scene(), self.document.aim());
                     let model = Model { scene, aim, change: self.comparison.change() };
@@ -764,9 +855,13 @@ impl eframe::App for App {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        storage.set_string("scene", self.document.scene().to_toml());
-        storage.set_string("saved", self.document.saved().to_toml());
-        storage.set_string("path", self.document.path().map(|p| p.display().to_string()).unwrap_or_default());
+        // The next window begins with the student's own scene, not with that of a lesson.
+        let own = self.teaching.own(&self.document);
+        storage.set_string("scene", own.scene().to_toml());
+        storage.set_string("saved", own.saved().to_toml());
+        storage.set_string("path", own.path().map(|p| p.display().to_string()).unwrap_or_default());
+        storage.set_string("lessons", self.teaching.progress_text());
+        storage.set_string("tour", "seen".to_owned());
         let recent: Vec<String> = self.recent.iter().map(|path| path.display().to_string()).collect();
         storage.set_string("recent", recent.join("\n"));
         storage.set_string("fidelity", self.document.aim().name().to_owned());

@@ -2,6 +2,7 @@
 
 use super::dialogs::Export;
 use super::exporting::Exporting;
+use super::lessons::Teach;
 use super::pinned::Pinning;
 use super::state::Tab;
 use super::sweeping::Sweeping;
@@ -114,6 +115,8 @@ pub enum Command {
     WritePicture(PathBuf),
     /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
+    /// Something of the lessons, the tour or the glossary.
+    Teach(Teach),
     /// Closes the window.
     Quit,
 }

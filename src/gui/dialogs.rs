@@ -96,6 +96,8 @@ pub enum Purpose {
     Screenshot,
     /// Export results.
     Export(Export),
+    /// Open a folder of lessons.
+    Lessons,
 }
 
 /// What came of a dialog.
@@ -121,11 +123,13 @@ pub fn native(purpose: Purpose, name: &str) -> Answer {
             Some((kind, extensions)) => rfd::FileDialog::new().add_filter(kind, extensions),
             None => rfd::FileDialog::new(),
         },
+        Purpose::Lessons => rfd::FileDialog::new(),
         Purpose::Open | Purpose::Save => rfd::FileDialog::new().add_filter("Preset", &["toml"]),
     };
     let path = match purpose {
         Purpose::Open => dialog.set_title("Open a preset").pick_file(),
         Purpose::Export(export) if export.is_folder() => dialog.set_title(export.title()).pick_folder(),
+        Purpose::Lessons => dialog.set_title("Open a folder of lessons").pick_folder(),
         Purpose::Export(export) => dialog.set_title(export.title()).set_file_name(name).save_file(),
         Purpose::Save | Purpose::Screenshot => dialog.set_title("Save").set_file_name(name).save_file(),
     };

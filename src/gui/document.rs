@@ -20,12 +20,25 @@ pub struct Document {
     redo: Vec<(Scene, Fidelity)>,
     /// The parameter that a pointer is dragging: its edits are one.
     dragging: Option<&'static str>,
+    /// Whether it is lent, by a lesson: nothing is lost with it.
+    lent: bool,
 }
 
 impl Document {
     /// A scene as it was opened, from a file or built in.
     pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {
-        Self { saved: scene.clone(), scene, aim: AIM, path, undo: Vec::new(), redo: Vec::new(), dragging: None }
+        let saved = scene.clone();
+        Self { saved, scene, aim: AIM, path, undo: Vec::new(), redo: Vec::new(), dragging: None, lent: false }
+    }
+
+    /// A scene that is lent, to try things on: it is never unsaved.
+    pub fn lent(scene: Scene) -> Self {
+        Self { lent: true, ..Self::opened(scene, None) }
+    }
+
+    /// Whether it is lent.
+    pub fn is_lent(&self) -> bool {
+        self.lent
     }
 
     /// The same, solved up to this fidelity.
@@ -68,7 +81,7 @@ impl Document {
 
     /// Whether there are unsaved changes.
     pub fn is_dirty(&self) -> bool {
-        self.scene != self.saved
+        !self.lent && self.scene != self.saved
     }
 
     /// Replaces the scene by an edited one. Edits of one `dragging` parameter are undone together.

@@ -1,6 +1,7 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use super::command::Command;
+use super::lessons::Teach;
 use super::pinned::Pinning;
 use super::state::Tab;
 use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
@@ -57,6 +58,13 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             always(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo),
             always(key(CTRL, Key::D), "Pin the run on screen", || Command::Pin(Pinning::Shown)),
             idle(key(NONE, Key::Escape), "Stop solving", || Command::CancelSolve),
+        ],
+    ),
+    (
+        "Lessons",
+        &[
+            idle(key(NONE, Key::PageDown), "Next step", || Command::Teach(Teach::Next)),
+            idle(key(NONE, Key::PageUp), "Step before", || Command::Teach(Teach::Back)),
         ],
     ),
     (

@@ -11,11 +11,13 @@ pub mod document;
 pub mod edit;
 pub mod exporting;
 pub mod keys;
+pub mod lessons;
 pub mod measured;
 pub mod merits;
 pub mod modal;
 pub mod panels;
 pub mod pinned;
+pub mod spot;
 pub mod state;
 pub mod sweeping;
 pub mod tabs;
@@ -27,11 +29,12 @@ use crate::scene::Scene;
 use eframe::egui;
 use std::path::PathBuf;
 
-/// Opens the window on a scene, or where the last one was left, and returns when it is closed.
+/// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
+/// beside the built-in ones.
 ///
 /// # Errors
 /// If there is no display, or no way to draw on it.
-pub fn open(opened: Option<(Scene, Option<PathBuf>)>) -> Result<(), eframe::Error> {
+pub fn open(opened: Option<(Scene, Option<PathBuf>)>, lessons: Option<PathBuf>) -> Result<(), eframe::Error> {
     let options = eframe::NativeOptions {
         renderer: eframe::Renderer::Glow,
         // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.
@@ -44,5 +47,12 @@ pub fn open(opened: Option<(Scene, Option<PathBuf>)>) -> Result<(), eframe::Erro
             .with_drag_and_drop(true),
         ..Default::default()
     };
-    eframe::run_native("squeezefilm", options, Box::new(|context| Ok(Box::new(app::App::new(context, opened)?))))
+    let start = |context: &eframe::CreationContext<'_>| {
+        let mut app = app::App::new(context, opened)?;
+        if let Some(folder) = lessons {
+            app.load_lessons(&folder);
+        }
+        Ok(Box::new(app) as Box<dyn eframe::App>)
+    };
+    eframe::run_native("squeezefilm", options, Box::new(start))
 }

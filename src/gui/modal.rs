@@ -2,6 +2,7 @@
 
 use super::command::Command;
 use super::dialogs::Purpose;
+use super::lessons::Teach;
 use super::theme::Palette;
 use eframe::egui::{self, Id, Key, RichText, Ui};
 use std::path::{Path, PathBuf};
@@ -131,6 +132,7 @@ fn path(
         match prompt.purposes[..] {
             [Purpose::Open] => "Open a preset",
             [Purpose::Save] => "Save the preset",
+            [Purpose::Lessons] => "Open a folder of lessons",
             [Purpose::Screenshot] => "Save a picture of the window",
             [Purpose::Export(export)] => export.title(),
             _ => "Open or save a preset",
@@ -150,7 +152,7 @@ fn path(
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     let path = expanded(&prompt.path);
     let named = !prompt.path.trim().is_empty();
-    let writes = prompt.purposes.iter().any(|purpose| *purpose != Purpose::Open);
+    let writes = prompt.purposes.iter().any(|purpose| !matches!(purpose, Purpose::Open | Purpose::Lessons));
     let replaces = writes && named && file != Some(path.as_path()) && path.is_file();
     if replaces && !prompt.purposes.contains(&Purpose::Open) {
         ui.add(egui::Label::new(RichText::new("There is such a file already").color(palette.alarm)).wrap());
@@ -160,7 +162,7 @@ fn path(
     ui.horizontal_wrapped(|ui| {
         for (i, &purpose) in prompt.purposes.iter().enumerate() {
             let text = match purpose {
-                Purpose::Open => "Open",
+                Purpose::Open | Purpose::Lessons => "Open",
                 _ if replaces => "Replace",
                 Purpose::Save | Purpose::Screenshot | Purpose::Export(_) => "Save",
             };
@@ -170,6 +172,7 @@ fn path(
             if clicked || (entered && named && i == 0 && !replacing) {
                 commands.push(match purpose {
                     Purpose::Open => Command::OpenPath(path.clone()),
+                    Purpose::Lessons => Command::Teach(Teach::LoadFolder(path.clone())),
                     Purpose::Save => Command::SavePath(path.clone()),
                     Purpose::Screenshot => Command::WritePicture(path.clone()),
                     Purpose::Export(export) => Command::WriteExport(export, path.clone()),

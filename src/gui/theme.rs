@@ -131,3 +131,52 @@ pub fn install_fonts(ctx: &egui::Context) {
     }
     ctx.set_fonts(fonts);
 }
+
+/// The ring round what is lit.
+#[derive(Clone, Copy, Debug)]
+pub struct Spot {
+    /// Between it and what it is round.
+    pub room: f32,
+    /// Its width.
+    pub line: f32,
+    /// The width of its glow.
+    pub glow: f32,
+    /// Its corners.
+    pub corner: u8,
+}
+
+/// The ring round what is lit.
+pub const SPOT: Spot = Spot { room: 3.0, line: 2.0, glow: 6.0, corner: 6 };
+
+/// Sizes of formulas, relative to the text around them.
+#[derive(Clone, Copy, Debug)]
+pub struct Mathematics {
+    /// A formula on its own.
+    pub display: f32,
+    /// Indices and exponents.
+    pub script: f32,
+    /// What is over and under a line in the middle of a text.
+    pub fraction: f32,
+    /// The smallest \[points\].
+    pub least: f32,
+    /// Height of the middle of + and − above the line of writing.
+    pub axis: f32,
+    /// Height of a letter above the line of writing.
+    pub ascent: f32,
+    /// Depth of a letter below it.
+    pub descent: f32,
+    /// Width of lines: of fractions and roots.
+    pub rule: f32,
+}
+
+/// Sizes of formulas.
+pub const MATHEMATICS: Mathematics = Mathematics {
+    display: 1.2,
+    script: 0.72,
+    fraction: 0.8,
+    least: 8.5,
+    axis: 0.27,
+    ascent: 0.74,
+    descent: 0.21,
+    rule: 0.07,
+};

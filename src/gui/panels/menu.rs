@@ -5,7 +5,10 @@ use crate::gui::command::Command;
 use crate::gui::dialogs::Export;
 use crate::gui::document::Document;
 use crate::gui::keys;
+use crate::gui::lessons::{Teach, Teaching};
+use crate::gui::spot;
 use crate::gui::state::Tab;
+use crate::lessons::text::plain_blocks;
 use crate::scene::presets;
 use eframe::egui::{self, Button};
 use std::path::PathBuf;
@@ -17,6 +20,7 @@ pub fn show(
     recent: &[PathBuf],
     available: &dyn Fn(Export) -> bool,
     dark: bool,
+    teaching: &Teaching,
     commands: &mut Vec<Command>,
 ) {
     egui::MenuBar::new().ui(ui, |ui| {
@@ -40,15 +44,28 @@ pub fn show(
             ui.separator();
             item(ui, "Picture of the window…", true, Command::Screenshot, commands);
         });
+        let menu = ui.menu_button("Lessons", |ui| lessons(ui, teaching, commands));
+        spot::mark(ui, "lessons", menu.response.rect);
         ui.menu_button("Help", |ui| {
+            item(ui, "Glossary", true, Command::Teach(Teach::Glossary(true)), commands);
+            item(ui, "Take the tour", true, Command::Teach(Teach::Tour(Some(0))), commands);
+            ui.separator();
             item(ui, "Keyboard shortcuts", true, Command::ToggleShortcuts, commands);
         });
         ui.separator();
         let mark = if document.is_dirty() { " •" } else { "" };
         let name = &document.scene().name;
         let title = ui.add(egui::Label::new(egui::RichText::new(format!("{name}{mark}")).strong()).truncate());
-        let place =
-            document.path().map_or_else(|| "built-in preset, not saved".to_owned(), |p| p.display().to_string());
+        let place = document.path().map_or_else(
+            || {
+                if document.is_lent() {
+                    "lent by the lesson, to try things on".to_owned()
+                } else {
+                    "built-in preset, not saved".to_owned()
+                }
+            },
+            |p| p.display().to_string(),
+        );
         title.on_hover_text(if document.is_dirty() { format!("{place} (changes not saved)") } else { place });
     });
 }
@@ -123,6 +140,29 @@ fn file(ui: &mut egui::Ui, recent: &[PathBuf], available: &dyn Fn(Export) -> boo
     ui.menu_button("Export", |ui| exports(ui, available, commands));
     ui.separator();
     item(ui, "Quit", true, Command::Quit, commands);
+}
+
+fn lessons(ui: &mut egui::Ui, teaching: &Teaching, commands: &mut Vec<Command>) {
+    for (i, lesson) in teaching.lessons().iter().enumerate() {
+        let progress = teaching.progress(lesson);
+        let mark = match (progress.step, progress.done) {
+            (0, true) => "✔ done".to_owned(),
+            (0, false) => format!("{} steps", lesson.steps.len()),
+            (step, _) => format!("at step {} of {}", (step + 1).min(lesson.steps.len()), lesson.steps.len()),
+        };
+        let entry = ui.add(Button::new(format!("{}  {}", i + 1, lesson.title)).shortcut_text(mark));
+        if beside(ui.max_rect(), entry, &plain_blocks(&lesson.about)).clicked() {
+            commands.push(Command::Teach(Teach::Open(i)));
+            ui.close();
+        }
+    }
+    ui.separator();
+    let running = teaching.running().is_some();
+    item(ui, "Leave the lesson", running, Command::Teach(Teach::Leave), commands);
+    item(ui, "Open a folder of lessons…", true, Command::Teach(Teach::ChooseFolder), commands);
+    if !teaching.faults().is_empty() {
+        item(ui, "What was wrong with lessons…", true, Command::Teach(Teach::Faults), commands);
+    }
 }
 
 fn built_in(ui: &mut egui::Ui, commands: &mut Vec<Command>) {

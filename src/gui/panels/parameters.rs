@@ -5,6 +5,7 @@ use super::hint::beside;
 use super::labels::{self, choice, field_name, label, switch};
 use crate::gui::command::Command;
 use crate::gui::edit::Refusals;
+use crate::gui::spot;
 use crate::gui::theme::{Palette, palette};
 use crate::plan::Decision;
 use crate::scene::{Kind, Parameter, ParameterKind, Range, Scale, Scene, Value};
@@ -101,7 +102,10 @@ impl Panel<'_> {
                 continue;
             }
             self.measure_units(ui, &parameters);
-            let refused = parameters.iter().any(|parameter| self.refusals.of(parameter.key).is_some());
+            let reveals = spot::reveals(ui.ctx());
+            let refused = parameters.iter().any(|parameter| {
+                self.refusals.of(parameter.key).is_some() || (reveals && spot::is_lit(ui.ctx(), parameter.key))
+            });
             egui::CollapsingHeader::new(RichText::new(title).strong())
                 .id_salt(table)
                 .default_open(open)
@@ -138,7 +142,7 @@ impl Panel<'_> {
     }
 
     fn row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
-        ui.push_id(parameter.key, |ui| {
+        let row = ui.push_id(parameter.key, |ui| {
             let value = self.scene.get(parameter.key);
             match (parameter.kind, &value) {
                 (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, None) => {
@@ -162,6 +166,12 @@ impl Panel<'_> {
             }
             self.footnotes(ui, parameter);
         });
+        if spot::is_lit(ui.ctx(), parameter.key) {
+            spot::ring(ui, row.response.rect);
+            if spot::reveals(ui.ctx()) {
+                ui.scroll_to_rect(row.response.rect.expand(ui.text_style_height(&TextStyle::Body)), None);
+            }
+        }
         ui.add_space(4.0);
     }
 

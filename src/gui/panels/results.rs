@@ -7,6 +7,8 @@ use crate::dimensionless::Dimensionless;
 use crate::export::digits::{significant, with_error};
 use crate::export::json::{dry_torque, force_unit};
 use crate::gui::command::Command;
+use crate::gui::lessons::glossary;
+use crate::gui::spot;
 use crate::gui::theme::{Palette, palette};
 use crate::job::Run;
 use crate::problem::{Motor, Plate, Scenario};
@@ -60,9 +62,12 @@ fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours
     if result.levitated {
         banner(ui, colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
     }
+    let top = ui.next_widget_position();
     headline(ui, "α", &uncertain(result.alpha, result.alpha_error), "");
     quiet(ui, colours, "share of the load carried by air");
     shares(ui, result.alpha, colours);
+    let headline = egui::Rect::from_min_max(top, ui.max_rect().right_bottom()).with_max_y(ui.min_rect().bottom());
+    spot::mark(ui, "headline", headline);
     ui.add_space(4.0);
     let force_error = result.alpha_error * motor.load;
     let torque_error = result.alpha_error * dry_torque(motor);
@@ -156,7 +161,8 @@ fn convergence_banner(ui: &mut egui::Ui, run: &Run, colours: &Palette) {
             let font = TextStyle::Body.resolve(ui.style());
             job.append("✔ Converged", 0.0, egui::TextFormat::simple(font.clone(), colours.good));
             job.append(&text, 0.0, egui::TextFormat::simple(font, colours.quiet));
-            ui.add(egui::Label::new(job).wrap());
+            let label = ui.add(egui::Label::new(job).wrap());
+            glossary::hover(ui, label, "Converged");
             ui.add_space(2.0);
         }
         Status::NotConverged { residual, tolerance } => {
@@ -172,7 +178,8 @@ fn banner(ui: &mut egui::Ui, colour: Color32, title: &str, text: &str) {
     let ground = ui.visuals().panel_fill.lerp_to_gamma(colour, 0.16);
     egui::Frame::new().fill(ground).corner_radius(4).inner_margin(egui::Margin::symmetric(8, 6)).show(ui, |ui| {
         ui.set_width(ui.available_width());
-        ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
+        let label = ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
+        glossary::hover(ui, label, title);
         ui.add(egui::Label::new(text).wrap());
     });
     ui.add_space(6.0);
@@ -215,7 +222,8 @@ fn headline(ui: &mut egui::Ui, symbol: &str, value: &str, unit: &str) {
     if galley.size().x > room {
         galley = job(room / galley.size().x * 0.98);
     }
-    ui.add(egui::Label::new(galley));
+    let label = ui.add(egui::Label::new(galley));
+    glossary::hover(ui, label, if symbol.is_empty() { "Film load" } else { symbol });
 }
 
 /// Air and contact as parts of one bar, and what the colours mean.
@@ -232,7 +240,7 @@ fn shares(ui: &mut egui::Ui, alpha: f64, colours: &Palette) {
         if share < 1.0 { egui::CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 } } else { 3.into() },
         colours.film,
     );
-    response.on_hover_text("Film and contact share the load");
+    glossary::hover(ui, response, "α");
     // Adding 0 turns −0 into 0.
     let percent = |share: f64| format!("{:.1} %", (1000.0 * share).round() / 10.0 + 0.0);
     let (air, contact) = (format!("air {}", percent(alpha)), format!("contact {}", percent(1.0 - alpha)));
@@ -254,30 +262,34 @@ fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
     ui.horizontal(|ui| {
         let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
         ui.painter().rect_filled(area, 2, colour);
-        ui.add(egui::Label::new(text).extend());
+        let label = ui.add(egui::Label::new(text).extend());
+        glossary::hover(ui, label, text.split(' ').next().unwrap_or_default());
     });
 }
 
 fn section(ui: &mut egui::Ui, title: &str) {
     ui.add_space(8.0);
-    ui.add(egui::Label::new(RichText::new(title).strong()).wrap());
+    let label = ui.add(egui::Label::new(RichText::new(title).strong()).wrap());
+    glossary::hover(ui, label, title);
 }
 
 /// A name at the left, its value and unit at the right; below each other where they do not fit side by side.
 fn number(ui: &mut egui::Ui, colours: &Palette, name: &str, value: &str, unit: &str) {
     let value = if unit.is_empty() { value.to_owned() } else { format!("{value} {unit}") };
-    let gap = 2.0 * ui.spacing().item_spacing.x;
+    let (term, gap) = (name, 2.0 * ui.spacing().item_spacing.x);
     let fits = text_width(ui, name) + text_width(ui, &value) + gap < ui.available_width();
     let name = egui::Label::new(RichText::new(name).color(colours.quiet));
     let value = egui::Label::new(RichText::new(value).color(ui.visuals().strong_text_color()));
     let right = egui::Layout::right_to_left(egui::Align::Center);
     if fits {
         ui.horizontal(|ui| {
-            ui.add(name.extend());
+            let label = ui.add(name.extend());
+            glossary::hover(ui, label, term);
             ui.with_layout(right, |ui| ui.add(value.extend()));
         });
     } else {
-        ui.add(name.wrap());
+        let label = ui.add(name.wrap());
+        glossary::hover(ui, label, term);
         ui.horizontal(|ui| ui.with_layout(right, |ui| ui.add(value.wrap())));
     }
 }

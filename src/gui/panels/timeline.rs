@@ -4,6 +4,8 @@ use crate::fidelity::Fidelity;
 use crate::gui::app::Activity;
 use crate::gui::command::Command;
 use crate::gui::keys;
+use crate::gui::lessons::glossary;
+use crate::gui::spot;
 use crate::gui::state::View;
 use crate::gui::theme::Palette;
 use crate::job::Run;
@@ -17,7 +19,7 @@ const SPEEDS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 30.0];
 /// Play, step, scrub and speed.
 pub fn show(ui: &mut egui::Ui, recording: &Recording, view: &View, commands: &mut Vec<Command>) {
     let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
-    ui.horizontal(|ui| {
+    let row = ui.horizontal(|ui| {
         let play = if view.playing { "Pause" } else { "Play" };
         if ui
             .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
@@ -57,6 +59,7 @@ pub fn show(ui: &mut egui::Ui, recording: &Recording, view: &View, commands: &mu
         let phase = place / frames;
         ui.label(format!("t = {}  ({:.0}°)", time(recording.period * phase), (360.0 * phase).round() % 360.0));
     });
+    spot::mark(ui, "timeline", row.response.rect);
 }
 
 /// Fidelity, error, time; progress and cancel while something runs.
@@ -74,7 +77,9 @@ pub fn status(
                 Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load_error),
             };
             let ended = if run.solution.status == Status::Converged { "converged, " } else { "" };
-            ui.label(format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s));
+            let text = format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s);
+            let label = ui.label(text);
+            glossary::hover(ui, label, "Fidelity");
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(palette.alarm))),
                 _ if activity.stale(run) => drop(ui.label(RichText::new("of the scene before this edit").weak())),

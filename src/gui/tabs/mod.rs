@@ -29,7 +29,7 @@ pub struct Bar {
 /// The labels above the middle, and at their right what pins the run.
 pub fn labels(ui: &mut egui::Ui, bar: &Bar, commands: &mut Vec<Command>) {
     let &Bar { present, pinned, solved, plate } = bar;
-    ui.horizontal_wrapped(|ui| {
+    let row = ui.horizontal_wrapped(|ui| {
         for &(tab, name) in Tab::ALL {
             let name = if tab == Tab::Torque && plate { "Exact" } else { name };
             let text = if tab == Tab::Compare && pinned > 0 { format!("{name} ({pinned})") } else { name.to_owned() };
@@ -48,5 +48,6 @@ pub fn labels(ui: &mut egui::Ui, bar: &Bar, commands: &mut Vec<Command>) {
             });
         }
     });
+    super::spot::mark(ui, "tabs", row.response.rect);
     ui.separator();
 }

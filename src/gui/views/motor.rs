@@ -6,6 +6,8 @@ use super::scales::Scales;
 use super::{loads, map, tooth, wave};
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
+use crate::gui::lessons::glossary;
+use crate::gui::spot;
 use crate::gui::state::View;
 use crate::job::Run;
 use crate::problem::{Motor, Scenario};
@@ -113,6 +115,11 @@ pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut
     map::draw(ui, &painter, &ink, layout.map, &shown);
     if let Some(rect) = layout.tooth {
         let drawn = tooth::draw(ui, &painter, &ink, rect, layout.gutter, &shown);
+        for ((axes, place), word) in drawn.plots.iter().zip(["least gap", "loads"]).zip(["Least gap", "Film load"]) {
+            spot::mark(ui, place, axes.rect);
+            glossary::over_title(ui, axes.rect, ink.row, word);
+        }
+        spot::mark(ui, "tooth", rect);
         for (axes, name) in drawn.plots.iter().zip(["Least gap over the cycle", "Loads over the cycle"]) {
             seek(ui, axes, name, commands);
         }
@@ -129,6 +136,13 @@ pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut
         && let Some(x) = response.interact_pointer_pos().and_then(|at| axes.x_at(at.x))
     {
         commands.push(Command::FollowTooth(sample::tooth_at(x, recording.pitch, recording.teeth).0));
+    }
+    let words = ["Travelling wave", "Gauge pressure", "Pressure map"];
+    for ((name, rect), word) in
+        [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)].into_iter().zip(words)
+    {
+        spot::mark(ui, name, rect.shrink(2.0));
+        glossary::over_title(ui, rect, ink.row, word);
     }
 }
 

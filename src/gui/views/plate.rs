@@ -8,6 +8,8 @@ use super::sample::{self, Lines, Touching};
 use super::scales::{Curve, Scales};
 use super::series::{Series, Trace};
 use crate::gui::command::Command;
+use crate::gui::lessons::glossary;
+use crate::gui::spot;
 use crate::gui::state::View;
 use crate::job::Run;
 use crate::problem::{Plate, Scenario};
@@ -97,6 +99,16 @@ pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut
     let response = named(ui, wall.union(last), name).on_hover_cursor(CursorIcon::Crosshair);
     if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
         view.hover_x = Some(x);
+    }
+    let words = ["Mean gap", "Film pressure", "Film load", "Loop"];
+    let parts = [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])];
+    for ((name, rect), word) in parts.into_iter().zip(words) {
+        spot::mark(ui, name, rect.shrink(2.0));
+        glossary::over_title(ui, rect, ink.row, word);
+    }
+    if with_map {
+        spot::mark(ui, "map", last.shrink(2.0));
+        glossary::over_title(ui, last, ink.row, "Pressure map");
     }
 }
 

@@ -1,0 +1,183 @@
+//! What can be wrong with a lesson: file, line, and what is allowed instead. Never fatal: the other lessons go on.
+
+use super::check::CheckError;
+use super::text::TextError;
+use crate::scene::SceneError;
+use std::fmt;
+use std::path::PathBuf;
+
+/// One fault of a lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LessonError {
+    /// The file or folder.
+    pub origin: PathBuf,
+    /// Line in the file, from 1.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub what: What,
+}
+
+impl fmt::Display for LessonError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.origin.display())?;
+        if let Some(line) = self.line {
+            write!(f, "{line}:")?;
+        }
+        write!(f, " {}", self.what)
+    }
+}
+
+impl std::error::Error for LessonError {}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum What {
+    /// The file or folder cannot be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    /// A folder without any lesson in it.
+    #[error("holds no lesson: expected folders with a lesson.md in each, or a lesson.md itself")]
+    NoLessons,
+    /// The file is larger than any lesson.
+    #[error("is larger than {0} bytes: this is not a lesson")]
+    TooLarge(u64),
+    /// There is no title.
+    #[error("has no title: expected a line `# Title` before everything else")]
+    NoTitle,
+    /// There are no steps.
+    #[error("has no steps: expected `## Step` below the title, once for each")]
+    NoSteps,
+    /// A heading without words.
+    #[error("the heading is empty")]
+    EmptyHeading,
+    /// A block that is not closed.
+    #[error("the block ```{0} is never closed: expected a line ``` below it")]
+    OpenBlock(String),
+    /// A block of another kind.
+    #[error("a block ```{found} is not known: expected setup, question or task")]
+    UnknownBlock {
+        /// Its kind.
+        found: String,
+    },
+    /// A block outside of a step.
+    #[error("a block ```{0} stands before the first step")]
+    BlockOutside(&'static str),
+    /// The second block of a kind in one step.
+    #[error("this step has two blocks ```{0}: keep one")]
+    BlockTwice(&'static str),
+    /// Not TOML.
+    #[error("is not valid TOML: {0}")]
+    Syntax(String),
+    /// A key that no block has.
+    #[error("{block}.{key} is not known: expected one of {allowed}")]
+    UnknownKey {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: String,
+        /// The keys it has.
+        allowed: String,
+    },
+    /// A key that has to be there.
+    #[error("{block}.{key} is missing: {why}")]
+    Missing {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// What it is needed for.
+        why: &'static str,
+    },
+    /// A value of another type.
+    #[error("{block}.{key} = {found} is of the wrong type: expected {expected}")]
+    WrongType {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// The value as written.
+        found: String,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// A value that is none of those allowed.
+    #[error("{block}.{key} = \"{found}\" is not known: expected one of {allowed}")]
+    NotOneOf {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// The value.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A number out of its range.
+    #[error("{block}.{key} = {found} is out of range: allowed {allowed}")]
+    OutOfRange {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// The value.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// The first step has no scene to begin with.
+    #[error("setup.preset is missing: the first step has to name a preset, built in or a file beside lesson.md")]
+    NoScene,
+    /// A preset that is neither beside the lesson nor built in.
+    #[error(
+        "setup.preset = \"{name}\": there is no such file beside lesson.md, and no such built-in preset; squeezefilm presets lists those"
+    )]
+    NoPreset {
+        /// As written.
+        name: String,
+    },
+    /// A preset or a change of it is not allowed.
+    #[error("{block}.{key}: {error}")]
+    Scene {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// Every fault of the scene.
+        error: SceneError,
+    },
+    /// A change without a value.
+    #[error("{block}.{key}: \"{found}\" is no change: expected \"key = value\", as in \"film.min_spacing_nm = 100\"")]
+    NoChange {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// As written.
+        found: String,
+    },
+    /// The check cannot be read.
+    #[error("{block}.{key} = \"{source_text}\": {error}")]
+    Check {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// As written.
+        source_text: String,
+        /// Why.
+        error: CheckError,
+    },
+    /// A text or a formula in it cannot be read.
+    #[error("{0}")]
+    Text(#[from] TextError),
+    /// A text in a block cannot be read.
+    #[error("{block}.{key}: {error}")]
+    TextIn {
+        /// The block.
+        block: &'static str,
+        /// The key.
+        key: &'static str,
+        /// Why.
+        error: TextError,
+    },
+}

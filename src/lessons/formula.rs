@@ -1,0 +1,493 @@
+//! Formulas as they are written in lessons and in the glossary: a part of LaTeX, read into a tree that the window sets.
+//!
+//! Fractions, roots, indices and exponents, Greek letters, a few operators, named functions, brackets that grow, dots and
+//! bars over a letter, and upright text. What is not known is refused with its name, so that no formula is shown wrong.
+
+/// A part of a formula.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// A letter that stands for a quantity: slanted.
+    Letter(char),
+    /// Upright text: numbers, units, names of functions.
+    Upright(String),
+    /// A sign with room at both sides: = + ≪.
+    Sign(char),
+    /// A fraction.
+    Fraction(Vec<Self>, Vec<Self>),
+    /// A square root.
+    Root(Vec<Self>),
+    /// Index and exponent of what they follow.
+    Script {
+        /// What carries them.
+        base: Vec<Self>,
+        /// Below.
+        index: Vec<Self>,
+        /// Above.
+        exponent: Vec<Self>,
+    },
+    /// Brackets as high as what is between them.
+    Bracketed(char, Vec<Self>, char),
+    /// A mark over a letter.
+    Marked(Mark, Vec<Self>),
+    /// Room, in heights of a letter.
+    Space(f32),
+}
+
+/// A mark over a letter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// Its rate of change.
+    Dot,
+    /// Its mean.
+    Bar,
+}
+
+/// A formula, and what it was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    /// As written, without the dollars.
+    pub source: String,
+    /// Its parts, from left to right.
+    pub nodes: Vec<Node>,
+}
+
+/// Why a formula cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FormulaError {
+    /// A command that is not known.
+    #[error(
+        "\\{name} is not known in formulas: allowed are letters, digits, \\frac, \\sqrt, \\left( \\right), \\text, \\dot, \\bar, ^, _, Greek letters, and signs such as \\approx, \\le, \\ll, \\cdot, \\partial, \\infty"
+    )]
+    Unknown {
+        /// Without its backslash.
+        name: String,
+    },
+    /// A character that the window cannot be sure to draw.
+    #[error("the character {0:?} is not allowed in formulas")]
+    Character(char),
+    /// Something that was begun and not ended.
+    #[error("{0} is never closed")]
+    Open(&'static str),
+    /// Something that ends what was not begun.
+    #[error("{0} closes nothing")]
+    Stray(&'static str),
+    /// A command or a script without what it needs.
+    #[error("nothing follows {0}")]
+    Nothing(String),
+    /// Deeper than any formula of a lesson.
+    #[error("more than {0} levels of brackets and scripts")]
+    TooDeep(usize),
+}
+
+/// Levels of groups.
+const DEEPEST: usize = 24;
+
+const LETTERS: &[(&str, char)] = &[
+    ("alpha", 'α'),
+    ("beta", 'β'),
+    ("gamma", 'γ'),
+    ("delta", 'δ'),
+    ("epsilon", 'ε'),
+    ("varepsilon", 'ε'),
+    ("zeta", 'ζ'),
+    ("eta", 'η'),
+    ("theta", 'θ'),
+    ("kappa", 'κ'),
+    ("lambda", 'λ'),
+    ("mu", 'μ'),
+    ("nu", 'ν'),
+    ("xi", 'ξ'),
+    ("pi", 'π'),
+    ("rho", 'ρ'),
+    ("sigma", 'σ'),
+    ("tau", 'τ'),
+    ("phi", 'φ'),
+    ("varphi", 'φ'),
+    ("chi", 'χ'),
+    ("psi", 'ψ'),
+    ("omega", 'ω'),
+    ("ell", 'ℓ'),
+];
+
+/// Upright: capitals, and what is no letter.
+const SYMBOLS: &[(&str, &str)] = &[
+    ("Gamma", "Γ"),
+    ("Delta", "Δ"),
+    ("Theta", "Θ"),
+    ("Lambda", "Λ"),
+    ("Phi", "Φ"),
+    ("Psi", "Ψ"),
+    ("Sigma", "Σ"),
+    ("Omega", "Ω"),
+    ("partial", "∂"),
+    ("nabla", "∇"),
+    ("infty", "∞"),
+    ("int", "∫"),
+    ("langle", "⟨"),
+    ("rangle", "⟩"),
+    ("dots", "…"),
+    ("ldots", "…"),
+    ("circ", "°"),
+    ("%", "%"),
+    ("$", "$"),
+    ("{", "{"),
+    ("}", "}"),
+];
+
+const SIGNS: &[(&str, char)] = &[
+    ("approx", '≈'),
+    ("le", '≤'),
+    ("leq", '≤'),
+    ("ge", '≥'),
+    ("geq", '≥'),
+    ("ne", '≠'),
+    ("neq", '≠'),
+    ("ll", '≪'),
+    ("gg", '≫'),
+    ("pm", '±'),
+    ("cdot", '·'),
+    ("times", '×'),
+    ("propto", '∝'),
+    ("sim", '∼'),
+    ("to", '→'),
+    ("equiv", '≡'),
+];
+
+const FUNCTIONS: &[&str] = &["sin", "cos", "tan", "tanh", "sinh", "cosh", "ln", "log", "exp", "max", "min"];
+
+const SPACES: &[(&str, f32)] = &[(",", 0.17), (":", 0.22), (";", 0.28), (" ", 0.25), ("quad", 1.0), ("qquad", 2.0)];
+
+impl Formula {
+    /// Reads a formula; `source` is without its dollars.
+    ///
+    /// # Errors
+    /// What is not known or not closed.
+    pub fn parse(source: &str) -> Result<Self, FormulaError> {
+        let mut reader = Reader { rest: source.chars().collect::<Vec<_>>(), at: 0 };
+        let nodes = reader.row(End::Text, 0)?;
+        Ok(Self { source: source.trim().to_owned(), nodes })
+    }
+
+    /// In one line of plain text, for screen readers, search and messages.
+    pub fn plain(&self) -> String {
+        plain(&self.nodes).trim().to_owned()
+    }
+}
+
+fn plain(nodes: &[Node]) -> String {
+    let group = |nodes: &[Node]| {
+        let text = plain(nodes);
+        if nodes.len() > 1 { format!("({text})") } else { text }
+    };
+    nodes.iter().fold(String::new(), |mut text, node| {
+        match node {
+            Node::Letter(letter) => text.push(*letter),
+            Node::Upright(upright) => text.push_str(upright),
+            // A minus that begins something belongs to what follows.
+            Node::Sign(sign) if text.is_empty() || text.ends_with(' ') => text.push(*sign),
+            Node::Sign(sign) => text.push_str(&format!(" {sign} ")),
+            Node::Fraction(over, under) => text.push_str(&format!("{}/{}", group(over), group(under))),
+            Node::Root(inside) => text.push_str(&format!("√({})", plain(inside))),
+            Node::Script { base, index, exponent } => {
+                text.push_str(&plain(base));
+                if !index.is_empty() {
+                    text.push_str(&format!("_{}", group(index)));
+                }
+                if !exponent.is_empty() {
+                    text.push_str(&format!("^{}", group(exponent)));
+                }
+            }
+            Node::Bracketed(left, inside, right) => text.push_str(&format!("{left}{}{right}", plain(inside))),
+            Node::Marked(Mark::Dot, inside) => text.push_str(&format!("d{}/dt", plain(inside))),
+            Node::Marked(Mark::Bar, inside) => text.push_str(&format!("mean {}", plain(inside))),
+            Node::Space(room) if *room > 0.5 => text.push(' '),
+            Node::Space(_) => {}
+        }
+        text
+    })
+}
+
+/// What ends a row.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum End {
+    Text,
+    Brace,
+    Right,
+}
+
+struct Reader {
+    rest: Vec<char>,
+    at: usize,
+}
+
+impl Reader {
+    fn peek(&self) -> Option<char> {
+        self.rest.get(self.at).copied()
+    }
+
+    fn next(&mut self) -> Option<char> {
+        let next = self.peek();
+        self.at += usize::from(next.is_some());
+        next
+    }
+
+    fn skip_spaces(&mut self) {
+        while self.peek().is_some_and(char::is_whitespace) {
+            self.at += 1;
+        }
+    }
+
+    /// The name of a command, after its backslash.
+    fn name(&mut self) -> String {
+        let mut name = String::new();
+        while let Some(letter) = self.peek().filter(char::is_ascii_alphabetic) {
+            name.push(letter);
+            self.at += 1;
+        }
+        if name.is_empty() {
+            name.extend(self.next());
+        }
+        name
+    }
+
+    /// Nodes until `end`, which is consumed.
+    fn row(&mut self, end: End, depth: usize) -> Result<Vec<Node>, FormulaError> {
+        if depth > DEEPEST {
+            return Err(FormulaError::TooDeep(DEEPEST));
+        }
+        let mut nodes = Vec::new();
+        loop {
+            self.skip_spaces();
+            match self.peek() {
+                None => {
+                    return match end {
+                        End::Text => Ok(nodes),
+                        End::Brace => Err(FormulaError::Open("{")),
+                        End::Right => Err(FormulaError::Open("\\left")),
+                    };
+                }
+                Some('}') => {
+                    self.at += 1;
+                    return if end == End::Brace { Ok(nodes) } else { Err(FormulaError::Stray("}")) };
+                }
+                Some(script @ ('^' | '_')) => {
+                    self.at += 1;
+                    let content = self.argument(&script.to_string(), depth)?;
+                    let base = nodes.pop();
+                    nodes.push(scripted(base, script, content));
+                }
+                Some('\\') => {
+                    let before = self.at;
+                    self.at += 1;
+                    let name = self.name();
+                    if name == "right" {
+                        if end != End::Right {
+                            return Err(FormulaError::Stray("\\right"));
+                        }
+                        self.at = before;
+                        return Ok(nodes);
+                    }
+                    nodes.push(self.command(&name, depth)?);
+                }
+                Some(_) => nodes.push(self.single(depth)?),
+            }
+        }
+    }
+
+    /// What follows `after`: a group in braces, or one item.
+    fn argument(&mut self, after: &str, depth: usize) -> Result<Vec<Node>, FormulaError> {
+        if depth > DEEPEST {
+            return Err(FormulaError::TooDeep(DEEPEST));
+        }
+        self.skip_spaces();
+        match self.peek() {
+            None | Some('}' | '^' | '_') => Err(FormulaError::Nothing(after.to_owned())),
+            Some('{') => {
+                self.at += 1;
+                self.row(End::Brace, depth + 1)
+            }
+            Some('\\') => {
+                self.at += 1;
+                let name = self.name();
+                if name == "right" {
+                    return Err(FormulaError::Nothing(after.to_owned()));
+                }
+                Ok(vec![self.command(&name, depth + 1)?])
+            }
+            // One digit, as in LaTeX.
+            Some(digit) if digit.is_ascii_digit() => {
+                self.at += 1;
+                Ok(vec![Node::Upright(digit.to_string())])
+            }
+            Some(_) => Ok(vec![self.single(depth + 1)?]),
+        }
+    }
+
+    /// A character that is no command: a letter, a number, a sign, a group.
+    fn single(&mut self, depth: usize) -> Result<Node, FormulaError> {
+        let Some(first) = self.next() else { return Err(FormulaError::Nothing("the formula".to_owned())) };
+        Ok(match first {
+            '{' => {
+                let inside = self.row(End::Brace, depth + 1)?;
+                Node::Script { base: inside, index: Vec::new(), exponent: Vec::new() }
+            }
+            '0'..='9' => {
+                let mut number = String::from(first);
+                loop {
+                    match (self.peek(), self.rest.get(self.at + 1)) {
+                        (Some(digit), _) if digit.is_ascii_digit() => number.push(digit),
+                        (Some('.'), Some(next)) if next.is_ascii_digit() => number.push('.'),
+                        _ => break,
+                    }
+                    self.at += 1;
+                }
+                Node::Upright(number)
+            }
+            letter if letter.is_ascii_alphabetic() => Node::Letter(letter),
+            letter if LETTERS.iter().any(|(_, known)| *known == letter) => Node::Letter(letter),
+            '-' | '−' => Node::Sign('−'),
+            sign @ ('=' | '+' | '<' | '>' | ':') => Node::Sign(sign),
+            '*' => Node::Sign('·'),
+            other @ ('(' | ')' | '[' | ']' | '|' | '/' | ',' | '.' | '!' | '°' | '…' | '∂' | '∞' | '%') => {
+                Node::Upright(other.to_string())
+            }
+            '\'' => Node::Upright("′".to_owned()),
+            other => return Err(FormulaError::Character(other)),
+        })
+    }
+
+    fn command(&mut self, name: &str, depth: usize) -> Result<Node, FormulaError> {
+        let found = |table: &[(&str, char)]| table.iter().find(|(known, _)| *known == name).map(|(_, sign)| *sign);
+        if let Some(letter) = found(LETTERS) {
+            return Ok(Node::Letter(letter));
+        }
+        if let Some(sign) = found(SIGNS) {
+            return Ok(Node::Sign(sign));
+        }
+        if let Some((_, text)) = SYMBOLS.iter().find(|(known, _)| *known == name) {
+            return Ok(Node::Upright((*text).to_owned()));
+        }
+        if FUNCTIONS.contains(&name) {
+            return Ok(Node::Upright(format!("{name}\u{2009}")));
+        }
+        if let Some((_, room)) = SPACES.iter().find(|(known, _)| *known == name) {
+            return Ok(Node::Space(*room));
+        }
+        let after = format!("\\{name}");
+        Ok(match name {
+            "frac" => {
+                let over = self.argument(&after, depth)?;
+                Node::Fraction(over, self.argument(&after, depth)?)
+            }
+            "sqrt" => Node::Root(self.argument(&after, depth)?),
+            "dot" => Node::Marked(Mark::Dot, self.argument(&after, depth)?),
+            "bar" => Node::Marked(Mark::Bar, self.argument(&after, depth)?),
+            "text" | "mathrm" => {
+                self.skip_spaces();
+                if self.next() != Some('{') {
+                    return Err(FormulaError::Nothing(after));
+                }
+                let mut text = String::new();
+                loop {
+                    match self.next() {
+                        None => return Err(FormulaError::Open("{")),
+                        Some('}') => break,
+                        Some(letter) if letter.is_control() => return Err(FormulaError::Character(letter)),
+                        Some(letter) => text.push(letter),
+                    }
+                }
+                Node::Upright(text)
+            }
+            "left" => {
+                let left = self.bracket(&after)?;
+                let inside = self.row(End::Right, depth + 1)?;
+                // `\right` is still there.
+                self.at += "\\right".len();
+                let right = self.bracket("\\right")?;
+                Node::Bracketed(left, inside, right)
+            }
+            _ => return Err(FormulaError::Unknown { name: name.to_owned() }),
+        })
+    }
+
+    fn bracket(&mut self, after: &str) -> Result<char, FormulaError> {
+        self.skip_spaces();
+        match self.next() {
+            Some('\\') => match self.name().as_str() {
+                "langle" => Ok('⟨'),
+                "rangle" => Ok('⟩'),
+                name => Err(FormulaError::Unknown { name: name.to_owned() }),
+            },
+            Some(bracket @ ('(' | ')' | '[' | ']' | '|' | '⟨' | '⟩')) => Ok(bracket),
+            Some(other) => Err(FormulaError::Character(other)),
+            None => Err(FormulaError::Nothing(after.to_owned())),
+        }
+    }
+}
+
+/// `base` with one more script.
+fn scripted(base: Option<Node>, script: char, content: Vec<Node>) -> Node {
+    let (base, mut index, mut exponent) = match base {
+        Some(Node::Script { base, index, exponent })
+            if !(index.is_empty() && exponent.is_empty())
+                && (if script == '_' { index.is_empty() } else { exponent.is_empty() }) =>
+        {
+            (base, index, exponent)
+        }
+        Some(node) => (vec![node], Vec::new(), Vec::new()),
+        None => (Vec::new(), Vec::new(), Vec::new()),
+    };
+    if script == '_' {
+        index = content
+    } else {
+        exponent = content
+    }
+    Node::Script { base, index, exponent }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(source: &str) -> String {
+        Formula::parse(source).map_or_else(|error| error.to_string(), |formula| formula.plain())
+    }
+
+    #[test]
+    fn formulas_of_the_field_are_read() {
+        for (source, expected) in [
+            (r"\sigma = \frac{12 \mu \omega b^2}{p_a h_0^2}", "σ = (12μωb^2)/(p_ah_0^2)"),
+            (r"p = p_a \frac{h_0}{h}", "p = p_ah_0/h"),
+            (
+                r"\langle P \rangle = \sqrt{\frac{1 + \frac{3}{2}\varepsilon^2}{1 - \varepsilon^2}}",
+                "⟨P⟩ = √((1 + 3/2ε^2)/(1 − ε^2))",
+            ),
+            (r"F = -\frac{\mu b^3 \dot h}{h^3}", "F = −(μb^3dh/dt)/h^3"),
+            (r"T_\text{max} = \mu_d (1 - \alpha) L r", "T_max = μ_d(1 − α)Lr"),
+            (r"\left( 1 + \frac{6 \lambda_a}{h} \right)", "(1 + (6λ_a)/h)"),
+            (r"x^10", "x^10"),
+        ] {
+            assert_eq!(read(source), expected, "{source}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        for (source, part) in [
+            (r"\begin{x}", "\\begin is not known"),
+            (r"\frac{1}", "nothing follows \\frac"),
+            ("{a", "{ is never closed"),
+            ("a}", "} closes nothing"),
+            (r"\left( a", "\\left is never closed"),
+            (r"a \right)", "\\right closes nothing"),
+            ("a^", "nothing follows ^"),
+            ("a & b", "'&' is not allowed"),
+            ("ø", "'ø' is not allowed"),
+        ] {
+            assert!(read(source).contains(part), "{source}: {}", read(source));
+        }
+        assert!(read(&"{".repeat(1000)).contains("levels"));
+        assert!(read(&"x^".repeat(1000)).contains("nothing follows"));
+        assert!(read(&r"\sqrt".repeat(1000)).contains("levels"));
+    }
+}

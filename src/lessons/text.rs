@@ -1,0 +1,188 @@
+//! The text of lessons and of the glossary: a part of Markdown. Paragraphs, lists, **strong**, *slanted*, `code`, formulas
+//! `$…$` in a line and `$$…$$` on their own.
+
+use super::formula::{Formula, FormulaError};
+
+/// A part of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Inline {
+    /// Words.
+    Text {
+        /// The words.
+        text: String,
+        /// How they look.
+        style: Style,
+    },
+    /// A formula.
+    Math(Formula),
+}
+
+/// How words look.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// As the rest.
+    #[default]
+    Plain,
+    /// `**strong**`.
+    Strong,
+    /// `*slanted*`.
+    Slanted,
+    /// `` `code` ``.
+    Code,
+}
+
+/// A part of a text, below what comes before it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Block {
+    /// A paragraph.
+    Paragraph(Vec<Inline>),
+    /// An item of a list.
+    Item(Vec<Inline>),
+    /// A formula on its own.
+    Formula(Formula),
+}
+
+/// Reads blocks from Markdown; a fault comes with its line, from 0.
+///
+/// # Errors
+/// A formula that cannot be read, or a dollar without its partner.
+pub fn blocks(source: &str) -> Result<Vec<Block>, (usize, TextError)> {
+    let mut blocks = Vec::new();
+    let mut lines = source.lines().enumerate().peekable();
+    while let Some((number, line)) = lines.next() {
+        let line = line.trim();
+        if line.is_empty() {
+            continue;
+        }
+        if let Some(rest) = line.strip_prefix("$$") {
+            let mut formula = rest.to_owned();
+            while !formula.trim_end().ends_with("$$") {
+                let Some((_, more)) = lines.next() else { return Err((number, TextError::Dollar)) };
+                formula.push(' ');
+                formula.push_str(more.trim());
+            }
+            let formula = formula.trim_end().trim_end_matches("$$");
+            let formula = Formula::parse(formula).map_err(|error| (number, error.into()))?;
+            blocks.push(Block::Formula(formula));
+            continue;
+        }
+        let item = line.strip_prefix("* ").or_else(|| line.strip_prefix("- "));
+        let mut text = item.unwrap_or(line).to_owned();
+        while let Some((_, next)) = lines.peek() {
+            let next = next.trim();
+            if next.is_empty() || next.starts_with("$$") || next.starts_with("* ") || next.starts_with("- ") {
+                break;
+            }
+            text.push(' ');
+            text.push_str(next);
+            lines.next();
+        }
+        let inline = inline(&text).map_err(|error| (number, error))?;
+        blocks.push(if item.is_some() { Block::Item(inline) } else { Block::Paragraph(inline) });
+    }
+    Ok(blocks)
+}
+
+/// Why a text cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TextError {
+    /// A formula.
+    #[error("{0}")]
+    Formula(#[from] FormulaError),
+    /// A formula without its end.
+    #[error("a formula begins with $ and does not end; write \\$ for the sign itself")]
+    Dollar,
+}
+
+/// Reads one line.
+///
+/// # Errors
+/// As [`blocks`].
+pub fn inline(source: &str) -> Result<Vec<Inline>, TextError> {
+    let mut parts = Vec::new();
+    let mut text = String::new();
+    let mut style = Style::Plain;
+    let flush = |text: &mut String, style: Style, parts: &mut Vec<Inline>| {
+        if !text.is_empty() {
+            parts.push(Inline::Text { text: std::mem::take(text), style });
+        }
+    };
+    let mut rest = source;
+    while let Some(first) = rest.chars().next() {
+        if let Some(escaped) = rest.strip_prefix('\\').and_then(|after| after.chars().next()) {
+            text.push(escaped);
+            rest = &rest[1 + escaped.len_utf8()..];
+            continue;
+        }
+        if let (true, Some(after)) = (style != Style::Code, rest.strip_prefix('$')) {
+            let Some(end) = after.find('$') else { return Err(TextError::Dollar) };
+            flush(&mut text, style, &mut parts);
+            parts.push(Inline::Math(Formula::parse(&after[..end])?));
+            rest = &after[end + 1..];
+            continue;
+        }
+        let marks = [("**", Style::Strong), ("*", Style::Slanted), ("`", Style::Code)];
+        let mark = marks.into_iter().find(|(mark, meant)| {
+            rest.starts_with(mark) && (style == *meant || (style == Style::Plain && rest[mark.len()..].contains(mark)))
+        });
+        if let Some((mark, meant)) = mark {
+            flush(&mut text, style, &mut parts);
+            style = if style == meant { Style::Plain } else { meant };
+            rest = &rest[mark.len()..];
+            continue;
+        }
+        text.push(first);
+        rest = &rest[first.len_utf8()..];
+    }
+    flush(&mut text, style, &mut parts);
+    Ok(parts)
+}
+
+/// A line as plain text.
+pub fn plain(parts: &[Inline]) -> String {
+    parts
+        .iter()
+        .map(|part| match part {
+            Inline::Text { text, .. } => text.clone(),
+            Inline::Math(formula) => formula.plain(),
+        })
+        .collect()
+}
+
+/// Blocks as plain text, a line each.
+pub fn plain_blocks(blocks: &[Block]) -> String {
+    let lines: Vec<String> = blocks
+        .iter()
+        .map(|block| match block {
+            Block::Paragraph(parts) | Block::Item(parts) => plain(parts),
+            Block::Formula(formula) => formula.plain(),
+        })
+        .collect();
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_marks_of_a_line() {
+        let parts = inline(r"a **b** *c* `d` $h_0$ 5 \$, 2 * 3").unwrap();
+        assert_eq!(plain(&parts), "a b c d h_0 5 $, 2 * 3");
+        let styles: Vec<Style> =
+            parts.iter().filter_map(|p| if let Inline::Text { style, .. } = p { Some(*style) } else { None }).collect();
+        assert_eq!(styles[1], Style::Strong);
+        assert_eq!(styles[3], Style::Slanted);
+        assert_eq!(styles[5], Style::Code);
+        assert_eq!(inline("costs $5").unwrap_err(), TextError::Dollar);
+    }
+
+    #[test]
+    fn blocks_of_a_text() {
+        let read = blocks("One\nline.\n\n* first\n  and more\n* second\n\n$$ a =\nb $$\nlast").unwrap();
+        assert_eq!(plain_blocks(&read), "One line.\nfirst and more\nsecond\na = b\nlast");
+        assert!(matches!(read[3], Block::Formula(_)));
+        assert_eq!(blocks("fine\n\n$x").unwrap_err().0, 2);
+        assert_eq!(blocks("$$ x").unwrap_err(), (0, TextError::Dollar));
+    }
+}

@@ -1,0 +1,643 @@
+//! Lessons, tour and glossary through the real application, as a student meets them, without a display.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::gui::app::App;
+use squeezefilm::gui::dialogs::Answer;
+use squeezefilm::gui::lessons::{Work, tour};
+use squeezefilm::gui::panels::labels;
+use squeezefilm::gui::world::World;
+use squeezefilm::lessons::{self, Known, Prediction, Step, text};
+use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
+
+type Window = Harness<'static, App>;
+
+/// Storage in memory, as eframe keeps it in a file.
+#[derive(Clone, Default)]
+struct Memory(BTreeMap<String, String>);
+
+impl eframe::Storage for Memory {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
+
+fn world() -> World {
+    World { ask: |_, _| Answer::NoDialog, ..World::default() }
+}
+
+/// A window tall enough that nothing has to be scrolled.
+fn window(preset: &str) -> Window {
+    let scene = presets::find(preset).unwrap();
+    Harness::builder()
+        .with_size(Vec2::new(1400.0, 1700.0))
+        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world()).unwrap())
+}
+
+/// A window that was there before, or never, and opens no file.
+fn window_with(memory: Memory) -> Window {
+    let memory: &'static Memory = Box::leak(Box::new(memory));
+    Harness::builder().with_size(Vec2::new(1400.0, 1700.0)).build_eframe(move |context| {
+        context.storage = Some(memory);
+        App::in_world(context, None, world()).unwrap()
+    })
+}
+
+/// Steps until `ready`, at most a minute of waiting in all: the solver works on its own thread.
+fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
+    for _ in 0..6000 {
+        window.step();
+        if ready(window.state()) {
+            window.run_steps(2);
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what}: did not happen");
+}
+
+/// Until the scene on the table is solved well enough to judge by.
+fn solved(window: &mut Window) {
+    until(window, "the scene on screen is solved", |app| {
+        app.shown().is_some_and(|run| run.scene == *app.document().scene() && run.fidelity >= Fidelity::Standard)
+    });
+}
+
+fn click(window: &mut Window, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+}
+
+/// An entry of a menu: its name has its keys behind it.
+fn choose(window: &mut Window, entry: &str) {
+    window.get_by_label_contains(entry).click();
+    window.run_steps(3);
+}
+
+fn shows(window: &Window, part: &str) -> bool {
+    window.query_all_by_label_contains(part).next().is_some()
+}
+
+/// Opens a lesson from the menu.
+fn open(window: &mut Window, title: &str) {
+    click(window, "Lessons");
+    window.get_by_label_contains(title).click();
+    window.run_steps(20);
+    assert!(window.state().teaching().running().is_some(), "{title}");
+}
+
+fn step(window: &Window) -> (usize, Step) {
+    let teaching = window.state().teaching();
+    (teaching.running().unwrap().step, teaching.step().unwrap().1.clone())
+}
+
+fn work(window: &Window) -> Work {
+    let running = window.state().teaching().running().unwrap();
+    running.work[running.step].clone()
+}
+
+fn type_into(window: &mut Window, field: &str, text: &str) {
+    window.get_by_role_and_label(Role::TextInput, field).click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+}
+
+/// Changes a parameter as a student does: types a number, or chooses a name.
+fn change(window: &mut Window, key: &str, value: &str) {
+    let parameter = Parameter::find(key).unwrap();
+    match parameter.kind {
+        ParameterKind::Choice { .. } => {
+            window.get_by_role_and_label(Role::ComboBox, labels::label(parameter)).click();
+            window.run_steps(3);
+            click(window, labels::choice(key, value));
+        }
+        _ => {
+            if window.state().document().scene().get(key).is_none() {
+                click(window, labels::switch(parameter));
+            }
+            type_into(window, &labels::field_name(parameter), value);
+        }
+    }
+    let set = window.state().document().scene().get(key).unwrap();
+    assert_eq!(set.to_string().trim_matches('"'), value, "{key}");
+}
+
+/// Answers the question of the step: the answer must not be seen before.
+fn predict(window: &mut Window, step: &Step) {
+    let Some(question) = &step.question else { return };
+    let why = text::plain_blocks(&question.why);
+    let why = why.lines().next().unwrap();
+    assert!(!shows(window, why) && !shows(window, "Your turn"), "{}: shown before the prediction", step.title);
+    let commit = |window: &Window| window.get_by_label("This is my prediction").accesskit_node().is_disabled();
+    assert!(commit(window), "{}: nothing is predicted yet", step.title);
+    match &question.answer {
+        lessons::Answer::Choice { choices, right } => {
+            // First another one: a prediction may be changed until it is made.
+            for choice in [(right + 1) % choices.len(), *right] {
+                let label = text::plain(&choices[choice]);
+                window.get_by_role_and_label(Role::RadioButton, &label).click();
+                window.run_steps(3);
+                assert_eq!(work(window).prediction, Some(Prediction::Choice(choice)), "{}", step.title);
+            }
+        }
+        lessons::Answer::Number { value, .. } => {
+            window.get_by_role_and_label(Role::SpinButton, "Your number").click();
+            window.run_steps(3);
+            window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+            window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&value.to_string());
+            window.step();
+            window.key_press(Key::Enter);
+            window.run_steps(3);
+            assert_eq!(work(window).prediction, Some(Prediction::Number(*value)), "{}", step.title);
+        }
+    }
+    assert!(!shows(window, why), "{}: shown before the prediction was made", step.title);
+    click(window, "This is my prediction");
+    assert!(work(window).committed);
+    assert_eq!(shows(window, why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
+}
+
+/// Walks a lesson: at each task first what does not do, then what does.
+fn walk(lesson: usize) {
+    let mut window = window("fundamental");
+    let title = window.state().teaching().lessons()[lesson].title.clone();
+    let before = window.state().document().scene().clone();
+    open(&mut window, &title);
+    let steps = window.state().teaching().lessons()[lesson].steps.len();
+    for number in 0..steps {
+        let (at, step) = step(&window);
+        assert_eq!(at, number);
+        window.get_by_label(&step.title);
+        assert_eq!(window.state().document().scene(), &step.scene, "{}", step.title);
+        for block in &step.body {
+            let text = text::plain_blocks(std::slice::from_ref(block));
+            assert!(window.query_all_by_label(&text).next().is_some(), "{}: {text}", step.title);
+        }
+        solved(&mut window);
+        predict(&mut window, &step);
+        if let Some(task) = &step.task {
+            let name = &step.title;
+            assert!(shows(&window, "Your turn"), "{name}");
+            solved(&mut window);
+            assert!(!work(&window).fulfilled, "{name}: done before anything was done");
+            assert!(!task.wrong.is_empty() && !task.example.is_empty(), "{name}");
+            for (key, value) in &task.wrong {
+                change(&mut window, key, value);
+            }
+            solved(&mut window);
+            assert!(!work(&window).fulfilled, "{name}: the wrong thing does it");
+            assert!(shows(&window, "Not yet."), "{name}");
+            assert!(shows(&window, &text::plain_blocks(&task.hint)), "{name}");
+            click(&mut window, "Start over");
+            solved(&mut window);
+            assert_eq!(window.state().document().scene(), &step.scene, "{name}");
+            // What does it, by hand.
+            for (key, value) in &task.example {
+                change(&mut window, key, value);
+            }
+            solved(&mut window);
+            assert!(work(&window).fulfilled, "{name}: {:?}", work(&window).unmet);
+            assert!(shows(&window, "✔ Done"), "{name}");
+            if let Some(question) = &step.question {
+                let why = text::plain_blocks(&question.why);
+                assert!(shows(&window, why.lines().next().unwrap()) && shows(&window, "As you expected"), "{name}");
+            }
+        }
+        click(&mut window, if number + 1 == steps { "Finish" } else { "Next" });
+        window.run_steps(20);
+    }
+    solved(&mut window);
+    let app = window.state();
+    assert!(app.teaching().running().is_none() && app.document().scene() == &before);
+    assert!(app.teaching().progress(&app.teaching().lessons()[lesson]).done);
+    window.get_by_label("share of the load carried by air");
+}
+
+macro_rules! walks {
+    ($($name:ident: $lesson:literal),* $(,)?) => {
+        $(#[test] fn $name() { walk($lesson); })*
+        const WALKED: usize = [$($lesson),*].len();
+    };
+}
+
+walks![
+    trapped_air_to_its_end: 0,
+    air_that_leaves_to_its_end: 1,
+    squeeze_number_to_its_end: 2,
+    mean_force_to_its_end: 3,
+    thin_gaps_to_its_end: 4,
+    travelling_wave_to_its_end: 5,
+    contact_and_air_to_its_end: 6,
+    lost_torque_to_its_end: 7,
+];
+
+#[test]
+fn every_built_in_lesson_is_read_listed_and_walked() {
+    let places = squeezefilm::gui::spot::PLACES;
+    let (read, faults) = lessons::built_in(Known { tabs: TABS, places });
+    assert!(faults.is_empty(), "{faults:?}");
+    assert_eq!((read.len(), WALKED), (lessons::BUILT_IN.len(), lessons::BUILT_IN.len()));
+    assert!(read.len() >= 8);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
+    let (from_disk, faults) = lessons::load(&folder, Known { tabs: TABS, places });
+    assert!(faults.is_empty(), "{faults:?}");
+    assert_eq!(from_disk, read, "built in are all that are there, in the order of their names");
+    for lesson in &read {
+        assert!((4..=7).contains(&lesson.steps.len()) && !lesson.about.is_empty(), "{}", lesson.title);
+        assert!(lesson.steps.iter().any(|step| step.question.is_some() && step.task.is_some()), "{}", lesson.title);
+    }
+}
+
+#[test]
+fn what_is_lit_is_seen_and_its_group_opens() {
+    let mut window = window("fundamental");
+    assert!(window.query_by_role_and_label(Role::ComboBox, "Slip at the walls").is_none(), "the group is closed");
+    open(&mut window, "Thin gaps and slip");
+    for _ in 0..2 {
+        click(&mut window, "Next");
+        window.run_steps(20);
+    }
+    window.get_by_role_and_label(Role::ComboBox, "Slip at the walls");
+    // The tab that a lesson needs comes forward, and goes back after it.
+    window.key_press(Key::F3);
+    window.run_steps(2);
+    assert!(!shows(&window, "Lesson ·"));
+    window.key_press(Key::PageDown);
+    window.run_steps(4);
+    assert!(shows(&window, "Lesson ·"), "a new step is seen");
+    assert_eq!(step(&window).0, 3);
+    window.key_press(Key::PageUp);
+    window.run_steps(4);
+    assert_eq!(step(&window).0, 2);
+    // All results, and back to the lesson.
+    click(&mut window, "All results");
+    assert!(shows(&window, "Squeeze number σ") && !shows(&window, "Lesson ·"));
+    click(&mut window, "Back to the lesson");
+    assert!(shows(&window, "Lesson ·"));
+}
+
+#[test]
+fn leaving_brings_the_students_scene_back_with_its_history() {
+    let mut window = window("tooth-radius-3m");
+    solved(&mut window);
+    type_into(&mut window, "Minimum spacing H_m in nm", "123");
+    let own = window.state().document().scene().clone();
+    open(&mut window, "The squeeze number");
+    assert_ne!(window.state().document().scene(), &own);
+    type_into(&mut window, "Frequency in kHz", "3");
+    assert!(!window.state().document().is_dirty(), "what a lesson lends is never unsaved");
+    click(&mut window, "Next");
+    click(&mut window, "Leave");
+    assert_eq!(window.state().document().scene(), &own);
+    assert!(window.state().document().is_dirty());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(2);
+    assert_eq!(window.state().document().scene().get("film.min_spacing_nm"), Some(Value::Number(200.0)));
+    assert!(!window.state().document().is_dirty());
+}
+
+#[test]
+fn unsaved_changes_are_asked_about_from_within_a_lesson_too() {
+    let mut window = window("fundamental");
+    type_into(&mut window, "Minimum spacing H_m in nm", "123");
+    let own = window.state().document().scene().clone();
+    open(&mut window, "Pushing on trapped air");
+    click(&mut window, "Presets");
+    window.get_by_label_contains("Levitating").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Save the changes");
+    click(&mut window, "Keep editing");
+    assert_eq!(window.state().document().scene(), &own);
+    // Nothing unsaved: no question, and the preset is opened.
+    open(&mut window, "Pushing on trapped air");
+    click(&mut window, "Leave");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(2);
+    open(&mut window, "Pushing on trapped air");
+    click(&mut window, "Presets");
+    window.get_by_label_contains("Levitating").click();
+    window.run_steps(3);
+    assert!(window.state().document().scene().name.starts_with("Levitating"));
+    assert!(window.state().teaching().running().is_none());
+}
+
+#[test]
+fn progress_and_the_own_scene_survive_a_restart() {
+    let mut window = window_with(Memory::default());
+    window.step();
+    click(&mut window, "Skip the tour");
+    type_into(&mut window, "Minimum spacing H_m in nm", "123");
+    open(&mut window, "The squeeze number");
+    click(&mut window, "Next");
+    click(&mut window, "Next");
+    let mut memory = Memory::default();
+    eframe::App::save(window.state_mut(), &mut memory);
+    drop(window);
+    let mut window = window_with(memory);
+    window.run_steps(2);
+    let app = window.state();
+    assert!(app.teaching().running().is_none());
+    assert_eq!(app.document().scene().get("film.min_spacing_nm"), Some(Value::Number(123.0)));
+    click(&mut window, "Lessons");
+    window.get_by_label_contains("at step 3 of 6");
+    window.get_by_label_contains("The squeeze number").click();
+    window.run_steps(4);
+    assert_eq!(step(&window).0, 2, "it goes on where it was left");
+    assert_eq!(window.state().document().scene(), &step(&window).1.scene);
+}
+
+#[test]
+fn the_tour_is_for_the_first_start_and_can_be_found_again() {
+    let titles: Vec<&str> = tour::STOPS.iter().map(|stop| stop.title).collect();
+    assert_eq!(titles.len(), 4);
+    // Over a file that was asked for: no.
+    let mut asked = window("fundamental");
+    asked.run_steps(3);
+    assert!(asked.state().teaching().tour.is_none());
+    drop(asked);
+
+    let mut window = window_with(Memory::default());
+    solved(&mut window);
+    for (i, stop) in tour::STOPS.iter().enumerate() {
+        window.run_steps(4);
+        window.get_by_label(stop.title);
+        let spot = squeezefilm::gui::spot::place(&window.ctx, stop.place);
+        assert!(spot.is_some(), "{} is on screen", stop.place);
+        let callout = window.get_by_label(stop.title).rect();
+        assert!(!spot.unwrap().intersects(callout), "{}: covered", stop.title);
+        click(&mut window, if i == 3 { "Done" } else { "Next" });
+    }
+    assert!(window.state().teaching().tour.is_none());
+    let mut memory = Memory::default();
+    eframe::App::save(window.state_mut(), &mut memory);
+    drop(window);
+
+    let mut window = window_with(memory);
+    window.run_steps(3);
+    assert!(titles.iter().all(|title| window.query_by_label(title).is_none()), "only once");
+    // Found again, with hidden panels brought back; skipped.
+    window.key_press(Key::F2);
+    window.run_steps(2);
+    click(&mut window, "Help");
+    choose(&mut window, "Take the tour");
+    window.run_steps(3);
+    window.get_by_label(titles[0]);
+    assert!(window.state().view().parameters);
+    click(&mut window, "Next");
+    window.run_steps(2);
+    click(&mut window, "Back");
+    window.run_steps(2);
+    window.get_by_label(titles[0]);
+    click(&mut window, "Skip the tour");
+    assert!(window.query_by_label(titles[0]).is_none());
+}
+
+#[test]
+fn the_glossary_is_searched() {
+    let mut window = window("plate-crossover");
+    click(&mut window, "Help");
+    choose(&mut window, "Glossary");
+    window.run_steps(3);
+    window.get_by_label_contains("Knudsen number  Kn");
+    let count = |window: &Window| window.query_all_by_label_contains("mean free path").count();
+    assert!(count(&window) > 0);
+    window.get_by_role_and_label(Role::TextInput, "Search").type_text("levitation");
+    window.run_steps(4);
+    window.get_by_label("Levitated");
+    assert!(window.query_by_label_contains("Knudsen number  Kn").is_none());
+    window.get_by_role_and_label(Role::TextInput, "Search").type_text(" xyzzy");
+    window.run_steps(4);
+    window.get_by_label("No term has all of these words");
+}
+
+#[test]
+fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
+    for preset in ["fundamental", "levitating", "plate-crossover", "plate-trapped"] {
+        let mut window = window(preset);
+        solved(&mut window);
+        window.run_steps(3);
+        let missing = squeezefilm::gui::lessons::glossary::unexplained(&window.ctx);
+        assert!(missing.is_empty(), "{preset}: {missing:?}");
+    }
+    // The numbers beside a lesson's text too.
+    let places = squeezefilm::gui::spot::PLACES;
+    for lesson in lessons::built_in(Known { tabs: &["Motion"], places }).0 {
+        for name in lesson.steps.iter().flat_map(|step| &step.show) {
+            assert!(lessons::glossary::find(&name.words()).is_some(), "{}", name.words());
+        }
+    }
+    let mut window = window("fundamental");
+    solved(&mut window);
+    let meaning = "turns the rotor";
+    assert!(!shows(&window, meaning));
+    window.get_by_label("Contact load").hover();
+    window.run_steps(30);
+    assert!(shows(&window, meaning));
+}
+
+/// Names of the tabs.
+const TABS: &[&str] = &["Motion", "Compare", "Sweep", "Torque", "Trade-off"];
+
+const GOOD: &str = include_str!("lessons/good.md");
+
+/// Writes a lesson into a folder of its own.
+fn write(folder: &Path, id: &str, text: &str) {
+    std::fs::create_dir_all(folder.join(id)).unwrap();
+    std::fs::write(folder.join(id).join("lesson.md"), text).unwrap();
+}
+
+#[test]
+fn the_example_of_the_documentation_is_a_lesson_that_works() {
+    let page = include_str!("../docs/lessons.md");
+    let example = page.split("````markdown\n").nth(1).unwrap().split("````").next().unwrap();
+    assert_eq!(example, GOOD);
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "my-lesson", GOOD);
+    let mut window = window("fundamental");
+    window.state_mut().load_lessons(folder.path());
+    window.run_steps(2);
+    open(&mut window, "A lesson of my own");
+    let (_, step) = step(&window);
+    solved(&mut window);
+    predict(&mut window, &step);
+    click(&mut window, "Show me");
+    solved(&mut window);
+    assert!(work(&window).fulfilled);
+}
+
+#[test]
+fn a_folder_of_lessons_is_opened_from_the_menu() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "my-lesson", GOOD);
+    std::fs::write(folder.path().join("my-lesson/mine.toml"), "schema = 1\nscene = \"plate\"\n").unwrap();
+    write(folder.path(), "second", &GOOD.replace("plate-trapped", "mine.toml").replace("A lesson", "Another"));
+    std::fs::copy(folder.path().join("my-lesson/mine.toml"), folder.path().join("second/mine.toml")).unwrap();
+    write(folder.path(), "third", &GOOD.replace("check = ", "chek = "));
+    let mut window = window("fundamental");
+    click(&mut window, "Lessons");
+    choose(&mut window, "Open a folder of lessons…");
+    for _ in 0..500 {
+        window.step();
+        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text(folder.path().to_str().unwrap());
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(4);
+    // The bad one is reported, the others are there.
+    window.get_by_label("This did not work");
+    window.get_by_label_contains("task.chek is not known");
+    click(&mut window, "Close");
+    let titles: Vec<&str> = window.state().teaching().lessons().iter().map(|lesson| lesson.title.as_str()).collect();
+    assert_eq!(&titles[8..], ["A lesson of my own", "Another of my own"]);
+    open(&mut window, "Another of my own");
+    assert_eq!(window.state().document().scene().scene(), "plate");
+    click(&mut window, "Lessons");
+    choose(&mut window, "What was wrong with lessons…");
+    window.get_by_label_contains("task.chek is not known");
+}
+
+#[test]
+fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
+    let known = Known { tabs: TABS, places: squeezefilm::gui::spot::PLACES };
+    let line_of = |part: &str| GOOD.lines().position(|line| line.contains(part)).unwrap() + 1;
+    let mutations: &[(&str, &str, usize, &[&str])] = &[
+        (
+            "\"plate-trapped\"",
+            "\"plate-traped\"",
+            line_of("preset ="),
+            &["no such file beside lesson.md", "plate-traped"],
+        ),
+        ("preset = \"plate-trapped\"", "", line_of("## "), &["setup.preset is missing"]),
+        ("preset =", "prest =", line_of("preset ="), &["setup.prest is not known", "preset, set, light"]),
+        ("\"plate.amplitude_um = 0.1\"", "\"plate.amplitud_um = 0.1\"", line_of("set = ["), &["plate.amplitude_um"]),
+        ("\"plate.amplitude_um = 0.1\"", "\"plate.amplitude_um = -1\"", line_of("set = ["), &["out of range", "0 to"]),
+        ("\"plate.amplitude_um = 0.1\"", "\"plate.amplitude_um\"", line_of("set = ["), &["is no change: expected"]),
+        (
+            "light = [\"plate.amplitude_um\"]",
+            "light = [\"film.nothing\"]",
+            line_of("light ="),
+            &["film.nothing", "plate.mean_gap_um"],
+        ),
+        (
+            "light = [\"plate.amplitude_um\"]",
+            "light = \"plate.amplitude_um\"",
+            line_of("light ="),
+            &["wrong type", "a list"],
+        ),
+        ("look = [\"loop\"]", "look = [\"moon\"]", line_of("look ="), &["setup.look = \"moon\"", "wave, gap"]),
+        ("tab = \"Motion\"", "tab = \"Movies\"", line_of("tab ="), &["setup.tab = \"Movies\"", "Motion, Trade-off"]),
+        (
+            "show = [\"mean_load_ratio\"]",
+            "show = [\"alpha\"]",
+            line_of("show ="),
+            &["setup.show = \"alpha\"", "mean_load_ratio"],
+        ),
+        ("answer = 2", "answer = 7", line_of("answer ="), &["question.answer = 7 is out of range", "1 to 3"]),
+        ("answer = 2", "answer = \"b\"", line_of("answer ="), &["wrong type", "a number"]),
+        ("answer = 2", "", line_of("```question"), &["question.answer is missing"]),
+        (
+            "mean_load_ratio > 2",
+            "mean_load_rato > 2",
+            line_of("check ="),
+            &["mean_load_rato is neither", "did you mean mean_load_ratio?"],
+        ),
+        ("mean_load_ratio > 2", "alpha > 2", line_of("check ="), &["alpha belongs to another kind of scene"]),
+        ("mean_load_ratio > 2", "mean_load_ratio 2", line_of("check ="), &["2 is not expected here", "< <= >"]),
+        ("check = ", "check == ", line_of("check ="), &["is not valid TOML"]),
+        ("```task", "```taks", line_of("```task"), &["a block ```taks is not known: expected setup, question or task"]),
+        ("\\frac{h_0}{h}", "\\frc{h_0}{h}", line_of("\\frac{h_0}{h}"), &["\\frc is not known in formulas"]),
+        ("# A lesson of my own", "", 1, &["has no title"]),
+    ];
+    for (good, bad, line, parts) in mutations {
+        assert_eq!(GOOD.matches(good).count(), 1, "{good}");
+        let folder = tempfile::tempdir().unwrap();
+        write(folder.path(), "bad", &GOOD.replacen(good, bad, 1));
+        write(folder.path(), "good", GOOD);
+        let (read, faults) = lessons::load(folder.path(), known);
+        assert_eq!(read.len(), 1, "{bad}: the good one is there");
+        let text: Vec<String> = faults.iter().map(ToString::to_string).collect();
+        let text = text.join("\n");
+        assert!(text.contains(&format!("{}:{line}:", Path::new("bad").join("lesson.md").display())), "{bad}: {text}");
+        assert!(parts.iter().all(|part| text.contains(part)), "{bad}: {text}");
+    }
+    // No bytes of a lesson bring the program down: cut anywhere, with anything in it.
+    let folder = tempfile::tempdir().unwrap();
+    for (cut, _) in GOOD.char_indices().step_by(7) {
+        for rest in ["", "```", "$", "\\", "\0", "[[", "= \"", "## \n"] {
+            write(folder.path(), "cut", &format!("{}{rest}", &GOOD[..cut]));
+            let (read, faults) = lessons::load(folder.path(), known);
+            assert!(read.len() + usize::from(!faults.is_empty()) == 1, "{cut} {rest}");
+        }
+    }
+    std::fs::write(folder.path().join("cut/lesson.md"), [0xff, 0xfe, 0x00]).unwrap();
+    assert!(lessons::load(folder.path(), known).1[0].to_string().contains("cannot be read"));
+    assert!(lessons::load(&folder.path().join("absent"), known).1[0].to_string().contains("cannot be read"));
+    assert!(lessons::load(tempfile::tempdir().unwrap().path(), known).1[0].to_string().contains("holds no lesson"));
+}
+
+#[test]
+fn what_the_window_lights_and_lessons_name_is_drawn() {
+    let mut motor = window("fundamental");
+    solved(&mut motor);
+    let mut plate = window("plate-crossover");
+    solved(&mut plate);
+    open(&mut motor, "Lost torque");
+    for place in squeezefilm::gui::spot::PLACES {
+        let drawn = |window: &Window| squeezefilm::gui::spot::place(&window.ctx, place).is_some();
+        assert!(drawn(&motor) || drawn(&plate), "{place} is drawn nowhere");
+    }
+}
+
+#[test]
+fn a_preset_that_a_lesson_lends_can_be_saved_as_a_copy() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("copy.toml");
+    let mut window = window("fundamental");
+    let own = window.state().document().scene().clone();
+    open(&mut window, "The squeeze number");
+    let lent = window.state().document().scene().clone();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    for _ in 0..500 {
+        window.step();
+        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(Scene::load(&path).unwrap(), lent);
+    click(&mut window, "Leave");
+    assert_eq!(window.state().document().scene(), &own);
+    assert!(window.state().document().path().is_none(), "the own scene has no file by that");
+}

@@ -1,0 +1,242 @@
+//! Every number that a built-in lesson states, computed: a lesson must not say what the program does not.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use squeezefilm::analysis::quantity::{Numbers, Quantity};
+use squeezefilm::control::{Cancel, Progress};
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::film::exact;
+use squeezefilm::lessons::BUILT_IN;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::presets;
+use squeezefilm::solve::{Settings, solve};
+
+/// What a lesson says, of which run, which number, its value, and how exact it is meant, relative.
+type Claim = (usize, &'static str, &'static str, &'static [&'static str], &'static str, f64, f64);
+
+const SMALL: &str = "plate.amplitude_um=0.1";
+const THIN: [&str; 3] = ["plate.mean_gap_um=0.2", "plate.amplitude_um=0.1", "plate.frequency_khz=0.4"];
+const THICK: [&str; 3] = ["plate.mean_gap_um=5", "plate.amplitude_um=2.5", "plate.frequency_khz=250"];
+
+const CLAIMS: &[Claim] = &[
+    (1, "Your run says 114", "plate-trapped", &[SMALL], "max_pressure_kpa", 114.0, 0.005),
+    (1, "The program says 241 kPa", "plate-trapped", &[], "max_pressure_kpa", 241.0, 0.005),
+    (2, "101.6 kPa at most", "plate-viscous", &[SMALL], "max_pressure_kpa", 101.6, 0.0005),
+    (2, "In lesson 1 the same swing made 114", "plate-trapped", &[SMALL], "max_pressure_kpa", 114.0, 0.005),
+    (2, "pushes with 0.00185", "plate-viscous", &[SMALL], "load_ratio_max", 0.00185, 0.005),
+    (2, "pulls with 0.00185", "plate-viscous", &[SMALL], "load_ratio_min", -0.00185, 0.005),
+    (3, "$\\sigma$ is 13", "plate-crossover", &[SMALL], "squeeze_number", 13.0, 0.05),
+    (3, "13 at 1 kHz", "plate-crossover", &[SMALL], "squeeze_number", 13.0, 0.05),
+    (
+        3,
+        "is only 3.4",
+        "plate-crossover",
+        &["plate.mean_gap_um=2", "plate.amplitude_um=0.2"],
+        "squeeze_number",
+        3.4,
+        0.02,
+    ),
+    (3, "is 13.5 again", "plate-crossover", &[SMALL], "squeeze_number", 13.5, 0.005),
+    (3, "the thinner film had 0.065", "plate-crossover", &[SMALL], "load_ratio_max", 0.065, 0.008),
+    (
+        3,
+        "The greatest load ratio is 0.070 now",
+        "plate-crossover",
+        &["plate.mean_gap_um=2", "plate.amplitude_um=0.2", "plate.frequency_khz=4"],
+        "load_ratio_max",
+        0.070,
+        0.008,
+    ),
+    (4, "The run says 0.331", "plate-trapped", &[], "mean_load_ratio", 0.331, 0.002),
+    (4, "from 0.150", "plate-crossover", &[], "mean_load_ratio", 0.150, 0.004),
+    (4, "to 0.326", "plate-crossover", &["plate.frequency_khz=100"], "mean_load_ratio", 0.326, 0.002),
+    (5, "instead of 0.257", "plate-crossover", &THIN, "mean_load_ratio", 0.257, 0.003),
+    (
+        5,
+        "0.314 instead of 0.257",
+        "plate-crossover",
+        &["film.slip=none", THIN[0], THIN[1], THIN[2]],
+        "mean_load_ratio",
+        0.314,
+        0.003,
+    ),
+    (5, "instead of 0.309", "plate-crossover", &THICK, "mean_load_ratio", 0.309, 0.002),
+    (
+        5,
+        "0.314 instead of 0.309",
+        "plate-crossover",
+        &["film.slip=none", THICK[0], THICK[1], THICK[2]],
+        "mean_load_ratio",
+        0.314,
+        0.003,
+    ),
+    (
+        5,
+        "0.243 instead of 0.257",
+        "plate-crossover",
+        &["film.slip=fukui-kaneko", THIN[0], THIN[1], THIN[2]],
+        "mean_load_ratio",
+        0.243,
+        0.003,
+    ),
+    (5, "Kn is 0.013", "plate-crossover", &THICK, "knudsen_number", 0.013, 0.02),
+    (5, "= 0.32 $$", "plate-crossover", &THIN, "knudsen_number", 0.32, 1e-6),
+    (6, "instead of 3.4 on average", "fundamental", &[], "teeth_in_contact", 3.4, 0.06),
+    (6, "5.6", "fundamental", &["stator.normal_amplitude_um=0.65"], "teeth_in_contact", 5.6, 0.04),
+    (7, "the air carries 0.60 N", "fundamental", &[], "film_load_n", 0.60, 0.008),
+    (7, "is 0.246", "fundamental", &[], "alpha", 0.246, 0.003),
+    (7, "the converged value is 0.499", "fundamental", &["film.min_spacing_nm=100"], "alpha", 0.499, 0.003),
+    (7, "the whole: 0.524", "fundamental", &["rotor.contact_width_mm=0.6"], "alpha", 0.524, 0.003),
+    (7, "it does get out: 0.081", "fundamental", &["stator.frequency_khz=3"], "alpha", 0.081, 0.006),
+    (
+        7,
+        "number of the closed film is still 3000",
+        "fundamental",
+        &["stator.frequency_khz=3"],
+        "squeeze_number",
+        3000.0,
+        0.02,
+    ),
+    (7, "is 0.274, hardly more than at 30 kHz", "fundamental", &["stator.frequency_khz=100"], "alpha", 0.274, 0.004),
+    (7, "0.240 instead of 0.246", "fundamental", &["stator.tooth_radius_m=3"], "alpha", 0.240, 0.003),
+    (8, "is 0.246. What torque", "fundamental", &[], "alpha", 0.246, 0.003),
+    (8, "answer = 0.2625", "fundamental", &[], "max_torque_nm", 0.2625, 0.002),
+    (8, "0.086, a third of 0.246", "fundamental", &["rotor.contact_width_mm=0.15"], "alpha", 0.086, 0.01),
+    (8, "0.318 N·m. The price", "fundamental", &["rotor.contact_width_mm=0.15"], "max_torque_nm", 0.318, 0.003),
+    (8, "0.174 N·m are left", "min-spacing-100nm", &[], "max_torque_nm", 0.174, 0.005),
+    (
+        8,
+        "A third of a micrometre or so does it",
+        "fundamental",
+        &["film.min_spacing_nm=333"],
+        "max_torque_nm",
+        0.30,
+        0.01,
+    ),
+    (8, "At 5 kHz you are there", "fundamental", &["stator.frequency_khz=5"], "max_torque_nm", 0.305, 0.005),
+    (8, "the thinnest film is 330 nm", "fundamental", &["motor.load_per_wave_n=0.3"], "min_gap_nm", 330.0, 0.01),
+];
+
+fn numbers(preset: &str, set: &[&str]) -> Numbers {
+    let mut scene = presets::find(preset).unwrap();
+    scene.set_all(set.iter().map(|change| change.split_once('=').unwrap())).unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
+    let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
+    Numbers::of(&problem, &solution)
+}
+
+fn number(preset: &str, set: &[&str], name: &str) -> f64 {
+    let quantity = Quantity::all().find(|quantity| quantity.name() == name).unwrap();
+    numbers(preset, set).get(quantity).unwrap()
+}
+
+/// The text of a lesson with line breaks as spaces.
+fn text(lesson: usize) -> String {
+    BUILT_IN[lesson - 1].text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn says(lesson: usize, words: &str) {
+    assert!(text(lesson).contains(words), "lesson {lesson} no longer says “{words}”");
+}
+
+#[test]
+fn numbers_of_lessons_are_those_of_the_program() {
+    for (lesson, words, preset, set, name, stated, tolerance) in CLAIMS {
+        says(*lesson, words);
+        let computed = number(preset, set, name);
+        let off = (computed / stated - 1.0).abs();
+        assert!(off <= *tolerance, "lesson {lesson}, “{words}”: {name} is {computed}, off by {off:.1e}");
+    }
+}
+
+#[test]
+fn ratios_of_lessons_are_those_of_the_program() {
+    let ratio = |preset, from: &[&str], to: &[&str], name| number(preset, to, name) / number(preset, from, name);
+    let about = |lesson, words, ratio: f64, stated: f64, tolerance: f64| {
+        says(lesson, words);
+        assert!((ratio / stated - 1.0).abs() < tolerance, "lesson {lesson}, “{words}”: {ratio}");
+    };
+    let closer = [SMALL, "plate.mean_gap_um=0.5"];
+    about(1, "2.4 times what it was", ratio("plate-trapped", &[SMALL], &closer, "load_ratio_max"), 2.4, 0.01);
+    about(2, "the run says 6.9", ratio("plate-viscous", &[SMALL], &closer, "load_ratio_max"), 6.9, 0.01);
+    let slow = [SMALL, "plate.frequency_khz=0.05"];
+    about(3, "fifteen times smaller", 1.0 / ratio("plate-crossover", &[SMALL], &slow, "load_ratio_max"), 15.0, 0.05);
+    let half = ["plate.amplitude_um=0.25"];
+    about(4, "a little more, 4.5", ratio("plate-trapped", &half, &[], "mean_load_ratio"), 4.5, 0.01);
+    let viscous = numbers("plate-viscous", &[SMALL]);
+    says(2, "less than a hundredth of either");
+    let [mean, most] = [Quantity::LoadRatio, Quantity::LoadRatioMax].map(|quantity| viscous.get(quantity).unwrap());
+    assert!(mean < 0.01 * most);
+    let dry = number("fundamental", &[], "max_torque_nm") / (1.0 - number("fundamental", &[], "alpha"));
+    about(8, "Without air this would be 0.348 N·m", dry, 0.348, 0.002);
+    says(8, "The air can carry about half a newton on each wave");
+    assert!((0.45..0.65).contains(&number("fundamental", &["motor.load_per_wave_n=0.6"], "film_load_n")));
+    about(
+        5,
+        "a fifth more",
+        ratio("plate-crossover", &THIN, &["film.slip=none", THIN[0], THIN[1], THIN[2]], "mean_load_ratio"),
+        1.22,
+        0.02,
+    );
+    says(5, "carries 6 % too much");
+    let kinetic = ["film.slip=fukui-kaneko", THIN[0], THIN[1], THIN[2]];
+    assert!((ratio("plate-crossover", &kinetic, &THIN, "mean_load_ratio") - 1.06).abs() < 0.005);
+}
+
+#[test]
+fn what_lessons_compute_by_hand_is_right() {
+    // Lesson 1: a fingertip of air, and Boyle's pressure at half the gap and at nine tenths.
+    says(1, "answer = 10.1");
+    assert!((101_325.0 * 1e-4 / 1e-6 * 1e-6 - 10.1f64).abs() < 0.05);
+    says(1, "Boyle would say 203 kPa");
+    says(1, "to about 113 kPa");
+    assert!((2.0 * 101.325 - 203.0f64).abs() < 0.5 && (101.325 / 0.9 - 113.0f64).abs() < 0.5);
+    // Lesson 3: where damping is greatest, and where spring and damper are equal.
+    says(3, "At $\\sigma = 10$: damping is greatest, and the spring is as strong as the damper");
+    let (spring, damper) = exact::linear_strip(10.0, 0.0);
+    assert!((spring / damper - 1.0).abs() < 0.02, "{spring} {damper}");
+    let greatest = (1..2000).map(|i| f64::from(i) * 0.1).max_by(|a, b| {
+        let damping = |sigma: f64| exact::linear_strip(sigma, 0.0).1.abs();
+        damping(*a).total_cmp(&damping(*b))
+    });
+    assert!((greatest.unwrap() - 10.0).abs() < 0.5, "{greatest:?}");
+    // Lesson 4: the trapped limit.
+    says(4, "answer = 0.354");
+    assert!((exact::trapped_mean_pressure(0.5, 0.0) - 1.354).abs() < 5e-4);
+    // Lesson 5: the slip factor.
+    says(5, "answer = 2.92");
+    assert!((1.0 + 6.0 * 0.32 - 2.92f64).abs() < 1e-12);
+    // Lesson 6: 63 teeth on 58 mm; lesson 7: how much lower a round tooth is at its edge, and the short way out.
+    says(6, "All 63 of the ring");
+    says(6, "a ring of 58 mm across");
+    let scene = presets::find("fundamental").unwrap();
+    let get = |key: &str| scene.get(key).unwrap().as_number().unwrap();
+    assert_eq!(get("motor.waves") * get("stator.teeth_per_wave"), 63.0);
+    assert_eq!(2.0 * get("motor.contact_radius_mm"), 58.0);
+    says(7, "lower by 0.13 µm");
+    let half: f64 = 0.5e-3 * get("stator.tooth_width_mm");
+    assert!((half * half / (2.0 * 3.0) - 0.13e-6).abs() < 0.01e-6);
+    says(7, "thirty times smaller");
+    let ratio: f64 = get("stator.tooth_width_mm") / get("rotor.contact_width_mm");
+    assert!((ratio * ratio / 30.0 - 1.0).abs() < 0.15);
+    says(7, "Slip takes another factor of three");
+    says(6, "20 000 times as long as it is high");
+    let wavelength = std::f64::consts::TAU * get("motor.contact_radius_mm") / get("motor.waves");
+    assert!((wavelength * 1e3 / get("stator.normal_amplitude_um") / 20e3 - 1.0).abs() < 0.01);
+    // The paper's values, as published.
+    let published = include_str!("../assets/table1.csv");
+    for (lesson, words, row) in [
+        (6, "0.238 with wide teeth, 0.157 with these", "tooth_width_1.16mm,stator.tooth_width_mm=1.157,0.386,0.157"),
+        (7, "The paper has 0.481", "min_spacing_100nm,film.min_spacing_nm=100,1.179,0.481"),
+        (7, "The paper has 0.466", "rotor_width_0.6mm,rotor.contact_width_mm=0.6,1.141,0.466"),
+        (7, "0.078 in the paper", "frequency_3khz,stator.frequency_khz=3,0.192,0.078"),
+        (7, "0.235 for 0.238", "tooth_radius_3m,stator.tooth_radius_m=3,0.576,0.235"),
+    ] {
+        says(lesson, words);
+        assert!(published.contains(row), "{row}");
+    }
+    // The wavelength over half a pitch of orders: 30 000 cycles of 33 µs, 4 µs at 250 kHz, 45 ms at 22 Hz.
+    says(1, "the air has 4 µs for a whole cycle");
+    says(2, "the air has 45 ms");
+    assert!((1.0 / 250e3 - 4e-6f64).abs() < 1e-9 && (1.0 / 22.0 - 45e-3f64).abs() < 1e-3);
+}
