@@ -88,8 +88,8 @@ pub fn startup(
             ended.status = Status::Cancelled;
             return Ok(ended);
         };
-        // The change of the next cycles, as a geometric series.
-        let ratio = change / last;
+        // The change of the next cycles, as a geometric series; a sudden fall is not trusted to go on.
+        let ratio = (change / last).max(0.5);
         let remaining = if change == 0.0 {
             0.0
         } else if last.is_finite() && ratio < 1.0 {

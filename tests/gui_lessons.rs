@@ -551,7 +551,7 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
             &["wrong type", "a list"],
         ),
         ("look = [\"loop\"]", "look = [\"moon\"]", line_of("look ="), &["setup.look = \"moon\"", "wave, gap"]),
-        ("tab = \"Motion\"", "tab = \"Movies\"", line_of("tab ="), &["setup.tab = \"Movies\"", "Motion, Trade-off"]),
+        ("tab = \"Motion\"", "tab = \"Movies\"", line_of("tab ="), &["setup.tab = \"Movies\"", "Motion, Compare, Sweep, Torque, Trade-off"]),
         (
             "show = [\"mean_load_ratio\"]",
             "show = [\"alpha\"]",

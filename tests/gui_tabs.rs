@@ -366,6 +366,8 @@ fn what_is_exported_is_what_the_command_line_writes() {
     let expected = [
         "convergence.png",
         "convergence.svg",
+        "exact.png",
+        "exact.svg",
         "fields.csv",
         "fields.npz",
         "loads.png",
@@ -382,7 +384,7 @@ fn what_is_exported_is_what_the_command_line_writes() {
         "summary.json",
     ];
     assert_eq!(names(&at("results")), expected);
-    window.get_by_label_contains("Wrote 16 files");
+    window.get_by_label_contains("Wrote 18 files");
     let summary: serde_json::Value =
         serde_json::from_slice(&std::fs::read(at("results/summary.json")).unwrap()).unwrap();
     assert_eq!(summary["model"]["fidelity"], "fine");
