@@ -4,7 +4,9 @@
 //! request cancels the running solve. A panic in a solver becomes an event. On drop the worker is cancelled and joined.
 //! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
 
+pub mod hold;
 pub mod measurement;
+pub mod startup;
 
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;

@@ -73,6 +73,7 @@ pub mod fidelity;
 pub mod film;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod hold;
 pub mod job;
 pub mod motor;
 pub mod numerics;

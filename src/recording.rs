@@ -9,6 +9,8 @@
 pub struct Recording {
     /// Period \[s\].
     pub period: f64,
+    /// One cycle of a transient: after its last frame comes another cycle, and the pressure map says nothing of other teeth.
+    pub transient: bool,
     /// Frames in the cycle.
     pub frames: usize,
     /// Length along x of one period of the scene: the wavelength, or the plate's length \[m\].

@@ -499,7 +499,7 @@ fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
     let mut window = window("fundamental");
     solved(&mut window);
     window.get_by_label("Pause");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
     window.run_steps(3);
     assert_eq!(window.state().view().tab, Tab::Tradeoff);
     assert!(window.query_by_label("Pause").is_none() && window.query_by_label("Time in the cycle").is_none());
@@ -520,7 +520,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tall_window(little);
     solved(&mut window);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
     window.run_steps(2);
     window.get_by_label("Measure").click();
     window.run_steps(2);
@@ -582,7 +582,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
 #[test]
 fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
     let mut window = tall_window(endless);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
     window.run_steps(2);
     window.get_by_label("Measure").click();
     window.run_steps(2);

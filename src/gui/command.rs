@@ -1,6 +1,8 @@
 //! What a panel or a key asks the application to do. Panels push commands; only the application carries them out.
 
 use super::dialogs::Export;
+use super::holding;
+use super::starting;
 use super::state::Tab;
 use crate::analysis::tradeoff::Wish;
 use crate::fidelity::Fidelity;
@@ -67,6 +69,10 @@ pub enum Command {
     CancelSolve,
     /// Shows this in the middle of the window.
     Show(Tab),
+    /// About the plate that is held.
+    Hold(holding::Ask),
+    /// About the start-up.
+    Startup(starting::Ask),
     /// Measures error against time, now.
     Measure,
     /// Ends the measurement.

@@ -1,6 +1,7 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use super::command::Command;
+use super::holding::Ask;
 use super::state::Tab;
 use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
 
@@ -36,6 +37,10 @@ const fn idle(keys: KeyboardShortcut, about: &'static str, command: fn() -> Comm
 /// The group of the keys that move the cycle.
 const MOTION: &str = "Motion";
 
+/// The group of the keys that move a held plate, and by how much of its mean gap.
+const HOLDING: &str = "Held plate";
+const HOLD_STEP: f64 = 0.05;
+
 /// All shortcuts, in the groups and the order in which the sheet lists them.
 pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
@@ -47,6 +52,13 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             idle(key(NONE, Key::Home), "Start of the cycle", || Command::Seek(0.0)),
             idle(key(NONE, Key::OpenBracket), "Follow the tooth before", || Command::NextTooth(-1)),
             idle(key(NONE, Key::CloseBracket), "Follow the next tooth", || Command::NextTooth(1)),
+        ],
+    ),
+    (
+        HOLDING,
+        &[
+            idle(key(NONE, Key::ArrowUp), "Held plate up", || Command::Hold(Ask::By(HOLD_STEP))),
+            idle(key(NONE, Key::ArrowDown), "Held plate down", || Command::Hold(Ask::By(-HOLD_STEP))),
         ],
     ),
     (
@@ -70,7 +82,9 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         "Window",
         &[
             always(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
-            always(key(CTRL, Key::Num2), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+            always(key(CTRL, Key::Num2), "Show the start-up", || Command::Show(Tab::Startup)),
+            always(key(CTRL, Key::Num3), "Hold a plate", || Command::Show(Tab::Hold)),
+            always(key(CTRL, Key::Num4), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
             always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
@@ -92,7 +106,11 @@ pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>
     ctx.input_mut(|input| {
         // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
         for shift in [true, false] {
-            let groups = GROUPS.iter().filter(|(group, _)| *group != MOTION || tab == Tab::Motion);
+            let groups = GROUPS.iter().filter(|(group, _)| match *group {
+                MOTION => tab.animates(),
+                HOLDING => tab == Tab::Hold,
+                _ => true,
+            });
             let shortcuts = groups.flat_map(|(_, shortcuts)| shortcuts.iter());
             for shortcut in shortcuts.filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
                 if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {

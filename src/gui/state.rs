@@ -8,13 +8,23 @@ pub enum Tab {
     /// The cycle of the present run, animated.
     #[default]
     Motion,
+    /// The transient from rest.
+    Startup,
+    /// A plate held with the mouse.
+    Hold,
     /// Error against solve time.
     Tradeoff,
 }
 
 impl Tab {
     /// All, in the order of their labels.
-    pub const ALL: &[(Self, &str)] = &[(Self::Motion, "Motion"), (Self::Tradeoff, "Trade-off")];
+    pub const ALL: &[(Self, &str)] =
+        &[(Self::Motion, "Motion"), (Self::Startup, "Start-up"), (Self::Hold, "Hold"), (Self::Tradeoff, "Trade-off")];
+
+    /// Whether a cycle is animated in it, on the timeline and by the keys of the motion.
+    pub fn animates(self) -> bool {
+        matches!(self, Self::Motion | Self::Startup)
+    }
 }
 
 /// How the present run is looked at.

@@ -42,6 +42,7 @@ impl Recorder {
             .collect();
         let lines = teeth * frames * nodes;
         let recording = Recording {
+            transient: false,
             period: motor.period(),
             frames,
             length: motor.wavelength(),

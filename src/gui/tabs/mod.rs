@@ -1,5 +1,7 @@
 //! What can be in the middle of the window, one of them at a time: the motion is in `views`, the others are here.
 
+pub mod hold;
+pub mod startup;
 pub mod tradeoff;
 
 use super::command::Command;

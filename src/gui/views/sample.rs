@@ -96,10 +96,14 @@ struct Pair {
 }
 
 impl Pair {
-    fn at(place: f64, frames: usize) -> Self {
-        let frames = frames.max(1);
+    /// The frames around `place`; of a transient the last stands until the cycle ends, because another cycle follows.
+    fn at(recording: &Recording, place: f64) -> Self {
+        let frames = recording.frames.max(1);
         let place = place.rem_euclid(frames as f64);
         let first = (place as usize).min(frames - 1);
+        if recording.transient && first + 1 == frames {
+            return Self { first, second: first, weight: 0.0 };
+        }
         Self { first, second: (first + 1) % frames, weight: (place - first as f64).clamp(0.0, 1.0) }
     }
 
@@ -108,7 +112,7 @@ impl Pair {
         let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
         // Whole frames apart, so that a tooth a whole number of frames ahead is as exact as tooth 0.
         let shift = tooth * frames;
-        Self::at(place + (shift / teeth) as f64 + (shift % teeth) as f64 / teeth as f64, frames)
+        Self::at(recording, place + (shift / teeth) as f64 + (shift % teeth) as f64 / teeth as f64)
     }
 }
 
@@ -166,7 +170,7 @@ impl Lines {
         let all_stored = recording.stored_teeth == recording.teeth;
         for tooth in 0..recording.teeth {
             let (stored, pair) = if all_stored {
-                (tooth, Pair::at(place, recording.frames))
+                (tooth, Pair::at(recording, place))
             } else {
                 (0, Pair::lagged(recording, tooth, place))
             };
@@ -204,9 +208,18 @@ impl Lines {
     }
 }
 
-/// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth.
+/// Whether the pressure map of `tooth` is known: that of any tooth by lag symmetry, in a transient that of tooth 0.
+pub(super) fn mapped(recording: &Recording, tooth: usize) -> bool {
+    tooth == 0 || !recording.transient
+}
+
+/// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth, and where
+/// its map is not known.
 pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, out: &mut [f64]) -> bool {
     out.fill(0.0);
+    if !mapped(recording, tooth) {
+        return false;
+    }
     let Pair { first, second, weight } = Pair::lagged(recording, tooth, place);
     let Some(plane) = Plane::of(recording, first) else { return false };
     if !plane.column(xi, 1.0 - weight, out) {
@@ -348,6 +361,21 @@ mod tests {
         let (place, lag) = (2.0, 7.0 / 3.0);
         let (here, ahead) = (Lines::at(&uneven, place, how), Lines::at(&uneven, place + lag, how));
         assert!(here.film[here.of(1)].iter().zip(&ahead.film[ahead.of(0)]).all(|(x, y)| (x - y).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_transient_does_not_run_back_into_its_beginning() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let repeating = passing(3, 6);
+        let once = Recording { transient: true, ..repeating.clone() };
+        let film = |recording: &Recording, place: f64| Lines::at(recording, place, how).film;
+        assert_eq!(film(&once, 5.7), film(&once, 5.0));
+        assert_ne!(film(&repeating, 5.7), film(&repeating, 5.0));
+        assert_eq!(film(&once, 2.5), film(&repeating, 2.5));
+        // Other teeth are not tooth 0 at another time.
+        let map = Recording { transient: true, ..recording(8, 4, false) };
+        assert_eq!(middle_pressure(&map, 0, 0.5, 4.0), Some(9.0));
+        assert_eq!(middle_pressure(&map, 3, 0.5, 4.0), None);
     }
 
     #[test]
