@@ -68,14 +68,17 @@ fn share(outcome: &Outcome) -> (f64, f64) {
     }
 }
 
-/// The last cycle agrees with the periodic solve: within both errors, and what the cycle still changes.
-fn agrees(app: &App) {
+/// The last cycle agrees with the periodic solve: within so many times both estimated errors, and what the cycle still changes.
+fn agrees(app: &App, times: f64) {
     let starting = starting(app);
     let (ours, our_error) = share(&starting.points().last().unwrap().outcome);
     let (periodic, error) = share(&app.shown().unwrap().solution.outcome);
     let remaining = starting.points().last().unwrap().remaining;
     let off = (ours - periodic).abs();
-    assert!(off < our_error + error + 2.0 * remaining * periodic.abs(), "{ours} ± {our_error}, {periodic} ± {error}");
+    assert!(
+        off < times * (our_error + error) + 2.0 * remaining * periodic.abs(),
+        "{ours} ± {our_error}, {periodic} ± {error}"
+    );
 }
 
 #[test]
@@ -93,7 +96,7 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     window.run_steps(3);
     assert_eq!(starting(window.state()).ended().unwrap().as_ref().unwrap().status, Status::Converged);
     window.get_by_label_contains("repeats to");
-    agrees(window.state());
+    agrees(window.state(), 1.0);
     // Every tooth, and from rest: the first cycle carries less than the last.
     let app = window.state();
     let run = starting(app).run().unwrap();
@@ -157,7 +160,8 @@ fn a_plate_starts_from_rest_too() {
     window.run_steps(3);
     window.get_by_label_contains("repeats to");
     window.get_by_label_contains("load ratio");
-    agrees(window.state());
+    // (That of a plate at standard is half of what a finer grid shows.)
+    agrees(window.state(), 2.0);
     let kept = starting(window.state()).kept().count();
     assert_eq!(kept, cycles(window.state()), "a plate's recordings are small");
 }
