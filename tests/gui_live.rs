@@ -101,7 +101,9 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     let app = window.state();
     let run = starting(app).run().unwrap();
     assert_eq!(run.solution.recording.stored_teeth, run.solution.recording.teeth);
-    assert!(run.solution.recording.transient);
+    let recording = &run.solution.recording;
+    assert!(recording.transient);
+    assert_eq!(recording.other_pressure.len(), (recording.teeth - 1) * recording.pressure.len());
     assert!(first < 0.9 * share(&run.solution.outcome).0);
     assert_eq!(starting(app).chosen(), cycles(app));
 
@@ -197,7 +199,7 @@ fn a_motor_cannot_be_held_but_a_plate_is_offered() {
     click(&mut window, "Open the plate at its crossover");
     assert_eq!(window.state().view().tab, Tab::Hold);
     assert!(window.state().holding().is_some());
-    window.get_by_label_contains("Slowed 6");
+    window.get_by_label_contains("slowed 6");
 }
 
 #[test]

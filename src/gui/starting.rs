@@ -69,9 +69,10 @@ impl Kept {
 
 /// Memory of a recording's fields \[bytes\].
 fn bytes(recording: &Recording) -> usize {
-    let Recording { film_thickness, stator, contact, film, pressure, film_load, .. } = recording;
-    let fields = film_thickness.len() + stator.len() + contact.len() + film.len() + pressure.len();
-    8 * (fields + 5 * film_load.len())
+    let Recording { film_thickness, stator, contact, film, pressure, other_pressure, film_load, .. } = recording;
+    let fields = film_thickness.len() + stator.len() + contact.len() + film.len();
+    let maps = pressure.len() + other_pressure.len();
+    8 * (fields + maps + 5 * film_load.len())
 }
 
 /// A start-up, under way or ended.

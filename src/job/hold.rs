@@ -257,7 +257,9 @@ mod tests {
         let plate = plate();
         let woken = Arc::new(AtomicUsize::new(0));
         let count = Arc::clone(&woken);
-        let wake = move || drop(count.fetch_add(1, Ordering::Relaxed));
+        let wake = move || {
+            count.fetch_add(1, Ordering::Relaxed);
+        };
         let held = HeldPlate::start(plate.clone(), slowed(&plate, 0.1), Instant::now, wake).unwrap();
         std::thread::sleep(Duration::from_millis(100));
         assert_eq!(woken.load(Ordering::Relaxed), 0, "nothing moves");

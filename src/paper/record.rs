@@ -43,6 +43,7 @@ impl Recorder {
         let lines = teeth * frames * nodes;
         let recording = Recording {
             transient: false,
+            other_pressure: Vec::new(),
             period: motor.period(),
             frames,
             length: motor.wavelength(),

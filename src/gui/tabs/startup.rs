@@ -53,7 +53,6 @@ fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
                 if ui.button("Cancel the start-up").clicked() {
                     commands.push(Command::Startup(Ask::Cancel));
                 }
-                ui.spinner();
             }
             None => {
                 let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";

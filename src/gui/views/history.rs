@@ -18,12 +18,15 @@ const WIDEST_BAND: f64 = 0.5;
 struct Quantity {
     titles: [&'static str; 2],
     unit: f64,
+    /// Known with an error.
+    extrapolated: bool,
     of: fn(&Outcome, &Scenario) -> (f64, f64),
 }
 
 const ALPHA: Quantity = Quantity {
     titles: ["Film's share of the load α against the cycle", "α against the cycle"],
     unit: 1.0,
+    extrapolated: true,
     of: |outcome, scenario| match (outcome, scenario) {
         (Outcome::Motor(result), _) => (result.alpha, result.alpha_error),
         (Outcome::Plate(result), Scenario::Plate(plate)) => {
@@ -39,6 +42,7 @@ const RATIO: Quantity = Quantity {
 const THICKNESS: Quantity = Quantity {
     titles: ["Least film thickness, µm", "Least h, µm"],
     unit: 1e-6,
+    extrapolated: false,
     of: |outcome, _| match outcome {
         Outcome::Motor(result) => (result.min_gap, 0.0),
         Outcome::Plate(result) => (result.min_gap, 0.0),
@@ -47,6 +51,7 @@ const THICKNESS: Quantity = Quantity {
 const PRESSURE: Quantity = Quantity {
     titles: ["Highest pressure, kPa absolute", "Highest p, kPa"],
     unit: 1e3,
+    extrapolated: false,
     of: |outcome, _| match outcome {
         Outcome::Motor(result) => (result.max_pressure, 0.0),
         Outcome::Plate(result) => (result.max_pressure, 0.0),
@@ -91,7 +96,10 @@ fn plot(
     let scenario = &starting.problem().scenario;
     let points = starting.points();
     let value = |point: &Point| (quantity.of)(&point.outcome, scenario);
-    let aim = periodic.map(|run| (quantity.of)(&run.solution.outcome, scenario));
+    // Extremes are those of one grid, without an error: compared with those of another they would mislead.
+    let aim = periodic
+        .filter(|run| quantity.extrapolated || run.fidelity == starting.fidelity())
+        .map(|run| (quantity.of)(&run.solution.outcome, scenario));
     let [low, high] = span(points.iter().map(|point| value(point).0).chain(aim.map(|aim| aim.0)));
     let margin = 0.12 * (high - low);
     let last = points.len().max(FEWEST) as f64;

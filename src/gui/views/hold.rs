@@ -130,8 +130,8 @@ fn draw_plate(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Ax
     axes.canvas(painter, ink);
     scale_bar(painter, ink, rect, scale);
     let (name, unit) = shown.unit;
-    let numbers =
-        format!("gap {} µm   force {} ± {} {name}", number(gap * 1e6), number(force / unit), number(error / unit));
+    let force_text = with_error(force / unit, error / unit);
+    let numbers = format!("gap {} µm   force {force_text} {name}", number(gap * 1e6));
     let more = format!("   load ratio {}   mean pressure {} kPa absolute", number(ratio), number(mean_pressure / 1e3));
     let exaggerated = format!("   vertical {}", times(scale / along));
     let titles = [format!("{numbers}{more}{exaggerated}"), format!("{numbers}{more}"), numbers];
@@ -152,7 +152,7 @@ fn draw_plate(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Ax
     let mean = axes.py(shown.holding.plate().mean_gap);
     let ends = [pos2(rect.left(), mean), pos2(rect.right(), mean)];
     inside.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, ink.palette.quiet), 6.0, 5.0));
-    ink.write(inside, pos2(rect.right() - 4.0, mean), Align2::RIGHT_BOTTOM, "mean gap", ink.palette.quiet);
+    tag(inside, ink, pos2(rect.right() - 6.0, mean), Align2::RIGHT_CENTER, "mean gap");
     arrow(inside, ink, rect, 0.5 * (top + under), force, shown);
     axes
 }
@@ -203,7 +203,24 @@ fn arrow(painter: &Painter, ink: &Ink, rect: Rect, from: f32, force: f64, shown:
     }
     let (name, unit) = shown.unit;
     let text = format!("{} {name}", number(force / unit));
-    ink.write(painter, at + vec2(0.8 * ink.row, 0.0), Align2::LEFT_CENTER, &text, Color32::BLACK);
+    tag(painter, ink, at + vec2(0.9 * ink.row, 0.0), Align2::LEFT_CENTER, &text);
+}
+
+/// Text that can be read on any colour.
+fn tag(painter: &Painter, ink: &Ink, at: Pos2, anchor: Align2, text: &str) {
+    let size = vec2(ink.width(painter, text), ink.row);
+    let ground = anchor.anchor_size(at, size).expand2(vec2(4.0, 1.0));
+    painter.rect_filled(ground, 3.0, ink.palette.canvas.gamma_multiply(0.8));
+    ink.write(painter, at, anchor, text, ink.text);
+}
+
+/// A value to the digit that its error leaves known, at most three decimals.
+fn with_error(value: f64, error: f64) -> String {
+    let decimals = if error > 0.0 { (-error.log10().floor()).clamp(0.0, 3.0) } else { 3.0 };
+    let least = 10f64.powf(-decimals);
+    let decimals = decimals as usize;
+    let sign = if value < -0.5 * least { "−" } else { "" };
+    format!("{sign}{:.decimals$} ± {:.decimals$}", value.abs(), error.max(least))
 }
 
 /// Pressure along x at mid-width.
@@ -324,4 +341,17 @@ fn boyle(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     inside.line(line, Stroke::new(1.6, film));
     let now = holding.now().reading;
     painter.circle(axes.at(now.gap, now.mean_pressure), 4.0, film, Stroke::new(1.0, ink.palette.canvas));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_error;
+
+    #[test]
+    fn a_force_has_the_digits_that_are_known() {
+        assert_eq!(with_error(186.04, 0.63), "186.0 ± 0.6");
+        assert_eq!(with_error(-35.104, 0.061), "−35.10 ± 0.06");
+        assert_eq!(with_error(-0.0001, 1e-7), "0.000 ± 0.001");
+        assert_eq!(with_error(0.0, 0.0), "0.000 ± 0.001");
+    }
 }

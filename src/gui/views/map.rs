@@ -15,11 +15,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, rect: Rect, shown: &Sh
     let range = shown.scales.pressure;
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: axes.x, range };
     field::draw(ui, painter, &axes, recording, "all teeth", stamp);
-    let titles = if recording.transient {
-        ["Pressure map of tooth 0, kPa absolute", "Tooth 0, absolute"]
-    } else {
-        ["Pressure map of the film, kPa absolute", "Film, absolute"]
-    };
+    let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
     title_with_bar(painter, ink, rect, titles, range);
     y_labels(painter, ink, &axes);
     axes.x_labels(painter, ink, 1e-3, "x, mm");

@@ -50,10 +50,14 @@ pub(super) struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    /// The map of `frame`; `None` if the recording has none.
-    pub(super) fn of(recording: &'a Recording, frame: usize) -> Option<Self> {
+    /// The map of `frame`, that of tooth 0 or in a transient of `tooth`; `None` if the recording has none.
+    pub(super) fn of(recording: &'a Recording, tooth: usize, frame: usize) -> Option<Self> {
         let size = recording.map_x.len() * recording.map_y.len();
-        let values = recording.pressure.get(frame * size..(frame + 1) * size)?;
+        let (maps, number) = match tooth.checked_sub(1) {
+            Some(other) if recording.transient => (&recording.other_pressure, other * recording.frames + frame),
+            _ => (&recording.pressure, frame),
+        };
+        let values = maps.get(number * size..(number + 1) * size)?;
         (size > 0).then_some(Self {
             x: &recording.map_x,
             y: &recording.map_y,
@@ -208,25 +212,17 @@ impl Lines {
     }
 }
 
-/// Whether the pressure map of `tooth` is known: that of any tooth by lag symmetry, in a transient that of tooth 0.
-pub(super) fn mapped(recording: &Recording, tooth: usize) -> bool {
-    tooth == 0 || !recording.transient
-}
-
-/// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth, and where
-/// its map is not known.
+/// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth.
 pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, out: &mut [f64]) -> bool {
     out.fill(0.0);
-    if !mapped(recording, tooth) {
-        return false;
-    }
-    let Pair { first, second, weight } = Pair::lagged(recording, tooth, place);
-    let Some(plane) = Plane::of(recording, first) else { return false };
+    let Pair { first, second, weight } =
+        if recording.transient { Pair::at(recording, place) } else { Pair::lagged(recording, tooth, place) };
+    let Some(plane) = Plane::of(recording, tooth, first) else { return false };
     if !plane.column(xi, 1.0 - weight, out) {
         return false;
     }
     if weight > 0.0
-        && let Some(next) = Plane::of(recording, second)
+        && let Some(next) = Plane::of(recording, tooth, second)
     {
         next.column(xi, weight, out);
     }
@@ -235,7 +231,7 @@ pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, o
 
 /// Pressure \[Pa\] at y = 0.
 pub(super) fn middle_pressure(recording: &Recording, tooth: usize, xi: f64, place: f64) -> Option<f64> {
-    let row = Plane::of(recording, 0)?.row(0.0)?;
+    let row = Plane::of(recording, 0, 0)?.row(0.0)?;
     let mut values = vec![0.0; recording.map_y.len()];
     column(recording, tooth, xi, place, &mut values).then(|| between(&values, row))
 }
@@ -287,7 +283,7 @@ mod tests {
     #[test]
     fn half_maps_are_mirrored() {
         let plate = recording(1, 1, true);
-        let plane = Plane::of(&plate, 0).unwrap();
+        let plane = Plane::of(&plate, 0, 0).unwrap();
         let (mut left, mut right) = (vec![0.0; 3], vec![0.0; 3]);
         assert!(plane.column(-0.6, 1.0, &mut left) && plane.column(0.6, 1.0, &mut right));
         assert_eq!(left, right);
@@ -372,10 +368,13 @@ mod tests {
         assert_eq!(film(&once, 5.7), film(&once, 5.0));
         assert_ne!(film(&repeating, 5.7), film(&repeating, 5.0));
         assert_eq!(film(&once, 2.5), film(&repeating, 2.5));
-        // Other teeth are not tooth 0 at another time.
-        let map = Recording { transient: true, ..recording(8, 4, false) };
+        // Other teeth are not tooth 0 at another time: they have maps of their own.
+        let map = recording(8, 4, false);
+        let others = (1..4).flat_map(|tooth| map.pressure.iter().map(move |p| p + 1000.0 * f64::from(tooth))).collect();
+        let map = Recording { transient: true, other_pressure: others, ..map.clone() };
         assert_eq!(middle_pressure(&map, 0, 0.5, 4.0), Some(9.0));
-        assert_eq!(middle_pressure(&map, 3, 0.5, 4.0), None);
+        assert_eq!(middle_pressure(&map, 3, 0.5, 4.5), Some(3009.5));
+        assert_eq!(middle_pressure(&map, 3, 0.5, 7.5), Some(3012.0));
     }
 
     #[test]

@@ -143,7 +143,7 @@ impl Scales {
         Self {
             key: None,
             ranges: Ranges {
-                pressure: span(recording.pressure.iter().copied()),
+                pressure: span(recording.pressure.iter().chain(&recording.other_pressure).copied()),
                 stator: span(recording.stator.iter().copied()),
                 rotor: span(recording.stator.iter().zip(&recording.film_thickness).map(|(w, h)| w + h)),
                 loads,

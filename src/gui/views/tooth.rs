@@ -34,11 +34,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, row: Rect, gutter: f32
     let stamp =
         Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
     field::draw(ui, painter, &axes, recording, "followed tooth", stamp);
-    let long = if sample::mapped(recording, shown.tooth) {
-        format!("Tooth {}, x from its middle", shown.tooth)
-    } else {
-        format!("Tooth {}: map not kept", shown.tooth)
-    };
+    let long = format!("Tooth {}, x from its middle", shown.tooth);
     ink.title(painter, places[0], &[&long, &format!("Tooth {}", shown.tooth)], &[]);
     y_labels(painter, ink, &axes);
     axes.x_labels(painter, ink, 1e-3, "x, mm");
