@@ -16,7 +16,8 @@ const WIDEST_BAND: f64 = 0.5;
 
 /// What a plot shows of a cycle: the value, and its error if one is known.
 struct Quantity {
-    titles: [&'static str; 2],
+    /// Long to short.
+    titles: [&'static str; 3],
     unit: f64,
     /// Known with an error.
     extrapolated: bool,
@@ -24,7 +25,7 @@ struct Quantity {
 }
 
 const ALPHA: Quantity = Quantity {
-    titles: ["Film's share of the load α against the cycle", "α against the cycle"],
+    titles: ["Film's share of the load α against the cycle", "α against the cycle", "α"],
     unit: 1.0,
     extrapolated: true,
     of: |outcome, scenario| match (outcome, scenario) {
@@ -36,11 +37,11 @@ const ALPHA: Quantity = Quantity {
     },
 };
 const RATIO: Quantity = Quantity {
-    titles: ["Load ratio, film load over p_a × area, against the cycle", "Load ratio against the cycle"],
+    titles: ["Load ratio, film load over p_a × area, against the cycle", "Load ratio against the cycle", "Load ratio"],
     ..ALPHA
 };
 const THICKNESS: Quantity = Quantity {
-    titles: ["Least film thickness, µm", "Least h, µm"],
+    titles: ["Least film thickness, µm", "Least h, µm", "h, µm"],
     unit: 1e-6,
     extrapolated: false,
     of: |outcome, _| match outcome {
@@ -49,7 +50,7 @@ const THICKNESS: Quantity = Quantity {
     },
 };
 const PRESSURE: Quantity = Quantity {
-    titles: ["Highest pressure, kPa absolute", "Highest p, kPa"],
+    titles: ["Highest pressure, kPa absolute", "Highest p, kPa", "p, kPa"],
     unit: 1e3,
     extrapolated: false,
     of: |outcome, _| match outcome {
@@ -58,6 +59,9 @@ const PRESSURE: Quantity = Quantity {
     },
 };
 const OF_MOTOR: &[(Quantity, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
+/// Without room for three: what is left out is in the words above.
+const OF_MOTOR_NARROW: &[(Quantity, f32)] = &[(ALPHA, 0.6), (PRESSURE, 0.4)];
+const NARROW: f32 = 36.0;
 /// The gap of a plate is given.
 const OF_PLATE: &[(Quantity, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
 
@@ -69,7 +73,11 @@ pub(super) fn show(ui: &mut Ui, starting: &Starting, periodic: Option<&Run>, hei
     let painter = ui.painter_at(area);
     let gutter = ink.width(&painter, "−0.000") + 6.0;
     let scenario = &starting.problem().scenario;
-    let quantities = if matches!(scenario, Scenario::Motor(_)) { OF_MOTOR } else { OF_PLATE };
+    let quantities = match scenario {
+        Scenario::Motor(_) if area.width() < NARROW * ink.row => OF_MOTOR_NARROW,
+        Scenario::Motor(_) => OF_MOTOR,
+        Scenario::Plate(_) => OF_PLATE,
+    };
     let mut left = area.left();
     for (quantity, share) in quantities {
         let right = left + share * area.width();
@@ -108,11 +116,10 @@ fn plot(
     axes.y_ticks(painter, ink, quantity.unit);
     axes.x_labels(painter, ink, 1.0, "cycle");
     let film = ink.palette.film;
-    let mut legend = vec![("each cycle", film)];
-    if aim.is_some() {
-        legend.push(("periodic solve", ink.palette.good));
-    }
-    ink.title(painter, rect, &quantity.titles, &legend);
+    // One curve needs no legend.
+    let both = [("each cycle", film), ("periodic solve", ink.palette.good)];
+    let legend = if aim.is_some() { &both[..] } else { &[] };
+    ink.title(painter, rect, &quantity.titles, legend);
 
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let cap = WIDEST_BAND * (high - low);

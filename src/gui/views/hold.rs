@@ -329,7 +329,12 @@ fn boyle(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     axes.y_ticks(painter, ink, 1e3);
     axes.x_labels(painter, ink, 1e-6, "gap, µm");
     let (film, quiet) = (ink.palette.film, ink.palette.quiet);
-    let titles = ["Mean pressure against the gap, kPa absolute", "Mean pressure, kPa absolute", "Mean p, kPa"];
+    let titles = [
+        "Mean pressure against the gap, kPa absolute",
+        "Mean pressure, kPa absolute",
+        "Mean p, kPa absolute",
+        "p, kPa",
+    ];
     ink.title(painter, rect, &titles, &[("film", film), ("Boyle", ink.palette.contact)]);
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     axes.x_grid(inside, ink, 1e-6);
