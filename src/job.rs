@@ -4,8 +4,10 @@
 //! request cancels the running solve. A panic in a solver becomes an event. On drop the worker is cancelled and joined.
 //! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
 
+pub mod hold;
 pub mod measurement;
 pub mod merit;
+pub mod startup;
 pub mod task;
 
 use crate::control::{Cancel, Progress};

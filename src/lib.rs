@@ -55,6 +55,7 @@
 //! | [`fidelity`], [`plan`], [`estimate`] | how much accuracy; what this scene needs; the error that is left |
 //! | [`recording`], [`solution`] | what a solve returns: plain data |
 //! | [`motor`], [`plate`] | the periodic state of either scene |
+//! | [`mod@startup`], [`hold`] | the transient from rest; a plate held by hand |
 //! | [`mod@paper`] | the algorithm of Maeno and Bogy (1992), literally |
 //! | [`mod@solve`] | one call for all of it |
 //! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
@@ -74,6 +75,7 @@ pub mod fidelity;
 pub mod film;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod hold;
 pub mod job;
 pub mod lessons;
 pub mod motor;

@@ -9,6 +9,8 @@
 pub struct Recording {
     /// Period \[s\].
     pub period: f64,
+    /// One cycle of a transient: after its last frame comes another cycle, and no tooth is another one at another time.
+    pub transient: bool,
     /// Frames in the cycle.
     pub frames: usize,
     /// Length along x of one period of the scene: the wavelength, or the plate's length \[m\].
@@ -41,6 +43,8 @@ pub struct Recording {
     pub half_length: bool,
     /// Absolute pressure \[Pa\], `[frame][ix][iy]`.
     pub pressure: Vec<f64>,
+    /// Of a transient: the same of the other teeth, `[tooth − 1][frame][ix][iy]`.
+    pub other_pressure: Vec<f64>,
     /// Per frame: film load on one wavelength or the plate \[N\].
     pub film_load: Vec<f64>,
     /// Per frame: contact load \[N\].

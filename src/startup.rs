@@ -97,6 +97,7 @@ pub fn startup(
         } else {
             f64::INFINITY
         };
+        let recording = Recording { transient: true, ..recording };
         last = change;
         ended = Startup {
             status: Status::NotConverged { residual: remaining, tolerance: settings.tolerance },

@@ -326,7 +326,7 @@ fn edit_spacing(window: &mut Harness<'static, App>, text: &str) {
 
 /// Presses the keys of a tab.
 fn show(window: &mut Harness<'static, App>, tab: Tab) {
-    let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
+    let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7];
     let place = Tab::ALL.iter().position(|(other, _)| *other == tab).unwrap();
     window.key_press_modifiers(Modifiers::COMMAND, keys[place]);
 }

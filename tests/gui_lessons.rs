@@ -457,7 +457,7 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
 }
 
 /// Names of the tabs.
-const TABS: &[&str] = &["Motion", "Compare", "Sweep", "Torque", "Trade-off"];
+const TABS: &[&str] = &["Motion", "Compare", "Sweep", "Torque", "Trade-off", "Start-up", "Hold"];
 
 const GOOD: &str = include_str!("lessons/good.md");
 
@@ -551,7 +551,12 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
             &["wrong type", "a list"],
         ),
         ("look = [\"loop\"]", "look = [\"moon\"]", line_of("look ="), &["setup.look = \"moon\"", "wave, gap"]),
-        ("tab = \"Motion\"", "tab = \"Movies\"", line_of("tab ="), &["setup.tab = \"Movies\"", "Motion, Compare, Sweep, Torque, Trade-off"]),
+        (
+            "tab = \"Motion\"",
+            "tab = \"Movies\"",
+            line_of("tab ="),
+            &["setup.tab = \"Movies\"", "Motion, Compare, Sweep, Torque, Trade-off, Start-up, Hold"],
+        ),
         (
             "show = [\"mean_load_ratio\"]",
             "show = [\"alpha\"]",

@@ -214,6 +214,36 @@ fn settle(window: &mut Harness<'static, App>) {
     window.run_steps(20);
 }
 
+/// A start-up that has come to its end, and a held plate at rest.
+fn live(results: &mut SnapshotResults) {
+    const STARTUP: (Modifiers, Key) = (Modifiers::COMMAND, Key::Num6);
+    const HOLD: (Modifiers, Key) = (Modifiers::COMMAND, Key::Num7);
+    for (name, preset, size, keys) in [
+        ("startup-dark", "fundamental", USUAL, &[STARTUP][..]),
+        ("startup-plate-small-light", "plate-crossover", SMALL, &[STARTUP, THEME]),
+    ] {
+        let mut window = window(preset, size, keys);
+        window.get_by_label("Start from rest").click();
+        for _ in 0..6000 {
+            window.step();
+            if window.state().starting().is_some_and(|starting| starting.ended().is_some()) {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        settle(&mut window);
+        window.snapshot(name);
+        results.extend_harness(&mut window);
+    }
+    for (name, size, keys) in
+        [("hold-dark", USUAL, &[HOLD][..]), ("hold-lecture-light", SMALL, &[HOLD, THEME, LECTURE])]
+    {
+        let mut window = window("plate-crossover", size, keys);
+        window.snapshot(name);
+        results.extend_harness(&mut window);
+    }
+}
+
 #[test]
 fn the_window_looks_as_it_did() {
     if !can_draw() {
@@ -256,6 +286,7 @@ fn the_window_looks_as_it_did() {
     until(&mut window, "measured", |app| app.measured().is_some_and(|measured| !measured.running()));
     window.snapshot("trade-off");
     results.extend_harness(&mut window);
+    live(&mut results);
     open_by_path(&mut results);
 }
 

@@ -10,6 +10,7 @@ use super::dialogs::{Answer, Dialogs, Export, Purpose};
 use super::document::Document;
 use super::edit::{Change, Refusals};
 use super::exporting::{self as exports, Exports};
+use super::holding::Holding;
 use super::keys;
 use super::lessons::{self, Stage, Teach, Teaching};
 use super::measured::{Measured, with_present};
@@ -19,6 +20,7 @@ use super::panels::model::Model;
 use super::panels::{menu, parameters, results, sheet, timeline};
 use super::pinned::{Page, Pins};
 use super::spot;
+use super::starting::{self, Starting};
 use super::state::{Tab, View};
 use super::sweeping::Sweeps;
 use super::tabs;
@@ -31,10 +33,12 @@ use crate::export::folder::write_file;
 use crate::export::tradeoff::{figure, write_csv};
 use crate::fidelity::Fidelity;
 use crate::job::measurement::Measurement;
+use crate::job::startup::Transient;
 use crate::job::{Event, Request, Run, Solver};
 use crate::problem::{Numerics, Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
+use crate::startup;
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -135,6 +139,8 @@ pub struct App {
     sweeps: Sweeps,
     merits: Merits,
     teaching: Teaching,
+    starting: Option<Starting>,
+    holding: Option<Holding>,
     modal: Option<Modal>,
     /// What to do after a save that a question led to.
     after_save: Option<Command>,
@@ -200,6 +206,8 @@ impl App {
             sweeps: Sweeps::default(),
             merits: Merits::default(),
             teaching: Teaching::new(stored("lessons")),
+            starting: None,
+            holding: None,
             modal: None,
             after_save: None,
             sheet: false,
@@ -245,6 +253,16 @@ impl App {
     /// Torque over speed, if its tab was shown.
     pub fn merits(&self) -> &Merits {
         &self.merits
+    }
+
+    /// The plate that is held, once its tab was shown.
+    pub fn holding(&self) -> Option<&Holding> {
+        self.holding.as_ref()
+    }
+
+    /// The start-up, if one was asked for.
+    pub fn starting(&self) -> Option<&Starting> {
+        self.starting.as_ref()
     }
 
     /// What the switches of the model changed.
@@ -313,6 +331,7 @@ impl App {
         let pinned = || self.pins.runs().iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
         let recording = match self.view.tab {
             Tab::Motion => self.shown.as_ref().map(|run| &run.solution.recording),
+            Tab::Startup => self.starting.as_ref().and_then(Starting::run).map(|run| &run.solution.recording),
             Tab::Compare if self.pins.page == Page::Fields => pinned(),
             _ => None,
         };
@@ -377,6 +396,12 @@ impl App {
             self.sweeps.review(self.document.scene());
         }
         self.merits.drain();
+        if let Some(starting) = &mut self.starting {
+            starting.drain();
+            if starting.stale(self.document.scene()) {
+                starting.cancel();
+            }
+        }
         let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
         for (purpose, answer) in answers {
             match (purpose, answer) {
@@ -561,6 +586,12 @@ impl App {
             Command::Show(tab) => self.view.tab = tab,
             Command::Pin(asked) => self.pin(ctx, asked),
             Command::Sweep(asked) => self.sweep(ctx, asked),
+            Command::Hold(ask) => {
+                if let Some(holding) = &mut self.holding {
+                    holding.carry_out(ask);
+                }
+            }
+            Command::Startup(ask) => self.start_up(ctx, ask),
             Command::Measure => self.measure(ctx),
             Command::CancelMeasure => {
                 if let Some(measured) = &mut self.measured {
@@ -586,8 +617,7 @@ impl App {
             Command::SecondsPerCycle(seconds) => self.view.seconds_per_cycle = seconds,
             Command::FollowTooth(tooth) => self.view.tooth = tooth,
             Command::NextTooth(by) => {
-                if let Some(run) = &self.shown {
-                    let teeth = run.solution.recording.teeth.max(1) as i64;
+                if let Some(teeth) = self.on_timeline().map(|recording| recording.teeth.max(1) as i64) {
                     self.view.tooth = (self.view.tooth as i64 + by).rem_euclid(teeth) as usize;
                 }
             }
@@ -674,6 +704,75 @@ impl App {
         }
     }
 
+    /// Moves the animation on by `elapsed` \[s\].
+    fn animate(&mut self, elapsed: f64) {
+        let on = self.view.phase + elapsed / self.view.seconds_per_cycle;
+        self.view.phase = on.rem_euclid(1.0);
+        if let (Tab::Startup, Some(starting), true) = (self.view.tab, &mut self.starting, on >= 1.0) {
+            starting.next_cycle();
+        }
+    }
+
+    /// Takes what the held plate did, and takes another one in hand if the scene is another.
+    fn hold(&mut self, ctx: &egui::Context) {
+        let scene = self.document.scene();
+        if self.holding.as_ref().is_some_and(|holding| holding.stale(scene)) {
+            self.holding = None;
+        }
+        if let (Tab::Hold, None, Ok(problem)) = (self.view.tab, &self.holding, Problem::new(scene)) {
+            let wake = ctx.clone();
+            match Holding::start(scene, &problem, self.world.now, move || wake.request_repaint()) {
+                Ok(holding) => self.holding = holding,
+                Err(error) => {
+                    self.view.tab = Tab::Motion;
+                    self.modal = Some(Modal::Error(format!("The plate cannot be held: {error}")));
+                }
+            }
+        }
+        if let Some(holding) = &mut self.holding {
+            holding.drain();
+        }
+    }
+
+    fn start_up(&mut self, ctx: &egui::Context, ask: starting::Ask) {
+        if ask == starting::Ask::Start {
+            self.start_from_rest(ctx);
+        }
+        let Some(starting) = &mut self.starting else { return };
+        match ask {
+            starting::Ask::Start => {}
+            starting::Ask::Cancel => starting.cancel(),
+            starting::Ask::Choose(number) => starting.stay_at(number),
+            starting::Ask::Follow(follow) => starting.follow(follow),
+            starting::Ask::Replay => {
+                starting.stay_at(1);
+                self.view.phase = 0.0;
+                self.view.playing = true;
+            }
+        }
+    }
+
+    fn start_from_rest(&mut self, ctx: &egui::Context) {
+        let scene = self.document.scene().clone();
+        let problem = match Problem::new(&scene) {
+            Ok(problem) => problem,
+            Err(error) => {
+                self.modal = Some(Modal::Error(error.to_string()));
+                return;
+            }
+        };
+        // Three grids of every tooth: a finer one takes minutes.
+        let fidelity = self.document.aim().min(Fidelity::Standard);
+        let settings = startup::Settings { fidelity, ..startup::Settings::default() };
+        let wake = ctx.clone();
+        // One at a time: the last one is ended first.
+        let count = self.starting.take().map_or(0, |last| last.count() + 1);
+        match Transient::start(problem.clone(), settings, move || wake.request_repaint()) {
+            Ok(job) => self.starting = Some(Starting::new(job, scene, problem, fidelity, count)),
+            Err(error) => self.modal = Some(Modal::Error(format!("The start-up cannot be started: {error}"))),
+        }
+    }
+
     fn write_tradeoff(&mut self, export: Export, path: &Path) {
         let Some(measured) = &self.measured else { return };
         let tradeoff = measured.tradeoff();
@@ -716,11 +815,12 @@ impl App {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.drain(ctx);
+        self.hold(ctx);
         let now = (self.world.now)();
         if self.view.playing && self.on_timeline().is_some() {
             // A frame after a pause must not leap.
             let elapsed = self.last_frame.map_or(0.0, |last| (now - last).as_secs_f64().min(0.1));
-            self.view.phase = (self.view.phase + elapsed / self.view.seconds_per_cycle).rem_euclid(1.0);
+            self.animate(elapsed);
             ctx.request_repaint_after(Duration::from_millis(16));
         }
         self.last_frame = Some(now);
@@ -825,6 +925,12 @@ impl eframe::App for App {
                     let shown = tabs::sweep::Shown { sweeps: &self.sweeps, scene, now };
                     tabs::sweep::show(ui, &shown, &palette, &mut commands);
                 }
+                (Tab::Startup, run) => {
+                    let starting = self.starting.as_ref();
+                    let shown = tabs::startup::Shown { scene: self.document.scene(), starting, run: run.as_deref() };
+                    tabs::startup::show(ui, &shown, &palette, &mut self.view, &mut commands);
+                }
+                (Tab::Hold, _) => tabs::hold::show(ui, self.holding.as_ref(), &palette, &mut commands),
                 (Tab::Tradeoff, _) => {
                     let shown = tabs::tradeoff::Shown {
                         scene: self.document.scene(),

@@ -2,8 +2,10 @@
 
 use super::dialogs::Export;
 use super::exporting::Exporting;
+use super::holding;
 use super::lessons::Teach;
 use super::pinned::Pinning;
+use super::starting;
 use super::state::Tab;
 use super::sweeping::Sweeping;
 use crate::analysis::tradeoff::Wish;
@@ -75,6 +77,10 @@ pub enum Command {
     Pin(Pinning),
     /// Asks something of the sweep.
     Sweep(Sweeping),
+    /// About the plate that is held.
+    Hold(holding::Ask),
+    /// About the start-up.
+    Startup(starting::Ask),
     /// Measures error against time, now.
     Measure,
     /// Ends the measurement.

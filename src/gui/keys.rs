@@ -1,6 +1,7 @@
 //! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
 
 use super::command::Command;
+use super::holding::Ask;
 use super::lessons::Teach;
 use super::pinned::Pinning;
 use super::state::Tab;
@@ -38,6 +39,10 @@ const fn idle(keys: KeyboardShortcut, about: &'static str, command: fn() -> Comm
 /// The group of the keys that move the cycle.
 const MOTION: &str = "Motion";
 
+/// The group of the keys that move a held plate, and by how much of its mean gap.
+const HOLDING: &str = "Held plate";
+const HOLD_STEP: f64 = 0.05;
+
 /// All shortcuts, in the groups and the order in which the sheet lists them.
 pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
@@ -49,6 +54,13 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             idle(key(NONE, Key::Home), "Start of the cycle", || Command::Seek(0.0)),
             idle(key(NONE, Key::OpenBracket), "Follow the tooth before", || Command::NextTooth(-1)),
             idle(key(NONE, Key::CloseBracket), "Follow the next tooth", || Command::NextTooth(1)),
+        ],
+    ),
+    (
+        HOLDING,
+        &[
+            idle(key(NONE, Key::ArrowUp), "Held plate up", || Command::Hold(Ask::By(HOLD_STEP))),
+            idle(key(NONE, Key::ArrowDown), "Held plate down", || Command::Hold(Ask::By(-HOLD_STEP))),
         ],
     ),
     (
@@ -84,6 +96,8 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             always(key(CTRL, Key::Num3), "Sweep a parameter", || Command::Show(Tab::Sweep)),
             always(key(CTRL, Key::Num4), "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
             always(key(CTRL, Key::Num5), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+            always(key(CTRL, Key::Num6), "Show the start-up", || Command::Show(Tab::Startup)),
+            always(key(CTRL, Key::Num7), "Hold a plate", || Command::Show(Tab::Hold)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
             always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
@@ -105,7 +119,11 @@ pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>
     ctx.input_mut(|input| {
         // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
         for shift in [true, false] {
-            let groups = GROUPS.iter().filter(|(group, _)| *group != MOTION || tab.moves());
+            let groups = GROUPS.iter().filter(|(group, _)| match *group {
+                MOTION => tab.moves(),
+                HOLDING => tab == Tab::Hold,
+                _ => true,
+            });
             let shortcuts = groups.flat_map(|(_, shortcuts)| shortcuts.iter());
             for shortcut in shortcuts.filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
                 if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {

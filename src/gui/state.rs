@@ -14,6 +14,10 @@ pub enum Tab {
     Sweep,
     /// Of a motor, torque and power over speed; of a plate, what is known exactly beside what was computed.
     Torque,
+    /// The transient from rest.
+    Startup,
+    /// A plate held with the mouse.
+    Hold,
     /// Error against solve time.
     Tradeoff,
 }
@@ -26,11 +30,13 @@ impl Tab {
         (Self::Sweep, "Sweep"),
         (Self::Torque, "Torque"),
         (Self::Tradeoff, "Trade-off"),
+        (Self::Startup, "Start-up"),
+        (Self::Hold, "Hold"),
     ];
 
     /// Whether it moves with the cycle.
     pub fn moves(self) -> bool {
-        matches!(self, Self::Motion | Self::Compare)
+        matches!(self, Self::Motion | Self::Compare | Self::Startup)
     }
 }
 

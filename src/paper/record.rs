@@ -42,6 +42,8 @@ impl Recorder {
             .collect();
         let lines = teeth * frames * nodes;
         let recording = Recording {
+            transient: false,
+            other_pressure: Vec::new(),
             period: motor.period(),
             frames,
             length: motor.wavelength(),

@@ -14,7 +14,7 @@ use crate::solution::{Outcome, Status};
 use eframe::egui::{self, ProgressBar, RichText, Slider};
 
 /// Seconds on screen for one cycle that can be chosen.
-const SPEEDS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 30.0];
+const SPEEDS: [f64; 6] = [0.5, 1.5, 3.0, 6.0, 12.0, 30.0];
 
 /// Play, step, scrub and speed.
 pub fn show(ui: &mut egui::Ui, recording: &Recording, view: &View, commands: &mut Vec<Command>) {
@@ -115,7 +115,7 @@ fn name(response: &egui::Response, text: &'static str) {
 }
 
 /// A time in the unit that suits it.
-fn time(seconds: f64) -> String {
+pub(in crate::gui) fn time(seconds: f64) -> String {
     match seconds {
         s if s < 1e-4 => format!("{:.2} µs", s * 1e6),
         s if s < 1e-1 => format!("{:.2} ms", s * 1e3),
@@ -124,7 +124,7 @@ fn time(seconds: f64) -> String {
 }
 
 /// A factor with its digits in groups of three.
-fn thousands(value: f64) -> String {
+pub(in crate::gui) fn thousands(value: f64) -> String {
     if value < 10.0 {
         return format!("{value:.2}");
     }

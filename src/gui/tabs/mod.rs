@@ -3,6 +3,8 @@
 mod chart;
 pub mod compare;
 pub mod exact;
+pub mod hold;
+pub mod startup;
 pub mod sweep;
 pub mod torque;
 pub mod tradeoff;

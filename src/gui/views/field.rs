@@ -62,7 +62,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, axes: &Axes, recording: &Recordin
 /// Pixels of the map, row by row from y = +w/2 down; transparent beside the teeth.
 fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2]) -> Vec<Color32> {
     let mut pixels = vec![Color32::TRANSPARENT; columns * rows];
-    let Some(plane) = Plane::of(recording, 0) else { return pixels };
+    let Some(plane) = Plane::of(recording, 0, 0) else { return pixels };
     let half = sample::half_width(recording);
     let places: Vec<Option<(usize, f64)>> =
         (0..rows).map(|j| plane.row(half * (1.0 - (2.0 * j as f64 + 1.0) / rows as f64))).collect();

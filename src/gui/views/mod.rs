@@ -4,6 +4,8 @@
 //! Everything is drawn with the painter, on axes of our own (`paint`): one x axis is shared by all parts of a view.
 
 mod field;
+mod history;
+mod hold;
 mod loads;
 mod map;
 mod motor;
@@ -18,17 +20,37 @@ mod tooth;
 mod wave;
 
 use crate::gui::command::Command;
+use crate::gui::holding::Holding;
+use crate::gui::starting::Starting;
 use crate::gui::state::View;
 use crate::job::Run;
 use crate::problem::Scenario;
 use eframe::egui::Ui;
 
+pub use history::words;
+pub use scales::Ranges;
+
 /// Draws `run` in the middle of the window.
 pub fn show(ui: &mut Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+    show_within(ui, run, None, view, commands);
+}
+
+/// As [`show`]; the axes have the ranges `within`, if `run` is one cycle of several.
+pub fn show_within(ui: &mut Ui, run: &Run, within: Option<&Ranges>, view: &mut View, commands: &mut Vec<Command>) {
     match run.problem.scenario {
-        Scenario::Motor(_) => motor::show(ui, run, view, commands),
-        Scenario::Plate(_) => plate::show(ui, run, view, commands),
+        Scenario::Motor(_) => motor::show(ui, run, within, view, commands),
+        Scenario::Plate(_) => plate::show(ui, run, within, view, commands),
     }
+}
+
+/// Draws a held plate into what is left of `ui`; dragging moves it.
+pub fn hold(ui: &mut Ui, holding: &Holding, commands: &mut Vec<Command>) {
+    hold::show(ui, holding, commands);
+}
+
+/// Draws the numbers of a start-up against the cycle into the next `height` points of `ui`, and what they converge to.
+pub fn history(ui: &mut Ui, starting: &Starting, periodic: Option<&Run>, height: f32, commands: &mut Vec<Command>) {
+    history::show(ui, starting, periodic, height, commands);
 }
 
 #[cfg(test)]

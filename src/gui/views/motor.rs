@@ -2,7 +2,7 @@
 
 use super::paint::{Axes, Ink, number};
 use super::sample::{self, Lines, Touching};
-use super::scales::Scales;
+use super::scales::{Ranges, Scales};
 use super::{loads, map, tooth, wave};
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
@@ -87,11 +87,17 @@ impl Layout {
 }
 
 /// Draws `run` at the view's phase.
-pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+pub(super) fn show(
+    ui: &mut egui::Ui,
+    run: &Run,
+    within: Option<&Ranges>,
+    view: &mut View,
+    commands: &mut Vec<Command>,
+) {
     let recording = &run.solution.recording;
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let Some(area) = super::paint::area(ui, recording) else { return };
-    let scales = Scales::of(ui, run);
+    let scales = Scales::of(ui, run, within);
     let place = view.place(recording);
     let touching = Touching { min_spacing: motor.min_spacing, compliance: motor.rotor.at(LOCAL) };
     let shown = Shown {

@@ -5,7 +5,7 @@ use super::map::y_labels;
 use super::motor::{Readout, named, seek};
 use super::paint::{Axes, Ink, number, scale_bar, times, title_with_bar};
 use super::sample::{self, Lines, Touching};
-use super::scales::{Curve, Scales};
+use super::scales::{Curve, Ranges, Scales};
 use super::series::{Series, Trace};
 use crate::gui::command::Command;
 use crate::gui::lessons::glossary;
@@ -38,11 +38,17 @@ impl Shown<'_> {
 }
 
 /// Draws `run` at the view's phase.
-pub(super) fn show(ui: &mut egui::Ui, run: &Run, view: &mut View, commands: &mut Vec<Command>) {
+pub(super) fn show(
+    ui: &mut egui::Ui,
+    run: &Run,
+    within: Option<&Ranges>,
+    view: &mut View,
+    commands: &mut Vec<Command>,
+) {
     let recording = &run.solution.recording;
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let Some(area) = super::paint::area(ui, recording) else { return };
-    let scales = Scales::of(ui, run);
+    let scales = Scales::of(ui, run, within);
     let place = view.place(recording);
     let phase = place / recording.frames.max(1) as f64;
     let lines = Lines::at(recording, place, Touching::default());
@@ -165,7 +171,7 @@ fn draw_profile(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
 }
 
 /// Unit of a load: its name and its size.
-fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
+pub(super) fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
     match (greatest < 0.5, strip) {
         (true, false) => ("mN", 1e-3),
         (true, true) => ("mN/m", 1e-3),

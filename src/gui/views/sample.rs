@@ -50,10 +50,14 @@ pub(super) struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    /// The map of `frame`; `None` if the recording has none.
-    pub(super) fn of(recording: &'a Recording, frame: usize) -> Option<Self> {
+    /// The map of `frame`, that of tooth 0 or in a transient of `tooth`; `None` if the recording has none.
+    pub(super) fn of(recording: &'a Recording, tooth: usize, frame: usize) -> Option<Self> {
         let size = recording.map_x.len() * recording.map_y.len();
-        let values = recording.pressure.get(frame * size..(frame + 1) * size)?;
+        let (maps, number) = match tooth.checked_sub(1) {
+            Some(other) if recording.transient => (&recording.other_pressure, other * recording.frames + frame),
+            _ => (&recording.pressure, frame),
+        };
+        let values = maps.get(number * size..(number + 1) * size)?;
         (size > 0).then_some(Self {
             x: &recording.map_x,
             y: &recording.map_y,
@@ -96,10 +100,14 @@ struct Pair {
 }
 
 impl Pair {
-    fn at(place: f64, frames: usize) -> Self {
-        let frames = frames.max(1);
+    /// The frames around `place`; of a transient the last stands until the cycle ends, because another cycle follows.
+    fn at(recording: &Recording, place: f64) -> Self {
+        let frames = recording.frames.max(1);
         let place = place.rem_euclid(frames as f64);
         let first = (place as usize).min(frames - 1);
+        if recording.transient && first + 1 == frames {
+            return Self { first, second: first, weight: 0.0 };
+        }
         Self { first, second: (first + 1) % frames, weight: (place - first as f64).clamp(0.0, 1.0) }
     }
 
@@ -108,7 +116,7 @@ impl Pair {
         let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
         // Whole frames apart, so that a tooth a whole number of frames ahead is as exact as tooth 0.
         let shift = tooth * frames;
-        Self::at(place + (shift / teeth) as f64 + (shift % teeth) as f64 / teeth as f64, frames)
+        Self::at(recording, place + (shift / teeth) as f64 + (shift % teeth) as f64 / teeth as f64)
     }
 }
 
@@ -166,7 +174,7 @@ impl Lines {
         let all_stored = recording.stored_teeth == recording.teeth;
         for tooth in 0..recording.teeth {
             let (stored, pair) = if all_stored {
-                (tooth, Pair::at(place, recording.frames))
+                (tooth, Pair::at(recording, place))
             } else {
                 (0, Pair::lagged(recording, tooth, place))
             };
@@ -207,13 +215,14 @@ impl Lines {
 /// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth.
 pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, out: &mut [f64]) -> bool {
     out.fill(0.0);
-    let Pair { first, second, weight } = Pair::lagged(recording, tooth, place);
-    let Some(plane) = Plane::of(recording, first) else { return false };
+    let Pair { first, second, weight } =
+        if recording.transient { Pair::at(recording, place) } else { Pair::lagged(recording, tooth, place) };
+    let Some(plane) = Plane::of(recording, tooth, first) else { return false };
     if !plane.column(xi, 1.0 - weight, out) {
         return false;
     }
     if weight > 0.0
-        && let Some(next) = Plane::of(recording, second)
+        && let Some(next) = Plane::of(recording, tooth, second)
     {
         next.column(xi, weight, out);
     }
@@ -222,7 +231,7 @@ pub(super) fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, o
 
 /// Pressure \[Pa\] at y = 0.
 pub(super) fn middle_pressure(recording: &Recording, tooth: usize, xi: f64, place: f64) -> Option<f64> {
-    let row = Plane::of(recording, 0)?.row(0.0)?;
+    let row = Plane::of(recording, 0, 0)?.row(0.0)?;
     let mut values = vec![0.0; recording.map_y.len()];
     column(recording, tooth, xi, place, &mut values).then(|| between(&values, row))
 }
@@ -274,7 +283,7 @@ mod tests {
     #[test]
     fn half_maps_are_mirrored() {
         let plate = recording(1, 1, true);
-        let plane = Plane::of(&plate, 0).unwrap();
+        let plane = Plane::of(&plate, 0, 0).unwrap();
         let (mut left, mut right) = (vec![0.0; 3], vec![0.0; 3]);
         assert!(plane.column(-0.6, 1.0, &mut left) && plane.column(0.6, 1.0, &mut right));
         assert_eq!(left, right);
@@ -348,6 +357,24 @@ mod tests {
         let (place, lag) = (2.0, 7.0 / 3.0);
         let (here, ahead) = (Lines::at(&uneven, place, how), Lines::at(&uneven, place + lag, how));
         assert!(here.film[here.of(1)].iter().zip(&ahead.film[ahead.of(0)]).all(|(x, y)| (x - y).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_transient_does_not_run_back_into_its_beginning() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let repeating = passing(3, 6);
+        let once = Recording { transient: true, ..repeating.clone() };
+        let film = |recording: &Recording, place: f64| Lines::at(recording, place, how).film;
+        assert_eq!(film(&once, 5.7), film(&once, 5.0));
+        assert_ne!(film(&repeating, 5.7), film(&repeating, 5.0));
+        assert_eq!(film(&once, 2.5), film(&repeating, 2.5));
+        // Other teeth are not tooth 0 at another time: they have maps of their own.
+        let map = recording(8, 4, false);
+        let others = (1..4).flat_map(|tooth| map.pressure.iter().map(move |p| p + 1000.0 * f64::from(tooth))).collect();
+        let map = Recording { transient: true, other_pressure: others, ..map.clone() };
+        assert_eq!(middle_pressure(&map, 0, 0.5, 4.0), Some(9.0));
+        assert_eq!(middle_pressure(&map, 3, 0.5, 4.5), Some(3009.5));
+        assert_eq!(middle_pressure(&map, 3, 0.5, 7.5), Some(3012.0));
     }
 
     #[test]

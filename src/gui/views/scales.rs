@@ -7,9 +7,13 @@ use crate::recording::Recording;
 use eframe::egui::{Id, Ui};
 use std::sync::Arc;
 
-/// A periodic curve, uniformly sampled over one cycle.
+/// A curve, uniformly sampled over one cycle.
 #[derive(Debug, Default)]
-pub(super) struct Curve(Vec<f64>);
+pub(super) struct Curve {
+    values: Vec<f64>,
+    /// After the last value comes not the first: it stands until the cycle ends.
+    once: bool,
+}
 
 impl Curve {
     /// One value for each frame.
@@ -19,19 +23,20 @@ impl Curve {
 
     /// The value at a phase; any number of cycles away.
     pub(super) fn at(&self, phase: f64) -> f64 {
-        let count = self.0.len();
+        let count = self.values.len();
         if count == 0 {
             return 0.0;
         }
         let place = phase.rem_euclid(1.0) * count as f64;
         let left = (place as usize).min(count - 1);
         let weight = place - left as f64;
-        self.0[left] + weight * (self.0[(left + 1) % count] - self.0[left])
+        let right = if self.once { (left + 1).min(count - 1) } else { (left + 1) % count };
+        self.values[left] + weight * (self.values[right] - self.values[left])
     }
 
     /// Least and greatest value.
     pub(super) fn range(&self) -> [f64; 2] {
-        span(self.0.iter().copied())
+        span(self.values.iter().copied())
     }
 }
 
@@ -46,10 +51,9 @@ pub(super) struct ToothCurves {
     pub(super) contact: Curve,
 }
 
-/// Ranges and curves of a whole cycle.
-#[derive(Debug, Default)]
-pub(super) struct Scales {
-    key: Option<(u64, Fidelity)>,
+/// Ranges of the axes over a whole cycle, or over several.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ranges {
     /// Absolute pressure in the map \[Pa\].
     pub(super) pressure: [f64; 2],
     /// Stator's displacement \[m\].
@@ -62,23 +66,59 @@ pub(super) struct Scales {
     pub(super) thickness: [f64; 2],
     /// Film load of a tooth and contact load of a tooth \[N\], zero included.
     pub(super) tooth_load: [f64; 2],
+}
+
+impl Ranges {
+    /// Those of one cycle.
+    pub fn of(recording: &Recording) -> Self {
+        Scales::new(recording).ranges
+    }
+
+    /// Those that hold both cycles.
+    pub fn and(self, other: Self) -> Self {
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        Self {
+            pressure: both(self.pressure, other.pressure),
+            stator: both(self.stator, other.stator),
+            rotor: both(self.rotor, other.rotor),
+            loads: both(self.loads, other.loads),
+            thickness: both(self.thickness, other.thickness),
+            tooth_load: both(self.tooth_load, other.tooth_load),
+        }
+    }
+}
+
+/// Ranges and curves of a whole cycle.
+#[derive(Debug, Default)]
+pub(super) struct Scales {
+    key: Option<(u64, Fidelity, Option<Ranges>)>,
+    ranges: Ranges,
     /// For each stored tooth.
     teeth: Vec<ToothCurves>,
     lag: f64,
 }
 
+impl std::ops::Deref for Scales {
+    type Target = Ranges;
+
+    fn deref(&self) -> &Ranges {
+        &self.ranges
+    }
+}
+
 impl Scales {
-    /// Those of `run`, computed when it is first seen.
-    pub(super) fn of(ui: &Ui, run: &Run) -> Arc<Self> {
+    /// Those of `run`, computed when it is first seen; with the ranges `within`, if it is one cycle of several.
+    pub(super) fn of(ui: &Ui, run: &Run, within: Option<&Ranges>) -> Arc<Self> {
         let id = Id::unique(match run.problem.scenario {
             Scenario::Motor(_) => "squeezefilm motor scales",
             Scenario::Plate(_) => "squeezefilm plate scales",
         });
-        let key = Some((run.number, run.fidelity));
+        let key = Some((run.number, run.fidelity, within.copied()));
         if let Some(known) = ui.data(|data| data.get_temp::<Arc<Self>>(id)).filter(|known| known.key == key) {
             return known;
         }
-        let fresh = Arc::new(Self { key, ..Self::new(&run.solution.recording) });
+        let own = Self::new(&run.solution.recording);
+        let fresh = Arc::new(Self { key, ranges: within.copied().unwrap_or(own.ranges), ..own });
         ui.data_mut(|data| data.insert_temp(id, Arc::clone(&fresh)));
         fresh
     }
@@ -90,27 +130,31 @@ impl Scales {
         let load = |line: usize, field: &[f64]| -> f64 {
             field[line * nodes..(line + 1) * nodes].iter().zip(&recording.node_length).map(|(f, l)| f * l).sum()
         };
-        let mut teeth = Vec::with_capacity(recording.stored_teeth);
+        let curve =
+            |values: &mut dyn Iterator<Item = f64>| Curve { values: values.collect(), once: recording.transient };
+        let mut teeth: Vec<ToothCurves> = Vec::with_capacity(recording.stored_teeth);
         for first in (0..lines).step_by(frames.max(1)) {
             let all = first..(first + frames).min(lines);
             let least =
                 |line: usize| span(recording.film_thickness[line * nodes..(line + 1) * nodes].iter().copied())[0];
             teeth.push(ToothCurves {
-                thickness: Curve(all.clone().map(least).collect()),
-                film: Curve(all.clone().map(|line| load(line, &recording.film)).collect()),
-                contact: Curve(all.map(|line| load(line, &recording.contact)).collect()),
+                thickness: curve(&mut all.clone().map(least)),
+                film: curve(&mut all.clone().map(|line| load(line, &recording.film))),
+                contact: curve(&mut all.map(|line| load(line, &recording.contact))),
             });
         }
         let loads = span(recording.film.iter().chain(&recording.contact).copied().chain([0.0]));
-        let curves = teeth.iter().flat_map(|tooth| tooth.film.0.iter().chain(&tooth.contact.0));
+        let curves = teeth.iter().flat_map(|tooth| tooth.film.values.iter().chain(&tooth.contact.values));
         Self {
             key: None,
-            pressure: span(recording.pressure.iter().copied()),
-            stator: span(recording.stator.iter().copied()),
-            rotor: span(recording.stator.iter().zip(&recording.film_thickness).map(|(w, h)| w + h)),
-            loads,
-            thickness: span(recording.film_thickness.iter().copied()),
-            tooth_load: span(curves.copied().chain([0.0])),
+            ranges: Ranges {
+                pressure: span(recording.pressure.iter().chain(&recording.other_pressure).copied()),
+                stator: span(recording.stator.iter().copied()),
+                rotor: span(recording.stator.iter().zip(&recording.film_thickness).map(|(w, h)| w + h)),
+                loads,
+                thickness: span(recording.film_thickness.iter().copied()),
+                tooth_load: span(curves.copied().chain([0.0])),
+            },
             lag: if recording.stored_teeth == recording.teeth { 0.0 } else { 1.0 / recording.teeth.max(1) as f64 },
             teeth,
         }
@@ -168,6 +212,18 @@ mod tests {
             }
         }
         assert_eq!(one.loads, all.loads);
+    }
+
+    #[test]
+    fn cycles_of_a_transient_have_axes_in_common_and_do_not_run_back() {
+        let (small, large) = (recording(3), recording(3));
+        let large = Recording { film: large.film.iter().map(|film| 2.0 * film - 1.0).collect(), ..large };
+        let both = Ranges::of(&small).and(Ranges::of(&large));
+        assert_eq!(both.loads, [-1.0, 9.0]);
+        assert_eq!(both, both.and(Ranges::of(&small)));
+        let once = Scales::new(&Recording { transient: true, ..small });
+        let (curves, _) = once.tooth(0).unwrap();
+        assert_eq!([curves.film.at(5.0 / 6.0), curves.film.at(0.99)], [10.0, 10.0]);
     }
 
     #[test]

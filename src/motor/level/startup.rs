@@ -71,6 +71,11 @@ impl Level {
             }
             if step == self.steps {
                 recording = self.recording(motor, maps);
+                if maps {
+                    let others = self.films.iter().skip(1);
+                    recording.other_pressure =
+                        others.flat_map(|film| film.full_pressure(self.ambient_pressure)).collect();
+                }
             }
             self.transient_step(step % self.steps, tolerance, stats)?;
         }

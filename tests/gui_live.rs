@@ -1,0 +1,271 @@
+//! What is computed while the user looks: the start-up from rest, and the plate that is held. The real window, without a display.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, Vec2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::gui::app::App;
+use squeezefilm::gui::dialogs::Answer;
+use squeezefilm::gui::starting::Starting;
+use squeezefilm::gui::state::Tab;
+use squeezefilm::gui::world::World;
+use squeezefilm::scene::presets;
+use squeezefilm::solution::{Outcome, Status};
+use std::time::Duration;
+
+const STARTUP: Key = Key::Num6;
+const HOLD: Key = Key::Num7;
+
+fn window(preset: &str, tab: Key) -> Harness<'static, App> {
+    let scene = presets::find(preset).unwrap();
+    let world = World { ask: |_, _| Answer::Cancelled, ..World::default() };
+    let mut window = Harness::builder()
+        .with_size(Vec2::new(1400.0, 900.0))
+        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap());
+    window.key_press_modifiers(Modifiers::COMMAND, tab);
+    window.run_steps(3);
+    window
+}
+
+/// Steps until `ready`, at most a minute of waiting in all.
+fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
+    for _ in 0..6000 {
+        window.step();
+        if ready(window.state()) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what}: did not happen");
+}
+
+fn click(window: &mut Harness<'static, App>, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+}
+
+fn starting(app: &App) -> &Starting {
+    app.starting().unwrap()
+}
+
+fn cycles(app: &App) -> usize {
+    app.starting().map_or(0, |starting| starting.points().len())
+}
+
+fn solved(window: &mut Harness<'static, App>) {
+    until(window, "the scene on screen is solved", |app| {
+        app.activity().running.is_none() && app.shown().is_some_and(|run| run.fidelity == Fidelity::Fine)
+    });
+}
+
+fn share(outcome: &Outcome) -> (f64, f64) {
+    match outcome {
+        Outcome::Motor(result) => (result.alpha, result.alpha_error),
+        Outcome::Plate(result) => (result.film_load, result.film_load_error),
+    }
+}
+
+/// The last cycle agrees with the periodic solve: within so many times both estimated errors, and what the cycle still changes.
+fn agrees(app: &App, times: f64) {
+    let starting = starting(app);
+    let (ours, our_error) = share(&starting.points().last().unwrap().outcome);
+    let (periodic, error) = share(&app.shown().unwrap().solution.outcome);
+    let remaining = starting.points().last().unwrap().remaining;
+    let off = (ours - periodic).abs();
+    assert!(
+        off < times * (our_error + error) + 2.0 * remaining * periodic.abs(),
+        "{ours} ± {our_error}, {periodic} ± {error}"
+    );
+}
+
+#[test]
+fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
+    let mut window = window("fundamental", STARTUP);
+    solved(&mut window);
+    assert!(window.state().starting().is_none(), "nothing is computed before it is asked for");
+    assert!(window.query_by_label("Pause").is_none());
+    click(&mut window, "Start from rest");
+    until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
+    window.run_steps(2);
+    window.get_by_label("Cancel the start-up");
+    let first = share(&starting(window.state()).points()[0].outcome).0;
+    until(&mut window, "it repeats", |app| starting(app).ended().is_some());
+    window.run_steps(3);
+    assert_eq!(starting(window.state()).ended().unwrap().as_ref().unwrap().status, Status::Converged);
+    window.get_by_label_contains("repeats to");
+    agrees(window.state(), 1.0);
+    // Every tooth, and from rest: the first cycle carries less than the last.
+    let app = window.state();
+    let run = starting(app).run().unwrap();
+    assert_eq!(run.solution.recording.stored_teeth, run.solution.recording.teeth);
+    let recording = &run.solution.recording;
+    assert!(recording.transient);
+    assert_eq!(recording.other_pressure.len(), (recording.teeth - 1) * recording.pressure.len());
+    assert!(first < 0.9 * share(&run.solution.outcome).0);
+    assert_eq!(starting(app).chosen(), cycles(app));
+
+    // A cycle is looked at by a click, then the cycles are played one after the other.
+    let plot = window.get_by_label_contains("α against the cycle: click").rect();
+    window.hover_at(plot.left_center() + vec2(4.0, 0.0));
+    window.drag_at(plot.left_center() + vec2(4.0, 0.0));
+    window.step();
+    window.drop_at(plot.left_center() + vec2(4.0, 0.0));
+    window.run_steps(2);
+    assert_eq!(starting(window.state()).chosen(), 1);
+    window.get_by_label_contains("Shown is cycle 1:");
+    window.get_by_role_and_label(Role::Slider, "Speed").click();
+    window.run_steps(3);
+    window.get_by_label_contains("one cycle in 0.5 s").click();
+    window.run_steps(3);
+    click(&mut window, "Play from rest");
+    until(&mut window, "the third cycle is played", |app| starting(app).chosen() == 3);
+    click(&mut window, "Follow the newest cycle");
+    assert_eq!(starting(window.state()).chosen(), cycles(window.state()));
+}
+
+#[test]
+fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
+    let mut window = window("fundamental", STARTUP);
+    click(&mut window, "Start from rest");
+    until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
+    let field = "Minimum spacing H_m in nm";
+    window.get_by_role_and_label(Role::TextInput, field).click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, field).type_text("150");
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    window.get_by_label_contains("before the scene changed; start again");
+    until(&mut window, "it has ended", |app| !starting(app).running());
+
+    click(&mut window, "Start from rest");
+    assert!(window.query_by_label_contains("before the scene changed; start again").is_none());
+    until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
+    click(&mut window, "Cancel the start-up");
+    until(&mut window, "it has ended", |app| !starting(app).running());
+    window.run_steps(2);
+    window.get_by_label_contains("Cancelled after cycle");
+    // One that goes on does not keep the window open.
+    click(&mut window, "Start from rest");
+    drop(window);
+}
+
+#[test]
+fn a_plate_starts_from_rest_too() {
+    let mut window = window("plate-crossover", STARTUP);
+    solved(&mut window);
+    click(&mut window, "Start from rest");
+    until(&mut window, "it repeats", |app| app.starting().is_some_and(|starting| starting.ended().is_some()));
+    window.run_steps(3);
+    window.get_by_label_contains("repeats to");
+    window.get_by_label_contains("load ratio");
+    // (That of a plate at standard is half of what a finer grid shows.)
+    agrees(window.state(), 2.0);
+    let kept = starting(window.state()).kept().count();
+    assert_eq!(kept, cycles(window.state()), "a plate's recordings are small");
+}
+
+fn ratio(app: &App) -> f64 {
+    app.holding().unwrap().now().reading.ratio
+}
+
+fn gap(app: &App) -> f64 {
+    let holding = app.holding().unwrap();
+    holding.now().reading.gap / holding.plate().mean_gap
+}
+
+fn at_rest(window: &mut Harness<'static, App>) {
+    until(window, "the film is at rest", |app| ratio(app).abs() < 2e-4);
+    let number = |window: &Harness<'static, App>| window.state().holding().unwrap().now().number;
+    for _ in 0..200 {
+        let before = number(window);
+        std::thread::sleep(Duration::from_millis(200));
+        window.run_steps(2);
+        if number(window) == before {
+            return;
+        }
+    }
+    panic!("its thread does not sleep");
+}
+
+#[test]
+fn a_motor_cannot_be_held_but_a_plate_is_offered() {
+    let mut window = window("fundamental", HOLD);
+    assert!(window.state().holding().is_none());
+    window.get_by_label_contains("Only a plate can be held");
+    click(&mut window, "Open the plate at its crossover");
+    assert_eq!(window.state().view().tab, Tab::Hold);
+    assert!(window.state().holding().is_some());
+    window.get_by_label_contains("slowed 6");
+}
+
+#[test]
+fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
+    let mut window = window("plate-crossover", HOLD);
+    solved(&mut window);
+    let rect = window.get_by_label("Held plate: drag it up and down").rect();
+    let begin = rect.center();
+    window.hover_at(begin);
+    window.drag_at(begin);
+    window.step();
+    // A tenth of the drawing is about four tenths of the mean gap.
+    for i in 1_u8..=8 {
+        window.hover_at(begin + vec2(0.0, 0.0125 * f32::from(i) * rect.height()));
+        window.step();
+    }
+    until(&mut window, "it pushes back", |app| ratio(app) > 0.2);
+    let app = window.state();
+    assert!(gap(app) < 0.9 && app.holding().unwrap().target() < 0.8 * app.holding().unwrap().plate().mean_gap);
+    // Held there, the pressure falls though nothing moves.
+    until(&mut window, "it relaxes", |app| ratio(app) < 0.02);
+    let held = gap(window.state());
+    window.drop_at(begin + vec2(0.0, 0.1 * rect.height()));
+    at_rest(&mut window);
+    assert!((gap(window.state()) - held).abs() < 1e-3, "it stays where the hand left it");
+    // At rest nothing is computed, and nothing is drawn again.
+    let number = window.state().holding().unwrap().now().number;
+    std::thread::sleep(Duration::from_millis(200));
+    window.run();
+    assert_eq!(window.state().holding().unwrap().now().number, number);
+
+    // Let go, it flies back and sucks.
+    click(&mut window, "Let go");
+    until(&mut window, "it sucks", |app| ratio(app) < -0.05);
+    until(&mut window, "it is back", |app| (gap(app) - 1.0).abs() < 1e-3);
+    click(&mut window, "Reset");
+    until(&mut window, "it is at rest", |app| app.holding().unwrap().now().reading.time == 0.0);
+    assert_eq!(ratio(window.state()), 0.0);
+}
+
+#[test]
+fn keys_and_slider_move_it_within_its_reach_only() {
+    let mut window = window("plate-crossover", HOLD);
+    for _ in 0..4 {
+        window.key_press(Key::ArrowDown);
+        window.step();
+    }
+    until(&mut window, "it is lower", |app| (gap(app) - 0.8).abs() < 1e-3);
+    assert!(ratio(window.state()) > 0.01);
+    window.key_press(Key::ArrowUp);
+    window.step();
+    until(&mut window, "it is higher", |app| (gap(app) - 0.85).abs() < 1e-3);
+    for _ in 0..60 {
+        window.key_press(Key::ArrowUp);
+        window.step();
+    }
+    until(&mut window, "it is as high as it goes", |app| (gap(app) - 3.0).abs() < 1e-3);
+    window.get_by_role_and_label(Role::Slider, "Gap");
+    window.get_by_role_and_label(Role::Slider, "Leak time takes");
+    // Elsewhere the same keys do nothing to it.
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
+    window.run_steps(2);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(2);
+    assert!(
+        (window.state().holding().unwrap().target() / window.state().holding().unwrap().plate().mean_gap - 3.0).abs()
+            < 1e-9
+    );
+}

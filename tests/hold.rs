@@ -1,0 +1,182 @@
+//! A plate held by hand against exact results: Boyle, the viscous film, the slowest mode of the leak, and the balance of mass.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use proptest::prelude::{ProptestConfig, prop, proptest};
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::film::exact::viscous_strip_force;
+use squeezefilm::hold::{Hold, REACH, leak_time};
+use squeezefilm::plan::Plan;
+use squeezefilm::problem::{Numerics, Plate, Problem, Scenario};
+use squeezefilm::scene::presets;
+
+fn plate(set: &[(&str, &str)]) -> Plate {
+    let mut scene = presets::find("plate-crossover").unwrap();
+    scene.set_all(set.iter().copied()).unwrap();
+    let Scenario::Plate(plate) = Problem::new(&scene).unwrap().scenario else { panic!("a plate") };
+    plate
+}
+
+fn held(plate: &Plate) -> Hold {
+    Hold::new(plate, &Plan::plate(plate, Fidelity::Standard, &Numerics::default()))
+}
+
+fn plates() -> [Plate; 2] {
+    [plate(&[]), plate(&[("plate.width_mm", "0.7")])]
+}
+
+#[test]
+fn in_no_time_boyle_holds_everywhere() {
+    for plate in plates() {
+        let ambient = plate.gas.ambient_pressure;
+        for share in [REACH[0], 0.5, 2.0, REACH[1]] {
+            let mut hold = held(&plate);
+            hold.advance(share * plate.mean_gap, 0.0).unwrap();
+            let middle = hold.pressure().next().unwrap();
+            assert!((middle * share / ambient - 1.0).abs() < 1e-12);
+            // Over all but the nodes on the edges, which stay ambient: those stand for the difference, which is in the error.
+            let reading = hold.reading();
+            let exact = ambient * plate.area() * (1.0 / share - 1.0);
+            assert!((reading.force - exact).abs() < 0.2 * exact.abs(), "{share}: {reading:?} {exact}");
+        }
+    }
+}
+
+#[test]
+fn moved_fast_it_is_boyle_but_for_a_layer_at_the_edges() {
+    for plate in plates() {
+        let mut hold = held(&plate);
+        let time = 1e-3 * leak_time(&plate, plate.mean_gap);
+        hold.advance(0.6 * plate.mean_gap, time).unwrap();
+        let ratio = hold.pressure().next().unwrap() / plate.gas.ambient_pressure;
+        assert!((0.6 * ratio - 1.0).abs() < 1e-5, "{ratio}");
+        // What has left is what diffuses through the edges, over about √(D t) at each: little, and less than nothing left.
+        let reading = hold.reading();
+        let boyle = 1.0 / 0.6 - 1.0;
+        assert!(reading.ratio < boyle && reading.ratio > 0.85 * boyle, "{reading:?}");
+    }
+}
+
+#[test]
+fn moved_slowly_it_is_the_viscous_film() {
+    let plate = plate(&[]);
+    let (gap, leak) = (plate.mean_gap, leak_time(&plate, plate.mean_gap));
+    for speed in [1e-4, -1e-4] {
+        // Long enough to be steady, and by a thousandth of the gap.
+        let mut hold = held(&plate);
+        for i in 1..=100 {
+            hold.advance(gap * (1.0 - speed * f64::from(i) / 10.0), 0.1 * leak).unwrap();
+        }
+        let reading = hold.reading();
+        let gas = plate.gas;
+        let exact =
+            viscous_strip_force(gas.viscosity, plate.length, reading.gap, -speed * gap / leak, gas.mean_free_path);
+        let off = (reading.force - exact).abs();
+        // The gas is a little compressible, and the force lags by a leak time: 2e-4 of it.
+        assert!(off < reading.error + 4e-4 * exact.abs(), "{reading:?}, {exact}");
+        assert!(reading.error < 0.02 * exact.abs(), "{reading:?}");
+    }
+}
+
+#[test]
+fn held_still_the_pressure_falls_at_the_rate_of_the_slowest_mode() {
+    for plate in plates() {
+        for share in [0.999, 1.001] {
+            let gap = share * plate.mean_gap;
+            let leak = leak_time(&plate, gap);
+            let mut hold = held(&plate);
+            hold.advance(gap, 1e-2 * leak).unwrap();
+            // The second mode has decayed by e⁻⁹ for each e⁻¹ of the first, of a rectangle at least e⁻³ or so.
+            hold.advance(gap, 3.0 * leak).unwrap();
+            let before = hold.reading().ratio;
+            hold.advance(gap, leak).unwrap();
+            let rate = (before / hold.reading().ratio).ln();
+            assert!((rate - 1.0).abs() < 5e-3, "{rate}");
+            hold.advance(gap, 20.0 * leak).unwrap();
+            assert!(hold.unrest() < 1e-9, "{}", hold.unrest());
+        }
+    }
+}
+
+#[test]
+fn what_the_film_loses_is_what_leaves_at_its_edge() {
+    let plate = plate(&[]);
+    let gap = 0.5 * plate.mean_gap;
+    let mut hold = held(&plate);
+    hold.advance(gap, 1e-2 * leak_time(&plate, gap)).unwrap();
+    // Equal steps from here on, each of two on the finer grid.
+    let step = 1e-3 * leak_time(&plate, gap);
+    for _ in 0..20 {
+        hold.advance(gap, step).unwrap();
+    }
+    let nodes = hold.grid().x.nodes.clone();
+    let last = nodes.len() - 1;
+    let (ambient, gas) = (plate.gas.ambient_pressure, plate.gas);
+    // Through the last face: M h (Φ₁ − Φ₀)/Δ, Φ = Z²/2 + 6 λ Z, at either end.
+    let potential = |z: f64| 0.5 * z * z + 6.0 * gas.mean_free_path * z;
+    let outflow = |hold: &Hold| {
+        let z = gap * hold.pressure().nth(last - 1).unwrap() / ambient;
+        let drop = potential(z) - potential(gap);
+        2.0 * ambient / (12.0 * gas.viscosity) * gap * drop / (nodes[last] - nodes[last - 1])
+    };
+    for _ in 0..50 {
+        let (before, flow) = (hold.carried_gas(), outflow(&hold));
+        hold.advance(gap, step).unwrap();
+        let left = (before - hold.carried_gas()) / step;
+        // The flow at the end of either half of the step: so short a time it falls evenly.
+        let mean = 0.25 * flow + 0.75 * outflow(&hold);
+        assert!((left / mean - 1.0).abs() < 2e-4, "{left} {mean}");
+    }
+}
+
+#[test]
+fn the_stated_error_holds_against_a_finer_grid() {
+    for plate in plates() {
+        let plan = |fidelity| Plan::plate(&plate, fidelity, &Numerics::default());
+        let mut usual = Hold::new(&plate, &plan(Fidelity::Standard));
+        let mut finer = Hold::new(&plate, &plan(Fidelity::Fine));
+        let leak = leak_time(&plate, plate.mean_gap);
+        // A hand that shakes: up and down twice in a leak time.
+        for i in 1..=60 {
+            let gap = plate.mean_gap * (1.0 + 0.5 * (0.2 * f64::from(i)).sin());
+            usual.advance(gap, leak / 60.0).unwrap();
+            finer.advance(gap, leak / 60.0).unwrap();
+            let (a, b) = (usual.reading(), finer.reading());
+            assert!((a.force - b.force).abs() < a.error + b.error, "step {i}: {a:?} {b:?}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn no_jump_and_no_pause_disturb_it(moves in prop::collection::vec((0.05..4.0f64, -6.0..0.3f64), 1..12), wide in prop::bool::ANY) {
+        let plate = if wide { plate(&[]) } else { plate(&[("plate.width_mm", "0.3"), ("film.slip", "fukui-kaneko")]) };
+        let mut hold = held(&plate);
+        let leak = leak_time(&plate, plate.mean_gap);
+        for (share, time) in moves {
+            hold.advance(share * plate.mean_gap, leak * 10f64.powf(time)).unwrap();
+            let reading = hold.reading();
+            let least = hold.pressure().fold(f64::INFINITY, f64::min);
+            let most = hold.pressure().fold(0.0, f64::max);
+            // Nothing compresses gas further than from one end of the reach to the other.
+            let bound = plate.gas.ambient_pressure * REACH[1] / REACH[0];
+            assert!(least > 0.0 && most < 1.01 * bound, "{least} {most}");
+            assert!(reading.force.is_finite() && reading.error.is_finite() && reading.mean_pressure > 0.0);
+            assert_eq!(reading.gap, plate.mean_gap * share.clamp(REACH[0], REACH[1]));
+        }
+    }
+}
+
+#[test]
+fn a_gap_that_is_no_number_is_the_mean_gap_and_reset_is_rest() {
+    let plate = plate(&[]);
+    let mut hold = held(&plate);
+    hold.advance(f64::NAN, 1e-5).unwrap();
+    assert_eq!(hold.gap(), plate.mean_gap);
+    hold.advance(0.4 * plate.mean_gap, 1e-5).unwrap();
+    hold.advance(0.5 * plate.mean_gap, f64::INFINITY).unwrap();
+    hold.reset();
+    assert_eq!((hold.gap(), hold.unrest()), (plate.mean_gap, 0.0));
+    assert!(hold.reading().force.abs() < 1e-12);
+}
