@@ -18,7 +18,7 @@ pub(super) struct Curve {
 impl Curve {
     /// One value for each frame.
     pub(super) fn new(values: impl IntoIterator<Item = f64>) -> Self {
-        Self(values.into_iter().collect())
+        Self { values: values.into_iter().collect(), once: false }
     }
 
     /// The value at a phase; any number of cycles away.
