@@ -392,7 +392,7 @@ fn what_is_exported_is_what_the_command_line_writes() {
     export(&mut window, "Fields as NumPy archive…", &at("fields.npz"));
     assert_eq!(std::fs::read(at("fields.npz")).unwrap(), std::fs::read(at("results/fields.npz")).unwrap());
     export(&mut window, "Figures, into a folder…", &at("figures"));
-    assert_eq!(names(&at("figures")).len(), 5 * 3);
+    assert_eq!(names(&at("figures")).len(), 6 * 3);
     export(&mut window, "Animation…", &at("cycle.gif"));
     assert!(std::fs::read(at("cycle.gif")).unwrap().starts_with(b"GIF89a"));
     export(&mut window, "Report as HTML…", &at("report.html"));
