@@ -1,5 +1,7 @@
 //! The start-up from rest ends where the periodic solve says, by another way: every tooth marched, nothing accelerated.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::{Problem, Scenario};
