@@ -35,6 +35,8 @@ struct Running {
     started: Instant,
     drawn: (usize, usize),
     cancelled: bool,
+    /// It has told how it ended.
+    done: bool,
 }
 
 /// All that the window knows of exports.
@@ -58,7 +60,7 @@ impl Exports {
     /// One has begun.
     pub fn begin(&mut self, export: Export, task: Task<Told>, started: Instant) {
         self.written = None;
-        self.running = Some(Running { export, task, started, drawn: (0, 0), cancelled: false });
+        self.running = Some(Running { export, task, started, drawn: (0, 0), cancelled: false, done: false });
     }
 
     /// One ended at once.
@@ -84,20 +86,19 @@ impl Exports {
         let running = self.running.as_mut()?;
         let (told, ended) = running.task.drain();
         let mut error = None;
-        let mut done = false;
         for told in told {
             match told {
                 // Several threads count: the last to tell need not have counted last.
                 Told::Drawn(drawn, all) => running.drawn = (drawn.max(running.drawn.0), all),
-                Told::Done(Ok(paths)) => (self.written, done) = (Some(paths), true),
-                Told::Done(Err(reason)) => (error, done) = (reason, true),
+                Told::Done(Ok(paths)) => (self.written, running.done) = (Some(paths), true),
+                Told::Done(Err(reason)) => (error, running.done) = (reason, true),
             }
         }
         if ended {
-            self.running = None;
-            if !done {
+            if !running.done {
                 error = Some("The export ended before it was done; nothing was written".to_owned());
             }
+            self.running = None;
         }
         error
     }

@@ -58,6 +58,8 @@ pub struct Waiting {
     /// Name of its scene.
     pub name: String,
     task: Task<Run>,
+    /// It has told its run.
+    told: bool,
 }
 
 /// All pins, the first being what differences are from.
@@ -167,16 +169,17 @@ impl Pins {
     pub fn wait(&mut self, name: String, task: Task<Run>) {
         let id = self.number();
         self.note = None;
-        self.waiting.push(Waiting { id, name, task });
+        self.waiting.push(Waiting { id, name, task, told: false });
     }
 
     /// Takes what has been solved since the last time.
     pub fn drain(&mut self) {
         let mut solved = Vec::new();
         let mut failed = None;
-        self.waiting.retain(|waiting| {
+        self.waiting.retain_mut(|waiting| {
             let (runs, ended) = waiting.task.drain();
-            if ended && runs.is_empty() {
+            waiting.told |= !runs.is_empty();
+            if ended && !waiting.told {
                 failed = Some(format!("{} could not be solved", waiting.name));
             }
             solved.extend(runs);

@@ -212,8 +212,8 @@ pub struct Swept {
     rows: Vec<Row>,
     published: Vec<Published>,
     task: Option<Task<Told>>,
-    /// Why it ended early, if not because it was told to.
-    failed: bool,
+    /// Nobody has told that this is all.
+    untold: bool,
     started: Instant,
     /// How many rows there were when it was begun or gone on with.
     before: usize,
@@ -247,7 +247,7 @@ impl Swept {
 
     /// Whether its solver failed.
     pub fn failed(&self) -> bool {
-        self.failed
+        self.task.is_none() && self.untold
     }
 
     /// Share that is done, 0 to 1.
@@ -288,7 +288,6 @@ impl Swept {
     fn drain(&mut self) {
         let Some(task) = &self.task else { return };
         let (told, ended) = task.drain();
-        let mut all = false;
         for told in told {
             match told {
                 Told::Some(rows) => {
@@ -299,12 +298,11 @@ impl Swept {
                 }
                 Told::All(rows) => {
                     self.rows = rows;
-                    all = true;
+                    self.untold = false;
                 }
             }
         }
         if ended {
-            self.failed = !all;
             self.task = None;
         }
     }
@@ -404,7 +402,7 @@ impl Sweeps {
         let published = sweep.published();
         let before = rows.len();
         self.refusal = None;
-        self.swept = Some(Swept { sweep, rows, published, task: Some(task), failed: false, started: now, before });
+        self.swept = Some(Swept { sweep, rows, published, task: Some(task), untold: true, started: now, before });
     }
 
     /// Takes what has been solved since the last time.
