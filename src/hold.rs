@@ -8,10 +8,11 @@
 //! taken that much further ahead: W = Z + (W − Z) Δt'/Δt. Steps grow twofold at most.
 
 use crate::estimate::extrapolate;
-use crate::film::grid::{Axis, FilmGrid, Start};
+use crate::film::grid::FilmGrid;
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::stepper::{Film, FilmError, FilmState};
 use crate::plan::{Grid, Plan};
+use crate::plate::film_grid;
 use crate::problem::Plate;
 use std::f64::consts::PI;
 
@@ -200,11 +201,7 @@ struct Level {
 
 impl Level {
     fn new(plate: &Plate, plan: &Plan, grid: &Grid) -> Self {
-        let x = Axis::clustered(0.5 * plate.length, Start::Mirror, grid.along, plan.clustering_along);
-        let y = plate.width.map_or_else(Axis::unit, |width| {
-            Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across)
-        });
-        let nodes = FilmGrid { x, y };
+        let nodes = film_grid(plate, plan, grid);
         let (nx, unknowns) = (nodes.x.len(), nodes.unknowns());
         Self {
             film: Film::new(nodes, &plate.gas),

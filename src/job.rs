@@ -9,6 +9,7 @@ pub mod measurement;
 pub mod merit;
 pub mod startup;
 pub mod task;
+mod worker;
 
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;

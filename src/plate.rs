@@ -156,6 +156,15 @@ impl PlateResult {
     }
 }
 
+/// Nodes of a quarter of a plate, or of half a strip.
+pub(crate) fn film_grid(plate: &Plate, plan: &Plan, grid: &Grid) -> FilmGrid {
+    let x = Axis::clustered(0.5 * plate.length, Start::Mirror, grid.along, plan.clustering_along);
+    let y = plate.width.map_or_else(Axis::unit, |width| {
+        Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across)
+    });
+    FilmGrid { x, y }
+}
+
 /// The periodic state on one grid.
 struct Level {
     steps: usize,
@@ -171,11 +180,7 @@ struct Level {
 
 impl Level {
     fn new(plate: &Plate, plan: &Plan, grid: &Grid) -> Self {
-        let x = Axis::clustered(0.5 * plate.length, Start::Mirror, grid.along, plan.clustering_along);
-        let y = plate.width.map_or_else(Axis::unit, |width| {
-            Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across)
-        });
-        let nodes = FilmGrid { x, y };
+        let nodes = film_grid(plate, plan, grid);
         let nx = nodes.x.len();
         let steps = grid.steps;
         let gaps: Vec<f64> = (0..steps).map(|m| plate.gap(m as f64 / steps as f64)).collect();

@@ -1,26 +1,29 @@
 //! The application: drains events, carries out commands, lays out panels and views. It never solves.
 
 mod exporting;
+mod live;
+mod measuring;
 mod pinning;
 mod sweeping;
+mod teaching;
 
 use super::command::Command;
 use super::comparison::Comparison;
-use super::dialogs::{Answer, Dialogs, Export, Purpose};
+use super::dialogs::{Answer, Dialogs, Purpose};
 use super::document::Document;
 use super::edit::{Change, Refusals};
 use super::exporting::{self as exports, Exports};
 use super::holding::Holding;
 use super::keys;
-use super::lessons::{self, Stage, Teach, Teaching};
-use super::measured::{Measured, with_present};
+use super::lessons::{self, Teach, Teaching};
+use super::measured::Measured;
 use super::merits::Merits;
 use super::modal::{self, Modal, PathPrompt};
 use super::panels::model::Model;
 use super::panels::{menu, parameters, results, sheet, timeline};
 use super::pinned::{Page, Pins};
 use super::spot;
-use super::starting::{self, Starting};
+use super::starting::Starting;
 use super::state::{Tab, View};
 use super::sweeping::Sweeps;
 use super::tabs;
@@ -28,25 +31,17 @@ use super::theme;
 use super::views;
 use super::world::World;
 use crate::analysis::tradeoff::Wish;
-use crate::export::figure::{Format, to_bytes};
-use crate::export::folder::write_file;
-use crate::export::tradeoff::{figure, write_csv};
 use crate::fidelity::Fidelity;
-use crate::job::measurement::Measurement;
-use crate::job::startup::Transient;
 use crate::job::{Event, Request, Run, Solver};
 use crate::problem::{Numerics, Problem, Scenario};
 use crate::recording::Recording;
 use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
-use crate::startup;
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// A measurement is drawn anew at most this often: what draws it is measured too.
-const MEASURE_INTERVAL: Duration = Duration::from_millis(200);
 /// Files remembered.
 const RECENT: usize = 10;
 /// Zoom of the lecture size.
@@ -273,52 +268,6 @@ impl App {
     /// Lessons, tour and glossary.
     pub fn teaching(&self) -> &Teaching {
         &self.teaching
-    }
-
-    /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
-    pub fn load_lessons(&mut self, folder: &Path) {
-        self.teaching.load(folder);
-        self.say_faults();
-    }
-
-    fn say_faults(&mut self) {
-        let text = self.teaching.fault_text();
-        if !text.is_empty() {
-            self.modal = Some(Modal::Error(text));
-        }
-    }
-
-    /// Something of the lessons, the tour or the glossary.
-    fn teach(&mut self, ctx: &egui::Context, teach: Teach) {
-        match teach {
-            Teach::ChooseFolder => self.ask(ctx, Purpose::Lessons, ""),
-            Teach::LoadFolder(folder) => {
-                self.leave_lesson();
-                self.load_lessons(&folder);
-            }
-            Teach::Faults => self.say_faults(),
-            teach => {
-                let stage = Stage { document: &mut self.document, view: &mut self.view };
-                if self.teaching.carry_out(teach, stage) {
-                    self.scene_replaced();
-                }
-            }
-        }
-    }
-
-    /// Another scene is on the table.
-    fn scene_replaced(&mut self) {
-        self.refusals.clear();
-        self.comparison.edited();
-        self.refine();
-    }
-
-    /// Brings the student's own scene back, if a lesson has set it aside.
-    fn leave_lesson(&mut self) {
-        let stage = Stage { document: &mut self.document, view: &mut self.view };
-        if self.teaching.leave(stage) {
-            self.scene_replaced();
-        }
     }
 
     fn apply_theme(&self, ctx: &egui::Context) {
@@ -674,123 +623,6 @@ impl App {
                     self.refine();
                 }
             }
-            Err(error) => self.modal = Some(Modal::Error(error.to_string())),
-        }
-    }
-
-    /// Starts to measure, unless that goes on.
-    fn measure(&mut self, ctx: &egui::Context) {
-        if self.measured.as_ref().is_some_and(Measured::running) {
-            return;
-        }
-        let scene = self.document.scene().clone();
-        let problem = match Problem::new(&scene) {
-            Ok(problem) => problem,
-            Err(error) => {
-                self.modal = Some(Modal::Error(error.to_string()));
-                return;
-            }
-        };
-        let (mut candidates, effort) = (self.world.measure)(&problem);
-        with_present(&mut candidates, self.document.aim(), scene.numerics);
-        let now = self.world.now;
-        let wake = ctx.clone();
-        let wake = move |ended: bool| {
-            if ended { wake.request_repaint() } else { wake.request_repaint_after(MEASURE_INTERVAL) }
-        };
-        match Measurement::start(problem, candidates, effort, now, wake) {
-            Ok(job) => self.measured = Some(Measured::new(job, scene, now())),
-            Err(error) => self.modal = Some(Modal::Error(format!("The measurement cannot be started: {error}"))),
-        }
-    }
-
-    /// Moves the animation on by `elapsed` \[s\].
-    fn animate(&mut self, elapsed: f64) {
-        let on = self.view.phase + elapsed / self.view.seconds_per_cycle;
-        self.view.phase = on.rem_euclid(1.0);
-        if let (Tab::Startup, Some(starting), true) = (self.view.tab, &mut self.starting, on >= 1.0) {
-            starting.next_cycle();
-        }
-    }
-
-    /// Takes what the held plate did, and takes another one in hand if the scene is another.
-    fn hold(&mut self, ctx: &egui::Context) {
-        let scene = self.document.scene();
-        if self.holding.as_ref().is_some_and(|holding| holding.stale(scene)) {
-            self.holding = None;
-        }
-        if let (Tab::Hold, None, Ok(problem)) = (self.view.tab, &self.holding, Problem::new(scene)) {
-            let wake = ctx.clone();
-            match Holding::start(scene, &problem, self.world.now, move || wake.request_repaint()) {
-                Ok(holding) => self.holding = holding,
-                Err(error) => {
-                    self.view.tab = Tab::Motion;
-                    self.modal = Some(Modal::Error(format!("The plate cannot be held: {error}")));
-                }
-            }
-        }
-        if let Some(holding) = &mut self.holding {
-            holding.drain();
-        }
-    }
-
-    fn start_up(&mut self, ctx: &egui::Context, ask: starting::Ask) {
-        if ask == starting::Ask::Start {
-            self.start_from_rest(ctx);
-        }
-        let Some(starting) = &mut self.starting else { return };
-        match ask {
-            starting::Ask::Start => {}
-            starting::Ask::Cancel => starting.cancel(),
-            starting::Ask::Choose(number) => starting.stay_at(number),
-            starting::Ask::Follow(follow) => starting.follow(follow),
-            starting::Ask::Replay => {
-                starting.stay_at(1);
-                self.view.phase = 0.0;
-                self.view.playing = true;
-            }
-        }
-    }
-
-    fn start_from_rest(&mut self, ctx: &egui::Context) {
-        let scene = self.document.scene().clone();
-        let problem = match Problem::new(&scene) {
-            Ok(problem) => problem,
-            Err(error) => {
-                self.modal = Some(Modal::Error(error.to_string()));
-                return;
-            }
-        };
-        // Three grids of every tooth: a finer one takes minutes.
-        let fidelity = self.document.aim().min(Fidelity::Standard);
-        let settings = startup::Settings { fidelity, ..startup::Settings::default() };
-        let wake = ctx.clone();
-        // One at a time: the last one is ended first.
-        let count = self.starting.take().map_or(0, |last| last.count() + 1);
-        match Transient::start(problem.clone(), settings, move || wake.request_repaint()) {
-            Ok(job) => self.starting = Some(Starting::new(job, scene, problem, fidelity, count)),
-            Err(error) => self.modal = Some(Modal::Error(format!("The start-up cannot be started: {error}"))),
-        }
-    }
-
-    fn write_tradeoff(&mut self, export: Export, path: &Path) {
-        let Some(measured) = &self.measured else { return };
-        let tradeoff = measured.tradeoff();
-        let written = match export {
-            Export::TradeoffTable => write_file(path, |out| write_csv(tradeoff, out)),
-            _ => {
-                let wishes = [Wish::Accuracy(self.view.accuracy), Wish::Budget(self.view.budget)];
-                let chosen: Vec<usize> = wishes.into_iter().filter_map(|wish| tradeoff.choose(wish)).collect();
-                let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-                let named = Format::ALL.into_iter().find(|format| extension.as_deref() == Some(format.name()));
-                let figure = figure(measured.name(), tradeoff, &chosen);
-                write_file(path, |out| {
-                    out.write_all(&to_bytes(&figure, named.unwrap_or(Format::Svg)).map_err(std::io::Error::other)?)
-                })
-            }
-        };
-        match written {
-            Ok(()) => self.exports.wrote(vec![path.to_owned()]),
             Err(error) => self.modal = Some(Modal::Error(error.to_string())),
         }
     }

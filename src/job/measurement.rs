@@ -1,11 +1,10 @@
 //! The background measurement of error against time: one named thread, that is cancelled and joined on drop. Whoever owns
 //! it passes the clock and a `wake` function, called after every run.
 
+use super::worker::Worker;
 use crate::analysis::tradeoff::{Candidate, Effort, Run, measure};
-use crate::control::Cancel;
 use crate::problem::Problem;
 use std::sync::mpsc::{Receiver, channel};
-use std::thread::JoinHandle;
 use std::time::Instant;
 
 /// How far it is.
@@ -22,9 +21,8 @@ pub struct Told {
 /// A measurement under way, or ended.
 #[derive(Debug)]
 pub struct Measurement {
-    cancel: Cancel,
-    told: Option<Receiver<Told>>,
-    worker: Option<JoinHandle<()>>,
+    told: Receiver<Told>,
+    worker: Worker,
 }
 
 impl Measurement {
@@ -40,14 +38,12 @@ impl Measurement {
         now: fn() -> Instant,
         wake: impl Fn(bool) + Send + 'static,
     ) -> std::io::Result<Self> {
-        let cancel = Cancel::new();
-        let theirs = cancel.clone();
         let (sender, told) = channel();
-        let worker = std::thread::Builder::new().name("squeezefilm-measure".to_owned()).spawn(move || {
+        let worker = Worker::start("measure", move |cancel| {
             let started = now();
             let clock = || now().duration_since(started).as_secs_f64();
             let mut done = 0.0;
-            let runs = measure(&problem, candidates, &effort, &clock, &theirs, &mut |runs, share| {
+            let runs = measure(&problem, candidates, &effort, &clock, cancel, &mut |runs, share| {
                 done = share;
                 // Nobody may be left to listen: then the owner has cancelled it too.
                 let _ = sender.send(Told { runs: runs.to_vec(), share, ended: false });
@@ -56,28 +52,17 @@ impl Measurement {
             let _ = sender.send(Told { runs, share: done, ended: true });
             wake(true);
         })?;
-        Ok(Self { cancel, told: Some(told), worker: Some(worker) })
+        Ok(Self { told, worker })
     }
 
     /// The newest of what was told since the last time.
     pub fn drain(&self) -> Option<Told> {
-        self.told.iter().flat_map(Receiver::try_iter).last()
+        self.told.try_iter().last()
     }
 
     /// Asks it to end; it tells when it has.
     pub fn cancel(&self) {
-        self.cancel.cancel();
-    }
-}
-
-impl Drop for Measurement {
-    fn drop(&mut self) {
-        self.cancel.cancel();
-        self.told = None;
-        if let Some(worker) = self.worker.take() {
-            // Solvers' panics are caught where they run; another would have nothing left to tell.
-            let _ = worker.join();
-        }
+        self.worker.cancel();
     }
 }
 

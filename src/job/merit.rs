@@ -1,13 +1,13 @@
 //! Torque over speed of a finished run, in the background: one named thread, cancelled and joined on drop. The contact
 //! without film is solved here, so nothing is computed before somebody asks.
 
+use super::worker::Worker;
 use super::{Run, panic_text};
 use crate::analysis::torque::Merit;
 use crate::control::Cancel;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
-use std::thread::JoinHandle;
 
 /// What came of it: the numbers, or why there are none, in words.
 pub type Told = Result<Merit, String>;
@@ -15,9 +15,9 @@ pub type Told = Result<Merit, String>;
 /// A computation under way, or ended.
 #[derive(Debug)]
 pub struct MeritJob {
-    cancel: Cancel,
-    told: Option<Receiver<Told>>,
-    worker: Option<JoinHandle<()>>,
+    told: Receiver<Told>,
+    /// Held for its drop.
+    _worker: Worker,
 }
 
 impl MeritJob {
@@ -26,11 +26,9 @@ impl MeritJob {
     /// # Errors
     /// If the thread cannot be started.
     pub fn start(run: Arc<Run>, wake: impl FnOnce() + Send + 'static) -> std::io::Result<Self> {
-        let cancel = Cancel::new();
-        let theirs = cancel.clone();
         let (sender, told) = channel();
-        let worker = std::thread::Builder::new().name("squeezefilm-torque".to_owned()).spawn(move || {
-            let found = catch_unwind(AssertUnwindSafe(|| found(&run, &theirs)));
+        let worker = Worker::start("torque", move |cancel| {
+            let found = catch_unwind(AssertUnwindSafe(|| found(&run, cancel)));
             let found = found.unwrap_or_else(|panic| Some(Err(format!("it failed: {}", panic_text(panic.as_ref())))));
             if let Some(found) = found {
                 // Nobody may be left to listen: then the owner has cancelled it too.
@@ -38,12 +36,12 @@ impl MeritJob {
             }
             wake();
         })?;
-        Ok(Self { cancel, told: Some(told), worker: Some(worker) })
+        Ok(Self { told, _worker: worker })
     }
 
     /// What was told, once it is.
     pub fn drain(&self) -> Option<Told> {
-        self.told.as_ref()?.try_recv().ok()
+        self.told.try_recv().ok()
     }
 }
 
@@ -52,15 +50,4 @@ fn found(run: &Run, cancel: &Cancel) -> Option<Told> {
     Merit::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
         .map_err(|error| format!("without film, {error}"))
         .transpose()
-}
-
-impl Drop for MeritJob {
-    fn drop(&mut self) {
-        self.cancel.cancel();
-        self.told = None;
-        if let Some(worker) = self.worker.take() {
-            // A panic was caught where it happened.
-            let _ = worker.join();
-        }
-    }
 }

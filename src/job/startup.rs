@@ -2,12 +2,11 @@
 //! thread that is a few ahead of whoever takes them waits. A panic in the solver becomes a message.
 
 use super::panic_text;
-use crate::control::Cancel;
+use super::worker::Worker;
 use crate::problem::Problem;
 use crate::startup::{Cycle, Settings, Startup, startup};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, sync_channel};
-use std::thread::JoinHandle;
 
 /// Cycles that may wait to be taken: each holds all its fields.
 const AHEAD: usize = 4;
@@ -24,9 +23,8 @@ pub enum Told {
 /// A start-up under way, or ended.
 #[derive(Debug)]
 pub struct Transient {
-    cancel: Cancel,
-    told: Option<Receiver<Told>>,
-    worker: Option<JoinHandle<()>>,
+    told: Receiver<Told>,
+    worker: Worker,
 }
 
 impl Transient {
@@ -35,10 +33,8 @@ impl Transient {
     /// # Errors
     /// If the thread cannot be started.
     pub fn start(problem: Problem, settings: Settings, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        let cancel = Cancel::new();
-        let theirs = cancel.clone();
         let (sender, told) = sync_channel(AHEAD);
-        let worker = std::thread::Builder::new().name("squeezefilm-startup".to_owned()).spawn(move || {
+        let worker = Worker::start("startup", move |cancel| {
             // Nobody may be left to listen: then the owner has cancelled it too.
             let tell = |what: Told| {
                 if sender.send(what).is_ok() {
@@ -46,34 +42,23 @@ impl Transient {
                 }
             };
             let mut each = |cycle: Cycle| tell(Told::Cycle(Box::new(cycle)));
-            let run = AssertUnwindSafe(|| startup(&problem, &settings, &mut each, &theirs));
+            let run = AssertUnwindSafe(|| startup(&problem, &settings, &mut each, cancel));
             tell(Told::Ended(match catch_unwind(run) {
                 Ok(ended) => ended.map_err(|error| error.to_string()),
                 Err(panic) => Err(format!("the solver failed: {}", panic_text(panic.as_ref()))),
             }));
         })?;
-        Ok(Self { cancel, told: Some(told), worker: Some(worker) })
+        Ok(Self { told, worker })
     }
 
     /// What was told since the last time.
     pub fn drain(&self) -> impl Iterator<Item = Told> {
-        self.told.iter().flat_map(Receiver::try_iter)
+        self.told.try_iter()
     }
 
     /// Asks it to end; it tells when it has.
     pub fn cancel(&self) {
-        self.cancel.cancel();
-    }
-}
-
-impl Drop for Transient {
-    fn drop(&mut self) {
-        self.cancel.cancel();
-        self.told = None;
-        if let Some(worker) = self.worker.take() {
-            // The solver's panics are caught; another would have nothing left to tell.
-            let _ = worker.join();
-        }
+        self.worker.cancel();
     }
 }
 

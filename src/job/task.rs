@@ -1,17 +1,16 @@
 //! One piece of work on a named thread of its own, that is cancelled and joined on drop. Whoever owns it passes a `wake`
 //! function, called after every message and once at the end.
 
+use super::worker::Worker;
 use crate::control::Cancel;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::thread::JoinHandle;
 
 /// Work under way, or ended; `M` is what it tells.
 #[derive(Debug)]
 pub struct Task<M> {
-    cancel: Cancel,
-    told: Option<Receiver<M>>,
-    worker: Option<JoinHandle<()>>,
+    told: Receiver<M>,
+    worker: Worker,
 }
 
 impl<M: Send + 'static> Task<M> {
@@ -25,29 +24,26 @@ impl<M: Send + 'static> Task<M> {
         wake: impl Fn(bool) + Send + Sync + 'static,
         work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) + Send + 'static,
     ) -> std::io::Result<Self> {
-        let cancel = Cancel::new();
-        let theirs = cancel.clone();
         let (sender, told) = channel();
-        let worker = std::thread::Builder::new().name(format!("squeezefilm-{name}")).spawn(move || {
+        let worker = Worker::start(name, move |cancel| {
             let tell = |message: M| {
                 // Nobody may be left to listen: then the owner has cancelled it too.
                 let _ = sender.send(message);
                 wake(false);
             };
             // What it had to tell is told; that there is no more says that it has ended.
-            let _ = catch_unwind(AssertUnwindSafe(|| work(&theirs, &tell)));
+            let _ = catch_unwind(AssertUnwindSafe(|| work(cancel, &tell)));
             drop(sender);
             wake(true);
         })?;
-        Ok(Self { cancel, told: Some(told), worker: Some(worker) })
+        Ok(Self { told, worker })
     }
 
     /// What it has told since the last time, and whether nothing more will come.
     pub fn drain(&self) -> (Vec<M>, bool) {
         let mut messages = Vec::new();
-        let Some(told) = &self.told else { return (messages, true) };
         loop {
-            match told.try_recv() {
+            match self.told.try_recv() {
                 Ok(message) => messages.push(message),
                 Err(TryRecvError::Empty) => return (messages, false),
                 Err(TryRecvError::Disconnected) => return (messages, true),
@@ -57,18 +53,7 @@ impl<M: Send + 'static> Task<M> {
 
     /// Asks it to end; it tells when it has.
     pub fn cancel(&self) {
-        self.cancel.cancel();
-    }
-}
-
-impl<M> Drop for Task<M> {
-    fn drop(&mut self) {
-        self.cancel.cancel();
-        self.told = None;
-        if let Some(worker) = self.worker.take() {
-            // Its panics are caught where they happen.
-            let _ = worker.join();
-        }
+        self.worker.cancel();
     }
 }
 
