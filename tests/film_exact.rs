@@ -5,7 +5,10 @@
 
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
+use squeezefilm::film::cycle::FilmCycle;
 use squeezefilm::film::exact;
+use squeezefilm::film::grid::{Axis, FilmGrid, Start};
+use squeezefilm::film::stepper::FilmState;
 use squeezefilm::plan::Plan;
 use squeezefilm::plate::{self, Periodic};
 use squeezefilm::problem::{Gas, Numerics, Plate, Slip};
@@ -95,6 +98,41 @@ fn trapped_limit_is_langlois_and_is_approached_as_the_edge_layer_thins() {
         println!("trapped limit, ε = {epsilon}, m = {m}: deficit {near:.4} at σ = 1e4, {far:.4} at 1e6");
         assert!(far.abs() < 0.02, "ε = {epsilon}, m = {m}: {far}");
         assert!((near / far - 10.0).abs() < 1.0, "ε = {epsilon}, m = {m}: {near} {far}");
+    }
+}
+
+#[test]
+fn gas_trapped_under_a_crowned_tooth_that_rocks_is_in_proportion_to_the_mean_gap() {
+    // No time to move, and ends that stand still: Z = ⟨h⟩ everywhere (`film::trapped`), on any grid, however steep the
+    // crown is from node to node.
+    let steps = 72;
+    for (intervals, law) in [
+        (6, Slip::FirstOrder),
+        (12, Slip::None),
+        (12, Slip::FirstOrder),
+        (12, Slip::SecondOrder),
+        (12, Slip::FukuiKaneko),
+    ] {
+        let gas = Gas { slip: law, ..air(64e-9) };
+        let x = Axis::clustered(0.5 * LENGTH, Start::Ambient, intervals, 1.0);
+        let share: Vec<f64> = x.nodes.iter().map(|x| 2.0 * x / LENGTH).collect();
+        let gap = |step: usize, s: f64| {
+            let phase = std::f64::consts::TAU * step as f64 / steps as f64;
+            100e-9 + 2e-6 * s * s + 200e-9 * (1.0 - s * s).powi(2) * (1.0 + (phase + 2.0 * s).cos())
+        };
+        let h: Vec<f64> = (0..steps).flat_map(|step| share.iter().map(move |s| gap(step, *s))).collect();
+        assert!((share[0] + 1.0).abs() < 1e-12, "{share:?}");
+        let mut film = FilmCycle::new(FilmGrid { x, y: Axis::single(1e-3) }, &gas, steps);
+        let mut state = FilmState::at_rest(h[1..intervals].to_vec());
+        let mut line = vec![0.0; h.len()];
+        for _ in 0..40 {
+            film.march(&h, None, 1e-8 / steps as f64, &mut state, &mut line, &Cancel::new()).unwrap();
+            film.shift(&mut state);
+        }
+        for (ix, z) in (1..).zip(&state.trapped) {
+            let mean = (0..steps).map(|step| h[step * (intervals + 1) + ix]).sum::<f64>() / steps as f64;
+            assert!((z / mean - 1.0).abs() < 1e-3, "{law:?}, {intervals} intervals, node {ix}: Z/⟨h⟩ = {}", z / mean);
+        }
     }
 }
 

@@ -140,20 +140,19 @@ fn edge_outflow(film: &Film, h: &[f64], gas: &Gas) -> f64 {
     let (x, y) = (&film.grid().x, &film.grid().y);
     let (nx, ny) = (x.len(), y.len());
     let mobility = gas.ambient_pressure / (12.0 * gas.viscosity);
-    let flux = |gap: f64, inner: f64, spacing: f64| {
-        let psi = gap * 0.5 * (inner + 1.0) + 6.0 * gas.mean_free_path;
-        mobility * gap * gap * psi * (inner - 1.0) / spacing
+    let flux = |[gap, edge]: [f64; 2], inner: f64, spacing: f64| {
+        let psi = 0.5 * (gap * inner + edge) + 6.0 * gas.mean_free_path;
+        mobility * gap * edge * psi * (inner - 1.0) / spacing
     };
     let mut sum = 0.0;
     for ix in x.unknown() {
         let inner = film.pressure()[ix * ny + ny - 2];
-        sum += y.copies() * x.lengths[ix] * flux(h[ix], inner, y.nodes[ny - 1] - y.nodes[ny - 2]);
+        sum += y.copies() * x.lengths[ix] * flux([h[ix]; 2], inner, y.nodes[ny - 1] - y.nodes[ny - 2]);
     }
     for iy in y.unknown() {
         for (edge, inner) in [(0, 1), (nx - 1, nx - 2)] {
-            let gap = 0.5 * (h[edge] + h[inner]);
             let spacing = (x.nodes[edge] - x.nodes[inner]).abs();
-            sum += y.copies() * y.lengths[iy] * flux(gap, film.pressure()[inner * ny + iy], spacing);
+            sum += y.copies() * y.lengths[iy] * flux([h[inner], h[edge]], film.pressure()[inner * ny + iy], spacing);
         }
     }
     sum

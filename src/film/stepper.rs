@@ -1,10 +1,13 @@
 //! One implicit time step of the film, second order in space and time, positive and conservative for any step.
 //!
-//! **Space.** Finite volumes around the nodes of a [`FilmGrid`]. With the face gap h_f = (h₀+h₁)/2 and
-//! Z_f = h_f (P₀+P₁)/2 the flux through a face is −M h_f² ψ(Z_f)(P₁−P₀)/Δ: it vanishes for a uniform pressure, and for
-//! a uniform gap and first-order slip it is exactly −M h (Φ₁−Φ₀)/Δ, Φ = Z²/2 + 6λ_a Z, so that the discrete film keeps
-//! the invariant ⟨hΦ⟩ of the exact one. The wedge flux Z U/2 is central, plus the diffusion (Pe/2 coth Pe/2 − 1) of
-//! exponential fitting, evaluated at the start of the step: O(Δ²), and upwind where sliding dominates.
+//! **Space.** Finite volumes around the nodes of a [`FilmGrid`]. With Z_f = (Z₀+Z₁)/2 the flux through a face is
+//! −M h₀h₁ ψ(Z_f)(P₁−P₀)/Δ. It vanishes for a uniform pressure. For a uniform gap and first-order slip it is exactly
+//! −M h (Φ₁−Φ₀)/Δ, Φ = Z²/2 + 6λ_a Z, so that the discrete film keeps the invariant ⟨hΦ⟩ of the exact one. For gas that
+//! has no time to move its cycle mean is −M ψ(Z_f)(⟨h₀⟩Z₁ − ⟨h₁⟩Z₀)/Δ, which vanishes for Z ∝ ⟨h⟩ as in the continuum,
+//! however steep the gap is from node to node. From a narrow gap into a wide one that is nearly empty it would fall with
+//! the pressure there: below P₁(h₀−h₁)/2h₀ the face chokes, its flux stays what it was, and so every flux is monotone in
+//! the pressures on either side. The wedge flux Z U/2 is central, plus the diffusion (Pe/2 coth Pe/2 − 1) of exponential
+//! fitting, evaluated at the start of the step: O(Δ²), and upwind where sliding dominates.
 //!
 //! **Time.** BDF2 (L-stable), written for W = Z + θ/2 (Z − Z_old) so that mass is conserved whatever θ is:
 //!
@@ -14,7 +17,7 @@
 //!
 //! θ = 1 is BDF2. Where it would leave Wⁿ⁺¹ < Zⁿ⁺¹/10 (the trapped gas falls to a third within one step) the step is
 //! repeated with θ = 0 at those nodes. So W stays positive, the right-hand side is positive, the operator is an
-//! M-function (|d ln ψ/d ln Z| ≤ 1, `slip`), hence Zⁿ⁺¹ > 0: for every step, every gap, every squeeze number. A telescoping
+//! M-function (|d ln ψ/d ln Z| ≤ 1, `slip`, and faces that choke), hence Zⁿ⁺¹ > 0: for every step, every gap, every squeeze number. A telescoping
 //! sum over a cycle gives Σ div flux = 0 at every node of a periodic state: the mass balance, to round-off.
 //!
 //! Newton's method on P, unknown nodes ordered y fastest, block LU. No allocation after construction.
@@ -116,12 +119,30 @@ struct FaceRow {
     by_east: Vec<f64>,
 }
 
-/// Coefficient Δt M h_f²/Δ \[m\] of the flux through the x face after node `face`, and the gap there \[m\].
-#[inline(always)]
-fn x_face(grid: &FilmGrid, mobility: f64, face: usize, h: &[f64], dt: f64) -> (f64, f64) {
-    let face_gap = 0.5 * (h[face] + h[face + 1]);
-    let spacing = grid.x.nodes[face + 1] - grid.x.nodes[face];
-    (dt * mobility * face_gap * face_gap / spacing, face_gap)
+/// The face between two neighbouring nodes along x.
+#[derive(Clone, Copy)]
+struct Face {
+    /// Coefficient Δt M h₀h₁/Δ \[m\] of its flux; 0 where nothing flows.
+    coefficient: f64,
+    /// Half the gaps before and behind it \[m\]: the weights of their pressures in Z_f.
+    weights: [f64; 2],
+    /// Share of the pressure on the other side below which the pressure before and behind it chokes.
+    choke: [f64; 2],
+}
+
+impl Face {
+    /// The face after node `face`.
+    #[inline(always)]
+    fn after(grid: &FilmGrid, mobility: f64, face: usize, h: &[f64], dt: f64) -> Self {
+        let spacing = grid.x.nodes[face + 1] - grid.x.nodes[face];
+        let [before, behind] = [h[face], h[face + 1]];
+        let choke = |own: f64, other: f64| (0.5 * (own - other) / own).max(0.0);
+        Self {
+            coefficient: dt * mobility * before * behind / spacing,
+            weights: [0.5 * before, 0.5 * behind],
+            choke: [choke(before, behind), choke(behind, before)],
+        }
+    }
 }
 
 /// The faces across one row of nodes: face j is before node j.
@@ -167,24 +188,26 @@ impl FaceRow {
 
     /// Pressure-driven flux through the faces between two rows of nodes.
     #[inline(always)]
-    fn between<L: Mobility, const B: usize>(
-        &mut self,
-        law: L,
-        coefficient: f64,
-        face_gap: f64,
-        west: &[f64],
-        east: &[f64],
-    ) {
+    fn between<L: Mobility, const B: usize>(&mut self, law: L, face: Face, west: &[f64], east: &[f64]) {
         let b = if B == 0 { west.len() } else { B };
         let (flux, by_west, by_east) = (&mut self.flux[..b], &mut self.by_west[..b], &mut self.by_east[..b]);
+        let [west_weight, east_weight] = face.weights;
         for j in 0..b {
-            let (psi, slope) = law.at(face_gap * 0.5 * (west[j] + east[j]));
-            let drop = east[j] - west[j];
-            let conductance = coefficient * psi;
-            let variation = 0.5 * coefficient * slope * face_gap * drop;
+            let least = [face.choke[0] * east[j], face.choke[1] * west[j]];
+            let (west, east) = (west[j].max(least[0]), east[j].max(least[1]));
+            let (psi, slope) = law.at(west_weight * west + east_weight * east);
+            let drop = east - west;
+            let conductance = face.coefficient * psi;
+            let variation = face.coefficient * slope * drop;
             flux[j] = -conductance * drop;
-            by_west[j] = conductance - variation;
-            by_east[j] = -conductance - variation;
+            let (from_west, from_east) =
+                (conductance - west_weight * variation, -conductance - east_weight * variation);
+            // A choked side follows the other one.
+            let (west_chokes, east_chokes) = (west == least[0], east == least[1]);
+            by_west[j] =
+                if west_chokes { 0.0 } else { from_west + if east_chokes { face.choke[1] * from_east } else { 0.0 } };
+            by_east[j] =
+                if east_chokes { 0.0 } else { from_east + if west_chokes { face.choke[0] * from_west } else { 0.0 } };
         }
     }
 
@@ -392,11 +415,11 @@ impl Film {
     fn fit<L: Mobility>(&mut self, law: L, h: &[f64], speed: &[f64], dt: f64) {
         let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
         for face in 0..nx - 1 {
-            let (coefficient, face_gap) = x_face(&self.grid, self.mobility, face, h, dt);
-            let drift = 0.25 * dt * face_gap * (speed[face] + speed[face + 1]);
+            let Face { coefficient, weights: [west, east], .. } = Face::after(&self.grid, self.mobility, face, h, dt);
+            let drift = 0.25 * dt * (west + east) * (speed[face] + speed[face + 1]);
             for j in 0..ny {
-                let mean = 0.5 * (self.pressure[face * ny + j] + self.pressure[(face + 1) * ny + j]);
-                let diffusion = coefficient * law.at(face_gap * mean).0;
+                let trapped = west * self.pressure[face * ny + j] + east * self.pressure[(face + 1) * ny + j];
+                let diffusion = coefficient * law.at(trapped).0;
                 let half_peclet = 0.5 * (drift / diffusion).abs();
                 self.fitting[face * ny + j] = if half_peclet < 1e-3 {
                     diffusion * half_peclet * half_peclet / 3.0
@@ -439,14 +462,16 @@ impl Film {
         let (south_scale, north_scale) = (&self.south_scale[..b], &self.north_scale[..b]);
         for face in first..ux.end {
             // The face after node `face`; the one before it was made in the last turn.
-            let (coefficient, face_gap) = x_face(&self.grid, self.mobility, face, h, dt);
+            let mut between = Face::after(&self.grid, self.mobility, face, h, dt);
+            if self.closed_along {
+                between.coefficient = 0.0;
+            }
             let west = &self.pressure[face * ny + y0..][..b];
             let east = &self.pressure[(face + 1) * ny + y0..][..b];
             let [before, after] = &mut self.faces;
-            let coefficient = if self.closed_along { 0.0 } else { coefficient };
-            after.between::<L, B>(law, coefficient, face_gap, west, east);
+            after.between::<L, B>(law, between, west, east);
             if let (Some(speed), false) = (speed, self.closed_along) {
-                let drift = 0.125 * dt * face_gap * (speed[face] + speed[face + 1]);
+                let drift = 0.125 * dt * (between.weights[0] + between.weights[1]) * (speed[face] + speed[face + 1]);
                 after.slide::<B>(drift, &self.fitting[face * ny + y0..][..b], west, east);
             }
             if face >= ux.start {
