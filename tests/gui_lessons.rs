@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, Vec2};
+use eframe::egui::{Key, Modifiers, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::fidelity::Fidelity;
@@ -11,11 +11,12 @@ use squeezefilm::gui::app::App;
 use squeezefilm::gui::dialogs::Answer;
 use squeezefilm::gui::lessons::{Work, tour};
 use squeezefilm::gui::panels::labels;
+use squeezefilm::gui::state::Tab;
 use squeezefilm::gui::world::World;
-use squeezefilm::lessons::{self, Known, Prediction, Step, text};
+use squeezefilm::lessons::{self, Act, Doing, Known, Prediction, Step, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 type Window = Harness<'static, App>;
@@ -143,6 +144,57 @@ fn change(window: &mut Window, key: &str, value: &str) {
     assert_eq!(set.to_string().trim_matches('"'), value, "{key}");
 }
 
+/// Drags the held plate to a gap \[µm\], in a few frames.
+fn drag_plate(window: &mut Window, gap: f64) {
+    let rect = window.get_by_label("Held plate: drag it up and down").rect();
+    let holding = window.state().holding().unwrap();
+    let (from, reach) = (holding.now().reading.gap * 1e6, holding.reach()[1] * 1e6);
+    // Its reach is seven tenths of the drawing.
+    let way = 0.7 * rect.height() * ((from - gap) / reach) as f32;
+    let begin = rect.center();
+    window.hover_at(begin);
+    window.drag_at(begin);
+    window.step();
+    for i in 1_u8..=4 {
+        window.hover_at(begin + vec2(0.0, 0.25 * f32::from(i) * way));
+        window.step();
+    }
+    window.drop_at(begin + vec2(0.0, way));
+    let target = gap / reach;
+    until(window, "the plate is there", |app| {
+        let now = app.holding().unwrap().now().reading.gap * 1e6;
+        (now / reach - target).abs() < 0.02
+    });
+}
+
+/// Does what is said, by hand, and waits until all of its results are there.
+fn act(window: &mut Window, doing: &Doing) {
+    for (key, value) in &doing.changes {
+        change(window, key, value);
+    }
+    solved(window);
+    for act in &doing.acts {
+        match act {
+            Act::Hold(gap) => drag_plate(window, *gap),
+            Act::StartUp => {
+                click(window, "Start from rest");
+                until(window, "the start-up ends", |app| {
+                    app.starting().is_some_and(|starting| starting.ended().is_some())
+                });
+            }
+        }
+    }
+    read_off(window);
+}
+
+/// Until the torque over speed of the run is known, if its tab is shown.
+fn read_off(window: &mut Window) {
+    until(window, "the curves over speed", |app| {
+        let plate = app.document().scene().scene() == "plate";
+        plate || app.view().tab != Tab::Torque || app.shown().is_some_and(|run| app.merits().of(run).is_some())
+    });
+}
+
 /// Answers the question of the step: the answer must not be seen before.
 fn predict(window: &mut Window, step: &Step) {
     let Some(question) = &step.question else { return };
@@ -200,23 +252,31 @@ fn walk(lesson: usize) {
             let name = &step.title;
             assert!(shows(&window, "Your turn"), "{name}");
             solved(&mut window);
+            read_off(&mut window);
             assert!(!work(&window).fulfilled, "{name}: done before anything was done");
             assert!(!task.wrong.is_empty() && !task.example.is_empty(), "{name}");
-            for (key, value) in &task.wrong {
-                change(&mut window, key, value);
-            }
-            solved(&mut window);
+            act(&mut window, &task.wrong);
             assert!(!work(&window).fulfilled, "{name}: the wrong thing does it");
             assert!(shows(&window, "Not yet."), "{name}");
             assert!(shows(&window, &text::plain_blocks(&task.hint)), "{name}");
             click(&mut window, "Start over");
             solved(&mut window);
             assert_eq!(window.state().document().scene(), &step.scene, "{name}");
-            // What does it, by hand.
-            for (key, value) in &task.example {
-                change(&mut window, key, value);
+            if step.tab.as_deref() == Some("Hold") {
+                until(&mut window, "the plate is at rest again", |app| {
+                    app.holding().is_some_and(|holding| holding.now().reading.time == 0.0)
+                });
             }
-            solved(&mut window);
+            let started = step.tab.as_deref() == Some("Start-up") && window.state().starting().is_some();
+            assert!(!started, "{name}: nothing is started yet");
+            // What does it, by hand; gas needs time to leave.
+            act(&mut window, &task.example);
+            if !task.example.acts.is_empty() {
+                until(&mut window, name, |app| {
+                    let running = app.teaching().running().unwrap();
+                    running.work[running.step].fulfilled
+                });
+            }
             assert!(work(&window).fulfilled, "{name}: {:?}", work(&window).unmet);
             assert!(shows(&window, "✔ Done"), "{name}");
             if let Some(question) = &step.question {
@@ -442,7 +502,7 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
     }
     // The numbers beside a lesson's text too.
     let places = squeezefilm::gui::spot::PLACES;
-    for lesson in lessons::built_in(Known { tabs: &["Motion"], places }).0 {
+    for lesson in lessons::built_in(Known { tabs: TABS, places }).0 {
         for name in lesson.steps.iter().flat_map(|step| &step.show) {
             assert!(lessons::glossary::find(&name.words()).is_some(), "{}", name.words());
         }
@@ -456,8 +516,11 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
     assert!(shows(&window, meaning));
 }
 
-/// Names of the tabs.
-const TABS: &[&str] = &["Motion", "Compare", "Sweep", "Torque", "Trade-off", "Start-up", "Hold"];
+/// Names of the tabs of a motor, and of a plate.
+const TABS: [&[&str]; 2] = [
+    &["Motion", "Compare", "Sweep", "Torque", "Trade-off", "Start-up"],
+    &["Motion", "Compare", "Sweep", "Exact", "Trade-off", "Start-up", "Hold"],
+];
 
 const GOOD: &str = include_str!("lessons/good.md");
 
@@ -555,8 +618,18 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
             "tab = \"Motion\"",
             "tab = \"Movies\"",
             line_of("tab ="),
-            &["setup.tab = \"Movies\"", "Motion, Compare, Sweep, Torque, Trade-off, Start-up, Hold"],
+            &["setup.tab = \"Movies\"", "Motion, Compare, Sweep, Exact, Trade-off, Start-up, Hold"],
         ),
+        ("tab = \"Motion\"", "tab = \"Torque\"", line_of("tab ="), &["setup.tab = \"Torque\"", "Exact"]),
+        (
+            "show = [\"mean_load_ratio\"]",
+            "show = [\"torque.stall_nm\"]",
+            line_of("show ="),
+            &["setup.show = \"torque.stall_nm\"", "hold.gap_um"],
+        ),
+        ("mean_load_ratio > 2", "torque.stall_nm > 2", line_of("check ="), &["belongs to another kind of scene"]),
+        ("try = [\"plate.amplitude_um = 0.9\"]", "try = [\"hold.gap_um = no\"]", line_of("try ="), &["hold.gap_um"]),
+        ("try = [\"plate.amplitude_um = 0.9\"]", "try = [\"startup\"]", line_of("try ="), &["is no change"]),
         (
             "show = [\"mean_load_ratio\"]",
             "show = [\"alpha\"]",
@@ -613,10 +686,120 @@ fn what_the_window_lights_and_lessons_name_is_drawn() {
     let mut plate = window("plate-crossover");
     solved(&mut plate);
     open(&mut motor, "Lost torque");
-    for place in squeezefilm::gui::spot::PLACES {
-        let drawn = |window: &Window| squeezefilm::gui::spot::place(&window.ctx, place).is_some();
-        assert!(drawn(&motor) || drawn(&plate), "{place} is drawn nowhere");
+    let drawn = |window: &Window, place: &str| squeezefilm::gui::spot::place(&window.ctx, place).is_some();
+    let mut missing: Vec<&str> = squeezefilm::gui::spot::PLACES.to_vec();
+    missing.retain(|place| !drawn(&motor, place) && !drawn(&plate, place));
+    // The rest is in other tabs.
+    click(&mut motor, "Torque");
+    read_off(&mut motor);
+    click(&mut plate, "Hold");
+    missing.retain(|place| !drawn(&motor, place) && !drawn(&plate, place));
+    click(&mut plate, "Start-up");
+    missing.retain(|place| !drawn(&plate, place));
+    click(&mut plate, "Start from rest");
+    until(&mut plate, "a cycle", |app| app.starting().is_some_and(|starting| !starting.points().is_empty()));
+    missing.retain(|place| !drawn(&plate, place));
+    assert!(missing.is_empty(), "{missing:?} are drawn nowhere");
+}
+
+#[test]
+fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let (bad, good) = (folder.path().join("bad.toml"), folder.path().join("good.toml"));
+    std::fs::write(&bad, "schema = 1\n[film]\nmin_spacing_nm = 3\n").unwrap();
+    std::fs::write(&good, "schema = 1\nscene = \"plate\"\nname = \"Good\"\n").unwrap();
+    let mut window = window("fundamental");
+    type_into(&mut window, "Minimum spacing H_m in nm", "123");
+    open(&mut window, "The squeeze number");
+    click(&mut window, "Next");
+    solved(&mut window);
+    type_into(&mut window, "Frequency in kHz", "0.5");
+    let lent = window.state().document().scene().clone();
+    for path in [bad.clone(), folder.path().join("absent.toml")] {
+        open_path(&mut window, &path);
+        window.get_by_label("This did not work");
+        click(&mut window, "Close");
+        assert_eq!(step(&window).0, 1);
+        assert_eq!(window.state().document().scene(), &lent);
+        assert!(shows(&window, "Lesson ·"));
     }
+    // So does a folder without lessons; and one with lessons adds them.
+    window.state_mut().load_lessons(&folder.path().join("absent"));
+    window.run_steps(3);
+    click(&mut window, "Close");
+    write(folder.path(), "mine", GOOD);
+    window.state_mut().load_lessons(folder.path());
+    window.run_steps(3);
+    assert_eq!((step(&window).0, window.state().document().scene()), (1, &lent));
+    // Another text of the lesson that is followed ends it.
+    write(folder.path(), "3-squeeze-number", GOOD);
+    window.state_mut().load_lessons(folder.path());
+    window.run_steps(3);
+    assert!(window.state().teaching().running().is_none());
+    // A good file ends a lesson; what is unsaved is asked about.
+    open(&mut window, "Pushing on trapped air");
+    open_path(&mut window, &good);
+    window.get_by_label_contains("Save the changes");
+    click(&mut window, "Don't save");
+    assert_eq!(window.state().document().scene().name, "Good");
+    assert!(window.state().teaching().running().is_none());
+}
+
+/// Drops a file on the window.
+fn open_path(window: &mut Window, path: &Path) {
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path.to_owned())));
+    window.step();
+    window.input_mut().dropped_files.clear();
+    window.run_steps(3);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl eframe::egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn what_a_lesson_shows_in_a_tab_it_does_itself() {
+    let mut window = window("fundamental");
+    open(&mut window, "Why the mean force");
+    for _ in 0..3 {
+        click(&mut window, "Next");
+    }
+    let (_, step) = step(&window);
+    assert_eq!(window.state().view().tab, Tab::Startup);
+    solved(&mut window);
+    predict(&mut window, &step);
+    // In another tab, too.
+    click(&mut window, "Motion");
+    click(&mut window, "Show me");
+    assert_eq!(window.state().view().tab, Tab::Startup);
+    until(&mut window, "it comes to its end", |app| {
+        let running = app.teaching().running().unwrap();
+        running.work[running.step].fulfilled
+    });
+    // A start-up of before does not count when the step begins again.
+    click(&mut window, "Back");
+    click(&mut window, "Next");
+    assert!(window.state().starting().is_none());
+    click(&mut window, "Leave");
+    assert_eq!(window.state().view().tab, Tab::Motion);
+
+    open(&mut window, "Pushing on trapped air");
+    let (_, step) = self::step(&window);
+    assert_eq!(window.state().view().tab, Tab::Hold);
+    solved(&mut window);
+    predict(&mut window, &step);
+    click(&mut window, "Motion");
+    click(&mut window, "Show me");
+    until(&mut window, "the plate is pushed", |app| app.teaching().running().unwrap().work[0].fulfilled);
 }
 
 #[test]

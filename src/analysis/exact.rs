@@ -63,21 +63,12 @@ impl Comparison {
     pub fn of(plate: &Plate, film_load: Estimate, recording: &Recording) -> Self {
         let force = plate.gas.ambient_pressure * plate.area();
         let effective = effective_squeeze_number(plate);
-        let excursion = plate.amplitude / plate.mean_gap;
-        let series: Vec<&[f64]> =
-            recording.coarser_film_load.iter().map(Vec::as_slice).chain([recording.film_load.as_slice()]).collect();
-        let of = |part: fn(&Harmonic<f64>) -> f64| {
-            let all: Vec<f64> = series.iter().map(|load| part(&first_harmonic(load)) / (force * excursion)).collect();
-            extrapolate(&all)
-        };
-        let solved = (excursion > 0.0 && !recording.film_load.is_empty())
-            .then(|| Harmonic { spring: of(|h| h.spring), damping: of(|h| h.damping) });
         let trapped = trapped_height_of(plate);
         let mean_inverse =
             (0..SAMPLES).map(|i| 1.0 / plate.gap(i as f64 / SAMPLES as f64)).sum::<f64>() / SAMPLES as f64;
         Self {
             effective_squeeze_number: effective,
-            solved,
+            solved: solved(plate, recording),
             linear: linear(effective, aspect(plate)),
             mean_pressure: Estimate { value: 1.0 + film_load.value / force, error: film_load.error / force },
             trapped_mean_pressure: trapped * mean_inverse,
@@ -85,6 +76,20 @@ impl Comparison {
             limits: limits(plate, trapped, recording.frames),
         }
     }
+}
+
+/// Spring and damping of a solve of `plate`, over p_a · area · ε; `None` if nothing vibrates.
+pub fn solved(plate: &Plate, recording: &Recording) -> Option<Harmonic<Estimate>> {
+    let excursion = plate.amplitude / plate.mean_gap;
+    let scale = plate.gas.ambient_pressure * plate.area() * excursion;
+    let series: Vec<&[f64]> =
+        recording.coarser_film_load.iter().map(Vec::as_slice).chain([recording.film_load.as_slice()]).collect();
+    let of = |part: fn(&Harmonic<f64>) -> f64| {
+        let all: Vec<f64> = series.iter().map(|load| part(&first_harmonic(load)) / scale).collect();
+        extrapolate(&all)
+    };
+    (excursion > 0.0 && !recording.film_load.is_empty())
+        .then(|| Harmonic { spring: of(|h| h.spring), damping: of(|h| h.damping) })
 }
 
 /// Width over length; `None` for a strip.

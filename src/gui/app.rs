@@ -446,7 +446,12 @@ impl App {
 
     /// Whether `command` would lose unsaved changes; then the user is asked first.
     fn would_lose(&mut self, command: &Command) -> bool {
-        let loses = matches!(command, Command::OpenBuiltIn(_) | Command::OpenPath(_) | Command::Quit);
+        let loses = match command {
+            Command::OpenBuiltIn(_) | Command::Quit => true,
+            // A file that cannot be opened takes nothing away, and a lesson goes on.
+            Command::OpenPath(path) => Scene::load(path).is_ok(),
+            _ => false,
+        };
         if loses {
             self.leave_lesson();
         }
@@ -689,7 +694,9 @@ impl eframe::App for App {
         let mut commands = Vec::new();
         let shown = self.shown.clone();
         self.view.cursor_x = self.view.hover_x.take();
-        self.teaching.observe(&ctx, &self.document, shown.as_deref());
+        let (merits, starting, holding) = (&self.merits, self.starting.as_ref(), self.holding.as_ref());
+        let seen = lessons::Seen { run: shown.as_deref(), merits, starting, holding };
+        self.teaching.observe(&ctx, &self.document, seen);
 
         egui::Panel::top("menu").show(ui, |ui| {
             let available = |export| self.can_export(export);

@@ -47,6 +47,13 @@ impl Merits {
         self.found.as_ref().map(|(_, found)| found)
     }
 
+    /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
+    pub fn of(&self, run: &Run) -> Option<&Merit> {
+        let good = run.fidelity.min(Fidelity::Standard);
+        let (_, found) = self.found.as_ref().filter(|((number, found), _)| *number == run.number && *found >= good)?;
+        found.as_ref().ok()
+    }
+
     /// Whether what is known is of `run`.
     pub fn is_of(&self, run: &Run) -> bool {
         self.found.as_ref().is_some_and(|(key, _)| *key == (run.number, run.fidelity))

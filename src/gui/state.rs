@@ -34,6 +34,17 @@ impl Tab {
         (Self::Hold, "Hold"),
     ];
 
+    /// Its label, of a scene that is a plate or a motor.
+    pub fn label(self, plate: bool) -> &'static str {
+        let name = Self::ALL.iter().find(|(tab, _)| *tab == self).map_or("", |(_, name)| *name);
+        if self == Self::Torque && plate { "Exact" } else { name }
+    }
+
+    /// Whether there is something to see in it: only a plate can be held.
+    pub fn is_of(self, plate: bool) -> bool {
+        plate || self != Self::Hold
+    }
+
     /// Whether it moves with the cycle.
     pub fn moves(self) -> bool {
         matches!(self, Self::Motion | Self::Compare | Self::Startup)

@@ -5,9 +5,10 @@
 //! ```
 //!
 //! Comparisons joined by `and`. A comparison is `< <= > >= =` or `about` (within 5 %) between two sums of numbers, names
-//! of results ([`Quantity::name`]) and keys of the scene; `start.` before a name is its value when the step began. A key
-//! that is a name or a flag is compared with `=`: `film.slip = "none"`.
+//! of results ([`Quantity::name`]), what is read off a tab ([`Live::name`]) and keys of the scene; `start.` before a name is its
+//! value when the step began. A key that is a name or a flag is compared with `=`: `film.slip = "none"`.
 
+use super::live::{Live, Readings};
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::export::digits::significant;
 use crate::scene::{PARAMETERS, Parameter, ParameterKind, Scene, Value};
@@ -63,6 +64,8 @@ enum Expression {
 pub enum Name {
     /// A result.
     Quantity(Quantity),
+    /// What is read off a tab.
+    Live(Live),
     /// A key of the scene.
     Key(&'static Parameter),
 }
@@ -74,6 +77,8 @@ pub struct Ran<'a> {
     pub scene: &'a Scene,
     /// Its results.
     pub numbers: &'a Numbers,
+    /// What is read off the tabs.
+    pub live: &'a Readings,
 }
 
 /// Why a check cannot be read.
@@ -147,10 +152,14 @@ pub fn name(text: &str) -> Result<Name, CheckError> {
     if let Some(quantity) = Quantity::all().find(|quantity| quantity.name() == text) {
         return Ok(Name::Quantity(quantity));
     }
+    if let Some(live) = Live::all().find(|live| live.name() == text) {
+        return Ok(Name::Live(live));
+    }
     if let Some(parameter) = Parameter::find(text) {
         return Ok(Name::Key(parameter));
     }
-    let known = Quantity::all().map(Quantity::name).chain(PARAMETERS.iter().map(|parameter| parameter.key));
+    let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
+    let known = results.chain(PARAMETERS.iter().map(|parameter| parameter.key));
     let scored = known.map(|known| (strsim::jaro_winkler(text, known), known));
     let best = scored.reduce(|best, next| if next.0 > best.0 { next } else { best });
     let nearest = best.filter(|best| best.0 > 0.75).map(|best| best.1.to_owned());
@@ -162,6 +171,7 @@ impl Name {
     pub fn text(self) -> &'static str {
         match self {
             Self::Quantity(quantity) => quantity.name(),
+            Self::Live(live) => live.name(),
             Self::Key(parameter) => parameter.key,
         }
     }
@@ -170,6 +180,7 @@ impl Name {
     pub fn words(self) -> String {
         match self {
             Self::Quantity(quantity) => quantity.words().to_owned(),
+            Self::Live(live) => live.words().to_owned(),
             Self::Key(parameter) => parameter.words(),
         }
     }
@@ -178,16 +189,17 @@ impl Name {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Quantity(quantity) => quantity.unit(),
+            Self::Live(live) => live.unit(),
             Self::Key(parameter) => parameter.unit,
         }
     }
 
     /// Whether a scene has it.
     pub fn belongs(self, scene: &Scene) -> bool {
+        let problem = || crate::problem::Problem::new(scene);
         match self {
-            Self::Quantity(quantity) => {
-                crate::problem::Problem::new(scene).is_ok_and(|problem| Quantity::of(&problem).any(|q| q == quantity))
-            }
+            Self::Quantity(quantity) => problem().is_ok_and(|problem| Quantity::of(&problem).any(|q| q == quantity)),
+            Self::Live(live) => problem().is_ok_and(|problem| live.belongs(&problem.scenario)),
             Self::Key(parameter) => scene.parameters().any(|other| other.key == parameter.key),
         }
     }
@@ -195,6 +207,7 @@ impl Name {
     fn number(self, ran: Ran<'_>) -> Option<f64> {
         match self {
             Self::Quantity(quantity) => ran.numbers.get(quantity),
+            Self::Live(live) => ran.live.get(live),
             Self::Key(parameter) => ran.scene.get(parameter.key)?.as_number(),
         }
     }
@@ -229,6 +242,16 @@ impl Check {
         }
     }
 
+    /// What it reads off tabs.
+    pub fn live(&self) -> impl Iterator<Item = Live> {
+        let mut found = Vec::new();
+        for comparison in &self.comparisons {
+            comparison.left.live(&mut found);
+            comparison.right.live(&mut found);
+        }
+        found.into_iter()
+    }
+
     /// Whether it holds for `now`, when the step began with `start`.
     pub fn verdict(&self, now: Ran<'_>, start: Ran<'_>) -> Verdict {
         self.comparisons.iter().find_map(|comparison| comparison.unmet(now, start)).map_or(Verdict::Holds, Verdict::Not)
@@ -239,10 +262,7 @@ impl Comparison {
     /// In words why it does not hold.
     fn unmet(&self, now: Ran<'_>, start: Ran<'_>) -> Option<String> {
         let subject = match &self.left {
-            Expression::Name { name, start: false } => match name {
-                Name::Quantity(quantity) => capitalised(quantity.words()),
-                Name::Key(parameter) => capitalised(&parameter.words()),
-            },
+            Expression::Name { name, start: false } => capitalised(&name.words()),
             _ => self.words.clone(),
         };
         if let (Expression::Name { name: Name::Key(key), .. }, Expression::Text(wanted)) = (&self.left, &self.right) {
@@ -254,7 +274,11 @@ impl Comparison {
             return (present != *wanted).then(|| format!("{subject} is {present}, and should be {wanted}"));
         }
         let (Some(left), Some(right)) = (self.left.value(now, start), self.right.value(now, start)) else {
-            return Some(format!("{subject} is not known for this scene"));
+            let tab = match &self.left {
+                Expression::Name { name: Name::Live(live), .. } => format!("yet: see the tab {}", live.tab()),
+                _ => "for this scene".to_owned(),
+            };
+            return Some(format!("{subject} is not known {tab}"));
         };
         let unit = match &self.left {
             Expression::Name { name, .. } if !name.unit().is_empty() => format!(" {}", name.unit()),
@@ -295,6 +319,18 @@ impl Operator {
 }
 
 impl Expression {
+    fn live(&self, found: &mut Vec<Live>) {
+        match self {
+            Self::Number(_) | Self::Text(_) => {}
+            Self::Name { name, .. } => found.extend(if let Name::Live(live) = name { Some(*live) } else { None }),
+            Self::Negative(inside) | Self::Absolute(inside) => inside.live(found),
+            Self::Pair(_, left, right) => {
+                left.live(found);
+                right.live(found);
+            }
+        }
+    }
+
     fn value(&self, now: Ran<'_>, begun: Ran<'_>) -> Option<f64> {
         let value = match self {
             Self::Number(number) => *number,
@@ -555,7 +591,10 @@ mod tests {
         };
         let check = Check::parse(source, &start).unwrap();
         let (before, after) = (numbers(0.25), numbers(alpha));
-        check.verdict(Ran { scene: &now, numbers: &after }, Ran { scene: &start, numbers: &before })
+        let (rest, mut live) = (Readings::default(), Readings::default());
+        live.set(Live::Cycles, 5.0);
+        let now = Ran { scene: &now, numbers: &after, live: &live };
+        check.verdict(now, Ran { scene: &start, numbers: &before, live: &rest })
     }
 
     #[test]
@@ -576,6 +615,15 @@ mod tests {
         assert_eq!(verdict("abs(alpha - 1) < 0.1 and -(alpha) < 0", &[], 1.05), Verdict::Holds);
         assert_ne!(verdict("film_load_n > 1", &[], 0.5), Verdict::Holds, "what is not there holds nothing");
         assert_ne!(verdict("alpha / (motor.waves - 7) > 0", &[], 0.5), Verdict::Holds);
+        assert_eq!(verdict("startup.cycles >= 5", &[], 0.5), Verdict::Holds);
+        assert_eq!(
+            verdict("startup.cycles > 5", &[], 0.5),
+            Verdict::Not("Cycles since rest is 5, and should be above 5".to_owned())
+        );
+        assert_eq!(
+            verdict("torque.stall_nm > 0", &[], 0.5),
+            Verdict::Not("Stall torque is not known yet: see the tab Torque".to_owned())
+        );
         assert_eq!(
             verdict(
                 "film.slip = \"none\" and film.shear = false",
@@ -600,6 +648,8 @@ mod tests {
             ("zzz > 1", "results are called as in --json"),
             ("plate.length_mm > 1", "plate.length_mm belongs to another kind of scene; this step's is a motor"),
             ("mean_load_ratio > 1", "belongs to another kind of scene"),
+            ("hold.gap_um > 1", "hold.gap_um belongs to another kind of scene; this step's is a motor"),
+            ("startup.cycle > 1", "did you mean startup.cycles?"),
             ("alpha", "the end of the check is not expected here: expected one of <"),
             ("alpha > ", "the end of the check is not expected"),
             ("alpha > 1 alpha", "alpha is not expected here: expected and"),

@@ -8,6 +8,7 @@ pub mod check;
 mod error;
 pub mod formula;
 pub mod glossary;
+pub mod live;
 mod read;
 pub mod text;
 
@@ -24,8 +25,8 @@ pub(crate) const LARGEST_FILE: u64 = 1 << 20;
 /// What a lesson may name in the window.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Known<'a> {
-    /// Names of the tabs in the middle.
-    pub tabs: &'a [&'a str],
+    /// Names of the tabs in the middle that a motor has, and that a plate has.
+    pub tabs: [&'a [&'a str]; 2],
     /// Names of what can be lit.
     pub places: &'a [&'a str],
 }
@@ -103,6 +104,31 @@ pub enum Answer {
 /// Changes of a scene, by key, as after `--set`.
 pub type Changes = Vec<(String, String)>;
 
+/// What a student does in a tab, which leaves the scene as it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Act {
+    /// Moves the held plate to this gap \[µm\].
+    Hold(f64),
+    /// Starts from rest.
+    StartUp,
+}
+
+/// What does a task, or does not do it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Doing {
+    /// Changes of the scene.
+    pub changes: Changes,
+    /// And in a tab.
+    pub acts: Vec<Act>,
+}
+
+impl Doing {
+    /// Whether there is nothing to do.
+    pub fn is_empty(&self) -> bool {
+        self.changes.is_empty() && self.acts.is_empty()
+    }
+}
+
 /// What is to be done, and how it is seen that it was.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
@@ -113,9 +139,9 @@ pub struct Task {
     /// Help while it does not hold.
     pub hint: Vec<Block>,
     /// What would do, shown on request.
-    pub example: Changes,
+    pub example: Doing,
     /// What would not do: for tests.
-    pub wrong: Changes,
+    pub wrong: Doing,
     /// What is said once it holds.
     pub then: Vec<Block>,
 }

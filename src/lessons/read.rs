@@ -2,8 +2,9 @@
 
 use super::check::{Check, Name, name};
 use super::error::{LessonError, What};
+use super::live::Live;
 use super::text::{self, Block, Inline};
-use super::{Answer, Changes, Known, Lesson, Question, Step, Task};
+use super::{Act, Answer, Changes, Doing, Known, Lesson, Question, Step, Task};
 use crate::analysis::quantity::Quantity;
 use crate::scene::{Parameter, Scene, SceneError, presets};
 use std::path::Path;
@@ -16,6 +17,8 @@ const TASK: &str = "task";
 const SETUP_KEYS: &[&str] = &["preset", "set", "light", "look", "tab", "show"];
 const QUESTION_KEYS: &[&str] = &["ask", "choices", "answer", "unit", "within", "why"];
 const TASK_KEYS: &[&str] = &["ask", "check", "hint", "try", "wrong", "then"];
+/// In `try` and `wrong`: the start-up is started.
+const START_UP: &str = "start-up";
 /// How far a good prediction of a number may be off, unless the lesson says.
 const WITHIN: f64 = 0.2;
 
@@ -244,10 +247,12 @@ impl Reader<'_> {
             }
         }
         if let Some((tab, line)) = self.string(table, "tab") {
-            if self.known.tabs.iter().any(|known| known.eq_ignore_ascii_case(&tab)) {
+            let plate = self.scene.as_ref().is_some_and(|scene| scene.scene() == "plate");
+            let tabs = self.known.tabs[usize::from(plate)];
+            if tabs.iter().any(|known| known.eq_ignore_ascii_case(&tab)) {
                 setup.tab = Some(tab);
             } else {
-                let allowed = self.known.tabs.join(", ");
+                let allowed = tabs.join(", ");
                 self.fault(line, What::NotOneOf { block: SETUP, key: "tab", found: tab, allowed });
             }
         }
@@ -256,7 +261,8 @@ impl Reader<'_> {
             match found {
                 Some(name) => setup.show.push(name),
                 None => {
-                    let allowed: Vec<&str> = Quantity::all().map(Quantity::name).collect();
+                    let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
+                    let allowed: Vec<&str> = results.collect();
                     let allowed = format!("{}, or a key of this scene", allowed.join(", "));
                     self.fault(line, What::NotOneOf { block: SETUP, key: "show", found: shown, allowed });
                 }
@@ -316,8 +322,8 @@ impl Reader<'_> {
         let ask = self.blocks(table, "ask", Some("what is to be done"));
         let hint = self.blocks(table, "hint", Some("what helps while the check does not hold"));
         let then = self.blocks(table, "then", None);
-        let example = self.changes_of(table, "try", scene);
-        let wrong = self.changes_of(table, "wrong", scene);
+        let example = self.doing(table, "try", scene);
+        let wrong = self.doing(table, "wrong", scene);
         let Some((source, line)) = self.string(table, "check") else {
             if table.get("check").is_none() {
                 let why = "what the run is checked for, as alpha > 1.5 * start.alpha";
@@ -334,29 +340,43 @@ impl Reader<'_> {
         }
     }
 
-    /// Changes that `scene` takes.
-    fn changes_of(&mut self, table: &Table<'_>, key: &'static str, scene: &Scene) -> Changes {
-        let changes = self.changes(table, key);
+    /// Changes that `scene` takes, and what is done in a tab.
+    fn doing(&mut self, table: &Table<'_>, key: &'static str, scene: &Scene) -> Doing {
+        let mut doing = Doing::default();
+        for (text, line) in self.strings(table, key) {
+            if text.trim() == START_UP {
+                doing.acts.push(Act::StartUp);
+                continue;
+            }
+            let Some((name, value)) = self.change(table, key, &text, line) else { continue };
+            match value.parse::<f64>() {
+                Ok(gap) if name == Live::HeldGap.name() && scene.scene() == "plate" && gap > 0.0 && gap.is_finite() => {
+                    doing.acts.push(Act::Hold(gap));
+                }
+                _ => doing.changes.push((name, value)),
+            }
+        }
         let mut changed = scene.clone();
-        if let Err(error) = changed.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+        if let Err(error) = changed.set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
             self.fault(table.line_of(key), What::Scene { block: TASK, key, error });
         }
-        changes
+        doing
     }
 
     fn changes(&mut self, table: &Table<'_>, key: &'static str) -> Changes {
-        let mut changes = Changes::new();
-        for (change, line) in self.strings(table, key) {
-            match change.split_once('=') {
-                Some((name, value)) => {
-                    let value = value.trim();
-                    let bare = value.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(value);
-                    changes.push((name.trim().to_owned(), bare.to_owned()));
-                }
-                None => self.fault(line, What::NoChange { block: table.block, key, found: change }),
-            }
-        }
-        changes
+        let strings = self.strings(table, key);
+        strings.into_iter().filter_map(|(text, line)| self.change(table, key, &text, line)).collect()
+    }
+
+    /// Reads `key = value`.
+    fn change(&mut self, table: &Table<'_>, key: &'static str, text: &str, line: usize) -> Option<(String, String)> {
+        let Some((name, value)) = text.split_once('=') else {
+            self.fault(line, What::NoChange { block: table.block, key, found: text.to_owned() });
+            return None;
+        };
+        let value = value.trim();
+        let bare = value.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(value);
+        Some((name.trim().to_owned(), bare.to_owned()))
     }
 
     fn blocks(&mut self, table: &Table<'_>, key: &'static str, needed: Option<&'static str>) -> Vec<Block> {

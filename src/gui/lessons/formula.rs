@@ -6,6 +6,9 @@ use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Galley, Painter, Pos2, Shape, Stroke, Vec2, pos2, vec2};
 use std::sync::Arc;
 
+/// Letters without a stem.
+const LOW: &str = "acegmnopqrsuvwxyzαγεηκμνπρστυχω";
+
 /// A formula that is set. Places are relative to its left end on the line of writing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Set {
@@ -186,15 +189,17 @@ impl Set {
 
     fn marked(painter: &Painter, mark: Mark, inside: &[Node], style: Style) -> Self {
         let mut set = Self::of(painter, inside, style);
-        let top = -set.ascent - 0.06 * style.size;
+        // Clear of a stem, and not far above a letter that has none.
+        let low = matches!(inside, [Node::Letter(letter)] if LOW.contains(*letter));
+        let top = if low { -0.68 * style.size } else { -set.ascent - 0.2 * style.size };
         match mark {
-            Mark::Dot => set.pieces.push(Piece::Dot(pos2(0.55 * set.width, top), 0.065 * style.size)),
+            Mark::Dot => set.pieces.push(Piece::Dot(pos2(0.58 * set.width, top), 0.065 * style.size)),
             Mark::Bar => {
                 let line = vec![pos2(0.1 * set.width, top), pos2(set.width, top)];
                 set.pieces.push(Piece::Line(line, (SIZES.rule * style.size).max(1.0)));
             }
         }
-        set.ascent = -top + 0.08 * style.size;
+        set.ascent = set.ascent.max(-top + 0.08 * style.size);
         set
     }
 

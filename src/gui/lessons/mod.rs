@@ -11,21 +11,29 @@ pub mod tour;
 pub use panel::show;
 
 use super::document::Document;
+use super::holding::Holding;
+use super::merits::Merits;
 use super::spot::{self, Lit};
+use super::starting::{Point, Starting};
 use super::state::{Tab, View};
+use crate::analysis::exact;
 use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::Run;
 use crate::lessons::check::{Ran, Verdict};
-use crate::lessons::{self, Known, Lesson, LessonError, Prediction, Step, Task};
+use crate::lessons::live::{Live, Readings};
+use crate::lessons::{self, Act, Known, Lesson, LessonError, Prediction, Step};
+use crate::problem::{Plate, Scenario};
 use crate::scene::Scene;
-use crate::solution::Status;
+use crate::solution::{Outcome, PlateResult, Status};
 use eframe::egui;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Frames in which a lit parameter is scrolled to: a group takes some to open.
 const REVEALED: u8 = 16;
+/// A held plate this near to its mean gap has not been moved, relative.
+const AT_REST: f64 = 0.01;
 
 /// What is asked of lessons, tour and glossary.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +90,8 @@ pub struct Work {
     pub fulfilled: bool,
     /// Why it is not, of the newest run.
     pub unmet: Option<String>,
+    /// Whether anything was tried.
+    pub tried: bool,
 }
 
 /// A run that a step compares with.
@@ -90,6 +100,26 @@ struct Start {
     scene: Scene,
     fidelity: Option<Fidelity>,
     numbers: Numbers,
+    live: Readings,
+}
+
+impl Start {
+    fn of(scene: Scene) -> Self {
+        Self { scene, fidelity: None, numbers: Numbers::default(), live: Readings::default() }
+    }
+}
+
+/// What the window shows, to be read by a check.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// The run on screen.
+    pub run: Option<&'a Run>,
+    /// Torque over speed.
+    pub merits: &'a Merits,
+    /// The start-up.
+    pub starting: Option<&'a Starting>,
+    /// The plate in the hand.
+    pub holding: Option<&'a Holding>,
 }
 
 /// The lesson that is followed.
@@ -110,6 +140,10 @@ pub struct Running {
     start: Start,
     /// The newest run of the present scene.
     newest: Option<Numbers>,
+    /// What is read off the tabs now.
+    live: Readings,
+    /// Whether the held plate was at rest since the step was set up: what was done with it before does not count.
+    rested: bool,
     reveal: u8,
 }
 
@@ -174,16 +208,22 @@ impl Teaching {
         self.running.as_ref().map_or(document, |running| &running.own)
     }
 
-    /// Adds the lessons of a folder; what cannot be read is in the faults. A lesson of a name that is there replaces it.
-    pub fn load(&mut self, folder: &Path) {
+    /// Adds the lessons of a folder; what cannot be read is in the faults. A lesson of a name that is there replaces it. Whether
+    /// the lesson that is followed was replaced.
+    pub fn load(&mut self, folder: &Path) -> bool {
         let (lessons, faults) = with_known(|known| lessons::load(folder, known));
+        let mut replaced = false;
         for lesson in lessons {
-            match self.lessons.iter_mut().find(|other| other.id == lesson.id) {
-                Some(other) => *other = lesson,
+            match self.lessons.iter().position(|other| other.id == lesson.id) {
+                Some(place) => {
+                    replaced |= self.running.as_ref().is_some_and(|running| running.lesson == place);
+                    self.lessons[place] = lesson;
+                }
                 None => self.lessons.push(lesson),
             }
         }
         self.faults = faults;
+        replaced
     }
 
     /// What was wrong, a line each.
@@ -268,8 +308,10 @@ impl Teaching {
             all_results: false,
             own: std::mem::replace(stage.document, lent),
             looked: (view.tab, view.parameters, view.results),
-            start: Start { scene, fidelity: None, numbers: Numbers::default() },
+            start: Start::of(scene),
             newest: None,
+            live: Readings::default(),
+            rested: false,
             reveal: 0,
         });
         self.set_up(stage, true);
@@ -298,10 +340,8 @@ impl Teaching {
         let Some(lesson) = self.lessons.get(running.lesson) else { return false };
         let Some(step) = lesson.steps.get(running.step) else { return false };
         let view = stage.view;
-        if let Some(tab) = &step.tab
-            && let Some((tab, _)) = Tab::ALL.iter().find(|(_, name)| name.eq_ignore_ascii_case(tab))
-        {
-            view.tab = *tab;
+        if let Some(tab) = step.tab.as_deref().and_then(tab) {
+            view.tab = tab;
         }
         // What is lit is to be seen, and the lesson stands where the results are.
         view.parameters |= !step.light.is_empty();
@@ -313,19 +353,32 @@ impl Teaching {
             let aim = stage.document.aim();
             stage.document.change(step.scene.clone(), aim);
         }
-        running.start = Start { scene: stage.document.scene().clone(), fidelity: None, numbers: Numbers::default() };
+        running.start = Start::of(stage.document.scene().clone());
+        (running.live, running.rested) = (Readings::default(), false);
         changed
     }
 
     fn show_me(&mut self, stage: Stage<'_>) -> bool {
         let Some(task) = self.step().and_then(|(_, step)| step.task.as_ref()) else { return false };
         let mut next = stage.document.scene().clone();
-        let pairs = task.example.iter().map(|(key, value)| (key.as_str(), value.as_str()));
-        if task.example.is_empty() || next.set_all(pairs).is_err() {
+        let changes = &task.example.changes;
+        let pairs = changes.iter().map(|(key, value)| (key.as_str(), value.as_str()));
+        if changes.is_empty() || next.set_all(pairs).is_err() {
             return false;
         }
         let aim = stage.document.aim();
         stage.document.change(next, aim)
+    }
+
+    /// What else fulfils the task of the step.
+    pub fn acts(&self) -> Vec<Act> {
+        let task = self.step().and_then(|(_, step)| step.task.as_ref());
+        task.map(|task| task.example.acts.clone()).unwrap_or_default()
+    }
+
+    /// Whether the step on screen is about what is done in `tab`.
+    pub fn is_about(&self, tab: Tab) -> bool {
+        self.step().is_some_and(|(_, step)| step.tab.as_deref().and_then(self::tab) == Some(tab))
     }
 
     /// Ends the lesson; whether there was one.
@@ -337,8 +390,8 @@ impl Teaching {
         true
     }
 
-    /// Looks at the run on screen: what the step began with, and whether its task is fulfilled.
-    pub fn observe(&mut self, ctx: &egui::Context, document: &Document, shown: Option<&Run>) {
+    /// Looks at what is on screen: what the step began with, and whether its task is fulfilled.
+    pub fn observe(&mut self, ctx: &egui::Context, document: &Document, seen: Seen<'_>) {
         let mut lit = Lit::default();
         if let Some((_, step)) = self.step() {
             lit.names =
@@ -358,39 +411,111 @@ impl Teaching {
         }
         spot::light(ctx, lit);
         running.newest = None;
-        let Some(run) = shown.filter(|run| run.scene == *document.scene() && run.solution.status == Status::Converged)
-        else {
+        running.live = Readings::default();
+        let scene = document.scene();
+        let Some(run) = seen.run.filter(|run| run.scene == *scene && run.solution.status == Status::Converged) else {
             return;
         };
         let numbers = Numbers::of(&run.problem, &run.solution);
         running.newest = Some(numbers);
-        if run.scene == running.start.scene && running.start.fidelity.is_none_or(|found| found < run.fidelity) {
+        running.read_tabs(run, seen);
+        if run.scene == running.start.scene && running.start.fidelity.is_none_or(|found| found <= run.fidelity) {
             running.start.fidelity = Some(run.fidelity);
             running.start.numbers = numbers;
+            for live in Live::all().filter(|live| !live.is_done_by_hand()) {
+                if let Some(value) = running.live.get(live) {
+                    running.start.live.set(live, value);
+                }
+            }
         }
-        let task = self.lessons.get(running.lesson).and_then(|lesson| lesson.steps.get(running.step)?.task.as_ref());
-        let (Some(task), Some(work)) = (task, running.work.get_mut(running.step)) else { return };
-        let asked =
-            self.lessons.get(running.lesson).is_some_and(|lesson| lesson.steps[running.step].question.is_some());
+        let step = self.lessons.get(running.lesson).and_then(|lesson| lesson.steps.get(running.step));
+        let Some((step, task)) = step.and_then(|step| Some((step, step.task.as_ref()?))) else { return };
+        let Some(work) = running.work.get_mut(running.step) else { return };
         // A draft is good enough to look at, not to judge by.
-        if run.fidelity < document.aim().min(Fidelity::Standard) || (asked && !work.committed) {
+        let asked = step.question.is_some() && !work.committed;
+        if run.fidelity < document.aim().min(Fidelity::Standard) || asked {
             return;
         }
-        match verdict(task, &run.scene, &numbers, &running.start) {
+        let (now, start) = (&running.live, &running.start);
+        work.tried = run.scene != start.scene
+            || task.check.live().any(|live| live.is_done_by_hand() && now.get(live) != start.live.get(live));
+        let now = Ran { scene: &run.scene, numbers: &numbers, live: now };
+        match task.check.verdict(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &start.live }) {
             Verdict::Holds => (work.fulfilled, work.unmet) = (true, None),
             Verdict::Not(why) => work.unmet = Some(why),
         }
     }
 }
 
-fn verdict(task: &Task, scene: &Scene, numbers: &Numbers, start: &Start) -> Verdict {
-    task.check.verdict(Ran { scene, numbers }, Ran { scene: &start.scene, numbers: &start.numbers })
+impl Running {
+    /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
+    fn read_tabs(&mut self, run: &Run, seen: Seen<'_>) {
+        let live = &mut self.live;
+        if let Some(holding) = seen.holding.filter(|holding| !holding.stale(&run.scene)) {
+            let (plate, now) = (holding.plate(), holding.now().reading);
+            self.rested |= (now.gap / plate.mean_gap - 1.0).abs() < AT_REST;
+            let rest = (plate.mean_gap, plate.gas.ambient_pressure);
+            let present = if self.rested { (now.gap, now.mean_pressure) } else { rest };
+            for (readings, (gap, pressure)) in [(&mut self.start.live, rest), (&mut *live, present)] {
+                readings.set(Live::HeldGap, gap * 1e6);
+                readings.set(Live::HeldPressure, pressure * 1e-3);
+            }
+        }
+        if let Some(starting) = seen.starting.filter(|starting| !starting.stale(&run.scene)) {
+            let points = starting.points();
+            for (readings, point) in [(&mut self.start.live, points.first()), (&mut *live, points.last())] {
+                point.into_iter().for_each(|point| read_cycle(readings, point, &run.problem.scenario));
+            }
+        }
+        match (&run.problem.scenario, seen.merits.of(run)) {
+            (Scenario::Plate(plate), _) => read_exact(live, run, plate),
+            (Scenario::Motor(_), Some(merit)) => {
+                let (with, without) = (&merit.with_film, &merit.without_film);
+                live.set(Live::Stall, with.stall_torque.value);
+                live.set(Live::DryStall, without.stall_torque.value);
+                live.set(Live::Output, with.max_power.value);
+                live.set(Live::DryOutput, without.max_power.value);
+                if let Some(speed) = with.no_load_speed {
+                    live.set(Live::NoLoad, merit.rpm(speed.value));
+                }
+            }
+            (Scenario::Motor(_), None) => {}
+        }
+    }
+}
+
+fn read_cycle(readings: &mut Readings, point: &Point, scenario: &Scenario) {
+    readings.set(Live::Cycles, point.number as f64);
+    readings.set(Live::Remaining, point.remaining);
+    match (point.outcome, scenario) {
+        (Outcome::Motor(result), _) => readings.set(Live::StartAlpha, result.alpha),
+        (Outcome::Plate(result), Scenario::Plate(plate)) => {
+            readings.set(Live::StartLoadRatio, PlateResult::ratio(result.film_load, plate));
+        }
+        _ => {}
+    }
+}
+
+fn read_exact(readings: &mut Readings, run: &Run, plate: &Plate) {
+    if let Some(found) = exact::solved(plate, &run.solution.recording) {
+        readings.set(Live::Spring, found.spring.value);
+        readings.set(Live::Damping, found.damping.value);
+    }
+}
+
+/// The tab of a name in a lesson.
+fn tab(name: &str) -> Option<Tab> {
+    let named = |tab: Tab| [true, false].iter().any(|plate| tab.label(*plate).eq_ignore_ascii_case(name));
+    Tab::ALL.iter().map(|(tab, _)| *tab).find(|tab| named(*tab))
 }
 
 /// Calls `read` with what the window has.
 fn with_known<R>(read: impl FnOnce(Known<'_>) -> R) -> R {
-    let tabs: Vec<&str> = Tab::ALL.iter().map(|(_, name)| *name).collect();
-    read(Known { tabs: &tabs, places: spot::PLACES })
+    let labels = |plate| -> Vec<&str> {
+        Tab::ALL.iter().filter(|(tab, _)| tab.is_of(plate)).map(|(tab, _)| tab.label(plate)).collect()
+    };
+    let (motor, plate) = (labels(false), labels(true));
+    read(Known { tabs: [&motor, &plate], places: spot::PLACES })
 }
 
 fn read_progress(text: &str) -> BTreeMap<String, Progress> {

@@ -8,6 +8,7 @@ use crate::gui::keys;
 use crate::gui::spot;
 use crate::gui::theme::{Palette, palette};
 use crate::lessons::check::Name;
+use crate::lessons::live::Live;
 use crate::lessons::text::{self, Inline};
 use crate::lessons::{Answer, Prediction, Question, Step, Task};
 use crate::scene::{Scene, Value};
@@ -15,8 +16,8 @@ use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, TextStyle
 
 /// Digits of the numbers beside the text.
 const DIGITS: usize = 4;
-/// Width of a column of numbers, in heights of the text.
-const NUMBER_WIDTH: f32 = 3.9;
+/// Widths of the columns of numbers, in heights of the text: the first two have room for a sign.
+const NUMBER_WIDTHS: [f32; 3] = [4.5, 4.5, 3.7];
 /// Changes smaller than this are none, relative.
 const UNCHANGED: f64 = 5e-4;
 
@@ -62,8 +63,7 @@ pub fn show(ui: &mut Ui, teaching: &Teaching, scene: &Scene, busy: bool, command
             let asked = step.question.is_none() || work.committed;
             if let (Some(task), true) = (&step.task, asked) {
                 ui.add_space(0.7 * look.size);
-                let tried = *scene != running.start.scene;
-                do_it(ui, task, &work, [busy, tried], &colours, commands);
+                do_it(ui, task, &work, busy, &colours, commands);
             }
             if let (Some(question), true) = (&step.question, answered(step, &work)) {
                 ui.add_space(0.7 * look.size);
@@ -183,14 +183,7 @@ fn choice_row(ui: &mut Ui, choice: &[Inline], chosen: bool, open: bool, look: Lo
     radio.clicked() || words.clicked()
 }
 
-fn do_it(
-    ui: &mut Ui,
-    task: &Task,
-    work: &Work,
-    [busy, tried]: [bool; 2],
-    colours: &Palette,
-    commands: &mut Vec<Command>,
-) {
+fn do_it(ui: &mut Ui, task: &Task, work: &Work, busy: bool, colours: &Palette, commands: &mut Vec<Command>) {
     let look = Look::reading(ui);
     let (colour, title) = if work.fulfilled { (colours.good, "✔ Done") } else { (colours.accent, "Your turn") };
     boxed(ui, colour, title, |ui| {
@@ -206,16 +199,14 @@ fn do_it(
         ui.add_space(2.0);
         match (&work.unmet, busy) {
             (_, true) => drop(ui.label(RichText::new("Solving…").color(colours.quiet))),
-            (Some(unmet), _) if tried => {
+            (Some(unmet), _) if work.tried => {
                 ui.add(egui::Label::new(RichText::new(format!("Not yet. {unmet}.")).color(colours.contact)).wrap());
                 rich::blocks(ui, &task.hint, quiet);
             }
             _ => rich::blocks(ui, &task.hint, quiet),
         }
         ui.horizontal_wrapped(|ui| {
-            if !task.example.is_empty()
-                && ui.small_button("Show me").on_hover_text("Sets the sliders to values that do it").clicked()
-            {
+            if !task.example.is_empty() && ui.small_button("Show me").on_hover_text("Does it for you").clicked() {
                 commands.push(Command::Teach(Teach::ShowMe));
             }
             if ui.small_button("Start over").on_hover_text("Sets this step up again").clicked() {
@@ -257,6 +248,7 @@ fn numbers(ui: &mut Ui, teaching: &Teaching, step: &Step, scene: &Scene, colours
             let numbers = if start { Some(&running.start.numbers) } else { running.newest.as_ref() };
             numbers.and_then(|numbers| numbers.get(quantity))
         }
+        Name::Live(live) => if start { &running.start.live } else { &running.live }.get(live),
         Name::Key(parameter) => {
             let scene = if start { &running.start.scene } else { scene };
             scene.get(parameter.key).and_then(|value| value.as_number())
@@ -266,15 +258,16 @@ fn numbers(ui: &mut Ui, teaching: &Teaching, step: &Step, scene: &Scene, colours
         (_, None) => "…".to_owned(),
         // A parameter as it was typed, a result with its digits.
         (Name::Key(_), Some(value)) => Value::Number(value).to_string().replace('-', "−"),
-        (Name::Quantity(_), Some(value)) => significant(value, DIGITS).replace('-', "−"),
+        (Name::Live(Live::Cycles), Some(value)) => format!("{value}"),
+        (Name::Quantity(_) | Name::Live(_), Some(value)) => significant(value, DIGITS).replace('-', "−"),
     };
     // Three columns of numbers; the names have what is left.
     let em = ui.text_style_height(&TextStyle::Body);
     let row = |ui: &mut Ui, name: &mut dyn FnMut(&mut Ui), cells: [RichText; 3]| {
         let height = ui.spacing().interact_size.y.min(1.3 * em);
         ui.allocate_ui_with_layout(vec2(ui.available_width(), height), Layout::right_to_left(Align::Center), |ui| {
-            for cell in cells.into_iter().rev() {
-                let width = vec2(NUMBER_WIDTH * em, height);
+            for (cell, width) in cells.into_iter().zip(NUMBER_WIDTHS).rev() {
+                let width = vec2(width * em, height);
                 ui.allocate_ui_with_layout(width, Layout::right_to_left(Align::Center), |ui| {
                     ui.set_min_width(width.x);
                     ui.add(egui::Label::new(cell).extend());
@@ -305,8 +298,11 @@ fn numbers(ui: &mut Ui, teaching: &Teaching, step: &Step, scene: &Scene, colours
             row(ui, &mut name, [quiet(&shown(shown_name, first)), present, RichText::new(ratio).color(colours.film)]);
         }
     });
-    let response = table.response;
-    spot::mark(ui, "numbers", response.rect);
+    // The ring stands outside of what the panel clips.
+    ui.scope(|ui| {
+        ui.set_clip_rect(ui.clip_rect().expand(8.0));
+        spot::mark(ui, "numbers", table.response.rect);
+    });
     ui.add_space(6.0);
 }
 

@@ -32,8 +32,8 @@ pub struct Bar {
 pub fn labels(ui: &mut egui::Ui, bar: &Bar, commands: &mut Vec<Command>) {
     let &Bar { present, pinned, solved, plate } = bar;
     let row = ui.horizontal_wrapped(|ui| {
-        for &(tab, name) in Tab::ALL {
-            let name = if tab == Tab::Torque && plate { "Exact" } else { name };
+        for &(tab, _) in Tab::ALL {
+            let name = tab.label(plate);
             let text = if tab == Tab::Compare && pinned > 0 { format!("{name} ({pinned})") } else { name.to_owned() };
             let label = ui.selectable_label(tab == present, text).on_hover_text(keys::of(&Command::Show(tab)));
             if label.clicked() && tab != present {

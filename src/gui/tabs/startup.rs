@@ -1,6 +1,7 @@
 //! The transient from rest, cycle after cycle as it is computed: how the film pumps up until the cycle repeats.
 
 use crate::gui::command::Command;
+use crate::gui::spot;
 use crate::gui::starting::{Ask, Starting};
 use crate::gui::state::View;
 use crate::gui::theme::Palette;
@@ -40,7 +41,8 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>, colours: &Palette, view: &mut 
     let line = ui.text_style_height(&TextStyle::Body);
     let plots = (PLOTS_SHARE * height).clamp(LINES.0 * line, LINES.1 * line);
     let periodic = shown.run.filter(|run| !starting.stale(&run.scene));
-    views::history(ui, starting, periodic, plots, commands);
+    let history = ui.scope(|ui| views::history(ui, starting, periodic, plots, commands));
+    spot::mark(ui, "history", history.response.rect);
     if let Some(run) = starting.run() {
         views::show_within(ui, run, starting.ranges(), view, commands);
     }
@@ -56,7 +58,9 @@ fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
             }
             None => {
                 let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
-                if ui.button("Start from rest").on_hover_text(hover).clicked() {
+                let button = ui.button("Start from rest").on_hover_text(hover);
+                spot::mark(ui, "start", button.rect);
+                if button.clicked() {
                     commands.push(Command::Startup(Ask::Start));
                 }
             }

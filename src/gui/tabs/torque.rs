@@ -7,6 +7,7 @@ use crate::estimate::Estimate;
 use crate::export::digits::significant;
 use crate::gui::merits::Merits;
 use crate::gui::panels::results::uncertain;
+use crate::gui::spot;
 use crate::gui::theme::Palette;
 use crate::job::Run;
 use crate::problem::{Motor, Scenario};
@@ -94,7 +95,8 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, height: f32, colours: 
         let top = if i == 2 { Some(ALL) } else { None };
         pointed = panel(ui, name, tall, lines, top, bottom, merit, colours).or(pointed);
     };
-    one(ui, 0, side_by_side);
+    let first = ui.scope(|ui| one(ui, 0, side_by_side));
+    spot::mark(ui, "torque", first.response.rect);
     if side_by_side {
         ui.columns(2, |columns| {
             one(&mut columns[0], 1, true);

@@ -9,6 +9,7 @@ use super::scales::span;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
 use crate::gui::holding::{Ask, Holding};
+use crate::gui::spot;
 use crate::hold::Reading;
 use crate::recording::Recording;
 use eframe::egui::epaint::{Mesh, Shape};
@@ -92,7 +93,11 @@ pub(super) fn show(ui: &mut Ui, holding: &Holding, commands: &mut Vec<Command>) 
     let axes_of_force =
         chart(&painter, &ink, force_chart, &shown, &text, unit.1, ink.palette.film, |r| [r.force, r.error], force);
     time_labels(&painter, &ink, &axes_of_force, &shown);
-    boyle(&painter, &ink, place(middle + 0.5 * ink.row, right, top, bottom), &shown);
+    let boyle_chart = place(middle + 0.5 * ink.row, right, top, bottom);
+    boyle(&painter, &ink, boyle_chart, &shown);
+    for (name, rect) in [("held plate", drawing), ("boyle", boyle_chart)] {
+        spot::mark(ui, name, rect.shrink(2.0));
+    }
     grab(ui, &axes, holding, commands);
 }
 
