@@ -470,7 +470,7 @@ mod tests {
             (r"T_\text{max} = \mu_d (1 - \alpha) L r", "T_max = μ_d(1 − α)Lr"),
             (r"\left( 1 + \frac{6 \lambda_a}{h} \right)", "(1 + (6λ_a)/h)"),
             (r"x^10", "x^10"),
-            (r"\sum_{n\,\text{odd}} \frac{1}{n^2}", "∑_(nodd)1/(n^2)"),
+            (r"\sum_{n\text{ odd}} \frac{1}{n^2}", "∑_(n odd)1/n^2"),
             (r"\left\langle H \right\rangle", "⟨H⟩"),
         ] {
             assert_eq!(read(source), expected, "{source}");
