@@ -684,7 +684,10 @@ fn a_plate_has_exact_results_in_place_of_torque() {
         for name in ["Spring S", "Damping D", "Invariant, off by"] {
             window.get_by_label(name);
         }
-        window.get_by_label_contains("κ²");
+        // Formulae that are set, in plain text.
+        for formula in ["κ^2 = (iσ)/Q", "⟨P⟩ = √(", "= ⟨H^3/2 + 6mH^2⟩"] {
+            window.get_by_label_contains(formula);
+        }
         assert!(window.state().merits().found().is_none());
     }
 }

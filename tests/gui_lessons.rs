@@ -492,6 +492,69 @@ fn the_glossary_is_searched() {
 }
 
 #[test]
+fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
+    let escape = |window: &mut Window| {
+        window.key_press(Key::Escape);
+        window.run_steps(3);
+    };
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    let glossary = |window: &mut Window| {
+        click(window, "Help");
+        choose(window, "Glossary");
+        window.run_steps(3);
+        assert!(window.state().teaching().glossary.is_some());
+    };
+    // While what is looked for is being typed too.
+    glossary(&mut window);
+    window.get_by_role_and_label(Role::TextInput, "Search").type_text("spring");
+    window.run_steps(3);
+    escape(&mut window);
+    assert!(window.state().teaching().glossary.is_none());
+
+    // A text that is being typed elsewhere goes first, and so does a menu.
+    glossary(&mut window);
+    window.get_by_role_and_label(Role::TextInput, "Frequency in kHz").click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, "Frequency in kHz").type_text("7");
+    window.run_steps(2);
+    escape(&mut window);
+    assert!(window.state().teaching().glossary.is_some());
+    for (menu, entry) in [("Lessons", "Open a folder of lessons"), ("Presets", "Plate, viscous")] {
+        click(&mut window, menu);
+        window.run_steps(5);
+        assert!(shows(&window, entry), "{menu}");
+        escape(&mut window);
+        window.run_steps(10);
+        assert!(!shows(&window, entry), "{menu}");
+        assert!(window.state().teaching().glossary.is_some(), "{menu}");
+    }
+
+    // The tour before the glossary, the sheet of shortcuts before both.
+    click(&mut window, "Help");
+    choose(&mut window, "Take the tour");
+    window.run_steps(3);
+    window.key_press(Key::F1);
+    window.run_steps(3);
+    window.get_by_label("Keyboard shortcuts");
+    escape(&mut window);
+    assert!(window.query_by_label("Keyboard shortcuts").is_none());
+    assert!(window.state().teaching().tour.is_some());
+    escape(&mut window);
+    assert!(window.state().teaching().tour.is_none() && window.state().teaching().glossary.is_some());
+    escape(&mut window);
+    assert!(window.state().teaching().glossary.is_none());
+
+    // A question, an error, a path to type.
+    click(&mut window, "File");
+    choose(&mut window, "Open or save by path");
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::TextInput, "Path");
+    escape(&mut window);
+    assert!(window.query_by_role_and_label(Role::TextInput, "Path").is_none());
+}
+
+#[test]
 fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
     for preset in ["fundamental", "levitating", "plate-crossover", "plate-trapped"] {
         let mut window = window(preset);

@@ -286,6 +286,11 @@ fn the_window_looks_as_it_did() {
     until(&mut window, "measured", |app| app.measured().is_some_and(|measured| !measured.running()));
     window.snapshot("trade-off");
     results.extend_harness(&mut window);
+    let mut window = self::window("plate-crossover", USUAL, &[LECTURE, TORQUE]);
+    window.get_by_label_contains("6mH^2").scroll_to_me();
+    settle(&mut window);
+    window.snapshot("exact-formulas");
+    results.extend_harness(&mut window);
     live(&mut results);
     open_by_path(&mut results);
 }

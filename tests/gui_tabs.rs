@@ -9,26 +9,42 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::compare;
 use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::Sweep;
+use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::compare::{difference_text, value_text};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::dialogs::Answer;
+use squeezefilm::gui::lessons::glossary::unexplained;
 use squeezefilm::gui::pinned::Page;
 use squeezefilm::gui::state::Tab;
 use squeezefilm::gui::sweeping::Swept;
 use squeezefilm::gui::world::World;
+use squeezefilm::lessons::glossary;
+use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Value, presets};
 use squeezefilm::solve::Settings;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 type Window = Harness<'static, App>;
 
+/// One of each family, twice each.
+fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
+    let mut few: Vec<Candidate> = Vec::new();
+    for candidate in candidates(problem) {
+        if few.iter().all(|other| other.family != candidate.family) {
+            few.push(candidate);
+        }
+    }
+    (few, Effort { repeats: Some(2), ..Effort::default() })
+}
+
 /// A window whose paths are typed.
 fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
-    let world = World { ask: |_, _| Answer::NoDialog, ..World::default() };
+    let world = World { ask: |_, _| Answer::NoDialog, measure: few, ..World::default() };
     Harness::builder()
         .with_size(Vec2::new(1400.0, 1000.0))
         .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap())
@@ -145,6 +161,7 @@ fn fields_move_in_phase_and_maps_share_one_scale() {
     }
     // The timeline is the one of the motion.
     window.get_by_label("Pause");
+    window.get_by_label_contains("t = ");
     let phase = window.state().view().phase;
     std::thread::sleep(Duration::from_millis(30));
     window.run_steps(2);
@@ -192,6 +209,9 @@ fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
     let fidelities = window.state().pins().runs().iter().map(|run| run.solved.as_ref().unwrap().model.fidelity.clone());
     assert!(fidelities.into_iter().all(|fidelity| fidelity == window.state().document().aim().name()));
     window.get_by_label_contains("Motors and plates cannot be laid over each other");
+    // Each has its own period: no time is that of all.
+    window.get_by_label_contains("° of each cycle");
+    assert!(window.query_by_label_contains("t = ").is_none());
     // The scene being edited is as it was.
     assert_eq!(window.state().document().scene(), &presets::find("fundamental").unwrap());
     click(&mut window, "Remove all");
@@ -462,4 +482,306 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
     until(&mut window, "it ends", |app| !app.exports().running());
     assert!(window.query_by_label("This did not work").is_none(), "that it was cancelled is no error");
     assert!(names(folder.path()).iter().all(|name| !name.contains("long") && !name.contains(".tmp")));
+}
+
+/// What the parts of the window are, what they are called, and what the pointer and a screen reader are told about them.
+fn told(window: &Window) -> Vec<(Role, String, Option<String>)> {
+    let parts = window.root().children_recursive();
+    parts
+        .map(|node| {
+            let node = node.accesskit_node();
+            (node.role(), node.label().or(node.value()).unwrap_or_default(), node.description())
+        })
+        .collect()
+}
+
+/// Whether a text is on screen.
+fn shows(window: &Window, part: &str) -> bool {
+    window.query_all_by_label_contains(part).next().is_some()
+}
+
+/// The tab on screen explains these words, each where it stands; nothing in it is without a word about it.
+fn explains(faults: &mut Vec<String>, window: &Window, tab: &str, words: &[&str]) {
+    let told = told(window);
+    for word in words {
+        let term = glossary::find(word).unwrap_or_else(|| panic!("{tab}: {word} is not in the glossary"));
+        let about = format!("{}  {}", term.name, term.symbol);
+        let explained = told.iter().any(|(_, _, text)| {
+            let title = text.as_deref().and_then(|text| text.split_once(": ")).map(|(title, _)| title);
+            title.is_some_and(|title| title == about || title == term.name)
+        });
+        if !explained {
+            faults.push(format!("{tab}: nothing explains {word}"));
+        }
+    }
+    faults.extend(unexplained(&window.ctx).iter().map(|word| format!("{tab}: {word} is not in the glossary")));
+    const MENUS: &[&str] = &["File", "Presets", "Edit", "View", "Lessons", "Help"];
+    const USED: &[Role] = &[
+        Role::Button,
+        Role::CheckBox,
+        Role::ComboBox,
+        Role::TextInput,
+        Role::SpinButton,
+        Role::Slider,
+        Role::RadioButton,
+    ];
+    for (role, name, text) in &told {
+        // The number beside a slider is part of it.
+        let beside = |(other, label, text): &(Role, String, Option<String>)| {
+            *role == Role::SpinButton && *other == Role::Slider && label == name && text.is_some()
+        };
+        let used = USED.contains(role) && !MENUS.contains(&name.as_str()) && !told.iter().any(beside);
+        if used && text.as_ref().is_none_or(String::is_empty) {
+            faults.push(format!("{tab}: {role:?} {name} says nothing on hover"));
+        }
+    }
+}
+
+/// Resting on what is called `name` shows `text`.
+fn hovers(faults: &mut Vec<String>, window: &mut Window, name: &str, text: &str) {
+    assert!(!shows(window, text), "{text}");
+    let words = window.query_all_by_role_and_label(Role::Label, name).next();
+    let Some(part) = words.or_else(|| window.query_all_by_label(name).next()) else {
+        faults.push(format!("there is no {name}"));
+        return;
+    };
+    part.hover();
+    window.run_steps(40);
+    if !shows(window, text) {
+        faults.push(format!("{name} does not show “{text}”"));
+    }
+    window.hover_at(eframe::egui::pos2(1390.0, 2.0));
+    window.run_steps(10);
+}
+
+#[test]
+fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
+    // The panels at the sides explain some of the same words: they are not there.
+    let quiet = |window: &mut Window| {
+        for key in [Key::F2, Key::F3] {
+            window.key_press(key);
+            window.run_steps(2);
+        }
+        window.get_by_label("Pause").click();
+        window.run_steps(10);
+    };
+    let faults = &mut Vec::new();
+    let mut window = two_pinned();
+    explains(faults, &window, "All panels", &["α", "Model", "How it was solved", "Squeeze number"]);
+    quiet(&mut window);
+    let fields =
+        ["Travelling wave", "Contact pressure", "Gauge pressure", "Pressure map", "Film load", "Contact load", "x"];
+    explains(faults, &window, "Compare", &fields);
+    hovers(faults, &mut window, "About: Gauge pressure", "Below zero it sucks");
+    hovers(faults, &mut window, "Remove all", "Takes all pins away");
+    click(&mut window, "Numbers");
+    explains(faults, &window, "Compare, numbers", &["α", "Film load", "Difference", "Knudsen number", "Film steps"]);
+    hovers(faults, &mut window, "difference", "that of the first pinned run");
+    hovers(faults, &mut window, "Minimum spacing H_m, nm", "film.min_spacing_nm");
+
+    ctrl(&mut window, Key::Num1);
+    let motion = ["Travelling wave", "Rotor", "Stator", "Gauge pressure", "Film", "Contact", "Pressure map"];
+    explains(faults, &window, "Motion", &motion);
+    explains(faults, &window, "Motion, followed tooth", &["Followed tooth", "Least gap", "Loads", "Slow motion"]);
+
+    ctrl(&mut window, Key::Num3);
+    explains(faults, &window, "Sweep, before", &["Fidelity"]);
+    type_into(&mut window, "Values along x", "3");
+    click(&mut window, "Start the sweep");
+    until(&mut window, "all points", |app| swept(app).complete() && !swept(app).running());
+    explains(faults, &window, "Sweep", &["α", "Computed", "Stated error", "Table I", "Present"]);
+    hovers(faults, &mut window, "About: Minimum spacing H_m", "film.min_spacing_nm");
+    hovers(faults, &mut window, "About: stated error", "the numerical error only");
+
+    ctrl(&mut window, Key::Num4);
+    until(&mut window, "torque over speed", |app| app.shown().is_some_and(|run| app.merits().is_of(run)));
+    let torque =
+        ["Torque over speed", "Power", "Efficiency", "With film", "Without film", "Friction heat", "Rotor speed"];
+    explains(faults, &window, "Torque", &torque);
+    explains(faults, &window, "Torque, table", &["Stall torque", "Maximum torque", "No-load speed", "Greatest output"]);
+    hovers(faults, &mut window, "Stall torque", "held at rest");
+    hovers(faults, &mut window, "without film", "in a vacuum");
+
+    ctrl(&mut window, Key::Num5);
+    explains(faults, &window, "Trade-off, before", &[]);
+    click(&mut window, "Measure");
+    until(&mut window, "measured", |app| app.measured().is_some_and(|measured| !measured.running()));
+    let tradeoff =
+        ["fidelities", "other grids", "the paper's method", "present setting", "best", "Solve time", "Error of α"];
+    explains(faults, &window, "Trade-off", &tradeoff);
+    explains(faults, &window, "Trade-off, table", &["Setting", "Stated error", "Accuracy", "Budget"]);
+    hovers(faults, &mut window, "other grids", "spend their points well");
+
+    ctrl(&mut window, Key::Num6);
+    explains(faults, &window, "Start-up, before", &[]);
+    click(&mut window, "Start from rest");
+    until(&mut window, "a cycle arrives", |app| app.starting().is_some_and(|starting| starting.points().len() > 1));
+    let startup = ["α", "Least film thickness", "Highest pressure", "Cycle", "Periodic solve"];
+    explains(faults, &window, "Start-up", &startup);
+    click(&mut window, "Cancel the start-up");
+    drop(window);
+
+    let mut window = self::window("plate-trapped");
+    solved(&mut window);
+    quiet(&mut window);
+    explains(
+        faults,
+        &window,
+        "Motion of a plate",
+        &["Gap", "Plate", "Wall", "Film pressure", "Ambient", "Film load", "Loop"],
+    );
+    ctrl(&mut window, Key::Num4);
+    let exact = ["Squeeze number", "Spring", "Damping", "σ/Q", "Spring and damping", "Boyle", "t/T", "Film load"];
+    explains(faults, &window, "Exact", &exact);
+    explains(faults, &window, "Exact, table", &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible (σ → 0)"]);
+    hovers(faults, &mut window, "Mean pressure", "comes to a limit");
+    ctrl(&mut window, Key::Num7);
+    let held = ["Gap", "Leak time", "Slow motion", "Held plate", "Film pressure", "Force", "Loop", "Boyle"];
+    explains(faults, &window, "Hold", &held);
+    hovers(faults, &mut window, "Leak time takes", "until about a third is left");
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn exports_say_what_they_write() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.get_by_label("File").click();
+    window.run_steps(10);
+    window.get_by_label("Export").hover();
+    window.run_steps(10);
+    let told = told(&window);
+    let exports: Vec<_> = told.iter().filter(|(role, name, _)| *role == Role::Button && name.ends_with('…')).collect();
+    for entry in ["All results, into a folder…", "Sweep as table…", "Comparison as HTML…", "Trade-off as figure…"]
+    {
+        let found = exports.iter().find(|(_, name, _)| name == entry).unwrap_or_else(|| panic!("{entry}: {exports:?}"));
+        assert!(found.2.as_ref().is_some_and(|text| text.len() > 20), "{found:?}");
+    }
+}
+
+/// Storage in memory, as eframe keeps it in a file.
+#[derive(Clone, Default)]
+struct Memory(BTreeMap<String, String>);
+
+impl eframe::Storage for Memory {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
+
+/// What a window leaves behind.
+fn left(window: &mut Window) -> Memory {
+    let mut memory = Memory::default();
+    eframe::App::save(window.state_mut(), &mut memory);
+    memory
+}
+
+/// The window after that.
+fn next(memory: Memory) -> Window {
+    let memory: &'static Memory = Box::leak(Box::new(memory));
+    let world = World { ask: |_, _| Answer::NoDialog, ..World::default() };
+    Harness::builder().with_size(Vec2::new(1400.0, 1000.0)).build_eframe(move |context| {
+        context.storage = Some(memory);
+        App::in_world(context, None, world).unwrap()
+    })
+}
+
+#[test]
+fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
+    let mut window = two_pinned();
+    let first = labels(window.state())[0].clone();
+    type_into(&mut window, &format!("Label of {first}"), "as published");
+    // The first colour is free again, and is not taken by what comes back.
+    window.get_by_label_contains("Pin a preset").click();
+    window.run_steps(3);
+    let levitating = presets::find("levitating").unwrap().name;
+    window.get_by_label_contains(&levitating).click();
+    window.run_steps(2);
+    until(&mut window, "a third", |app| app.pins().runs().len() == 3);
+    let changed = labels(window.state())[1].clone();
+    click(&mut window, &format!("Remove {changed}"));
+    let kept = |app: &App| -> Vec<_> {
+        let pins = app.pins().pins().iter().zip(app.pins().runs());
+        pins.map(|(pin, run)| {
+            let fidelity = run.solved.as_ref().unwrap().model.fidelity.clone();
+            (run.label.clone(), pin.slot, fidelity, run.scene.clone())
+        })
+        .collect()
+    };
+    let before = kept(window.state());
+    assert_eq!(before.iter().map(|pin| pin.1).collect::<Vec<_>>(), [0, 2]);
+    let alpha = |app: &App| {
+        let row = app.pins().results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
+        row.cells.iter().map(|cell| (cell.value.unwrap(), cell.error.unwrap())).collect::<Vec<_>>()
+    };
+    let numbers = alpha(window.state());
+    let memory = left(&mut window);
+    drop(window);
+
+    let mut window = next(memory.clone());
+    window.step();
+    assert_eq!(window.state().pins().waiting().len(), 2, "they are there at once, to be solved");
+    // Closed before they are solved, they are there the next time.
+    assert_eq!(left(&mut window).0["pins"], memory.0["pins"]);
+    until(&mut window, "the pins", |app| {
+        if app.shown().is_none_or(|run| run.fidelity < Fidelity::Fine) {
+            assert!(app.pins().runs().is_empty(), "the scene on screen comes first");
+        }
+        app.pins().waiting().is_empty()
+    });
+    assert_eq!(kept(window.state()), before);
+    for ((ours, error), (theirs, other)) in alpha(window.state()).into_iter().zip(numbers) {
+        assert!((ours - theirs).abs() <= error + other, "{ours} {theirs}");
+    }
+    // A new one comes after them.
+    ctrl(&mut window, Key::D);
+    assert_eq!(labels(window.state())[..2], before.iter().map(|pin| pin.0.clone()).collect::<Vec<_>>());
+    assert_eq!(window.state().pins().runs().len(), 3);
+    // What was forgotten does not come back.
+    ctrl(&mut window, Key::Num2);
+    click(&mut window, "Remove all");
+    assert_eq!(left(&mut window).0["pins"], "[]");
+}
+
+#[test]
+fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    ctrl(&mut window, Key::D);
+    let good = left(&mut window);
+    drop(window);
+    let stored = good.0["pins"].clone();
+    let broken = |from: &str, to: &str| {
+        let twice =
+            format!("[{0},{1}]", stored.trim_matches(['[', ']']).replace(from, to), &stored[1..stored.len() - 1]);
+        assert!(twice.contains(to), "{twice}");
+        twice
+    };
+    for (pins, said, left_over) in [
+        ("nonsense".to_owned(), "expected", 0),
+        (broken("mean_gap_um", "mean_gaps"), "mean_gaps", 1),
+        (broken("\"fine\"", "\"finest\""), "allowed draft, standard, fine, reference", 1),
+    ] {
+        let mut memory = good.clone();
+        memory.0.insert("pins".to_owned(), pins);
+        let mut window = next(memory);
+        window.run_steps(3);
+        window.get_by_label("This did not work");
+        window.get_by_label_contains("Not all pinned runs of the last window can be read");
+        window.get_by_label_contains(said);
+        click(&mut window, "Close");
+        solved(&mut window);
+        until(&mut window, "the others", |app| app.pins().waiting().is_empty());
+        assert_eq!(window.state().pins().runs().len(), left_over);
+    }
 }

@@ -144,6 +144,8 @@ pub struct App {
     dark: bool,
     lecture: bool,
     quitting: bool,
+    /// Text is being typed, other than what is looked for in the glossary.
+    typing: bool,
     last_frame: Option<Instant>,
 }
 
@@ -210,10 +212,15 @@ impl App {
             dark: stored("theme").is_none_or(|theme| theme != "light"),
             lecture: stored("lecture").is_some_and(|size| size == "true"),
             quitting: false,
+            typing: false,
             last_frame: None,
         };
         if first_start {
             app.teaching.tour = Some(0);
+        }
+        // What cannot be read is told, and the rest is there.
+        if let Some(Err(fault)) = stored("pins").map(|text| app.pins.restore(&text)) {
+            app.modal = Some(Modal::Error(format!("Not all pinned runs of the last window can be read.\n{fault}")));
         }
         app.apply_theme(&context.egui_ctx);
         app.refine();
@@ -287,6 +294,13 @@ impl App {
         recording.filter(|recording| recording.frames > 0)
     }
 
+    /// The shortest and the longest period of what moves with `recording` \[s\]: pinned runs need not have the same.
+    fn periods(&self, recording: &Recording) -> [f64; 2] {
+        let pinned = self.pins.runs().iter().filter(|_| self.view.tab == Tab::Compare);
+        let periods = pinned.filter_map(|run| Some(run.solved.as_ref().ok()?.recording.period));
+        periods.fold([recording.period; 2], |[low, high], period| [low.min(period), high.max(period)])
+    }
+
     /// Asks for the present scene, draft first, then refined up to what is aimed at.
     fn refine(&mut self) {
         let aim = self.document.aim();
@@ -340,6 +354,7 @@ impl App {
             self.modal = Some(Modal::Error(error));
         }
         self.pins.drain();
+        self.solve_pins(ctx);
         self.sweeps.drain();
         if self.view.tab == Tab::Sweep {
             self.sweeps.review(self.document.scene());
@@ -632,6 +647,19 @@ impl App {
         }
     }
 
+    /// Escape closes the tour, then the glossary: after whatever is over them, and after a text that is being typed.
+    fn escape(&self, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        let open = [
+            self.teaching.tour.is_some().then_some(Teach::Tour(None)),
+            self.teaching.glossary.is_some().then_some(Teach::Glossary(false)),
+        ];
+        let Some(close) = open.into_iter().flatten().next() else { return };
+        let other = self.modal.is_some() || self.sheet || self.typing || egui::Popup::is_any_open(ctx);
+        if !other && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape)) {
+            commands.push(Command::Teach(close));
+        }
+    }
+
     fn modals(&mut self, ctx: &egui::Context, commands: &mut Vec<Command>) {
         if let Some(query) = self.teaching.glossary.clone() {
             lessons::glossary::show(ctx, &query, commands);
@@ -665,7 +693,8 @@ impl eframe::App for App {
             self.merits.follow(run, ctx);
         }
         let mut commands = Vec::new();
-        keys::pressed(ctx, self.modal.is_some() || self.sheet, self.view.tab, &mut commands);
+        self.escape(ctx, &mut commands);
+        keys::pressed(ctx, self.modal.is_some() || self.sheet || self.typing, self.view.tab, &mut commands);
         let dropped: Vec<PathBuf> = ctx.input(|input| {
             input
                 .raw
@@ -705,7 +734,7 @@ impl eframe::App for App {
         egui::Panel::bottom("status").show(ui, |ui| {
             if let Some(recording) = self.on_timeline() {
                 ui.add_space(2.0);
-                timeline::show(ui, recording, &self.view, &mut commands);
+                timeline::show(ui, recording, self.periods(recording), &self.view, &mut commands);
             }
             exports::show(ui, &self.exports, (self.world.now)(), &palette, &mut commands);
             timeline::status(ui, shown.as_deref(), &self.activity, &palette, &mut commands);
@@ -784,6 +813,7 @@ impl eframe::App for App {
             }
         });
         self.modals(&ctx, &mut commands);
+        self.typing = ctx.text_edit_focused() && !lessons::glossary::is_searched(&ctx);
         if !commands.is_empty() {
             // What a command changes is drawn, and written away, soon.
             ctx.request_repaint();
@@ -806,6 +836,7 @@ impl eframe::App for App {
         storage.set_string("saved", own.saved().to_toml());
         storage.set_string("path", own.path().map(|p| p.display().to_string()).unwrap_or_default());
         storage.set_string("lessons", self.teaching.progress_text());
+        storage.set_string("pins", self.pins.stored());
         storage.set_string("tour", "seen".to_owned());
         let recent: Vec<String> = self.recent.iter().map(|path| path.display().to_string()).collect();
         storage.set_string("recent", recent.join("\n"));

@@ -67,6 +67,28 @@ impl Export {
         }
     }
 
+    /// What is written, for whoever has to choose.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Data => {
+                "Everything about the run on screen: the scene, the numbers as JSON, loads and fields as CSV and NumPy arrays, and all figures"
+            }
+            Self::Figures => "The figures of the run on screen as SVG, PNG and PDF, ready to print",
+            Self::Fields => "All fields over one cycle as NumPy arrays in one file, .npz",
+            Self::Animation => "One cycle as moving pictures: a GIF, or an animated PNG with all colours",
+            Self::Report => "One HTML file with the numbers and figures of this run; it opens without a network",
+            Self::Comparison => "The report, tables, overlaid figures and one cycle in phase of the pinned runs",
+            Self::ComparisonReport => {
+                "One HTML file with what differs between the pinned runs; it opens without a network"
+            }
+            Self::Sweep => "The scene, the table as CSV and JSON, and the figure of the sweep",
+            Self::SweepTable => "A row for each point, with every result and its error",
+            Self::SweepFigure => "The sweep as it is drawn here, with the published points",
+            Self::TradeoffTable => "A row for each setting, with its time and its error",
+            Self::TradeoffFigure => "Error against solve time of all settings, as it is drawn here",
+        }
+    }
+
     /// Kind of file and its extensions; `None` for a folder.
     fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
         match self {

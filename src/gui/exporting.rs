@@ -2,6 +2,7 @@
 
 use super::command::Command;
 use super::dialogs::Export;
+use super::panels::hint::Hint;
 use super::tabs::sweep::rough;
 use super::theme::Palette;
 use crate::job::task::Task;
@@ -108,7 +109,7 @@ impl Exports {
 pub fn show(ui: &mut egui::Ui, exports: &Exports, now: Instant, colours: &Palette, commands: &mut Vec<Command>) {
     if let Some(running) = &exports.running {
         ui.horizontal(|ui| {
-            if ui.button("Cancel the export").clicked() {
+            if ui.button("Cancel the export").hint("Ends it; nothing is written").clicked() {
                 commands.push(Command::Exporting(Exporting::Cancel));
             }
             let (drawn, all) = running.drawn;
@@ -127,12 +128,12 @@ pub fn show(ui: &mut egui::Ui, exports: &Exports, now: Instant, colours: &Palett
         ui.ctx().request_repaint_after(Duration::from_secs(1));
     } else if let Some(paths) = &exports.written {
         ui.horizontal(|ui| {
-            if ui.small_button("✕").accessible_name("Close the note").clicked() {
+            if ui.small_button("✕").hint("Closes this note").accessible_name("Close the note").clicked() {
                 commands.push(Command::Exporting(Exporting::Close));
             }
             let list = paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
             let text = RichText::new(summary(paths)).color(colours.good);
-            ui.add(egui::Label::new(text).truncate()).on_hover_text(list);
+            ui.add(egui::Label::new(text).truncate()).hint(list);
         });
     }
 }

@@ -112,8 +112,8 @@ fn all() -> impl Iterator<Item = &'static Shortcut> {
     GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter())
 }
 
-/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open. The plain keys are then its own, and
-/// those of an open menu. `tab`: the keys of the motion are its own.
+/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open, or text is typed. The plain keys are then its own,
+/// and those of an open menu. `tab`: the keys of the motion are its own.
 pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>) {
     let typing = modal || ctx.egui_wants_keyboard_input() || Popup::is_any_open(ctx);
     ctx.input_mut(|input| {
@@ -146,6 +146,12 @@ pub fn name(keys: &KeyboardShortcut) -> String {
     };
     let modifiers = ModifierNames::NAMES.format(&keys.modifiers, cfg!(target_os = "macos"));
     if modifiers.is_empty() { key.to_owned() } else { format!("{modifiers}+{key}") }
+}
+
+/// What the keys that ask for `command` do, and the keys: "Undo (Ctrl+Z)".
+pub fn about(command: &Command) -> String {
+    let found = all().find(|shortcut| (shortcut.command)() == *command);
+    found.map(|shortcut| format!("{} ({})", shortcut.about, name(&shortcut.keys))).unwrap_or_default()
 }
 
 /// The keys that ask for `command`; empty if none do.

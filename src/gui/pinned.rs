@@ -1,9 +1,12 @@
-//! Runs that were pinned to be compared: what they are called, their colours, and the numbers of all of them.
+//! Runs that were pinned to be compared: what they are called, their colours, and the numbers of all of them. Their scenes
+//! outlive the window, and are solved again.
 
 use super::views::overlay::Kept;
 use crate::analysis::compare::{ParameterRow, ResultRow, Run, parameters, results, unique};
+use crate::fidelity::Fidelity;
 use crate::job::task::Task;
 use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What is asked of the pins.
@@ -13,7 +16,7 @@ pub enum Pinning {
     Shown,
     /// Solves a built-in preset in the background and pins it.
     Preset(&'static str),
-    /// Forgets a preset that is being solved.
+    /// Forgets one that is being solved, or will be.
     Forget(u64),
     /// Calls a pin something else.
     Rename(u64, String),
@@ -50,16 +53,39 @@ pub struct Pin {
     pub kept: Kept,
 }
 
-/// A preset that is being solved.
+/// A pin that is being solved, or will be: a preset, or one of the last window.
 #[derive(Debug)]
 pub struct Waiting {
-    /// Its own number.
+    /// Its own number, which is that of its pin.
     pub id: u64,
-    /// Name of its scene.
+    /// What it is called, or will be.
     pub name: String,
-    task: Task<Run>,
+    scene: Scene,
+    fidelity: Fidelity,
+    /// The colour that it had.
+    slot: Option<usize>,
+    /// None: its turn has not come.
+    task: Option<Task<Run>>,
     /// It has told its run.
     told: bool,
+}
+
+/// A pin as it outlives the window.
+#[derive(Debug, Serialize, Deserialize)]
+struct Stored {
+    label: String,
+    slot: Option<usize>,
+    fidelity: String,
+    /// As a preset file has it.
+    scene: String,
+}
+
+impl Stored {
+    fn read(&self) -> Result<(Scene, Fidelity), String> {
+        let fidelity = self.fidelity.parse()?;
+        let scene = Scene::from_toml(&self.scene, &self.label).map_err(|error| error.to_string())?;
+        Ok((scene, fidelity))
+    }
 }
 
 /// All pins, the first being what differences are from.
@@ -99,7 +125,7 @@ impl Pins {
         &self.parameters
     }
 
-    /// Presets that are being solved.
+    /// Those that are being solved, or will be.
     pub fn waiting(&self) -> &[Waiting] {
         &self.waiting
     }
@@ -124,7 +150,13 @@ impl Pins {
     }
 
     /// Pins `run`; one that is there already, solved the same way, is not pinned twice.
-    pub fn add(&mut self, mut run: Run) {
+    pub fn add(&mut self, run: Run) {
+        let id = self.number();
+        self.insert(id, None, run);
+    }
+
+    /// Pins `run` under its own number, in the order of the numbers. `kept`: what it was called, and its colour.
+    fn insert(&mut self, id: u64, kept: Option<(String, usize)>, mut run: Run) {
         let twin = self.runs.iter().find(|other| other.scene == run.scene && fidelity(other) == fidelity(&run));
         if let Some(twin) = twin {
             self.note = Some(format!("“{}” is this run already", twin.label));
@@ -134,11 +166,22 @@ impl Pins {
         if run.solved.is_err() {
             return;
         }
-        run.label = self.name_of(&run);
-        let slot = (0..).find(|slot| self.pins.iter().all(|pin| pin.slot != *slot)).unwrap_or_default();
-        let id = self.number();
-        self.pins.push(Pin { id, slot, kept: Kept::new(&run) });
-        self.runs.push(run);
+        let taken = |slot: usize| {
+            self.pins.iter().any(|pin| pin.slot == slot) || self.waiting.iter().any(|other| other.slot == Some(slot))
+        };
+        let slot = match kept {
+            Some((label, slot)) => {
+                run.label = unique(&label, |label| self.runs.iter().any(|other| other.label == label));
+                slot
+            }
+            None => {
+                run.label = self.name_of(&run);
+                (0..).find(|slot| !taken(*slot)).unwrap_or_default()
+            }
+        };
+        let place = self.pins.partition_point(|pin| pin.id < id);
+        self.pins.insert(place, Pin { id, slot, kept: Kept::new(&run) });
+        self.runs.insert(place, run);
         self.tabulate();
     }
 
@@ -165,11 +208,62 @@ impl Pins {
         unique(name, taken)
     }
 
-    /// Waits for `task`, which solves a scene of this name.
-    pub fn wait(&mut self, name: String, task: Task<Run>) {
+    /// Waits for `task`, which solves this scene.
+    pub fn wait(&mut self, scene: Scene, fidelity: Fidelity, task: Task<Run>) {
         let id = self.number();
         self.note = None;
-        self.waiting.push(Waiting { id, name, task, told: false });
+        let name = scene.name.clone();
+        self.waiting.push(Waiting { id, name, scene, fidelity, slot: None, task: Some(task), told: false });
+    }
+
+    /// All pins as text, also those that are still to be solved.
+    pub fn stored(&self) -> String {
+        let pinned = self.pins.iter().zip(&self.runs).map(|(pin, run)| {
+            let (label, scene) = (run.label.clone(), run.scene.to_toml());
+            (pin.id, Stored { label, slot: Some(pin.slot), fidelity: fidelity(run).to_owned(), scene })
+        });
+        let waiting = self.waiting.iter().map(|waiting| {
+            let (label, scene) = (waiting.name.clone(), waiting.scene.to_toml());
+            (waiting.id, Stored { label, slot: waiting.slot, fidelity: waiting.fidelity.name().to_owned(), scene })
+        });
+        let mut all: Vec<(u64, Stored)> = pinned.chain(waiting).collect();
+        all.sort_by_key(|(id, _)| *id);
+        let all: Vec<Stored> = all.into_iter().map(|(_, stored)| stored).collect();
+        serde_json::to_string(&all).unwrap_or_default()
+    }
+
+    /// The pins of [`Self::stored`], which wait until they are solved; what cannot be read of them is left out, and said.
+    ///
+    /// # Errors
+    /// What could not be read.
+    pub fn restore(&mut self, text: &str) -> Result<(), String> {
+        let stored: Vec<Stored> = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let mut faults = Vec::new();
+        for stored in stored {
+            match stored.read() {
+                Ok((scene, fidelity)) => {
+                    let (id, name, slot) = (self.number(), stored.label, stored.slot);
+                    self.waiting.push(Waiting { id, name, scene, fidelity, slot, task: None, told: false });
+                }
+                Err(fault) => faults.push(fault),
+            }
+        }
+        if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
+    }
+
+    /// The next that is to be solved, if no other is under way.
+    pub fn turn(&self) -> Option<(u64, &Scene, Fidelity)> {
+        if self.waiting.iter().any(|waiting| waiting.task.is_some()) {
+            return None;
+        }
+        self.waiting.first().map(|waiting| (waiting.id, &waiting.scene, waiting.fidelity))
+    }
+
+    /// `task` solves the one whose turn it is.
+    pub fn begin(&mut self, id: u64, task: Task<Run>) {
+        if let Some(waiting) = self.waiting.iter_mut().find(|waiting| waiting.id == id) {
+            waiting.task = Some(task);
+        }
     }
 
     /// Takes what has been solved since the last time.
@@ -177,19 +271,23 @@ impl Pins {
         let mut solved = Vec::new();
         let mut failed = None;
         self.waiting.retain_mut(|waiting| {
-            let (runs, ended) = waiting.task.drain();
+            let Some(task) = &waiting.task else { return true };
+            let (runs, ended) = task.drain();
             waiting.told |= !runs.is_empty();
             if ended && !waiting.told {
                 failed = Some(format!("{} could not be solved", waiting.name));
             }
-            solved.extend(runs);
+            let kept = waiting.slot.map(|slot| (waiting.name.clone(), slot));
+            solved.extend(runs.into_iter().map(|run| (waiting.id, kept.clone(), run)));
             !ended
         });
         self.note = failed.or(self.note.take());
-        solved.into_iter().for_each(|run| self.add(run));
+        for (id, kept, run) in solved {
+            self.insert(id, kept, run);
+        }
     }
 
-    /// Forgets a preset that is being solved: cancels it.
+    /// Forgets one that is being solved, or will be: cancels it.
     pub fn forget(&mut self, id: u64) {
         self.waiting.retain(|waiting| waiting.id != id);
     }

@@ -1,5 +1,6 @@
 //! A sweep as the window has it: what is asked for, how far it is, and what was found.
 
+use super::panels::labels::unused;
 use super::panels::parameters::{slider_range, to_digits};
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, SweepError, Vary};
@@ -189,11 +190,11 @@ pub fn varies(scene: &Scene, key: &str) -> bool {
     candidates(scene).any(|parameter| parameter.key == key)
 }
 
-/// What can be varied.
+/// What can be varied: numbers that have an effect here.
 pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '_ {
-    scene
-        .parameters()
-        .filter(|parameter| matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. }))
+    let number =
+        |parameter: &&Parameter| matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
+    scene.parameters().filter(number).filter(|parameter| unused(scene, parameter).is_none())
 }
 
 /// What the worker tells.
@@ -466,6 +467,8 @@ mod tests {
         sweeps.edit(&motor, Sweeping::From(0, "50".to_owned()));
         sweeps.review(&motor);
         assert_eq!(sweeps.form().unwrap().x.from, "50");
+        // What has no effect on a plate is not offered.
+        assert!(varies(&motor, "film.min_spacing_nm") && !varies(&plate, "film.min_spacing_nm"));
         sweeps.edit(&motor, Sweeping::Second(true));
         sweeps.review(&plate);
         let form = sweeps.form().unwrap();

@@ -155,6 +155,8 @@ pub struct Mathematics {
     pub display: f32,
     /// Indices and exponents.
     pub script: f32,
+    /// The sign of a sum on its own.
+    pub sum: f32,
     /// What is over and under a line in the middle of a text.
     pub fraction: f32,
     /// The smallest \[points\].
@@ -173,6 +175,7 @@ pub struct Mathematics {
 pub const MATHEMATICS: Mathematics = Mathematics {
     display: 1.2,
     script: 0.72,
+    sum: 1.5,
     fraction: 0.8,
     least: 8.5,
     axis: 0.27,

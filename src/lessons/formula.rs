@@ -79,6 +79,9 @@ pub enum FormulaError {
     TooDeep(usize),
 }
 
+/// A sum: on its own, what it is over stands below it.
+pub const SUM: &str = "∑";
+
 /// Levels of groups.
 const DEEPEST: usize = 24;
 
@@ -123,6 +126,7 @@ const SYMBOLS: &[(&str, &str)] = &[
     ("nabla", "∇"),
     ("infty", "∞"),
     ("int", "∫"),
+    ("sum", SUM),
     ("langle", "⟨"),
     ("rangle", "⟩"),
     ("dots", "…"),
@@ -466,6 +470,8 @@ mod tests {
             (r"T_\text{max} = \mu_d (1 - \alpha) L r", "T_max = μ_d(1 − α)Lr"),
             (r"\left( 1 + \frac{6 \lambda_a}{h} \right)", "(1 + (6λ_a)/h)"),
             (r"x^10", "x^10"),
+            (r"\sum_{n\text{ odd}} \frac{1}{n^2}", "∑_(n odd)1/n^2"),
+            (r"\left\langle H \right\rangle", "⟨H⟩"),
         ] {
             assert_eq!(read(source), expected, "{source}");
         }

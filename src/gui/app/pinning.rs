@@ -1,7 +1,9 @@
 //! What is asked of the pins, carried out.
 
 use super::App;
+use crate::analysis::compare::Run;
 use crate::analysis::compare::runs;
+use crate::fidelity::Fidelity;
 use crate::gui::modal::Modal;
 use crate::gui::pinned::{Pinning, Pins, of_window};
 use crate::job::task::Task;
@@ -45,23 +47,26 @@ impl App {
                 return;
             }
         };
-        let settings = Settings { fidelity: self.document.aim(), ..Settings::default() };
-        let (wake, title) = (ctx.clone(), scene.name.clone());
-        let task = Task::start(
-            "pin",
-            move |_| wake.request_repaint(),
-            move |cancel, tell| {
-                // Built-in presets are solved by this method, and a run that was cancelled has nobody who waits for it.
-                if let Ok(solved) = runs(&[scene], &settings, cancel, &|_| ())
-                    && !cancel.is_cancelled()
-                {
-                    solved.into_iter().for_each(tell);
-                }
-            },
-        );
-        match task {
-            Ok(task) => self.pins.wait(title, task),
+        let fidelity = self.document.aim();
+        match solve(ctx, &scene, fidelity) {
+            Ok(task) => self.pins.wait(scene, fidelity, task),
             Err(error) => self.modal = Some(Modal::Error(format!("The preset cannot be solved: {error}"))),
+        }
+    }
+
+    /// Solves again what was pinned in the last window: one after the other, and not before the scene on screen.
+    pub(super) fn solve_pins(&mut self, ctx: &egui::Context) {
+        let waits = self.shown.as_ref().is_none_or(|run| self.activity.stale(run)) && self.activity.failure.is_none();
+        if waits || self.activity.running.is_some() {
+            return;
+        }
+        let Some((id, scene, fidelity)) = self.pins.turn() else { return };
+        match solve(ctx, scene, fidelity) {
+            Ok(task) => self.pins.begin(id, task),
+            Err(error) => {
+                self.pins.forget(id);
+                self.modal = Some(Modal::Error(format!("A pinned run cannot be solved again: {error}")));
+            }
         }
     }
 
@@ -73,4 +78,22 @@ impl App {
             self.refine();
         }
     }
+}
+
+/// Solves a scene to be pinned, in the background.
+fn solve(ctx: &egui::Context, scene: &Scene, fidelity: Fidelity) -> std::io::Result<Task<Run>> {
+    let settings = Settings { fidelity, ..Settings::default() };
+    let (wake, scene) = (ctx.clone(), scene.clone());
+    Task::start(
+        "pin",
+        move |_| wake.request_repaint(),
+        move |cancel, tell| {
+            // Every scene is solved by this method, and a run that was cancelled has nobody who waits for it.
+            if let Ok(solved) = runs(&[scene], &settings, cancel, &|_| ())
+                && !cancel.is_cancelled()
+            {
+                solved.into_iter().for_each(tell);
+            }
+        },
+    )
 }

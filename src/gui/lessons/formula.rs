@@ -1,7 +1,7 @@
 //! Sets formulas: every part is a box with a width, a height above the line of writing and a depth below it.
 
 use crate::gui::theme::MATHEMATICS as SIZES;
-use crate::lessons::formula::{Mark, Node};
+use crate::lessons::formula::{Mark, Node, SUM};
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Galley, Painter, Pos2, Shape, Stroke, Vec2, pos2, vec2};
 use std::sync::Arc;
@@ -150,7 +150,38 @@ impl Set {
         set
     }
 
-    fn script(painter: &Painter, base: &[Node], [index, exponent]: [&[Node]; 2], style: Style) -> Self {
+    /// A sum on its own, with what it is over below and how far it goes above.
+    fn sum(painter: &Painter, [index, exponent]: [&[Node]; 2], style: Style) -> Self {
+        let small = style.scaled(SIZES.script);
+        let large = SIZES.sum * style.size;
+        let (galley, _) = galley(painter, SUM, large, style.colour, false);
+        // Its middle is where those of + and of fractions are.
+        let (ascent, descent) = (SIZES.ascent * large, SIZES.descent * large);
+        let drop = 0.5 * (ascent - descent) - SIZES.axis * style.size;
+        let sign = galley.size().x;
+        let [below, above] = [index, exponent].map(|nodes| Self::of(painter, nodes, small));
+        let width = sign.max(below.width).max(above.width);
+        let gap = 0.1 * style.size;
+        let mut set = Self { width: width + 0.1 * style.size, ..Self::default() };
+        let sign = Self { width: sign, ascent, descent, pieces: vec![Piece::Text(Pos2::ZERO, galley)] };
+        for (part, down) in [
+            (below.clone(), drop + descent + gap + below.ascent),
+            (above.clone(), drop - ascent - gap - above.descent),
+            (sign, drop),
+        ] {
+            if !part.pieces.is_empty() {
+                let middle = 0.5 * (width - part.width);
+                set.place(part, vec2(middle, down));
+            }
+        }
+        set
+    }
+
+    fn script(painter: &Painter, base: &[Node], scripts: [&[Node]; 2], style: Style) -> Self {
+        if style.display && matches!(base, [Node::Upright(sign)] if sign == SUM) {
+            return Self::sum(painter, scripts, style);
+        }
+        let [index, exponent] = scripts;
         let small = style.scaled(SIZES.script);
         let mut set = Self::of(painter, base, style);
         let (base_ascent, base_descent, start) = (set.ascent, set.descent, set.width + 0.02 * style.size);

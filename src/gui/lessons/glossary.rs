@@ -3,14 +3,14 @@
 use super::Teach;
 use super::rich::{self, Look};
 use crate::gui::command::Command;
+use crate::gui::panels::hint::{beside_with, describe};
 use crate::gui::theme::palette;
 use crate::lessons::glossary::{Term, find, terms};
+use crate::lessons::text::plain_blocks;
 use eframe::egui::{self, Id, RichText, Ui};
 
 /// Widest explanation on hover.
 const WIDTH: f32 = 320.0;
-/// Between a title and its drawing, and above it.
-const TITLE_ROOM: f32 = 6.0;
 /// Size of the window.
 const SIZE: [f32; 2] = [440.0, 520.0];
 
@@ -18,20 +18,49 @@ fn unexplained_id() -> Id {
     Id::unique("glossary, unexplained")
 }
 
+fn search_id() -> Id {
+    Id::unique("glossary, search")
+}
+
+/// Whether what is looked for is being typed.
+pub fn is_searched(ctx: &egui::Context) -> bool {
+    ctx.memory(|memory| memory.has_focus(search_id()))
+}
+
 /// Words that were shown and that the glossary does not have: none, which a test asks for.
 pub fn unexplained(ctx: &egui::Context) -> Vec<String> {
     ctx.data(|data| data.get_temp::<Vec<String>>(unexplained_id())).unwrap_or_default()
 }
 
-/// Explains `word` while the pointer rests on `response`.
+/// Explains `word` while the pointer rests on `response`, beside the panel that it is in.
 pub fn hover(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
+    explain(ui, response, word, Some(ui.clip_rect()))
+}
+
+/// Explains `word` while the pointer rests on `response`, close to it: for the middle of the window.
+pub fn here(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
+    explain(ui, response, word, None)
+}
+
+/// What is drawn at `place`, the `number`th of its drawing, as something to point at.
+pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
+    let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("About: {word}")));
+    response
+}
+
+fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Rect>) -> egui::Response {
     match find(word) {
         Some(term) => {
-            let panel = ui.clip_rect();
-            crate::gui::panels::hint::beside_with(panel, response, |ui| {
+            describe(&response, || format!("{}: {}", title(term), plain_blocks(&term.text)));
+            let add = |ui: &mut Ui| {
                 ui.set_max_width(WIDTH);
                 explanation(ui, term);
-            })
+            };
+            match panel {
+                Some(panel) => beside_with(panel, response, add),
+                None => response.on_hover_ui(add),
+            }
         }
         None => {
             ui.ctx().data_mut(|data| {
@@ -43,13 +72,6 @@ pub fn hover(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
             response
         }
     }
-}
-
-/// Explains `word` while the pointer rests on the title of a drawing: the row of text above `drawing`.
-pub fn over_title(ui: &Ui, drawing: egui::Rect, row: f32, word: &str) {
-    let title = egui::Rect::from_min_max(drawing.left_top() - egui::vec2(0.0, row + TITLE_ROOM), drawing.right_top());
-    let response = ui.interact(title, ui.scope_id().with(("title", word)), egui::Sense::hover());
-    hover(ui, response, word);
 }
 
 fn explanation(ui: &mut Ui, term: &Term) {
@@ -78,7 +100,7 @@ pub fn show(ctx: &egui::Context, query: &str, commands: &mut Vec<Command>) {
             let mut text = query.to_owned();
             ui.horizontal(|ui| {
                 let label = ui.label("Search");
-                let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(f32::INFINITY));
+                let field = ui.add(egui::TextEdit::singleline(&mut text).id(search_id()).desired_width(f32::INFINITY));
                 let field = field.labelled_by(label.id);
                 if ui.memory(|memory| memory.focused().is_none()) && query.is_empty() {
                     field.request_focus();

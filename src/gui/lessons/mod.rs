@@ -5,7 +5,7 @@
 mod formula;
 pub mod glossary;
 mod panel;
-mod rich;
+pub(in crate::gui) mod rich;
 pub mod tour;
 
 pub use panel::show;

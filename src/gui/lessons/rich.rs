@@ -8,15 +8,15 @@ use std::sync::Arc;
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(in crate::gui) struct Look {
     /// Height of the text \[points\].
-    pub(super) size: f32,
-    pub(super) colour: Color32,
+    pub(in crate::gui) size: f32,
+    pub(in crate::gui) colour: Color32,
 }
 
 impl Look {
     /// The usual text of this ui.
-    pub(super) fn usual(ui: &Ui) -> Self {
+    pub(in crate::gui) fn usual(ui: &Ui) -> Self {
         Self { size: TextStyle::Body.resolve(ui.style()).size, colour: ui.visuals().text_color() }
     }
 
@@ -32,7 +32,7 @@ impl Look {
 }
 
 /// Shows blocks below each other.
-pub(super) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
+pub(in crate::gui) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
     for (i, block) in blocks.iter().enumerate() {
         if i > 0 {
             ui.add_space(0.45 * look.size);

@@ -1,12 +1,32 @@
-//! Explanations on hover that do not cover the rows around them: beside the panel.
+//! Explanations on hover, which screen readers get too. In a panel they stand beside it and do not cover the rows around.
 
 use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui};
 
 /// Between the panel and the explanation.
 const GAP: f32 = 12.0;
 
+/// Tells screen readers what the pointer is told.
+pub fn describe(response: &Response, text: impl FnOnce() -> String) {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_description(text()));
+}
+
+/// Something that says what it is while the pointer rests on it.
+pub trait Hint {
+    /// Shows `text` at the widget.
+    fn hint(self, text: impl Into<String>) -> Self;
+}
+
+impl Hint for Response {
+    fn hint(self, text: impl Into<String>) -> Self {
+        let text = text.into();
+        describe(&self, || text.clone());
+        self.on_hover_text(text)
+    }
+}
+
 /// Shows `text` beside `panel` while the pointer rests on `response`, a widget in it.
 pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
+    describe(&response, || text.to_owned());
     beside_with(panel, response, |ui| drop(ui.label(text)))
 }
 

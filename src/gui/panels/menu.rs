@@ -1,6 +1,6 @@
 //! The menu bar.
 
-use super::hint::beside;
+use super::hint::{Hint, beside};
 use crate::gui::command::Command;
 use crate::gui::dialogs::Export;
 use crate::gui::document::Document;
@@ -66,7 +66,7 @@ pub fn show(
             },
             |p| p.display().to_string(),
         );
-        title.on_hover_text(if document.is_dirty() { format!("{place} (changes not saved)") } else { place });
+        title.hint(if document.is_dirty() { format!("{place} (changes not saved)") } else { place });
     });
 }
 
@@ -104,11 +104,20 @@ const TRADEOFF: &[(&str, Export)] =
 
 /// A button with a menu of exports.
 pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], commands: &mut Vec<Command>) {
-    ui.menu_button("Export ▾", |ui| {
+    let menu = ui.menu_button("Export ▾", |ui| {
         for (text, export) in group {
-            item(ui, text, true, Command::Export(*export), commands);
+            export_item(ui, text, *export, true, commands);
         }
     });
+    menu.response.hint("Writes this to files, as the command line does");
+}
+
+fn export_item(ui: &mut egui::Ui, text: &str, export: Export, enabled: bool, commands: &mut Vec<Command>) {
+    let entry = ui.add_enabled(enabled, Button::new(text));
+    if beside(ui.max_rect(), entry, export.about()).clicked() {
+        commands.push(Command::Export(export));
+        ui.close();
+    }
 }
 
 fn exports(ui: &mut egui::Ui, available: &dyn Fn(Export) -> bool, commands: &mut Vec<Command>) {
@@ -117,7 +126,7 @@ fn exports(ui: &mut egui::Ui, available: &dyn Fn(Export) -> bool, commands: &mut
             ui.separator();
         }
         for (text, export) in *group {
-            item(ui, text, available(*export), Command::Export(*export), commands);
+            export_item(ui, text, *export, available(*export), commands);
         }
     }
 }

@@ -2,12 +2,13 @@
 //! otherwise. After a switch, what it changed.
 
 use super::convergence::power_of_ten;
-use super::hint::beside;
+use super::hint::{Hint, beside};
 use super::labels;
 use crate::export::digits::significant;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
 use crate::gui::comparison::Change;
+use crate::gui::lessons::glossary;
 use crate::gui::theme::Palette;
 use crate::job::Run;
 use crate::plan::Decision;
@@ -178,7 +179,8 @@ impl Row<'_, '_> {
                 .truncate()
                 .show_ui(ui, |ui| {
                     for fidelity in Fidelity::ALL {
-                        if ui.selectable_label(fidelity == aim, fidelity.name()).clicked() && fidelity != aim {
+                        let entry = ui.selectable_label(fidelity == aim, fidelity.name());
+                        if glossary::hover(ui, entry, fidelity.name()).clicked() && fidelity != aim {
                             self.commands.push(Command::Use { aim: fidelity, numerics });
                         }
                     }
@@ -294,7 +296,7 @@ impl Row<'_, '_> {
                 ("As the plan would", self.colours.quiet)
             };
             ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
-            let button = ui.small_button("Back to auto");
+            let button = ui.small_button("Back to auto").hint("Leaves this to the program again");
             if button.accessible_name(format!("{} back to auto", capitalised(decision.term))).clicked() {
                 self.commands.push(back);
             }

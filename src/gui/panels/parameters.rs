@@ -1,7 +1,7 @@
 //! The left panel: every parameter of the scene. Reads the scene, pushes commands.
 
 use super::field::{self, Field};
-use super::hint::beside;
+use super::hint::{Hint, beside};
 use super::labels::{self, choice, field_name, label, switch};
 use crate::gui::command::Command;
 use crate::gui::edit::Refusals;
@@ -207,7 +207,7 @@ impl Panel<'_> {
             let area = egui::Rect::from_min_size(corner, egui::vec2(side, side));
             let text = default.as_ref().map(|value| self.in_words(parameter, value)).unwrap_or_default();
             let response = reset_button(ui, area, &format!("Reset {}", label(parameter).to_lowercase()))
-                .on_hover_text(format!("Reset to {text}"));
+                .hint(format!("Reset to {text}"));
             if response.clicked() {
                 self.commands.push(Command::Reset { key: parameter.key });
             }

@@ -47,13 +47,15 @@ pub fn show(ui: &mut egui::Ui, run: &Run, model: &Model<'_>, dark: bool, command
         ui.add_space(8.0);
         ui.separator();
         if !run.solution.model.decisions.is_empty() {
-            egui::CollapsingHeader::new(RichText::new("Model").strong())
+            let part = egui::CollapsingHeader::new(RichText::new("Model").strong())
                 .default_open(true)
                 .show_unindented(ui, |ui| model::show(ui, run, model, &colours, commands));
+            glossary::hover(ui, part.header_response, "Model");
         }
-        egui::CollapsingHeader::new(RichText::new("How it was solved").strong())
+        let part = egui::CollapsingHeader::new(RichText::new("How it was solved").strong())
             .default_open(true)
             .show_unindented(ui, |ui| how(ui, run, &colours));
+        glossary::hover(ui, part.header_response, "How it was solved");
         ui.add_space(12.0);
     });
 }

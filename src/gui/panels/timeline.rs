@@ -5,6 +5,7 @@ use crate::gui::app::Activity;
 use crate::gui::command::Command;
 use crate::gui::keys;
 use crate::gui::lessons::glossary;
+use crate::gui::panels::hint::Hint;
 use crate::gui::spot;
 use crate::gui::state::View;
 use crate::gui::theme::Palette;
@@ -16,50 +17,64 @@ use eframe::egui::{self, ProgressBar, RichText, Slider};
 /// Seconds on screen for one cycle that can be chosen.
 const SPEEDS: [f64; 6] = [0.5, 1.5, 3.0, 6.0, 12.0, 30.0];
 
-/// Play, step, scrub and speed.
-pub fn show(ui: &mut egui::Ui, recording: &Recording, view: &View, commands: &mut Vec<Command>) {
+/// Play, step, scrub and speed. `periods`: the shortest and the longest of what moves \[s\].
+pub fn show(ui: &mut egui::Ui, recording: &Recording, periods: [f64; 2], view: &View, commands: &mut Vec<Command>) {
     let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
     let row = ui.horizontal(|ui| {
         let play = if view.playing { "Pause" } else { "Play" };
         if ui
             .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
-            .on_hover_text(keys::of(&Command::TogglePlay))
+            .hint(keys::about(&Command::TogglePlay))
             .clicked()
         {
             commands.push(Command::TogglePlay);
         }
-        if ui.button("◀").on_hover_text(format!("One frame back ({})", keys::of(&Command::StepFrames(-1)))).clicked()
-        {
+        if ui.button("◀").hint(keys::about(&Command::StepFrames(-1))).clicked() {
             commands.push(Command::StepFrames(-1));
         }
-        if ui.button("▶").on_hover_text(format!("One frame on ({})", keys::of(&Command::StepFrames(1)))).clicked() {
+        if ui.button("▶").hint(keys::about(&Command::StepFrames(1))).clicked() {
             commands.push(Command::StepFrames(1));
         }
-        let slow = view.seconds_per_cycle / recording.period;
-        let speed = egui::ComboBox::from_id_salt("speed")
-            .selected_text(format!("slowed {}×", thousands(slow)))
-            .show_ui(ui, |ui| {
+        let alike = same(periods);
+        let slowed = |seconds: f64| {
+            let [most, least] = periods.map(|period| thousands(seconds / period));
+            if alike { format!("slowed {most}×") } else { format!("slowed {least} to {most}×") }
+        };
+        let speed =
+            egui::ComboBox::from_id_salt("speed").selected_text(slowed(view.seconds_per_cycle)).show_ui(ui, |ui| {
                 for seconds in SPEEDS {
-                    let text = format!("one cycle in {seconds} s, slowed {}×", thousands(seconds / recording.period));
+                    let text = format!("one cycle in {seconds} s, {}", slowed(seconds));
                     if ui.selectable_label(seconds == view.seconds_per_cycle, text).clicked() {
                         commands.push(Command::SecondsPerCycle(seconds));
                     }
                 }
             });
         name(&speed.response, "Speed");
+        glossary::here(ui, speed.response, "Slow motion");
         let mut at = place;
         ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
         let slider = Slider::new(&mut at, 0.0..=frames).clamping(egui::SliderClamping::Never).show_value(false);
         let scrub = ui.add(slider.smart_aim(false));
         name(&scrub, "Time in the cycle");
+        let scrub = scrub.hint("Drag to an instant of the cycle");
         if scrub.changed() {
             // To a recorded frame; the end of the cycle is its start.
             commands.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
         }
         let phase = place / frames;
-        ui.label(format!("t = {}  ({:.0}°)", time(recording.period * phase), (360.0 * phase).round() % 360.0));
+        let degrees = (360.0 * phase).round() % 360.0;
+        ui.label(if alike {
+            format!("t = {}  ({degrees:.0}°)", time(recording.period * phase))
+        } else {
+            format!("{degrees:.0}° of each cycle")
+        });
     });
     spot::mark(ui, "timeline", row.response.rect);
+}
+
+/// Whether all that moves has one period.
+fn same([shortest, longest]: [f64; 2]) -> bool {
+    longest / shortest - 1.0 < 1e-9
 }
 
 /// Fidelity, error, time; progress and cancel while something runs.
@@ -89,11 +104,11 @@ pub fn status(
             ui.label("Nothing solved yet");
         }
         if let Some(message) = &activity.failure {
-            ui.label(RichText::new(message).color(palette.alarm)).on_hover_text(message);
+            ui.label(RichText::new(message).color(palette.alarm)).hint(message);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if let Some(running) = &activity.running {
-                if ui.button("Cancel").on_hover_text(keys::of(&Command::CancelSolve)).clicked() {
+                if ui.button("Cancel").hint(keys::about(&Command::CancelSolve)).clicked() {
                     commands.push(Command::CancelSolve);
                 }
                 ui.add(ProgressBar::new(running.fraction()).desired_width(120.0));
@@ -101,7 +116,7 @@ pub fn status(
             } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !activity.stale(run)) {
                 let text = "Solve for reference";
                 let hover = "Some seconds: the error falls to a few millionths";
-                if ui.small_button(text).on_hover_text(hover).clicked() {
+                if ui.small_button(text).hint(hover).clicked() {
                     commands.push(Command::Refine(Fidelity::Reference));
                 }
             }

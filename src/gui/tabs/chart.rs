@@ -1,6 +1,7 @@
 //! What the charts of the tabs have in common.
 
-use eframe::egui::{self, Color32, RichText, TextStyle};
+use crate::gui::lessons::glossary;
+use eframe::egui::{self, Color32, Rect, RichText, TextStyle};
 use egui_plot::{GridInput, GridMark, LineStyle, Plot};
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
@@ -40,12 +41,32 @@ pub(super) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
         .set_margin_fraction(egui::Vec2::ZERO)
 }
 
-/// A title above a chart, with its unit.
-pub(super) fn title(ui: &mut egui::Ui, text: &str) {
-    ui.add(egui::Label::new(RichText::new(text).strong()).wrap());
+/// The place of the next chart of this height, with its axes.
+pub(super) fn place(ui: &egui::Ui, height: f32) -> Rect {
+    Rect::from_min_size(ui.cursor().min, egui::vec2(ui.available_width(), height))
 }
 
-/// Entries of a legend: name, colour, how the line is drawn.
+/// Explains the axes of a chart at `place` on hover, whose curves are within `frame`: that along x, and that along y.
+pub(super) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
+    let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=place.bottom());
+    let left = Rect::from_x_y_ranges(place.left()..=frame.left(), frame.y_range());
+    for (number, (rect, word)) in [(below, x), (left, Some(y))].into_iter().enumerate() {
+        if let Some(word) = word {
+            // Charts of one tab are told apart by where they are.
+            let number = number + 2 * place.top().max(0.0) as usize + 100_000 * place.left().max(0.0) as usize;
+            let response = glossary::over(ui, rect, word, number);
+            glossary::here(ui, response, word);
+        }
+    }
+}
+
+/// A title above a chart, with its unit, which the glossary explains under `word`.
+pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
+    let label = ui.add(egui::Label::new(RichText::new(text).strong()).wrap());
+    glossary::here(ui, label, word);
+}
+
+/// Entries of a legend, which the glossary knows: name, colour, how the line is drawn.
 pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) {
     ui.horizontal_wrapped(|ui| {
         for (text, colour, style) in entries {
@@ -56,6 +77,7 @@ pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) 
             let (area, response) =
                 ui.allocate_exact_size(egui::vec2(indent + galley.size().x + 0.5 * em, em), egui::Sense::hover());
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, *text));
+            glossary::here(ui, response, text);
             let ends = [area.left_center(), area.left_center() + egui::vec2(SAMPLE * em, 0.0)];
             let stroke = egui::Stroke::new(2.0, *colour);
             match style {

@@ -5,7 +5,9 @@ use crate::analysis::quantity::Quantity;
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::Command;
 use crate::gui::keys;
-use crate::gui::panels::labels::label;
+use crate::gui::lessons::glossary;
+use crate::gui::panels::hint::Hint;
+use crate::gui::panels::labels::{explanation, label};
 use crate::gui::panels::menu::{COMPARISON, export_button, presets_menu};
 use crate::gui::panels::parameters::capitalised;
 use crate::gui::pinned::{Page, Pinning, Pins, fidelity};
@@ -20,8 +22,13 @@ const WIDEST_LABEL: f32 = 16.0;
 /// Between a pin's parts.
 const CHIP_MARGIN: i8 = 4;
 const CHIP_GAP: f32 = 5.0;
-/// With more runs than this, differences stand below the values instead of beside them.
+/// With more runs than this, or in a tab narrower than their columns, differences stand below the values instead of beside
+/// them.
 const BESIDE: usize = 3;
+/// Widths of the columns of names, values and differences, and of a label above them that has room or has not, in heights of
+/// the text.
+const COLUMNS: [f32; 3] = [12.0, 9.0, 8.0];
+const HEADS: [f32; 2] = [11.0, 7.5];
 
 /// What the tab shows.
 #[derive(Clone, Copy, Debug)]
@@ -86,26 +93,30 @@ fn introduction(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mu
 fn add_buttons(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let pin = Command::Pin(Pinning::Shown);
     let button = ui.add_enabled(shown.solved, egui::Button::new("Pin the run on screen"));
-    if button.on_hover_text(keys::of(&pin)).clicked() {
+    if button.hint(keys::about(&pin)).clicked() {
         commands.push(pin);
     }
-    ui.menu_button("Pin a preset ▾", |ui| {
+    let menu = ui.menu_button("Pin a preset ▾", |ui| {
         presets_menu(ui, |name| Command::Pin(Pinning::Preset(name)), commands);
     });
+    menu.response.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
 }
 
 /// Who is pinned: the legend of all drawings.
 fn chips(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<Command>) {
     let pins = shown.pins;
     ui.horizontal_wrapped(|ui| {
-        for (page, name) in [(Page::Fields, "Fields"), (Page::Numbers, "Numbers")] {
-            if ui.selectable_label(pins.page == page, name).clicked() {
+        for (page, name, about) in [
+            (Page::Fields, "Fields", "Waves, pressures, maps and loads of all pinned runs, in phase"),
+            (Page::Numbers, "Numbers", "Results and parameters of all pinned runs, and what differs"),
+        ] {
+            if ui.selectable_label(pins.page == page, name).hint(about).clicked() {
                 commands.push(Command::Pin(Pinning::Look(page)));
             }
         }
         ui.separator();
         add_buttons(ui, shown, commands);
-        if pins.runs().len() > 1 && ui.button("Remove all").clicked() {
+        if pins.runs().len() > 1 && ui.button("Remove all").hint("Takes all pins away").clicked() {
             commands.push(Command::Pin(Pinning::Clear));
         }
         if pins.runs().len() > 1 {
@@ -122,7 +133,7 @@ fn chips(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec<C
             frame(ui, colours.quiet).show(ui, |ui| {
                 ui.spinner();
                 ui.label(&waiting.name);
-                let forget = ui.small_button("✕").on_hover_text("Do not pin it");
+                let forget = ui.small_button("✕").hint("Do not pin it");
                 if forget.accessible_name(format!("Do not pin {}", waiting.name)).clicked() {
                     commands.push(Command::Pin(Pinning::Forget(waiting.id)));
                 }
@@ -166,12 +177,12 @@ fn chip_parts(
         ui.painter().rect_filled(swatch, 2.0, colour);
         name_field(ui, id, run, label, commands);
         if !present {
-            let open = ui.small_button("Open").on_hover_text("Makes this the present scene; undo brings back what was");
+            let open = ui.small_button("Open").hint("Makes this the present scene; undo brings back what was");
             if open.accessible_name(format!("Open {}", run.label)).clicked() {
                 commands.push(Command::Pin(Pinning::Open(id)));
             }
         }
-        let remove = ui.small_button("✕").on_hover_text("Remove this pin");
+        let remove = ui.small_button("✕").hint("Remove this pin");
         if remove.accessible_name(format!("Remove {}", run.label)).clicked() {
             commands.push(Command::Pin(Pinning::Remove(id)));
         }
@@ -191,7 +202,7 @@ fn name_field(ui: &mut Ui, pin: u64, run: &Run, width: f32, commands: &mut Vec<C
         .min_size(vec2(width, ui.spacing().interact_size.y))
         .desired_width(width);
     let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
-    let response = ui.add(field).on_hover_text(about);
+    let response = ui.add(field).hint(about);
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, format!("Label of {}", run.label))
     });
@@ -226,7 +237,8 @@ fn numbers(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec
         ui.add_space(10.0);
         ui.label(RichText::new("Parameters").strong());
         let mut differing = !pins.all_parameters;
-        if ui.checkbox(&mut differing, "Only those that differ").changed() {
+        let about = "Leaves out the parameters in which all pinned runs are alike";
+        if ui.checkbox(&mut differing, "Only those that differ").hint(about).changed() {
             commands.push(Command::Pin(Pinning::AllParameters(!differing)));
         }
         let rows: Vec<&ParameterRow> =
@@ -242,17 +254,18 @@ fn numbers(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Vec
 }
 
 /// The labels above the columns, in the colours of the curves.
-fn heads(ui: &mut Ui, shown: &Shown<'_>, beside: bool, colours: &Palette) {
+fn heads(ui: &mut Ui, shown: &Shown<'_>, [beside, roomy]: [bool; 2], colours: &Palette) {
     let em = ui.text_style_height(&TextStyle::Body);
     ui.label("");
     for (i, (pin, run)) in shown.pins.pins().iter().zip(shown.pins.runs()).enumerate() {
         ui.scope(|ui| {
-            ui.set_max_width(11.0 * em);
+            ui.set_max_width(HEADS[usize::from(!roomy)] * em);
             let text = RichText::new(&run.label).color(run_colour(pin.slot, shown.dark)).strong();
-            ui.add(egui::Label::new(text).wrap()).on_hover_text(&run.label);
+            ui.add(egui::Label::new(text).wrap()).hint(&run.label);
         });
         if beside && i > 0 {
-            ui.label(RichText::new("difference").color(colours.quiet));
+            let label = ui.label(RichText::new("difference").color(colours.quiet));
+            glossary::here(ui, label, "difference");
         }
     }
     ui.end_row();
@@ -262,15 +275,24 @@ fn grid(id: &str, columns: usize) -> egui::Grid {
     egui::Grid::new(id).num_columns(columns).striped(true).spacing([18.0, 4.0])
 }
 
+/// Whether differences fit beside the values of this many runs.
+fn fits_beside(ui: &Ui, count: usize) -> bool {
+    let [name, value, difference] = COLUMNS;
+    let (values, differences) = (count as f32, count.saturating_sub(1) as f32);
+    let wide = (name + value * values + difference * differences) * ui.text_style_height(&TextStyle::Body);
+    count <= BESIDE && wide < ui.available_width()
+}
+
 fn results(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette) {
     let count = shown.pins.runs().len();
-    let beside = count <= BESIDE;
+    let beside = fits_beside(ui, count);
     grid("results of pins", if beside { 2 * count } else { count + 1 }).show(ui, |ui| {
-        heads(ui, shown, beside, colours);
+        heads(ui, shown, [beside; 2], colours);
         for row in shown.pins.results() {
             let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
             let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
-            ui.label(strong(capitalised(&row.quantity.label())));
+            let label = ui.label(strong(capitalised(&row.quantity.label())));
+            glossary::here(ui, label, row.quantity.words());
             for (i, cell) in row.cells.iter().enumerate() {
                 if beside {
                     ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
@@ -295,11 +317,13 @@ fn results(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette) {
 }
 
 fn parameters(ui: &mut Ui, shown: &Shown<'_>, rows: &[&ParameterRow], colours: &Palette) {
+    let roomy = fits_beside(ui, shown.pins.runs().len());
     grid("parameters of pins", shown.pins.runs().len() + 1).show(ui, |ui| {
-        heads(ui, shown, false, colours);
+        heads(ui, shown, [false, roomy], colours);
         for row in rows {
             let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
-            ui.label(format!("{}{unit}", label(row.parameter))).on_hover_text(row.parameter.key);
+            let about = explanation(shown.scene, row.parameter, None);
+            ui.label(format!("{}{unit}", label(row.parameter))).hint(about);
             for value in &row.values {
                 match value {
                     Some(value) => {

@@ -1,12 +1,14 @@
 //! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
 //! invariant.
 
-use super::chart::{SOLID, chart, legend, powers, title};
+use super::chart::{SOLID, axes, chart, legend, place, powers, title};
 use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
 use crate::estimate::Estimate;
 use crate::export::digits::significant;
 use crate::export::json::force_unit;
 use crate::fidelity::Fidelity;
+use crate::gui::lessons::glossary;
+use crate::gui::lessons::rich::{self, Look};
 use crate::gui::panels::convergence::power_of_ten;
 use crate::gui::panels::results::uncertain;
 use crate::gui::theme::Palette;
@@ -32,14 +34,61 @@ const WIDE: f32 = 28.0;
 const WIDTH: f32 = 2.0;
 const RADIUS: f32 = 5.0;
 
-/// All formulae of this tab, as they are shown.
-mod formula {
-    pub(super) const STRIP: &str = "S − iD = 1 − tanh(κ/2)/(κ/2),   κ² = iσ/Q";
-    pub(super) const RECTANGLE: &str =
-        "S − iD = Σ 8/(nπ)² · iσ′/q² · (1 − tanh(qa/2)/(qa/2)),   q² = (nπ)² + iσ′,   σ′ = σ/Q,   n odd";
-    pub(super) const LOAD: &str = "F = F₀ + p_a A ε (−S cos τ + D sin τ) + …";
-    pub(super) const TRAPPED: &str = "σ → ∞: ⟨P⟩ = √((1 + 3ε²/2)/(1 − ε²)), less with slip";
-    pub(super) const INVARIANT: &str = "⟨H (Z²/2 + 6mZ)⟩ = ⟨H³/2 + 6mH²⟩ at every point, for every σ";
+/// All that this tab explains below its table, as in lessons: text, and formulae that are set.
+mod notes {
+    use crate::lessons::text::{Block, blocks};
+    use std::sync::LazyLock;
+
+    const LOAD: &str = r"
+Over a cycle, with $\tau = 2\pi t/T\,$ and the amplitude $\varepsilon$ in mean gaps, the load is its mean, a **spring** $S\,$ in step
+with the approach, a **damping** $D\,$ in step with its speed, and smaller harmonics:
+
+$$ F = F_0 + p_a A \, \varepsilon \left( -S\,\cos\tau + D\,\sin\tau \right) + \dots $$";
+
+    const STRIP: &str = r"
+Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow:
+
+$$ S - iD = 1 - \frac{2}{\kappa} \tanh\frac{\kappa}{2} \qquad \kappa^2 = \frac{i\sigma}{Q} $$";
+
+    const RECTANGLE: &str = r"
+Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow and $a$, width over length:
+
+$$ S - iD = \sum_{n\text{ odd}} \frac{8}{(n\pi)^2} \, \frac{i\sigma'}{q^2} \, \left( 1 - \frac{2}{qa} \tanh\frac{qa}{2} \right) $$
+
+$$ q^2 = (n\pi)^2 + i\sigma' \qquad \sigma' = \frac{\sigma}{Q} $$";
+
+    const TRAPPED: &str = r"
+Gas without time to leave, $\sigma \to \infty$: the mean pressure saturates (Langlois 1962, Salbu 1964), with slip a little lower:
+
+$$ \langle P \rangle = \sqrt{\frac{1 + \frac{3}{2}\varepsilon^2}{1 - \varepsilon^2}} $$";
+
+    const INVARIANT: &str = r"
+The invariant, the same at every point of the film, for every $\sigma$ and $\varepsilon$, with $Z = PH\,$ and $m = \lambda_a/h_0$:
+
+$$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\langle \frac{H^3}{2} + 6mH^2 \right\rangle $$";
+
+    fn read(linear: &str) -> Vec<Block> {
+        // They are built in; a test reads them.
+        [LOAD, linear, TRAPPED, INVARIANT].into_iter().flat_map(|text| blocks(text).unwrap_or_default()).collect()
+    }
+
+    /// Of a strip, or of a plate of finite width.
+    pub(super) fn of(strip: bool) -> &'static [Block] {
+        static NOTES: LazyLock<[Vec<Block>; 2]> = LazyLock::new(|| [RECTANGLE, STRIP].map(read));
+        &NOTES[usize::from(strip)]
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn every_note_is_read() {
+            for text in [LOAD, STRIP, RECTANGLE, TRAPPED, INVARIANT] {
+                assert!(blocks(text).unwrap().iter().any(|block| matches!(block, Block::Formula(_))), "{text}");
+            }
+        }
+    }
 }
 
 /// What is computed once for a run.
@@ -156,18 +205,16 @@ pub fn show(ui: &mut Ui, run: &Run, colours: &Palette) {
         ui.set_max_width(ui.available_width() - 14.0);
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
-        title(ui, "Spring and damping against the squeeze number");
+        title(ui, "Spring and damping against the squeeze number", "Squeeze number");
         coefficients(ui, &known, tall(0), colours);
         ui.add_space(4.0);
-        title(ui, &format!("Load over the cycle, {}", known.unit.0));
+        title(ui, &format!("Load over the cycle, {}", known.unit.0), "Film load");
         cycle(ui, &known, tall(1), colours);
         ui.add_space(4.0);
         table(ui, &known, colours);
-        ui.add_space(6.0);
-        let linear = if plate.width.is_some() { formula::RECTANGLE } else { formula::STRIP };
-        for text in [formula::LOAD, linear, formula::TRAPPED, formula::INVARIANT] {
-            ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
-        }
+        ui.add_space(12.0);
+        let look = Look::usual(ui);
+        rich::blocks(ui, notes::of(plate.width.is_none()), look);
         ui.add_space(8.0);
     });
 }
@@ -192,6 +239,7 @@ fn coefficients(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
     let name = "Spring and damping against the squeeze number";
     let computed = known.comparison.solved.map(|found| [found.spring.value, found.damping.value]);
     let top = computed.into_iter().flatten().fold(1.0, f64::max);
+    let whole = place(ui, height);
     let plot = chart(ui, name, height)
         .x_axis_label("σ/Q")
         .x_grid_spacer(move |input| powers(&input, most))
@@ -215,6 +263,7 @@ fn coefficients(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
         }
     });
     shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some("σ/Q"), "Spring and damping");
 }
 
 fn cycle(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
@@ -229,6 +278,7 @@ fn cycle(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
         ],
     );
     let name = "Load over the cycle and its limits";
+    let whole = place(ui, height);
     let shown = chart(ui, name, height).x_axis_label("t/T").show(ui, |plot| {
         plot.set_plot_bounds_x(0.0..=1.0);
         plot.set_plot_bounds_y(known.bounds[0]..=known.bounds[1]);
@@ -244,6 +294,7 @@ fn cycle(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
         }
     });
     shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some("t/T"), "Film load");
 }
 
 /// Computed beside exact.
@@ -254,50 +305,31 @@ fn table(ui: &mut Ui, known: &Known, colours: &Palette) {
         None => ["nothing vibrates"; 2].map(str::to_owned),
     };
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
+    // What it is called, computed, exact, and when that holds.
     let rows = [
-        [
-            "Spring S",
-            &spring,
-            &number(found.linear.spring),
-            "for ε → 0",
-            "Part of the load in phase with the approach, over p_a · area · ε; 1 for gas that cannot leave and small ε",
-        ],
-        [
-            "Damping D",
-            &damping,
-            &number(found.linear.damping),
-            "for ε → 0",
-            "Part of the load in phase with the speed of the approach, over p_a · area · ε",
-        ],
-        [
-            "Mean pressure",
-            &stated(found.mean_pressure),
-            &number(found.trapped_mean_pressure),
-            "for σ → ∞",
-            "⟨P⟩: mean over plate and cycle, over ambient pressure; it saturates as σ grows (Langlois 1962, Salbu 1964)",
-        ],
-        [
-            "Invariant, off by",
-            &invariant,
-            "0 %",
-            "at every σ and ε",
-            "How far ⟨H (Z²/2 + 6mZ)⟩ at any point of the film is from its exact value: a check of the solution that needs no other one",
-        ],
+        ["Spring S", &spring, &number(found.linear.spring), "for ε → 0"],
+        ["Damping D", &damping, &number(found.linear.damping), "for ε → 0"],
+        ["Mean pressure", &stated(found.mean_pressure), &number(found.trapped_mean_pressure), "for σ → ∞"],
+        ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
     ];
-    // In a narrow tab when the exact value holds is said on hover alone.
+    // In a narrow tab when the exact value holds is said on hover, and below, alone.
     let wide = ui.available_width() > WIDE * ui.text_style_height(&TextStyle::Body);
     let grid = egui::Grid::new("exact").num_columns(if wide { 4 } else { 3 }).striped(true).spacing([14.0, 4.0]);
     egui::ScrollArea::horizontal().id_salt("exact table").auto_shrink(true).show(ui, |ui| {
         grid.show(ui, |ui| {
             for head in ["", "Computed", "Exact"] {
-                ui.label(RichText::new(head).color(colours.quiet));
+                let label = ui.label(RichText::new(head).color(colours.quiet));
+                if !head.is_empty() {
+                    glossary::here(ui, label, head);
+                }
             }
             ui.end_row();
-            for [name, computed, exact, when, about] in rows {
-                let about = format!("{about}\nExact {when}");
-                ui.label(RichText::new(name).color(colours.quiet)).on_hover_text(&about);
+            for [name, computed, exact, when] in rows {
+                let label = ui.label(RichText::new(name).color(colours.quiet));
+                glossary::here(ui, label, name);
                 for value in [computed, exact] {
-                    ui.label(RichText::new(value).color(ui.visuals().strong_text_color())).on_hover_text(&about);
+                    let value = ui.label(RichText::new(value).color(ui.visuals().strong_text_color()));
+                    glossary::here(ui, value, name);
                 }
                 if wide {
                     ui.label(RichText::new(when).color(colours.quiet));

@@ -2,6 +2,8 @@
 
 use crate::gui::command::Command;
 use crate::gui::holding::{Ask, Holding, SECONDS};
+use crate::gui::lessons::glossary;
+use crate::gui::panels::hint::Hint;
 use crate::gui::panels::timeline::{thousands, time};
 use crate::gui::theme::Palette;
 use crate::gui::views;
@@ -23,7 +25,8 @@ pub fn show(ui: &mut egui::Ui, holding: Option<&Holding>, colours: &Palette, com
         let text = "Only a plate can be held: the teeth of a motor follow their wave. Open a plate to feel how the film answers.";
         ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
         ui.add_space(4.0);
-        if ui.button("Open the plate at its crossover").clicked() {
+        let hover = "A built-in preset: some of its gas escapes, some is squeezed";
+        if ui.button("Open the plate at its crossover").hint(hover).clicked() {
             commands.push(Command::OpenBuiltIn(PRESET));
         }
         return;
@@ -42,14 +45,15 @@ fn controls(ui: &mut egui::Ui, holding: &Holding, commands: &mut Vec<Command>) {
         let mut gap = holding.target() * 1e6;
         ui.spacing_mut().slider_width = room(ui, BESIDE_GAP);
         let label = ui.label("Gap");
+        let label = glossary::here(ui, label, "Gap");
         let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(3).smart_aim(false);
-        if ui.add(slider).labelled_by(label.id).on_hover_text("Or drag the plate, or press ↑ and ↓").changed() {
+        if ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓").changed() {
             commands.push(Command::Hold(Ask::To(gap * 1e-6)));
         }
-        if ui.button("Let go").on_hover_text("Back to the mean gap").clicked() {
+        if ui.button("Let go").hint("Back to the mean gap").clicked() {
             commands.push(Command::Hold(Ask::LetGo));
         }
-        if ui.button("Reset").on_hover_text("Mean gap, ambient pressure, empty charts").clicked() {
+        if ui.button("Reset").hint("Mean gap, ambient pressure, empty charts").clicked() {
             commands.push(Command::Hold(Ask::Reset));
         }
     });
@@ -57,11 +61,13 @@ fn controls(ui: &mut egui::Ui, holding: &Holding, commands: &mut Vec<Command>) {
         let mut seconds = holding.seconds();
         ui.spacing_mut().slider_width = room(ui, BESIDE_SECONDS);
         let label = ui.label("Leak time takes");
+        let label = glossary::here(ui, label, "Leak time");
         let slider = Slider::new(&mut seconds, SECONDS).logarithmic(true).suffix(" s").max_decimals(1);
-        if ui.add(slider).labelled_by(label.id).on_hover_text("How slow the slow motion is").changed() {
+        if ui.add(slider).labelled_by(label.id).hint("How slow the slow motion is").changed() {
             commands.push(Command::Hold(Ask::Seconds(seconds)));
         }
-        ui.label(format!("slowed {}×", thousands(holding.slowed())));
+        let label = ui.label(format!("slowed {}×", thousands(holding.slowed())));
+        glossary::here(ui, label, "Slow motion");
     });
 }
 

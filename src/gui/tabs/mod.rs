@@ -11,6 +11,7 @@ pub mod tradeoff;
 
 use super::command::Command;
 use super::keys;
+use super::panels::hint::Hint;
 use super::pinned::Pinning;
 use super::state::Tab;
 use eframe::egui;
@@ -35,7 +36,7 @@ pub fn labels(ui: &mut egui::Ui, bar: &Bar, commands: &mut Vec<Command>) {
         for &(tab, _) in Tab::ALL {
             let name = tab.label(plate);
             let text = if tab == Tab::Compare && pinned > 0 { format!("{name} ({pinned})") } else { name.to_owned() };
-            let label = ui.selectable_label(tab == present, text).on_hover_text(keys::of(&Command::Show(tab)));
+            let label = ui.selectable_label(tab == present, text).hint(keys::about(&Command::Show(tab)));
             if label.clicked() && tab != present {
                 commands.push(Command::Show(tab));
             }
@@ -44,7 +45,7 @@ pub fn labels(ui: &mut egui::Ui, bar: &Bar, commands: &mut Vec<Command>) {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let pin = Command::Pin(Pinning::Shown);
                 let about = format!("Keeps this run for comparison ({})", keys::of(&pin));
-                if ui.add_enabled(solved, egui::Button::new("Pin")).on_hover_text(about).clicked() {
+                if ui.add_enabled(solved, egui::Button::new("Pin")).hint(about).clicked() {
                     commands.push(pin);
                 }
             });

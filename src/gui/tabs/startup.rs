@@ -1,6 +1,7 @@
 //! The transient from rest, cycle after cycle as it is computed: how the film pumps up until the cycle repeats.
 
 use crate::gui::command::Command;
+use crate::gui::panels::hint::Hint;
 use crate::gui::spot;
 use crate::gui::starting::{Ask, Starting};
 use crate::gui::state::View;
@@ -52,13 +53,13 @@ fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         match shown.starting.filter(|starting| starting.running()) {
             Some(_) => {
-                if ui.button("Cancel the start-up").clicked() {
+                if ui.button("Cancel the start-up").hint("Ends it; the cycles computed so far stay").clicked() {
                     commands.push(Command::Startup(Ask::Cancel));
                 }
             }
             None => {
                 let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
-                let button = ui.button("Start from rest").on_hover_text(hover);
+                let button = ui.button("Start from rest").hint(hover);
                 spot::mark(ui, "start", button.rect);
                 if button.clicked() {
                     commands.push(Command::Startup(Ask::Start));
@@ -67,11 +68,12 @@ fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         }
         let Some(starting) = shown.starting.filter(|starting| starting.run().is_some()) else { return };
         let mut follow = starting.follows();
-        if ui.checkbox(&mut follow, "Follow the newest cycle").changed() {
+        let hover = "Shows each cycle as soon as it is computed";
+        if ui.checkbox(&mut follow, "Follow the newest cycle").hint(hover).changed() {
             commands.push(Command::Startup(Ask::Follow(follow)));
         }
         let hover = "Plays the cycles that are kept one after the other, from the first";
-        if ui.button("Play from rest").on_hover_text(hover).clicked() {
+        if ui.button("Play from rest").hint(hover).clicked() {
             commands.push(Command::Startup(Ask::Replay));
         }
     });

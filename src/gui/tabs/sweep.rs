@@ -4,6 +4,8 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::Ending;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
+use crate::gui::lessons::glossary;
+use crate::gui::panels::hint::{Hint, beside};
 use crate::gui::panels::labels::label;
 use crate::gui::panels::menu::{SWEEP, export_button};
 use crate::gui::panels::parameters::capitalised;
@@ -58,6 +60,9 @@ pub fn show(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mut Ve
     swept::show(ui, &plotted, commands);
 }
 
+/// What a field asks for.
+type Send = fn(usize, String) -> Sweeping;
+
 fn send(commands: &mut Vec<Command>, asked: Sweeping) {
     commands.push(Command::Sweep(asked));
 }
@@ -105,7 +110,7 @@ fn axis_row(
                 ui.label(RichText::new(*title).color(colours.quiet));
                 for parameter in group {
                     let entry = ui.selectable_label(parameter.key == axis.key, label(parameter));
-                    if entry.on_hover_text(parameter.about).clicked() {
+                    if beside(ui.clip_rect(), entry, parameter.about).clicked() {
                         send(commands, Sweeping::Choose(i, parameter.key));
                     }
                 }
@@ -113,37 +118,37 @@ fn axis_row(
         },
     );
     combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("Parameter along {which}")));
-    let mut field = |ui: &mut Ui, name: &str, text: &str, wide: f32, send_it: fn(usize, String) -> Sweeping| {
+    combo.response.hint(format!("What is varied. {}", parameter.map_or("", |parameter| parameter.about)));
+    let mut field = |ui: &mut Ui, (name, about): (&str, &str), text: &str, wide: f32, send_it: Send| {
         let mut text = text.to_owned();
         let response = ui.add(egui::TextEdit::singleline(&mut text).desired_width(wide * em));
         response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, format!("{name} along {which}")));
-        if response.changed() {
+        if response.hint(about).changed() {
             send(commands, send_it(i, text));
         }
     };
     ui.label("from");
-    field(ui, "From", &axis.from, 3.6, Sweeping::From);
+    field(ui, ("From", "The first value"), &axis.from, 3.6, Sweeping::From);
     ui.label("to");
-    field(ui, "To", &axis.to, 3.6, Sweeping::To);
+    field(ui, ("To", "The last value"), &axis.to, 3.6, Sweeping::To);
     if let Some(unit) = parameter.map(|parameter| parameter.unit).filter(|unit| !unit.is_empty()) {
         ui.label(RichText::new(unit).color(colours.quiet));
     }
-    field(ui, "Values", &axis.count, 2.2, Sweeping::Count);
+    field(ui, ("Values", "How many values, both ends counted"), &axis.count, 2.2, Sweeping::Count);
     ui.label("values");
     let mut log = axis.log;
-    let checkbox =
-        ui.checkbox(&mut log, "log").on_hover_text("Equal ratios from value to value instead of equal steps");
+    let checkbox = ui.checkbox(&mut log, "log").hint("Equal ratios from value to value instead of equal steps");
     let checkbox = checkbox.accessible_name(format!("Equal ratios along {which}"));
     if checkbox.changed() {
         send(commands, Sweeping::Log(i, log));
     }
     if i == 0 && !form.second {
-        let more = ui.button("Add a second…").on_hover_text("A map over two parameters");
+        let more = ui.button("Add a second…").hint("A map over two parameters");
         if more.clicked() {
             send(commands, Sweeping::Second(true));
         }
     } else if i == 1 {
-        let less = ui.small_button("✕").on_hover_text("Back to one parameter");
+        let less = ui.small_button("✕").hint("Back to one parameter");
         if less.accessible_name("Back to one parameter").clicked() {
             send(commands, Sweeping::Second(false));
         }
@@ -155,7 +160,7 @@ fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, commands: &m
     ui.horizontal_wrapped(|ui| {
         match swept.filter(|swept| swept.running()) {
             Some(swept) => {
-                if ui.button("Cancel the sweep").clicked() {
+                if ui.button("Cancel the sweep").hint("Ends it; what is solved stays, and it can go on").clicked() {
                     send(commands, Sweeping::Cancel);
                 }
                 let left = swept.left(shown.now).map_or_else(String::new, |left| format!(", {} left", rough(left)));
@@ -165,24 +170,27 @@ fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, commands: &m
                 ui.ctx().request_repaint_after(std::time::Duration::from_secs(1));
             }
             None => {
-                let about = "Solves every point on all cores; the window stays usable";
-                if ui.add_enabled(good, egui::Button::new("Start the sweep")).on_hover_text(about).clicked() {
-                    send(commands, Sweeping::Start);
-                }
+                // First, where "Cancel" has been: a second click loses nothing.
                 if let Some(swept) = swept.filter(|swept| !swept.complete()) {
                     let about = format!("{} of {} points are solved", swept.rows().len(), swept.sweep().len());
-                    if ui.button("Continue").on_hover_text(about).clicked() {
+                    if ui.button("Continue").hint(about).clicked() {
                         send(commands, Sweeping::Continue);
                     }
                 }
+                let about = "Solves every point on all cores; the window stays usable";
+                if ui.add_enabled(good, egui::Button::new("Start the sweep")).hint(about).clicked() {
+                    send(commands, Sweeping::Start);
+                }
                 let combo = ComboBox::from_id_salt("fidelity").selected_text(form.fidelity.name()).show_ui(ui, |ui| {
                     for fidelity in Fidelity::ALL {
-                        if ui.selectable_label(fidelity == form.fidelity, fidelity.name()).clicked() {
+                        let entry = ui.selectable_label(fidelity == form.fidelity, fidelity.name());
+                        if glossary::hover(ui, entry, fidelity.name()).clicked() {
                             send(commands, Sweeping::Fidelity(fidelity));
                         }
                     }
                 });
                 combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
+                glossary::here(ui, combo.response, "Fidelity");
             }
         }
         quantity(ui, shown, commands);
@@ -209,12 +217,14 @@ fn quantity(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         .height(24.0 * em)
         .show_ui(ui, |ui| {
             for quantity in all {
-                if ui.selectable_label(quantity == present, capitalised(&quantity.label())).clicked() {
+                let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label()));
+                if glossary::hover(ui, entry, quantity.words()).clicked() {
                     send(commands, Sweeping::Draw(quantity));
                 }
             }
         });
     combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Result shown"));
+    combo.response.hint("Which result is drawn; another one solves nothing anew");
 }
 
 fn introduction(ui: &mut Ui, colours: &Palette) {

@@ -1,10 +1,11 @@
 //! Torque, power and efficiency of a motor over the speed of its rotor, with the film and without it, and what a designer
 //! reads off them.
 
-use super::chart::{SOLID, chart, legend, title};
+use super::chart::{SOLID, axes, chart, legend, place, title};
 use crate::analysis::torque::{Merit, Performance, Point};
 use crate::estimate::Estimate;
 use crate::export::digits::significant;
+use crate::gui::lessons::glossary;
 use crate::gui::merits::Merits;
 use crate::gui::panels::results::uncertain;
 use crate::gui::spot;
@@ -25,6 +26,9 @@ const ALL: f64 = 104.0;
 const HEADROOM: f64 = 1.08;
 /// Width of the lines.
 const WIDTH: f32 = 2.0;
+/// Titles of the charts, and what the glossary explains them under.
+const CHARTS: [(&str, &str); 3] =
+    [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, run: &Run, merits: &Merits, colours: &Palette) {
@@ -76,24 +80,24 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, height: f32, colours: 
     let efficiency: Value<'_> = &|point| point.efficiency.map(|share| 100.0 * share);
     let dash = LineStyle::dashed_loose();
     let charts = [
-        ("Torque of the ring, N·m", vec![(curve(without, torque), dry, dash), (curve(with, torque), film, SOLID)]),
+        (CHARTS[0], vec![(curve(without, torque), dry, dash), (curve(with, torque), film, SOLID)]),
         (
-            "Power, W",
+            CHARTS[1],
             vec![
                 (curve(with, friction), heat, LineStyle::dashed_dense()),
                 (curve(without, output), dry, dash),
                 (curve(with, output), film, SOLID),
             ],
         ),
-        ("Efficiency, %", vec![(curve(without, efficiency), dry, dash), (curve(with, efficiency), film, SOLID)]),
+        (CHARTS[2], vec![(curve(without, efficiency), dry, dash), (curve(with, efficiency), film, SOLID)]),
     ];
     let side_by_side = ui.available_width() > BESIDE * em;
     let mut one = |ui: &mut egui::Ui, i: usize, bottom: bool| {
-        let (name, lines) = &charts[i];
-        title(ui, name);
+        let ((name, word), lines) = &charts[i];
+        title(ui, name, word);
         let tall = (SHARES[i] * height).max(LEAST_LINES[i] * em);
         let top = if i == 2 { Some(ALL) } else { None };
-        pointed = panel(ui, name, tall, lines, top, bottom, merit, colours).or(pointed);
+        pointed = panel(ui, (name, word), tall, lines, top, bottom, merit, colours).or(pointed);
     };
     let first = ui.scope(|ui| one(ui, 0, side_by_side));
     spot::mark(ui, "torque", first.response.rect);
@@ -117,7 +121,7 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, height: f32, colours: 
 /// One chart over the speed, which is named below it if it is at the `bottom`; the speed under the pointer \[rpm\].
 fn panel(
     ui: &mut egui::Ui,
-    name: &str,
+    (name, word): (&str, &str),
     height: f32,
     lines: &[(Vec<[f64; 2]>, Color32, LineStyle)],
     top: Option<f64>,
@@ -129,7 +133,7 @@ fn panel(
     let present = merit.rpm(merit.with_film.present.speed);
     let greatest = lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point[1])).fold(0.0, f64::max);
     let top = top.unwrap_or(if greatest > 0.0 { HEADROOM * greatest } else { 1.0 });
-    let group = egui::Id::unique("torque charts");
+    let (group, whole) = (egui::Id::unique("torque charts"), place(ui, height));
     let mut plot =
         chart(ui, name, height).show_axes(Vec2b::TRUE).link_cursor(group, Vec2b::new(true, false)).show_x(true);
     if bottom {
@@ -154,6 +158,7 @@ fn panel(
     });
     let response = shown.response;
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some("Rotor speed"), word);
     shown.inner.filter(|_| response.hovered()).filter(|speed| (0.0..=fastest).contains(speed))
 }
 
@@ -188,36 +193,17 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
     };
     let present = format!("Torque at {} rpm", trimmed(merit.rpm(motor.rotor_speed)));
     type Cell<'a> = Box<dyn Fn(&Performance) -> String + 'a>;
+    // What it is called here, its value, and what the glossary explains it under.
     let rows: Vec<(&str, Cell<'_>, &str)> = vec![
-        ("Stall torque", Box::new(|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Torque on the rotor at rest"),
-        (
-            "Greatest torque",
-            Box::new(|of| stated(Some(of.max_torque), 1.0, "N·m")),
-            "If all of the contact pulls one way: μ_d (1 − α) · waves · L · r",
-        ),
-        (
-            "No-load speed",
-            Box::new(move |of| speed(of.no_load_speed)),
-            "Where as much of the contact drives the rotor as holds it back",
-        ),
-        (
-            "Greatest output",
-            Box::new(|of| stated(Some(of.max_power), 1.0, "W")),
-            "Torque times angular speed of the rotor, at the speed where it is greatest",
-        ),
-        ("at", Box::new(move |of| speed(of.max_power_speed)), "The speed of the greatest output"),
-        (
-            "Greatest efficiency",
-            Box::new(|of| stated(of.max_efficiency, 100.0, "%")),
-            "Output over all that the stator's surface gives: output, friction heat and what squeezing the film takes",
-        ),
-        ("at", Box::new(move |of| speed(of.max_efficiency_speed)), "The speed of the greatest efficiency"),
-        (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "At the rotor speed of the scene"),
-        (
-            "Friction heat there",
-            Box::new(|of| format!("{} W", short(of.present.friction))),
-            "Friction stress times sliding speed, over all contacts and the cycle",
-        ),
+        ("Stall torque", Box::new(|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Stall torque"),
+        ("Greatest torque", Box::new(|of| stated(Some(of.max_torque), 1.0, "N·m")), "Maximum torque"),
+        ("No-load speed", Box::new(move |of| speed(of.no_load_speed)), "No-load speed"),
+        ("Greatest output", Box::new(|of| stated(Some(of.max_power), 1.0, "W")), "Greatest output"),
+        ("    at", Box::new(move |of| speed(of.max_power_speed)), "Greatest output"),
+        ("Greatest efficiency", Box::new(|of| stated(of.max_efficiency, 100.0, "%")), "Efficiency"),
+        ("    at", Box::new(move |of| speed(of.max_efficiency_speed)), "Efficiency"),
+        (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
+        ("Friction heat there", Box::new(|of| format!("{} W", short(of.present.friction))), "Friction heat"),
     ];
     let grid = egui::Grid::new("figures of merit").num_columns(3).striped(true).spacing([10.0, 4.0]);
     // Wider than the tab only in a small window with large text.
@@ -225,14 +211,18 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
         grid.show(ui, |ui| {
             for (head, colour) in [("", colours.quiet), ("With film", colours.film), ("Without film", colours.contact)]
             {
-                ui.label(RichText::new(head).color(colour));
+                let label = ui.label(RichText::new(head).color(colour));
+                if !head.is_empty() {
+                    glossary::here(ui, label, head);
+                }
             }
             ui.end_row();
-            for (name, cell, about) in &rows {
-                let name = if *name == "at" { "    at".to_owned() } else { (*name).to_owned() };
-                ui.label(RichText::new(name).color(colours.quiet)).on_hover_text(*about);
+            for (name, cell, word) in &rows {
+                let label = ui.label(RichText::new(*name).color(colours.quiet));
+                glossary::here(ui, label, word);
                 for of in [with, without] {
-                    ui.label(RichText::new(cell(of)).color(ui.visuals().strong_text_color())).on_hover_text(*about);
+                    let value = ui.label(RichText::new(cell(of)).color(ui.visuals().strong_text_color()));
+                    glossary::here(ui, value, word);
                 }
                 ui.end_row();
             }

@@ -1,6 +1,7 @@
 //! Error against solve time of the present scene, measured on this machine when asked for: each setting a point, the front
 //! of those that no other beats, the present setting ringed, and the cheapest that serves a wish.
 
+use super::chart::{axes, place as chart_place};
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Ended, Family, Point, Tradeoff, Wish};
 use crate::export::digits::significant;
@@ -8,7 +9,9 @@ use crate::export::tradeoff::status;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
 use crate::gui::dialogs::Export;
+use crate::gui::lessons::glossary;
 use crate::gui::measured::{Measured, is_present};
+use crate::gui::panels::hint::Hint;
 use crate::gui::tabs::sweep::rough;
 use crate::gui::theme::Palette;
 use crate::scene::Scene;
@@ -92,7 +95,8 @@ fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         let running = shown.measured.filter(|measured| measured.running());
         match running {
             Some(measured) => {
-                if ui.button("Cancel the measurement").clicked() {
+                let hover = "Ends it; what was measured stays";
+                if ui.button("Cancel the measurement").hint(hover).clicked() {
                     commands.push(Command::CancelMeasure);
                 }
                 let left = measured.left(shown.now).map_or_else(String::new, |left| format!(", {} left", rough(left)));
@@ -102,7 +106,7 @@ fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
                 ui.ctx().request_repaint_after(std::time::Duration::from_secs(1));
             }
             None => {
-                if ui.button("Measure").on_hover_text("Takes about a minute; the window stays usable").clicked() {
+                if ui.button("Measure").hint("Takes about a minute; the window stays usable").clicked() {
                     commands.push(Command::Measure);
                 }
             }
@@ -110,7 +114,7 @@ fn buttons(ui: &mut egui::Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         if shown.measured.is_some_and(|measured| !measured.running() && !measured.tradeoff().points.is_empty()) {
             for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
             {
-                if ui.button(text).clicked() {
+                if ui.button(text).hint(export.about()).clicked() {
                     commands.push(Command::Export(export));
                 }
             }
@@ -195,6 +199,7 @@ fn key(ui: &mut egui::Ui, text: &str, draw: impl FnOnce(&egui::Painter, egui::Po
     let size = egui::vec2(1.3 * em + galley.size().x, em);
     let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+    glossary::here(ui, response, text);
     draw(ui.painter(), area.left_center() + egui::vec2(0.5 * em, 0.0));
     let colour = ui.visuals().text_color();
     ui.painter().galley(area.left_top() + egui::vec2(1.3 * em, 0.0), galley, colour);
@@ -213,6 +218,7 @@ fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, 
     let em = ui.text_style_height(&TextStyle::Body);
     let width = ui.available_width();
     let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
+    let whole = chart_place(ui, height);
     // For screen readers the table below says it all.
     let plot = Plot::new("trade-off plot")
         .height(height)
@@ -238,7 +244,7 @@ fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, 
             _ => None,
         })
         .set_margin_fraction(MARGIN);
-    plot.show(ui, |plot| {
+    let shown_plot = plot.show(ui, |plot| {
         let guide = LineStyle::dashed_loose();
         let quiet = colours.quiet;
         let within = |low: f64, value: f64, high: f64| value > low && value < high;
@@ -303,6 +309,7 @@ fn plot(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, height: f32, 
             }
         }
     });
+    axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), judged);
 }
 
 /// A wish, what serves it, and the way to use that.
@@ -322,13 +329,14 @@ fn advice(
             Wish::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most exact within this time"),
         };
         let label = ui.label(name);
+        let label = glossary::here(ui, label, name);
         let speed = 0.01 * value;
         let drag = egui::DragValue::new(&mut value)
             .suffix(unit)
             .range(range)
             .speed(speed)
             .custom_formatter(|value, _| trimmed(&significant(value, 3)).to_owned());
-        if ui.add(drag).labelled_by(label.id).on_hover_text(about).changed() {
+        if ui.add(drag).labelled_by(label.id).hint(about).changed() {
             commands.push(Command::Wish(match wish {
                 Wish::Accuracy(_) => Wish::Accuracy(1e-2 * value),
                 Wish::Budget(_) => Wish::Budget(1e-3 * value),
@@ -349,7 +357,7 @@ fn advice(
         let button = ui.add_enabled(ours, egui::Button::new("Use it"));
         let button = button.on_disabled_hover_text("The window solves by its own method only");
         let named = button.accessible_name(format!("Use it for the {}", name.to_lowercase()));
-        if named.on_hover_text("One edit, undone like any other").clicked() {
+        if named.hint("One edit, undone like any other").clicked() {
             commands.push(Command::Use { aim: candidate.settings.fidelity, numerics: candidate.numerics });
         }
     });
@@ -364,14 +372,17 @@ fn table(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, colours: &Pa
     // Wider than the tab only in a small window with large text.
     egui::ScrollArea::horizontal().id_salt("settings").auto_shrink(true).show(ui, |ui| {
         grid.show(ui, |ui| {
-            for head in ["Setting", "Time", "Error", ""] {
-                ui.label(quiet(head));
+            for (head, word) in [("Setting", "Setting"), ("Time", "Solve time"), ("Error", "Stated error")] {
+                let label = ui.label(quiet(head));
+                glossary::here(ui, label, word);
             }
+            ui.label("");
             ui.end_row();
             for point in order {
                 let candidate = &point.run.candidate;
-                let (_, colour, _) = style(candidate.family, colours);
-                ui.label(RichText::new(&candidate.name).color(colour));
+                let (family, colour, _) = style(candidate.family, colours);
+                let setting = ui.label(RichText::new(&candidate.name).color(colour));
+                glossary::here(ui, setting, family);
                 ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
                 ui.label(point.error.map_or_else(String::new, percent));
                 let mut marks = Vec::new();
@@ -388,7 +399,7 @@ fn table(ui: &mut egui::Ui, shown: &Shown<'_>, tradeoff: &Tradeoff, colours: &Pa
                 }
                 let marks = ui.label(quiet(&marks.join(", ")));
                 if let Ended::Failed(reason) = &point.run.ended {
-                    marks.on_hover_text(reason);
+                    marks.hint(reason);
                 }
                 ui.end_row();
             }

@@ -18,6 +18,8 @@ const WIDEST_BAND: f64 = 0.5;
 struct Quantity {
     /// Long to short.
     titles: [&'static str; 3],
+    /// What the glossary explains it under.
+    word: &'static str,
     unit: f64,
     /// Known with an error.
     extrapolated: bool,
@@ -26,6 +28,7 @@ struct Quantity {
 
 const ALPHA: Quantity = Quantity {
     titles: ["Film's share of the load α against the cycle", "α against the cycle", "α"],
+    word: "α",
     unit: 1.0,
     extrapolated: true,
     of: |outcome, scenario| match (outcome, scenario) {
@@ -38,10 +41,12 @@ const ALPHA: Quantity = Quantity {
 };
 const RATIO: Quantity = Quantity {
     titles: ["Load ratio, film load over p_a × area, against the cycle", "Load ratio against the cycle", "Load ratio"],
+    word: "Load ratio",
     ..ALPHA
 };
 const THICKNESS: Quantity = Quantity {
     titles: ["Least film thickness, µm", "Least h, µm", "h, µm"],
+    word: "Least film thickness",
     unit: 1e-6,
     extrapolated: false,
     of: |outcome, _| match outcome {
@@ -51,6 +56,7 @@ const THICKNESS: Quantity = Quantity {
 };
 const PRESSURE: Quantity = Quantity {
     titles: ["Highest pressure, kPa absolute", "Highest p, kPa", "p, kPa"],
+    word: "Highest pressure",
     unit: 1e3,
     extrapolated: false,
     of: |outcome, _| match outcome {
@@ -91,6 +97,7 @@ pub(super) fn show(ui: &mut Ui, starting: &Starting, periodic: Option<&Run>, hei
             choose(ui, &axes, quantity.titles[0], starting, commands);
         }
     }
+    ink.explain(ui);
 }
 
 fn plot(
@@ -119,7 +126,7 @@ fn plot(
     // One curve needs no legend.
     let both = [("each cycle", film), ("periodic solve", ink.palette.good)];
     let legend = if aim.is_some() { &both[..] } else { &[] };
-    ink.title(painter, rect, &quantity.titles, legend);
+    ink.title(painter, rect, quantity.word, &quantity.titles, legend);
 
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let cap = WIDEST_BAND * (high - low);

@@ -99,6 +99,7 @@ pub(super) fn show(ui: &mut Ui, holding: &Holding, commands: &mut Vec<Command>) 
         spot::mark(ui, name, rect.shrink(2.0));
     }
     grab(ui, &axes, holding, commands);
+    ink.explain(ui);
 }
 
 /// The drag that moves the plate: where it was taken it stays in the hand.
@@ -142,7 +143,7 @@ fn draw_plate(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Ax
     let titles = [format!("{numbers}{more}{exaggerated}"), format!("{numbers}{more}"), numbers];
     let titles = titles.each_ref().map(String::as_str);
     let legend = [("plate", ink.palette.rotor), ("stator", ink.palette.stator)];
-    ink.title(painter, rect, &titles, &legend);
+    ink.title(painter, rect, "Held plate", &titles, &legend);
 
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, under) = (axes.py(0.0), axes.py(gap));
@@ -240,6 +241,7 @@ fn profile(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
         painter,
         ink,
         rect,
+        "Film pressure",
         [if wide { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" }, "Pressure"],
         [low, high],
     );
@@ -272,7 +274,7 @@ fn map(ui: &Ui, painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     let range = shown.holding.pressure_range();
     let stamp = Stamp { run: (now.number, Fidelity::Standard), place: 0.0, tooth: 0, x: axes.x, range };
     field::draw(ui, painter, &axes, &recording, "held plate", stamp);
-    ink.title(painter, rect, &["Pressure map, colours as above", "Map"], &[]);
+    ink.title(painter, rect, "Pressure map", &["Pressure map, colours as above", "Map"], &[]);
     y_labels(painter, ink, &axes);
 }
 
@@ -296,7 +298,7 @@ fn chart(
     let axes = Axes::new(rect, [end - holding.window(), end], [low - margin, high + margin]);
     axes.canvas(painter, ink);
     axes.y_ticks(painter, ink, unit);
-    ink.title(painter, rect, &[title], &[]);
+    ink.title(painter, rect, title.split(',').next().unwrap_or(title), &[title], &[]);
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let quiet = Stroke::new(1.0, ink.palette.quiet);
     inside.hline(rect.x_range(), axes.py(if range.is_some() { 0.0 } else { holding.plate().mean_gap }), quiet);
@@ -340,7 +342,7 @@ fn boyle(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
         "Mean p, kPa absolute",
         "p, kPa",
     ];
-    ink.title(painter, rect, &titles, &[("film", film), ("Boyle", ink.palette.contact)]);
+    ink.title(painter, rect, "Loop", &titles, &[("film", film), ("Boyle", ink.palette.contact)]);
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     axes.x_grid(inside, ink, 1e-6);
     inside.hline(rect.x_range(), axes.py(shown.ambient), Stroke::new(1.0, quiet));

@@ -14,7 +14,7 @@ pub(super) fn draw(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) 
     axes.canvas(painter, ink);
     axes.y_ticks(painter, ink, 1e3);
     let legend = [("contact", ink.palette.contact), ("film", ink.palette.film)];
-    ink.title(painter, rect, &["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"], &legend);
+    ink.title(painter, rect, "Gauge pressure", &["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"], &legend);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     axes.x_grid(painter, ink, 1e-3);

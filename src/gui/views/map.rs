@@ -16,7 +16,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, rect: Rect, shown: &Sh
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: axes.x, range };
     field::draw(ui, painter, &axes, recording, "all teeth", stamp);
     let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
-    title_with_bar(painter, ink, rect, titles, range);
+    title_with_bar(painter, ink, rect, "Pressure map", titles, range);
     y_labels(painter, ink, &axes);
     axes.x_labels(painter, ink, 1e-3, "x, mm");
     // The followed tooth.

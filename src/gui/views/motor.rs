@@ -6,7 +6,6 @@ use super::scales::{Ranges, Scales};
 use super::{loads, map, tooth, wave};
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
-use crate::gui::lessons::glossary;
 use crate::gui::spot;
 use crate::gui::state::View;
 use crate::job::Run;
@@ -121,9 +120,8 @@ pub(super) fn show(
     map::draw(ui, &painter, &ink, layout.map, &shown);
     if let Some(rect) = layout.tooth {
         let drawn = tooth::draw(ui, &painter, &ink, rect, layout.gutter, &shown);
-        for ((axes, place), word) in drawn.plots.iter().zip(["least gap", "loads"]).zip(["Least gap", "Film load"]) {
+        for (axes, place) in drawn.plots.iter().zip(["least gap", "loads"]) {
             spot::mark(ui, place, axes.rect);
-            glossary::over_title(ui, axes.rect, ink.row, word);
         }
         spot::mark(ui, "tooth", rect);
         for (axes, name) in drawn.plots.iter().zip(["Least gap over the cycle", "Loads over the cycle"]) {
@@ -143,13 +141,10 @@ pub(super) fn show(
     {
         commands.push(Command::FollowTooth(sample::tooth_at(x, recording.pitch, recording.teeth).0));
     }
-    let words = ["Travelling wave", "Gauge pressure", "Pressure map"];
-    for ((name, rect), word) in
-        [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)].into_iter().zip(words)
-    {
+    for (name, rect) in [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)] {
         spot::mark(ui, name, rect.shrink(2.0));
-        glossary::over_title(ui, rect, ink.row, word);
     }
+    ink.explain(ui);
 }
 
 /// A named region that is clicked.

@@ -217,7 +217,7 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, view: &mut View,
     let cursor = view.cursor_x.map(|x| along.on_axis(x));
 
     let axes = draw_surfaces(&painter, &ink, wave, runs, x, &along, cursor);
-    let names = ["Contact pressure, kPa", "Film pressure, kPa gauge"];
+    let names = [("Contact pressure, kPa", "Contact pressure"), ("Film pressure, kPa gauge", "Gauge pressure")];
     for (field, (name, rect)) in names.into_iter().zip([contact, film]).enumerate() {
         draw_pressure(&painter, &ink, rect, runs, (x, &along, cursor), name, field);
     }
@@ -225,7 +225,7 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, view: &mut View,
     let range = common(runs.iter().map(|run| run.of.kept.pressure()));
     let titles =
         ["Pressure maps of the film, kPa absolute, one scale of colours", "Pressure maps, absolute, one scale"];
-    title_with_bar(&painter, &ink, maps[0], titles, range);
+    title_with_bar(&painter, &ink, maps[0], "Pressure map", titles, range);
     for (slot, (run, rect)) in runs.iter().zip(&maps).enumerate() {
         let metre = along.metre(run.recording.length);
         let half = sample::half_width(run.recording);
@@ -257,7 +257,8 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, view: &mut View,
     let pointed = wave.union(*maps.last().unwrap_or(&film));
     let response = named(ui, pointed, "Motors along one wavelength: point to read values");
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
-    if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+    let on_a_term = ink.explain(ui);
+    if !on_a_term && let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
         view.hover_x = Some(along.to_metres(x));
         response.on_hover_ui_at_pointer(|ui| motor_values(ui, runs, x, &along));
     }
@@ -327,7 +328,7 @@ fn draw_surfaces(
         format!("Rotor (thick), teeth (thin), {}", times(scale / across)),
         "Rotor and teeth".to_owned(),
     ];
-    ink.title(painter, rect, &titles.each_ref().map(String::as_str), &[]);
+    ink.title(painter, rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     along.grid(painter, ink, &axes);
     for run in runs {
@@ -358,7 +359,7 @@ fn draw_pressure(
     rect: Rect,
     runs: &[MotorNow<'_>],
     (x, along, cursor): ([f64; 2], &Along, Option<f64>),
-    name: &str,
+    (name, word): (&str, &str),
     field: usize,
 ) {
     let ranges = runs.iter().map(|run| run.of.kept.lines[field].map(|load| load / run.motor.contact_width));
@@ -367,7 +368,7 @@ fn draw_pressure(
     let axes = Axes::new(rect, x, [low - margin, high + margin]);
     axes.canvas(painter, ink);
     axes.y_ticks(painter, ink, 1e3);
-    ink.title(painter, rect, &[name], &[]);
+    ink.title(painter, rect, word, &[name], &[]);
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     along.grid(painter, ink, &axes);
     let zero = axes.py(0.0);
@@ -447,7 +448,8 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, view: &mut View,
     let axes = Axes::new(profile, x, [low - margin, high + margin]);
     axes.canvas(&painter, &ink);
     axes.y_ticks(&painter, &ink, 1e3);
-    ink.title(&painter, profile, &["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"], &[]);
+    let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
+    ink.title(&painter, profile, "Film pressure", &titles, &[]);
     let inside = painter.with_clip_rect(painter.clip_rect().intersect(profile));
     along.grid(&inside, &ink, &axes);
     for run in runs {
@@ -471,7 +473,7 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, view: &mut View,
         if slot == 0 {
             top += title;
             let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale"];
-            title_with_bar(&painter, &ink, across(top, map), titles, range);
+            title_with_bar(&painter, &ink, across(top, map), "Pressure map", titles, range);
         } else if slot.is_multiple_of(columns) {
             top += map + 6.0;
         }
@@ -505,7 +507,8 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, view: &mut View,
 
     let response = named(ui, profile, "Plates along their length: point to read values");
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
-    if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+    let on_a_term = ink.explain(ui);
+    if !on_a_term && let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
         view.hover_x = Some(along.to_metres(x));
         response.on_hover_ui_at_pointer(|ui| plate_values(ui, runs, x, &along));
     }
@@ -540,7 +543,7 @@ fn draw_loops(painter: &Painter, ink: &Ink, rect: Rect, runs: &[PlateNow<'_>], p
     axes.y_ticks(painter, ink, 1e3);
     axes.x_labels(painter, ink, 1.0, "gap/mean");
     let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
-    ink.title(painter, rect, &titles, &[]);
+    ink.title(painter, rect, "Loop", &titles, &[]);
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     axes.x_grid(painter, ink, 1.0);
     painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, ink.palette.quiet));

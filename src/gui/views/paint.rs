@@ -1,9 +1,12 @@
 //! Axes, ticks, text and bands: the little that the views need to draw.
 
+use crate::gui::lessons::glossary;
+use crate::gui::panels::hint::Hint;
 use crate::gui::theme::{self, Palette};
 use crate::recording::Recording;
 use eframe::egui::epaint::{Mesh, Shape};
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
+use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
 /// Colours and text of the drawings.
@@ -14,6 +17,8 @@ pub(super) struct Ink {
     pub(super) font: FontId,
     /// Height of a line of text.
     pub(super) row: f32,
+    /// Terms that were written, and where; and what they mean, if the glossary does not say.
+    terms: RefCell<Vec<(Rect, String, Option<String>)>>,
 }
 
 impl Ink {
@@ -22,7 +27,14 @@ impl Ink {
         let body = TextStyle::Body.resolve(ui.style());
         let font = FontId::new((0.85 * body.size).max(9.0), body.family);
         let row = ui.fonts_mut(|fonts| fonts.row_height(&font));
-        Self { palette, text: ui.visuals().text_color(), grid: palette.quiet.gamma_multiply(0.22), font, row }
+        Self {
+            palette,
+            text: ui.visuals().text_color(),
+            grid: palette.quiet.gamma_multiply(0.22),
+            font,
+            row,
+            terms: RefCell::default(),
+        }
     }
 
     /// Fill of a solid body: opaque, so that bodies may overlap, and lighter than its outline.
@@ -35,14 +47,39 @@ impl Ink {
         painter.text(at, anchor, text, self.font.clone(), colour)
     }
 
+    /// What was written at `place` is explained by the glossary under `word`.
+    pub(super) fn term(&self, place: Rect, word: &str) {
+        self.terms.borrow_mut().push((place, word.to_owned(), None));
+    }
+
+    /// What was written at `place` is explained by `text`.
+    pub(super) fn parameter(&self, place: Rect, name: &str, text: String) {
+        self.terms.borrow_mut().push((place, name.to_owned(), Some(text)));
+    }
+
+    /// Explains the terms of the drawing on hover: after all that also wants the pointer. Whether the pointer is on one: values
+    /// are then read out elsewhere.
+    pub(super) fn explain(&self, ui: &Ui) -> bool {
+        let mut pointed = false;
+        for (number, (place, word, text)) in self.terms.borrow_mut().drain(..).enumerate() {
+            let response = glossary::over(ui, place, &word, number);
+            pointed |= response.hovered();
+            match text {
+                Some(text) => drop(response.hint(text)),
+                None => drop(glossary::here(ui, response, &word)),
+            }
+        }
+        pointed
+    }
+
     /// Width of one line.
     pub(super) fn width(&self, painter: &Painter, text: &str) -> f32 {
         painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
     }
 
     /// A title above `plot`, and a legend at its right end: the first of `titles`, long to short, beside which the legend
-    /// fits; else the first that fits alone.
-    pub(super) fn title(&self, painter: &Painter, plot: Rect, titles: &[&str], legend: &[(&str, Color32)]) {
+    /// fits; else the first that fits alone. `word`: what the glossary explains it under; the legend is terms itself.
+    pub(super) fn title(&self, painter: &Painter, plot: Rect, word: &str, titles: &[&str], legend: &[(&str, Color32)]) {
         let bottom = plot.top() - 2.0;
         let gap = 0.7 * self.row;
         let width: f32 = legend.iter().map(|(text, _)| self.width(painter, text) + gap + self.row).sum();
@@ -51,18 +88,22 @@ impl Ink {
         let with_legend = fits(gap + width);
         let Some(title) = with_legend.or_else(|| fits(0.0)).or(titles.last().copied()) else { return };
         let clip = painter.clip_rect().intersect(Rect::everything_left_of(plot.right() + 1.0));
-        self.write(&painter.with_clip_rect(clip), pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, self.text);
+        let corner = pos2(plot.left(), bottom);
+        let place = self.write(&painter.with_clip_rect(clip), corner, Align2::LEFT_BOTTOM, title, self.text);
+        self.term(place.intersect(clip), word);
         if with_legend.is_none() {
             return;
         }
         let mut right = plot.right();
         for (text, colour) in legend.iter().rev() {
-            let left = self.write(painter, pos2(right, bottom), Align2::RIGHT_BOTTOM, text, self.text).left();
+            let place = self.write(painter, pos2(right, bottom), Align2::RIGHT_BOTTOM, text, self.text);
+            let left = place.left();
             let key = Rect::from_center_size(
                 pos2(left - 0.6 * self.row, bottom - 0.5 * self.row),
                 vec2(0.7 * self.row, 0.35 * self.row),
             );
             painter.rect_filled(key, 1.0, *colour);
+            self.term(place.union(key), text);
             right = key.left() - gap;
         }
     }
@@ -153,8 +194,9 @@ impl Axes {
     pub(super) fn x_labels(&self, painter: &Painter, ink: &Ink, unit: f64, name: &str) {
         let ticks = self.x_values(ink, unit);
         let top = self.rect.bottom() + 1.0;
-        let named =
-            ink.write(painter, pos2(self.rect.left() - 4.0, top), Align2::RIGHT_TOP, name, ink.palette.quiet).right();
+        let place = ink.write(painter, pos2(self.rect.left() - 4.0, top), Align2::RIGHT_TOP, name, ink.palette.quiet);
+        ink.term(place, name.split(',').next().unwrap_or(name));
+        let named = place.right();
         for value in ticks.values() {
             let text = ticks.format(value);
             let half = 0.5 * ink.width(painter, &text);
@@ -275,20 +317,29 @@ pub(super) fn field_colours() -> &'static [Color32; 256] {
 }
 
 /// A title above `plot` with the colour bar and its ends at the right end of the same line.
-pub(super) fn title_with_bar(painter: &Painter, ink: &Ink, plot: Rect, titles: [&str; 2], range: [f64; 2]) {
+/// `word`: what the glossary explains it under.
+pub(super) fn title_with_bar(painter: &Painter, ink: &Ink, plot: Rect, word: &str, titles: [&str; 2], range: [f64; 2]) {
     let ends = range.map(|pascal| number(pascal / 1e3));
-    title_with_ends(painter, ink, plot, titles, [&ends[0], &format!("{} kPa", ends[1])]);
+    title_with_ends(painter, ink, plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
 }
 
 /// The same with what is written at the ends of the bar.
-pub(super) fn title_with_ends(painter: &Painter, ink: &Ink, plot: Rect, titles: [&str; 2], ends: [&str; 2]) {
+pub(super) fn title_with_ends(
+    painter: &Painter,
+    ink: &Ink,
+    plot: Rect,
+    word: &str,
+    titles: [&str; 2],
+    ends: [&str; 2],
+) {
     let bottom = plot.top() - 2.0;
     let written = ink.width(painter, ends[0]) + ink.width(painter, ends[1]) + 2.0 * ink.row;
     let room = plot.width() - written - 2.0 * ink.row;
     // The longer title if a bar of some length is left.
     let title = if ink.width(painter, titles[0]) < room { titles[0] } else { titles[1] };
     let length = (room - ink.width(painter, title)).clamp(2.0 * ink.row, 9.0 * ink.row);
-    ink.write(painter, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, ink.text);
+    let place = ink.write(painter, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, ink.text);
+    ink.term(place, word);
     let right = ink.write(painter, pos2(plot.right(), bottom), Align2::RIGHT_BOTTOM, ends[1], ink.palette.quiet).left();
     let bar = Rect::from_min_max(
         pos2(right - 4.0 - length, bottom - 0.8 * ink.row),

@@ -8,7 +8,6 @@ use super::sample::{self, Lines, Touching};
 use super::scales::{Curve, Ranges, Scales};
 use super::series::{Series, Trace};
 use crate::gui::command::Command;
-use crate::gui::lessons::glossary;
 use crate::gui::spot;
 use crate::gui::state::View;
 use crate::job::Run;
@@ -84,7 +83,7 @@ pub(super) fn show(
         let range = scales.pressure;
         let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: axes.x, range };
         field::draw(ui, &painter, &axes, recording, "plate", stamp);
-        title_with_bar(&painter, &ink, last, ["Pressure map, kPa absolute", "Map, absolute"], range);
+        title_with_bar(&painter, &ink, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
         y_labels(&painter, &ink, &axes);
         axes.cursor(&painter, &ink, shown.cursor);
     }
@@ -106,16 +105,13 @@ pub(super) fn show(
     if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
         view.hover_x = Some(x);
     }
-    let words = ["Mean gap", "Film pressure", "Film load", "Loop"];
-    let parts = [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])];
-    for ((name, rect), word) in parts.into_iter().zip(words) {
+    for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
         spot::mark(ui, name, rect.shrink(2.0));
-        glossary::over_title(ui, rect, ink.row, word);
     }
     if with_map {
         spot::mark(ui, "map", last.shrink(2.0));
-        glossary::over_title(ui, last, ink.row, "Pressure map");
     }
+    ink.explain(ui);
 }
 
 /// The wall, the plate above it, the film between them.
@@ -131,7 +127,8 @@ fn draw_gap(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) -> Axes
     let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
     let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(scale / along));
     let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
-    ink.title(painter, rect, &[&title, &short], &[("plate", ink.palette.rotor), ("wall", ink.palette.stator)]);
+    let legend = [("plate", ink.palette.rotor), ("wall", ink.palette.stator)];
+    ink.title(painter, rect, "Gap", &[&title, &short], &legend);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
@@ -159,7 +156,7 @@ fn draw_profile(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     axes.canvas(painter, ink);
     axes.y_ticks(painter, ink, 1e3);
     let title = if shown.plate.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
-    ink.title(painter, rect, &[title], &[("film", ink.palette.film), ("ambient", ink.palette.quiet)]);
+    ink.title(painter, rect, "Film pressure", &[title], &[("film", ink.palette.film), ("ambient", ink.palette.quiet)]);
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     axes.x_grid(painter, ink, 1e-3);
     painter.hline(rect.x_range(), axes.py(ambient), Stroke::new(1.0, ink.palette.quiet));
@@ -209,7 +206,7 @@ fn draw_loop(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) {
     axes.y_ticks(painter, ink, 1e3);
     axes.x_labels(painter, ink, 1e-6, "gap, µm");
     let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
-    ink.title(painter, rect, &titles, &[]);
+    ink.title(painter, rect, "Loop", &titles, &[]);
     axes.x_grid(painter, ink, 1e-6);
     painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, ink.palette.quiet));
     let Some((curves, _)) = shown.scales.tooth(0) else { return };

@@ -39,7 +39,8 @@ impl Series<'_> {
         let axes = Axes::new(rect, [0.0, 1.0], [low - margin, high + margin]);
         axes.canvas(painter, ink);
         axes.y_ticks(painter, ink, self.unit);
-        ink.title(painter, rect, &[self.title], self.legend);
+        let word = self.title.split(',').next().unwrap_or(self.title);
+        ink.title(painter, rect, word, &[self.title], self.legend);
         let quiet = ink.palette.quiet;
         let top = rect.bottom() + 1.0;
         let (scale, unit) = if self.period < 1e-3 { (1e6, "µs") } else { (1e3, "ms") };

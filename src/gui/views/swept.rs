@@ -29,6 +29,10 @@ const RING: f32 = 7.0;
 const NEAR: f32 = 40.0;
 /// Lines of equal value, about.
 const LEVELS: usize = 7;
+/// A line of equal value is at least this share of the range from its ends.
+const NEAR_END: f64 = 0.02;
+/// An end of the colours that is less than this share of the range is zero.
+const NOTHING: f64 = 1e-3;
 /// An axis of equal ratios has ticks at 2 and 5 if it spans fewer decades than this.
 const FEW_DECADES: f64 = 2.5;
 /// Values whose greatest is more than this many times the least have many sizes.
@@ -100,14 +104,16 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, commands: &mut Vec<Command>) {
     if area.width() < 160.0 || area.height() < 120.0 {
         return;
     }
+    let ink = Ink::new(ui);
     let pointed = match plotted.sweep.axes() {
-        [x] => line(ui, area, plotted, x),
-        [x, y] => map(ui, area, plotted, x, y),
+        [x] => line(ui, &ink, area, plotted, x),
+        [x, y] => map(ui, &ink, area, plotted, x, y),
         _ => None,
     };
     let response = named(ui, area, "Sweep: point to read a value, click to make its scene the present one");
+    let on_a_term = ink.explain(ui);
     // What is drawn follows the pointer of the frame before, which is this one while it rests.
-    let Some(row) = pointed else { return };
+    let Some(row) = pointed.filter(|_| !on_a_term) else { return };
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     if response.clicked() {
         commands.push(Command::Sweep(Sweeping::Open(row.point)));
@@ -181,7 +187,29 @@ fn draw_x(painter: &Painter, ink: &Ink, axes: &Axes, axis: &Axis, grid: bool) {
         }
     }
     let below = pos2(axes.rect.center().x, axes.rect.bottom() + 3.0 + ink.row);
-    ink.write(painter, below, Align2::CENTER_TOP, &name(axis), ink.text);
+    let named = ink.write(painter, below, Align2::CENTER_TOP, &name(axis), ink.text);
+    about(ink, named, axis);
+}
+
+/// What the marks in a map are, at the right end of the line above it, right of `free`.
+fn marked(painter: &Painter, ink: &Ink, rect: Rect, free: f32, plotted: &Plotted<'_>) {
+    let marks =
+        [("○ present", "present", plotted.present.is_some()), ("□ Table I", "Table I", !plotted.published.is_empty())];
+    let mut right = rect.right();
+    for (text, word, _) in marks.into_iter().filter(|mark| mark.2) {
+        if right - ink.width(painter, text) > free + ink.row {
+            let corner = pos2(right, rect.top() - 2.0);
+            let place = ink.write(painter, corner, Align2::RIGHT_BOTTOM, text, ink.palette.quiet);
+            ink.term(place, word);
+            right = place.left() - ink.row;
+        }
+    }
+}
+
+/// What is varied is explained where it is named.
+fn about(ink: &Ink, named: Rect, axis: &Axis) {
+    let text = format!("{}\n{}", axis.parameter.about, axis.parameter.key);
+    ink.parameter(named, label(axis.parameter), text);
 }
 
 /// The plot within `area`: titles above, values left and below.
@@ -208,8 +236,7 @@ fn square(painter: &Painter, at: Pos2, colour: Color32) {
 }
 
 /// One parameter.
-fn line<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, axis: &Axis) -> Option<&'a Row> {
-    let ink = Ink::new(ui);
+fn line<'a>(ui: &Ui, ink: &Ink, area: Rect, plotted: &Plotted<'a>, axis: &Axis) -> Option<&'a Row> {
     let painter = ui.painter_at(area);
     let mut rows: Vec<(&Row, f64)> = plotted.rows.iter().map(|row| (row, place(axis, row.values[0]))).collect();
     rows.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -237,11 +264,11 @@ fn line<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, axis: &Axis) -> Option<&
     let widest =
         Ticks::new(y, 6).values().map(|v| ink.width(&painter, &Ticks::new(y, 6).format(v))).fold(0.0, f32::max);
     let side = 0.02 * (x[1] - x[0]);
-    let rect = plot(area, &ink, widest.clamp(2.0 * ink.row, 8.0 * ink.row) + 8.0, 1.0);
+    let rect = plot(area, ink, widest.clamp(2.0 * ink.row, 8.0 * ink.row) + 8.0, 1.0);
     let axes = Axes::new(rect, [x[0] - side, x[1] + side], y);
-    axes.canvas(&painter, &ink);
-    axes.y_ticks(&painter, &ink, 1.0);
-    draw_x(&painter, &ink, &axes, axis, true);
+    axes.canvas(&painter, ink);
+    axes.y_ticks(&painter, ink, 1.0);
+    draw_x(&painter, ink, &axes, axis, true);
     let colour = ink.palette.film;
     let mut legend = vec![("computed", colour)];
     if plotted.quantity.error().is_some() {
@@ -251,7 +278,7 @@ fn line<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, axis: &Axis) -> Option<&
         legend.push(("Table I", ink.palette.contact));
     }
     let title = capitalised(&plotted.quantity.label());
-    ink.title(&painter, rect, &[&title], &legend);
+    ink.title(&painter, rect, plotted.quantity.words(), &[&title], &legend);
 
     let inner = painter.with_clip_rect(painter.clip_rect().intersect(rect.expand(RING)));
     if let Some([present]) = plotted.present.map(|values| [place(axis, values[0])])
@@ -262,7 +289,8 @@ fn line<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, axis: &Axis) -> Option<&
         inner.extend(Shape::dashed_line(&[pos2(at, rect.top()), pos2(at, rect.bottom())], stroke, 5.0, 4.0));
         let left = at > rect.center().x;
         let (anchor, gap) = if left { (Align2::RIGHT_BOTTOM, -4.0) } else { (Align2::LEFT_BOTTOM, 4.0) };
-        ink.write(&inner, pos2(at + gap, rect.bottom() - 2.0), anchor, "present", ink.palette.accent);
+        let place = pos2(at + gap, rect.bottom() - 2.0);
+        ink.term(ink.write(&inner, place, anchor, "present", ink.palette.accent), "present");
     }
     // Neighbours on screen are joined if no point is missing between them that will still come.
     let step = (x[1] - x[0]) / (axis.values.len().max(2) - 1) as f64;
@@ -330,8 +358,7 @@ fn cells(axis: &Axis) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Two parameters.
-fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Option<&'a Row> {
-    let ink = Ink::new(ui);
+fn map<'a>(ui: &Ui, ink: &Ink, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Option<&'a Row> {
     let painter = ui.painter_at(area);
     let ((xs, x_edges), (ys, y_edges)) = (cells(x), cells(y));
     let nearest = |places: &[f64], at: f64| {
@@ -349,18 +376,25 @@ fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Op
     let most = (area.height() / (2.6 * ink.row)).clamp(2.0, 10.0) as usize;
     let y_marks = marks(y, limits[1], most);
     let widest = y_marks.iter().map(|(_, text)| ink.width(&painter, text)).fold(0.0, f32::max);
-    let rect = plot(area, &ink, widest.max(2.0 * ink.row) + 8.0, 2.0);
+    let rect = plot(area, ink, widest.max(2.0 * ink.row) + 8.0, 2.0);
     let axes = Axes::new(rect, limits[0], limits[1]);
-    axes.canvas(&painter, &ink);
+    axes.canvas(&painter, ink);
     let title = capitalised(&plotted.quantity.label());
     let title = if log { format!("{title}, logarithmic colours") } else { title };
     if plotted.rows.iter().any(|row| plotted.sound(row).is_some()) {
-        let ends = extent.map(|end| significant(end, 3));
+        let nothing = if log { 0.0 } else { NOTHING * (extent[1] - extent[0]) };
+        let written =
+            |end: f64| if end.abs() < nothing { "0".to_owned() } else { significant(end, 3).replace('-', "−") };
+        let ends = extent.map(written);
         let above = rect.translate(vec2(0.0, -ink.row - 6.0));
-        title_with_ends(&painter, &ink, above, [&title, &title], ends.each_ref().map(String::as_str));
+        let ends = ends.each_ref().map(String::as_str);
+        title_with_ends(&painter, ink, above, plotted.quantity.words(), [&title, &title], ends);
     }
-    ink.write(&painter, pos2(rect.left(), rect.top() - 2.0), Align2::LEFT_BOTTOM, &format!("↑ {}", name(y)), ink.text);
-    draw_x(&painter, &ink, &axes, x, false);
+    let corner = pos2(rect.left(), rect.top() - 2.0);
+    let named = ink.write(&painter, corner, Align2::LEFT_BOTTOM, &format!("↑ {}", name(y)), ink.text);
+    about(ink, named, y);
+    marked(&painter, ink, rect, named.right(), plotted);
+    draw_x(&painter, ink, &axes, x, false);
     for (at, text) in y_marks {
         ink.write(&painter, pos2(rect.left() - 4.0, axes.py(at)), Align2::RIGHT_CENTER, &text, ink.palette.quiet);
     }
@@ -386,7 +420,7 @@ fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Op
         }
     }
     inner.add(Shape::Mesh(Arc::new(mesh)));
-    contours(&inner, &ink, &axes, [&xs, &ys], &values, (range, log));
+    contours(&inner, ink, &axes, [&xs, &ys], &values, (range, log));
     for row in plotted.rows.iter().filter(|row| plotted.sound(row).is_none()) {
         cross(&inner, area_of(cell(row)).center(), 4.0, Stroke::new(1.8, ink.palette.alarm));
     }
@@ -411,6 +445,13 @@ fn map<'a>(ui: &Ui, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Op
     Some(row)
 }
 
+/// Values that get a line: none so near to an end that it would follow what the error is of.
+fn levels(ticks: Ticks, range: [f64; 2], log: bool) -> impl Iterator<Item = f64> {
+    let near = NEAR_END * (range[1] - range[0]);
+    let whole = move |level: &f64| !log || (level - level.round()).abs() < 1e-6;
+    ticks.values().filter(move |level| (range[0] + near..=range[1] - near).contains(level)).filter(whole)
+}
+
 /// Lines of equal value where all neighbours are known, each with its value once.
 fn contours(
     painter: &Painter,
@@ -421,9 +462,8 @@ fn contours(
     (range, log): ([f64; 2], bool),
 ) {
     let ticks = Ticks::new(range, LEVELS);
-    let whole = |level: &f64| !log || (level - level.round()).abs() < 1e-6;
     let mut written: Vec<Rect> = Vec::new();
-    for level in ticks.values().filter(|level| *level > range[0] && *level < range[1]).filter(whole) {
+    for level in levels(ticks, range, log) {
         let part = (level - range[0]) / (range[1] - range[0]);
         let colour = if part > 0.55 { Color32::from_black_alpha(190) } else { Color32::from_white_alpha(190) };
         let text = if log { short(10f64.powf(level.round())) } else { ticks.format(level) };
@@ -467,6 +507,16 @@ mod tests {
         assert_eq!(texts("stator.frequency_khz=0.01:1000:9:log"), ["0.01", "0.1", "1", "10", "100", "1000"]);
         assert!(texts("film.min_spacing_nm=100:130:9:log").len() >= 3);
         assert_eq!(texts("motor.dry_friction=0:1:5"), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    }
+
+    #[test]
+    fn no_line_of_equal_value_follows_what_is_error_alone() {
+        let range = [-1.1e-5, 1.0];
+        let found: Vec<String> =
+            levels(Ticks::new(range, LEVELS), range, false).map(|level| format!("{level:.1}")).collect();
+        assert_eq!(found, ["0.2", "0.4", "0.6", "0.8"]);
+        let range = [-5.2, 0.5];
+        assert_eq!(levels(Ticks::new(range, LEVELS), range, true).count(), 6);
     }
 
     #[test]

@@ -35,7 +35,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, ink: &Ink, row: Rect, gutter: f32
         Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
     field::draw(ui, painter, &axes, recording, "followed tooth", stamp);
     let long = format!("Tooth {}, x from its middle", shown.tooth);
-    ink.title(painter, places[0], &[&long, &format!("Tooth {}", shown.tooth)], &[]);
+    ink.title(painter, places[0], "Followed tooth", &[&long, &format!("Tooth {}", shown.tooth)], &[]);
     y_labels(painter, ink, &axes);
     axes.x_labels(painter, ink, 1e-3, "x, mm");
     let middle = shown.tooth as f64 * recording.pitch;

@@ -28,7 +28,7 @@ pub(super) fn draw(painter: &Painter, ink: &Ink, rect: Rect, shown: &Shown<'_>) 
     let title = format!("Rotor on the travelling wave, vertical {}", times(scale / along));
     let legend = [("rotor", ink.palette.rotor), ("stator", ink.palette.stator), ("contact", ink.palette.contact)];
     let short = format!("Wave, vertical {}", times(scale / along));
-    ink.title(painter, rect, &[&title, &short], &legend);
+    ink.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     shown.mark_followed(painter, ink, &axes);
