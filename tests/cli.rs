@@ -342,19 +342,25 @@ fn a_cycle_is_animated() {
         let arguments = ["animate", "plate-crossover", "--fidelity", "draft", "--width", "200", "--frames", "4"];
         run(&[&arguments[..], &["--out", out.to_str().unwrap()]].concat())
     };
-    for (name, begins) in [("a.gif", b"GIF89a".as_slice()), ("a.png", b"\x89PNG")] {
+    let mp4 = b"\0\0\0\x20ftypisom".as_slice();
+    for (name, begins) in [("a.gif", b"GIF89a".as_slice()), ("a.png", b"\x89PNG"), ("a.mp4", mp4)] {
         let path = folder.path().join(name);
         let output = animate(&path);
         assert_eq!((output.status.code(), out(&output)), (Some(0), ""), "{}", err(&output));
         assert!(err(&output).contains("4 frames"), "{}", err(&output));
-        assert!(fs::read(&path).unwrap().starts_with(begins));
+        let bytes = fs::read(&path).unwrap();
+        assert!(bytes.starts_with(begins));
+        let version = concat!("squeezefilm ", env!("CARGO_PKG_VERSION")).as_bytes();
+        assert!(bytes.windows(version.len()).any(|part| part == version), "{name} says where it comes from");
     }
     assert_eq!(animate(&folder.path().join("frames")).status.code(), Some(0));
     assert_eq!(fs::read_dir(folder.path().join("frames")).unwrap().count(), 4);
-    let nowhere = animate(&folder.path().join("no/a.gif"));
-    assert_eq!(nowhere.status.code(), Some(1));
-    assert!(err(&nowhere).contains("a.gif: cannot be written"), "{}", err(&nowhere));
-    refused(&["animate", "plate-crossover", "--out", "a.mp4"], 2, &["a.mp4", ".gif", ".png"]);
+    for name in ["a.gif", "a.mp4"] {
+        let nowhere = animate(&folder.path().join("no").join(name));
+        assert_eq!(nowhere.status.code(), Some(1));
+        assert!(err(&nowhere).contains(&format!("{name}: cannot be written")), "{}", err(&nowhere));
+    }
+    refused(&["animate", "plate-crossover", "--out", "a.avi"], 2, &["a.avi", ".gif", ".mp4", ".png"]);
     refused(&["animate", "plate-crossover", "--out", "a.gif", "--seconds", "0"], 2, &["0.2 to 120"]);
 }
 

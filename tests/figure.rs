@@ -1,4 +1,4 @@
-//! Figures and animations read back by readers that did not write them: XML, PNG, GIF.
+//! Figures and animations read back by readers that did not write them: XML, PNG, GIF, MP4 and AV1.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use roxmltree::{Document, Node};
@@ -401,6 +401,126 @@ fn a_gif_has_all_frames_and_they_move() {
     assert_eq!((frames.len(), delay), (count, 200));
     frames.dedup();
     assert_eq!(frames.len(), count, "no two frames in turn are equal");
+    assert!(has(&bytes, Provenance::of(&problem, &solution).line().as_bytes()), "the file says where it comes from");
+}
+
+fn has(bytes: &[u8], part: &[u8]) -> bool {
+    bytes.windows(part.len()).any(|window| window == part)
+}
+
+#[test]
+fn an_mp4_has_the_cycle_twice_in_the_colours_of_its_frames() {
+    use re_rav1d::dav1d::{Decoder, Error, PlanarImageComponent, pixel};
+    let (problem, solution) = solved("fundamental", &[]);
+    let options = animation::Options { width: 301, seconds: 6.0, frames: 6 };
+    let movie = animation::cycle(&problem, &solution, &options, &|| (), &Cancel::new()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mp4");
+    let encoded = std::cell::Cell::new(0);
+    movie.write(&path, &|| encoded.set(encoded.get() + 1), &Cancel::new()).unwrap();
+    assert_eq!(encoded.get(), movie.len());
+    let frames = movie.write(&folder.path().join("frames"), &|| (), &Cancel::new()).unwrap();
+    let frames: Vec<_> = frames.iter().map(|path| decoded(&fs::read(path).unwrap())).collect();
+    let (across, down) = (frames[0].0.width as usize, frames[0].0.height as usize);
+    let (width, height) = (across.next_multiple_of(2), down.next_multiple_of(2));
+    assert_eq!((across, width), (301, 302));
+
+    let bytes = fs::read(&path).unwrap();
+    assert!(has(&bytes, Provenance::of(&problem, &solution).line().as_bytes()), "the file says where it comes from");
+    let file = re_mp4::Mp4::read_bytes(&bytes).unwrap();
+    let track = file.tracks().values().next().unwrap();
+    assert_eq!((file.tracks().len(), track.width as usize, track.height as usize), (1, width, height));
+    assert_eq!(track.duration, 12 * track.timescale, "twice six seconds");
+    assert_eq!(track.codec_string(&file).unwrap(), "av01.0.00M.08", "main profile, level 2.0, 8 bits");
+    let count = movie.len();
+    assert_eq!(track.samples.len(), 2 * count);
+    for (i, sample) in track.samples.iter().enumerate() {
+        assert_eq!(sample.is_sync, i % count == 0, "sample {i}");
+        assert_eq!(sample.duration * count as u64, 6 * track.timescale);
+        assert_eq!(sample.composition_timestamp, i as i64 * sample.duration as i64);
+    }
+
+    let mut decoder = Decoder::new().unwrap();
+    let mut shown: Vec<[Vec<u8>; 3]> = Vec::new();
+    let mut take = |decoder: &mut Decoder| {
+        while let Ok(picture) = decoder.get_picture() {
+            assert_eq!((picture.width() as usize, picture.height() as usize), (width, height));
+            assert_eq!(picture.color_primaries(), pixel::ColorPrimaries::BT709);
+            assert_eq!(picture.transfer_characteristic(), pixel::TransferCharacteristic::SRGB);
+            assert_eq!(picture.matrix_coefficients(), pixel::MatrixCoefficients::BT709);
+            assert_eq!(picture.color_range(), pixel::YUVRange::Limited);
+            assert_eq!(picture.chroma_location(), pixel::ChromaLocation::Left);
+            let plane = |component, [width, height]: [usize; 2]| {
+                let rows = picture
+                    .plane(component)
+                    .chunks(picture.stride(component) as usize)
+                    .take(height)
+                    .flat_map(|row| row[..width].to_vec())
+                    .collect::<Vec<u8>>();
+                assert_eq!(rows.len(), width * height);
+                rows
+            };
+            shown.push([
+                plane(PlanarImageComponent::Y, [width, height]),
+                plane(PlanarImageComponent::U, [width / 2, height / 2]),
+                plane(PlanarImageComponent::V, [width / 2, height / 2]),
+            ]);
+        }
+    };
+    for sample in &track.samples {
+        let mut sent = decoder.send_data(bytes[sample.byte_range()].to_vec(), None, None, None);
+        while matches!(sent, Err(Error::Again)) {
+            take(&mut decoder);
+            sent = decoder.send_pending_data();
+        }
+        sent.unwrap();
+    }
+    take(&mut decoder);
+    assert_eq!(shown.len(), 2 * count);
+    assert!(shown[..count] == shown[count..], "the second cycle is the first");
+
+    let mean = |values: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+        sum / count
+    };
+    for (i, ((_, rgb, _), [y, u, v])) in frames.iter().zip(&shown).enumerate() {
+        let colour = |x: usize, y: usize| -> [f64; 3] {
+            let inside = x < across && y < down;
+            [0, 1, 2].map(|k| if inside { f64::from(rgb[3 * (y * across + x) + k]) } else { 255.0 })
+        };
+        let luma = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let places = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let off = places().zip(y).map(|((x, y), found)| {
+            let expected = 16.0 + 219.0 / 255.0 * luma(colour(x, y));
+            (f64::from(*found) - expected).powi(2)
+        });
+        let psnr = 10.0 * (255f64.powi(2) / mean(&mut { off })).log10();
+        assert!(psnr > 40.0, "frame {i}: {psnr:.1} dB");
+        // Chroma on the whole: neither exchanged nor stretched.
+        for (plane, channel, scale) in [(u, 2, 1.8556), (v, 0, 1.5748)] {
+            let difference = |(x, y)| colour(x, y)[channel] - luma(colour(x, y));
+            let expected = 128.0 + 224.0 / 255.0 / scale * mean(&mut places().map(difference));
+            let found = mean(&mut plane.iter().map(|sample| f64::from(*sample)));
+            assert!((found - expected).abs() < 0.5, "frame {i}, channel {channel}: {found} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn an_mp4_of_one_frame_lasts_as_long_and_one_cancelled_half_way_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let movie = moving_dot(1);
+    let path = folder.path().join("a.mp4");
+    movie.write(&path, &|| (), &Cancel::new()).unwrap();
+    let file = re_mp4::Mp4::read_bytes(&fs::read(&path).unwrap()).unwrap();
+    let track = file.tracks().values().next().unwrap();
+    assert_eq!((track.samples.len(), track.duration), (12, 12 * track.timescale));
+    assert!(track.samples.iter().all(|sample| sample.is_sync));
+    let cancel = Cancel::new();
+    let again = moving_dot(3).write(&path, &|| cancel.cancel(), &cancel);
+    assert!(matches!(again, Err(AnimationError::Cancelled)));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    assert_eq!(re_mp4::Mp4::read_bytes(&fs::read(&path).unwrap()).unwrap().tracks().len(), 1, "the older one is left");
 }
 
 #[test]
@@ -408,7 +528,7 @@ fn an_apng_and_a_folder_have_all_frames() {
     let folder = tempfile::tempdir().unwrap();
     let movie = moving_dot(4);
     let path = folder.path().join("a.png");
-    movie.write(&path, &Cancel::new()).unwrap();
+    movie.write(&path, &|| (), &Cancel::new()).unwrap();
     let mut reader = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path).unwrap())).read_info().unwrap();
     let control = *reader.info().animation_control().unwrap();
     assert_eq!((control.num_frames, control.num_plays), (4, 0));
@@ -416,7 +536,7 @@ fn an_apng_and_a_folder_have_all_frames() {
     for _ in 0..4 {
         reader.next_frame(&mut pixels).unwrap();
     }
-    let written = movie.write(&folder.path().join("frames"), &Cancel::new()).unwrap();
+    let written = movie.write(&folder.path().join("frames"), &|| (), &Cancel::new()).unwrap();
     assert_eq!(written.len(), 4);
     let all: Vec<Vec<u8>> = written.iter().map(|path| decoded(&fs::read(path).unwrap()).1).collect();
     assert!(all.windows(2).all(|pair| pair[0] != pair[1]));
@@ -428,15 +548,15 @@ fn a_cancelled_animation_leaves_nothing() {
     let cancel = Cancel::new();
     let movie = moving_dot(3);
     cancel.cancel();
-    for name in ["a.gif", "a.png", "frames"] {
-        let error = movie.write(&folder.path().join(name), &cancel).unwrap_err();
+    for name in ["a.gif", "a.png", "a.mp4", "frames"] {
+        let error = movie.write(&folder.path().join(name), &|| (), &cancel).unwrap_err();
         assert!(matches!(error, AnimationError::Cancelled), "{name}: {error}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let options = animation::Options::default();
     let drawn = Movie::of(3, &options, &|_| Figure::default(), &|| (), &cancel);
     assert!(matches!(drawn, Err(AnimationError::Cancelled)));
-    assert!(matches!(movie.write(Path::new("a.mp4"), &cancel), Err(AnimationError::Extension { .. })));
+    assert!(matches!(movie.write(Path::new("a.avi"), &|| (), &cancel), Err(AnimationError::Extension { .. })));
     assert!(matches!(
         Movie::of(0, &options, &|_| Figure::default(), &|| (), &Cancel::new()),
         Err(AnimationError::NoCycle)

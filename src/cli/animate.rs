@@ -14,10 +14,13 @@ use crate::solve::{Method, solve};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Solves a preset and writes one cycle as an animation: GIF, animated PNG, or a folder of PNG
+/// Solves a preset and writes one cycle as an animation: GIF, MP4, animated PNG, or a folder of PNG
+///
+/// An MP4 holds AV1 video, and the cycle as often as makes twelve seconds: players do not repeat by themselves.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm animate fundamental --out wave.gif
+  squeezefilm animate fundamental --out wave.mp4 --width 1280
   squeezefilm animate levitating --out levitating.png --seconds 6
   squeezefilm animate plate-crossover --out frames --width 1920")]
 pub(super) struct Arguments {
@@ -25,7 +28,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET")]
     preset: String,
 
-    /// The file, .gif or .png (animated), or a folder for the frames, one PNG each
+    /// The file, .gif, .mp4 or .png (animated), or a folder for the frames, one PNG each
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 
@@ -58,7 +61,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     // A wrong extension is told before the work, not after it.
-    Format::of(&arguments.out)?;
+    let format = Format::of(&arguments.out)?;
     let scene = arguments.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
@@ -76,9 +79,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     solution.warnings.iter().for_each(|warning| terminal::warning(warning));
 
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
-    let bar = Bar::frames(frames(&solution.recording, options.frames));
-    let written = cycle(&problem, &solution, &options, &|| bar.row_done(""), &cancel)
-        .and_then(|movie| movie.write(&arguments.out, &cancel).map(|_| movie.len()));
+    let bar = Bar::frames(frames(&solution.recording, options.frames) * format.passes());
+    let done = || bar.row_done("");
+    let written = cycle(&problem, &solution, &options, &done, &cancel)
+        .and_then(|movie| movie.write(&arguments.out, &done, &cancel).map(|_| movie.len()));
     drop(bar);
     match written {
         Ok(frames) => terminal::note(&format!("wrote {}: {frames} frames", arguments.out.display())),

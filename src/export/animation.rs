@@ -1,12 +1,15 @@
-//! One cycle as moving pictures: GIF, APNG, or a folder of PNG.
+//! One cycle as moving pictures: GIF, APNG, MP4, or a folder of PNG.
 //!
 //! Every frame is a [`Figure`], drawn as for print; its axes have to stay where they are from frame to frame. A GIF has one
 //! palette for all frames, so that nothing flickers: the commonest colours as they are, the rest by neural quantisation
-//! (Dekker 1994). From frame to frame only what has changed is stored, in both formats.
+//! (Dekker 1994). From frame to frame only what has changed is stored, in both formats. An MP4 holds AV1, encoded in Rust
+//! alone; since players do not repeat by themselves, it has the cycle several times. Each of the three says where its
+//! numbers come from, as a comment.
 
 use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
 use super::folder::{Staged, WriteError, write_file};
+use super::{mp4, video};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
@@ -41,6 +44,8 @@ pub struct Movie {
     width: u32,
     height: u32,
     seconds: f64,
+    /// Where the numbers come from; may be empty.
+    source: String,
     /// Red, green, blue, row by row from the top.
     frames: Vec<Vec<u8>>,
 }
@@ -52,7 +57,7 @@ pub enum AnimationError {
     #[error("cancelled; no file was written")]
     Cancelled,
     /// The extension is none of those known.
-    #[error("{}: animations are written as .gif, as .png (animated), or into a folder, whose name has no extension", path.display())]
+    #[error("{}: animations are written as .gif, as .mp4, as .png (animated), or into a folder, whose name has no extension", path.display())]
     Extension {
         /// The path asked for.
         path: PathBuf,
@@ -81,12 +86,14 @@ pub enum Format {
     Gif,
     /// An animated PNG: all colours, shown by browsers.
     Apng,
+    /// A video, AV1: all colours, shown by browsers and players.
+    Mp4,
     /// A PNG for each frame in a folder, for makers of films.
     Folder,
 }
 
 impl Format {
-    /// The format of a path: `.gif`, `.png`, `.apng`, or without extension a folder.
+    /// The format of a path: `.gif`, `.png`, `.apng`, `.mp4`, or without extension a folder.
     ///
     /// # Errors
     /// [`AnimationError::Extension`].
@@ -95,10 +102,16 @@ impl Format {
         match extension.as_deref() {
             Some("gif") => Ok(Self::Gif),
             Some("png" | "apng") => Ok(Self::Apng),
+            Some("mp4") => Ok(Self::Mp4),
             None => Ok(Self::Folder),
             Some(_) if path.is_dir() => Ok(Self::Folder),
             Some(_) => Err(AnimationError::Extension { path: path.to_owned() }),
         }
+    }
+
+    /// How often each frame is counted until the file is there: a video takes longer to encode than to draw.
+    pub fn passes(self) -> usize {
+        if self == Self::Mp4 { 2 } else { 1 }
     }
 }
 
@@ -189,7 +202,8 @@ impl Movie {
             return Err(AnimationError::Size { frame });
         }
         let seconds = if options.seconds.is_finite() { options.seconds.clamp(0.02, 600.0) } else { 4.0 };
-        Ok(Self { width, height, seconds, frames: drawn.into_iter().map(|pixels| pixels.rgb).collect() })
+        let source = figure(0).provenance.line();
+        Ok(Self { width, height, seconds, source, frames: drawn.into_iter().map(|pixels| pixels.rgb).collect() })
     }
 
     /// How many frames there are.
@@ -202,17 +216,19 @@ impl Movie {
         self.frames.is_empty()
     }
 
-    /// Writes the movie in the format of its path. A file has its name only when it is complete.
+    /// Writes the movie in the format of its path. A file has its name only when it is complete. `done` is called after
+    /// each frame that is counted a second time ([`Format::passes`]).
     ///
     /// # Errors
     /// [`AnimationError`]; then no file is left, and an older one of that name is as it was.
-    pub fn write(&self, path: &Path, cancel: &Cancel) -> Result<Vec<PathBuf>, AnimationError> {
+    pub fn write(&self, path: &Path, done: &dyn Fn(), cancel: &Cancel) -> Result<Vec<PathBuf>, AnimationError> {
         let stopped = |error: WriteError| {
             if cancel.is_cancelled() { AnimationError::Cancelled } else { error.into() }
         };
         match Format::of(path)? {
             Format::Gif => write_file(path, |out| self.gif(out, cancel)).map_err(stopped)?,
             Format::Apng => write_file(path, |out| self.apng(out, cancel)).map_err(stopped)?,
+            Format::Mp4 => write_file(path, |out| self.mp4(out, done, cancel)).map_err(stopped)?,
             Format::Folder => {
                 let mut staged = Staged::new(path)?;
                 for (i, rgb) in self.frames.iter().enumerate() {
@@ -238,6 +254,10 @@ impl Movie {
         let mut palette = Palette::new(&self.frames);
         let mut encoder = gif::Encoder::new(out, width, height, &palette.bytes()).map_err(io::Error::other)?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(io::Error::other)?;
+        if !self.source.is_empty() {
+            let blocks: Vec<&[u8]> = self.source.as_bytes().chunks(255).collect();
+            encoder.write_raw_extension(gif::Extension::Comment.into(), &blocks).map_err(io::Error::other)?;
+        }
         for (i, rgb) in self.frames.iter().enumerate() {
             check(cancel)?;
             let before = i.checked_sub(1).map(|i| self.frames[i].as_slice());
@@ -283,6 +303,9 @@ impl Movie {
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_animated(count, 0)?;
         encoder.set_frame_delay((1000.0 * self.seconds / f64::from(count)).round().clamp(1.0, 6e4) as u16, 1000)?;
+        if !self.source.is_empty() {
+            encoder.add_itxt_chunk("Source".to_owned(), self.source.clone())?;
+        }
         let mut writer = encoder.write_header()?;
         for (i, rgb) in self.frames.iter().enumerate() {
             check(cancel)?;
@@ -301,6 +324,20 @@ impl Movie {
         }
         writer.finish()?;
         Ok(())
+    }
+
+    /// Writes an MP4 that has the cycle as often as [`LONG_ENOUGH`] asks. `done` is called after each frame.
+    ///
+    /// # Errors
+    /// Those of the encoder and of the writer; an interruption if it was cancelled.
+    pub fn mp4(&self, out: &mut dyn Write, done: &dyn Fn(), cancel: &Cancel) -> io::Result<()> {
+        // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
+        let step = (1000.0 * self.seconds).round() as u32;
+        let timescale = u32::try_from(1000 * self.len()).map_err(io::Error::other)?;
+        let cycles = (LONG_ENOUGH / self.seconds).ceil() as u32;
+        let video = video::encode(&self.frames, [self.width, self.height], [step, timescale], done, cancel)?;
+        check(cancel)?;
+        mp4::write(&video, &mp4::Timing { timescale, step, cycles }, &self.source, out)
     }
 
     /// Left, top, right and bottom of what differs from the frame before: at least one pixel.
@@ -327,6 +364,8 @@ fn side(length: u32) -> io::Result<u16> {
     u16::try_from(length).map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
 }
 
+/// A video has whole cycles, and lasts at least this \[s\].
+pub const LONG_ENOUGH: f64 = 12.0;
 /// The palette's colour for what has not changed.
 const TRANSPARENT: u8 = 255;
 /// Colours that are kept as they are.

@@ -197,10 +197,12 @@ pub fn animation(
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
     // A wrong extension is told before the work, not after it.
-    super::animation::Format::of(path)?;
-    let all = frames(&solved.solution.recording, options.frames);
-    let movie = control.counted(all, |done| cycle(solved.problem, solved.solution, options, done, control.cancel))?;
-    Ok(movie.write(path, control.cancel)?)
+    let format = super::animation::Format::of(path)?;
+    let all = frames(&solved.solution.recording, options.frames) * format.passes();
+    control.counted(all, |done| {
+        let movie = cycle(solved.problem, solved.solution, options, done, control.cancel)?;
+        Ok(movie.write(path, done, control.cancel)?)
+    })
 }
 
 /// Animations of several runs as GIF, each with its name.

@@ -57,7 +57,7 @@ impl Export {
             Self::Data => "Export all results into a folder",
             Self::Figures => "Export the figures as SVG, PNG and PDF into a folder",
             Self::Fields => "Export the fields as a NumPy archive",
-            Self::Animation => "Export the animation as GIF or animated PNG",
+            Self::Animation => "Export the animation as GIF, MP4 or animated PNG",
             Self::Report => "Export a report of this run as HTML",
             Self::Comparison => "Export the comparison into a folder",
             Self::ComparisonReport => "Export a report of the pinned runs as HTML",
@@ -94,7 +94,7 @@ impl Export {
         match self {
             Self::Data | Self::Figures | Self::Comparison | Self::Sweep => None,
             Self::Fields => Some(("NumPy archive", &["npz"])),
-            Self::Animation => Some(("Animation", &["gif", "png", "apng"])),
+            Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
             Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
             Self::SweepTable | Self::TradeoffTable => Some(("Table", &["csv"])),
             Self::SweepFigure | Self::TradeoffFigure => Some(("Figure", &["svg", "png", "pdf"])),

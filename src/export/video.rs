@@ -1,0 +1,203 @@
+//! Frames as AV1: 8 bits, 4:2:0, main profile, which every player of AV1 has.
+//!
+//! Colours become luma and chroma by BT.709 in the limited range, and the bitstream says so; their transfer stays that of
+//! sRGB. A chroma sample stands at the left edge of its four pixels, half-way down, where players expect it: the mean of
+//! both rows, weighted 1 2 1 along them.
+
+use crate::control::Cancel;
+use rav1e::prelude::{
+    ChromaSamplePosition, ColorDescription, ColorPrimaries, Config, Context, EncoderConfig, EncoderStatus, Frame,
+    MatrixCoefficients, PixelRange, Rational, SceneDetectionSpeed, TransferCharacteristics,
+};
+use rayon::prelude::*;
+use std::io;
+use std::sync::Arc;
+
+/// Of rav1e's 0 to 10: the slowest at which a minute's work is not in sight.
+const SPEED: u8 = 8;
+/// Of 0 to 255: text and thin lines are as crisp as before, and fills keep their colour.
+const QUANTIZER: usize = 60;
+/// Parts of a frame that are encoded at the same time. Not the number of cores: a file is the same everywhere.
+const TILES: usize = 4;
+/// No side is shorter, says the encoder.
+const SHORTEST: usize = 16;
+/// The figure's, for what is added at the right and below.
+const BACKGROUND: [f32; 3] = [255.0; 3];
+
+/// One cycle, encoded.
+pub(super) struct Video {
+    /// Pixels across, an even number.
+    pub(super) width: usize,
+    /// Pixels down, an even number.
+    pub(super) height: usize,
+    /// The `seq_level_idx` of AV1.
+    pub(super) level: u8,
+    /// Of each frame the OBUs. The first can be decoded alone, all others refer to those before.
+    pub(super) packets: Vec<Vec<u8>>,
+}
+
+/// Encodes frames of red, green and blue, each shown for `step` \[s\], a fraction. `done` is called after each.
+///
+/// # Errors
+/// Those of the encoder; an interruption if it was cancelled.
+pub(super) fn encode(
+    frames: &[Vec<u8>],
+    size: [u32; 2],
+    step: [u32; 2],
+    done: &dyn Fn(),
+    cancel: &Cancel,
+) -> io::Result<Video> {
+    let source = size.map(|length| length as usize);
+    let [width, height] = source.map(|length| length.next_multiple_of(2).max(SHORTEST));
+    let level = level([width, height], f64::from(step[1]) / f64::from(step[0].max(1)));
+    let mut settings = EncoderConfig {
+        width,
+        height,
+        time_base: Rational { num: step[0].into(), den: step[1].into() },
+        pixel_range: PixelRange::Limited,
+        color_description: Some(ColorDescription {
+            color_primaries: ColorPrimaries::BT709,
+            transfer_characteristics: TransferCharacteristics::SRGB,
+            matrix_coefficients: MatrixCoefficients::BT709,
+        }),
+        chroma_sample_position: ChromaSamplePosition::Vertical,
+        level_idx: Some(level),
+        // One key frame, and every packet is one frame, in order: the cycle can be written again and again.
+        low_latency: true,
+        min_key_frame_interval: 0,
+        max_key_frame_interval: frames.len() as u64,
+        quantizer: QUANTIZER,
+        tiles: TILES,
+        ..EncoderConfig::with_speed_preset(SPEED)
+    };
+    settings.speed_settings.scene_detection_mode = SceneDetectionSpeed::None;
+    let mut context: Context<u8> =
+        Config::new().with_encoder_config(settings).new_context().map_err(io::Error::other)?;
+    let mut packets = Vec::with_capacity(frames.len());
+    let mut waiting = frames.iter();
+    loop {
+        if cancel.is_cancelled() {
+            return Err(io::ErrorKind::Interrupted.into());
+        }
+        match context.receive_packet() {
+            Ok(packet) => {
+                packets.push(packet.data);
+                done();
+            }
+            Err(EncoderStatus::Encoded) => (),
+            Err(EncoderStatus::NeedMoreData) => match waiting.next() {
+                Some(rgb) => {
+                    let mut frame: Frame<u8> = context.new_frame();
+                    let planes = planes(rgb, source, [width, height]);
+                    for ((plane, samples), across) in
+                        frame.planes.iter_mut().zip(&planes).zip([width, width / 2, width / 2])
+                    {
+                        plane.copy_from_raw_u8(samples, across, 1);
+                    }
+                    context.send_frame(Arc::new(frame)).map_err(io::Error::other)?;
+                }
+                None => context.flush(),
+            },
+            Err(EncoderStatus::LimitReached) => break,
+            Err(error) => return Err(io::Error::other(error)),
+        }
+    }
+    Ok(Video { width, height, level, packets })
+}
+
+/// The lowest level of AV1 that has pictures of this size at this rate \[1/s\]; 31 is above all.
+fn level([width, height]: [usize; 2], rate: f64) -> u8 {
+    // Index, samples of a picture, of its sides, and of a second: the specification's annex A.3.
+    const LEVELS: [(u8, usize, [usize; 2], f64); 9] = [
+        (0, 147_456, [2048, 1152], 4_423_680.0),
+        (1, 278_784, [2816, 1584], 8_363_520.0),
+        (4, 665_856, [4352, 2448], 19_975_680.0),
+        (5, 1_065_024, [5504, 3096], 31_950_720.0),
+        (8, 2_359_296, [6144, 3456], 70_778_880.0),
+        (9, 2_359_296, [6144, 3456], 141_557_760.0),
+        (12, 8_912_896, [8192, 4352], 267_386_880.0),
+        (13, 8_912_896, [8192, 4352], 534_773_760.0),
+        (16, 35_651_584, [16_384, 8704], 1_069_547_520.0),
+    ];
+    let samples = width * height;
+    let fits = |(_, most, sides, per_second): &&(u8, usize, [usize; 2], f64)| {
+        samples <= *most && width <= sides[0] && height <= sides[1] && samples as f64 * rate <= *per_second
+    };
+    LEVELS.iter().find(fits).map_or(31, |(index, ..)| *index)
+}
+
+/// Luma and both chromas of a picture, with background where it is larger than its source.
+fn planes(rgb: &[u8], [across, down]: [usize; 2], [width, height]: [usize; 2]) -> [Vec<u8>; 3] {
+    let pixel = |x: usize, y: usize| -> [f32; 3] {
+        if x >= across || y >= down {
+            return BACKGROUND;
+        }
+        let at = 3 * (y * across + x);
+        [rgb[at], rgb[at + 1], rgb[at + 2]].map(f32::from)
+    };
+    let luma = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let mut planes = [vec![0; width * height], vec![0; width * height / 4], vec![0; width * height / 4]];
+    planes[0].par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        for (x, sample) in row.iter_mut().enumerate() {
+            *sample = (16.0 + 219.0 / 255.0 * luma(pixel(x, y))).round() as u8;
+        }
+    });
+    let [_, blue, red] = &mut planes;
+    let rows = blue.par_chunks_mut(width / 2).zip(red.par_chunks_mut(width / 2)).enumerate();
+    rows.for_each(|(y, (blue, red))| {
+        for x in 0..width / 2 {
+            let mut mean = [0.0; 3];
+            for (column, weight) in [((2 * x).saturating_sub(1), 0.125), (2 * x, 0.25), (2 * x + 1, 0.125)] {
+                for row in [2 * y, 2 * y + 1] {
+                    let colour = pixel(column, row);
+                    (0..3).for_each(|k| mean[k] += weight * colour[k]);
+                }
+            }
+            let grey = luma(mean);
+            blue[x] = (128.0 + 224.0 / 255.0 * (mean[2] - grey) / 1.8556).round() as u8;
+            red[x] = (128.0 + 224.0 / 255.0 * (mean[0] - grey) / 1.5748).round() as u8;
+        }
+    });
+    planes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_those_of_bt_709() {
+        // Bars of 100 %: white, red, green, blue, black, as ITU-R BT.709-6 has them in 8 bits.
+        let bars: [([u8; 3], [u8; 3]); 5] = [
+            ([255, 255, 255], [235, 128, 128]),
+            ([255, 0, 0], [63, 102, 240]),
+            ([0, 255, 0], [173, 42, 26]),
+            ([0, 0, 255], [32, 240, 118]),
+            ([0, 0, 0], [16, 128, 128]),
+        ];
+        for (rgb, expected) in bars {
+            let found = planes(&rgb.repeat(4), [2, 2], [2, 2]);
+            assert_eq!([found[0][3], found[1][0], found[2][0]], expected, "{rgb:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_added_is_white_and_chroma_stands_at_the_left() {
+        // Three columns, red red white, and one row, in a picture of 4 × 2.
+        let [luma, _, red] = planes(&[255, 0, 0, 255, 0, 0, 255, 255, 255], [3, 1], [4, 2]);
+        assert_eq!(luma, [63, 63, 235, 235, 235, 235, 235, 235]);
+        // Half of either sample is the white row below; of the second a quarter of the rest is red.
+        assert_eq!(red, [184, 142]);
+    }
+
+    #[test]
+    fn levels_are_the_lowest_that_fit() {
+        assert_eq!(level([200, 160], 2.0), 0);
+        assert_eq!(level([720, 644], 9.0), 4);
+        assert_eq!(level([1920, 1080], 30.0), 8);
+        assert_eq!(level([1920, 1080], 60.0), 9);
+        assert_eq!(level([720, 644], 300.0), 9);
+        assert_eq!(level([4000, 3600], 15.0), 16);
+        assert_eq!(level([20_000, 16], 15.0), 31);
+    }
+}
