@@ -6,14 +6,14 @@
 
 use crate::control::Cancel;
 use rav1e::prelude::{
-    ChromaSamplePosition, ColorDescription, ColorPrimaries, Config, Context, EncoderConfig, EncoderStatus, Frame,
-    MatrixCoefficients, PixelRange, Rational, SceneDetectionSpeed, TransferCharacteristics,
+    BlockSize, ChromaSamplePosition, ColorDescription, ColorPrimaries, Config, Context, EncoderConfig, EncoderStatus,
+    Frame, MatrixCoefficients, PartitionRange, PixelRange, Rational, SceneDetectionSpeed, TransferCharacteristics,
 };
 use rayon::prelude::*;
 use std::io;
 use std::sync::Arc;
 
-/// Of rav1e's 0 to 10: the slowest at which a minute's work is not in sight.
+/// Of rav1e's 0 to 10. Measured with 36 frames of 720 × 644: 9 takes 0.6 times as long and 1.4 times the space.
 const SPEED: u8 = 8;
 /// Of 0 to 255: text and thin lines are as crisp as before, and fills keep their colour.
 const QUANTIZER: usize = 60;
@@ -71,6 +71,9 @@ pub(super) fn encode(
         ..EncoderConfig::with_speed_preset(SPEED)
     };
     settings.speed_settings.scene_detection_mode = SceneDetectionSpeed::None;
+    // Measured: without blocks of 64 it is a tenth faster, and the file no larger.
+    settings.speed_settings.partition.partition_range =
+        PartitionRange::new(BlockSize::BLOCK_8X8, BlockSize::BLOCK_32X32);
     let mut context: Context<u8> =
         Config::new().with_encoder_config(settings).new_context().map_err(io::Error::other)?;
     let mut packets = Vec::with_capacity(frames.len());
