@@ -88,6 +88,15 @@ impl Stored {
     }
 }
 
+/// What became of a request.
+#[derive(Debug)]
+pub enum Note {
+    /// Nothing is wrong.
+    Remark(String),
+    /// It could not be done.
+    Failure(String),
+}
+
 /// All pins, the first being what differences are from.
 #[derive(Debug, Default)]
 pub struct Pins {
@@ -101,7 +110,7 @@ pub struct Pins {
     pub page: Page,
     /// Whether parameters are listed that do not differ.
     pub all_parameters: bool,
-    note: Option<String>,
+    note: Option<Note>,
 }
 
 impl Pins {
@@ -131,8 +140,8 @@ impl Pins {
     }
 
     /// What became of the last request, if that cannot be seen.
-    pub fn note(&self) -> Option<&str> {
-        self.note.as_deref()
+    pub fn note(&self) -> Option<&Note> {
+        self.note.as_ref()
     }
 
     /// A pin by its number.
@@ -159,10 +168,10 @@ impl Pins {
     fn insert(&mut self, id: u64, kept: Option<(String, usize)>, mut run: Run) {
         let twin = self.runs.iter().find(|other| other.scene == run.scene && fidelity(other) == fidelity(&run));
         if let Some(twin) = twin {
-            self.note = Some(format!("“{}” is this run already", twin.label));
+            self.note = Some(Note::Remark(format!("“{}” is this run already", twin.label)));
             return;
         }
-        self.note = run.solved.as_ref().err().map(|reason| format!("{}: {reason}", run.label));
+        self.note = run.solved.as_ref().err().map(|reason| Note::Failure(format!("{}: {reason}", run.label)));
         if run.solved.is_err() {
             return;
         }
@@ -275,7 +284,7 @@ impl Pins {
             let (runs, ended) = task.drain();
             waiting.told |= !runs.is_empty();
             if ended && !waiting.told {
-                failed = Some(format!("{} could not be solved", waiting.name));
+                failed = Some(Note::Failure(format!("{} could not be solved", waiting.name)));
             }
             let kept = waiting.slot.map(|slot| (waiting.name.clone(), slot));
             solved.extend(runs.into_iter().map(|run| (waiting.id, kept.clone(), run)));
@@ -363,7 +372,7 @@ mod tests {
         let name = &presets::find("plate-crossover").unwrap().name;
         let labels: Vec<&str> = pins.runs().iter().map(|run| run.label.as_str()).collect();
         assert_eq!(labels, [name.as_str(), &format!("{name}, frequency 12 kHz"), &format!("{name}, standard")]);
-        assert!(pins.note().unwrap().contains("already"));
+        assert!(matches!(pins.note(), Some(Note::Remark(text)) if text.contains("already")));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::gui::lessons::glossary;
 use eframe::egui::{self, Color32, Rect, RichText, TextStyle};
-use egui_plot::{GridInput, GridMark, LineStyle, Plot};
+use egui_plot::{AxisHints, GridInput, GridMark, LineStyle, Plot};
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
 const NUMBERS: f32 = 3.6;
@@ -20,8 +20,12 @@ pub(super) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
     let em = ui.text_style_height(&TextStyle::Body);
     let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
     let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
+    // The spacers leave room for every number: none is to fade because others are near.
+    let near = egui::Rangef::new(0.0, 1.0);
     Plot::new(id.to_owned())
         .height(height)
+        .custom_x_axes(vec![AxisHints::new_x().label_spacing(near)])
+        .custom_y_axes(vec![AxisHints::new_y().label_spacing(near)])
         .allow_zoom(false)
         .allow_drag(false)
         .allow_scroll(false)

@@ -10,7 +10,7 @@ use crate::gui::panels::hint::Hint;
 use crate::gui::panels::labels::{explanation, label};
 use crate::gui::panels::menu::{COMPARISON, export_button, presets_menu};
 use crate::gui::panels::parameters::capitalised;
-use crate::gui::pinned::{Page, Pinning, Pins, fidelity};
+use crate::gui::pinned::{Note, Page, Pinning, Pins, fidelity};
 use crate::gui::state::View;
 use crate::gui::theme::{Palette, run_colour};
 use crate::gui::views::overlay::{self, Overlaid};
@@ -51,9 +51,7 @@ pub fn show(ui: &mut Ui, shown: &Shown<'_>, view: &mut View, colours: &Palette, 
         return;
     }
     chips(ui, shown, colours, commands);
-    if let Some(note) = pins.note() {
-        ui.add(egui::Label::new(RichText::new(note).color(colours.alarm)).wrap());
-    }
+    note(ui, pins, colours);
     if pins.runs().is_empty() {
         return;
     }
@@ -84,9 +82,17 @@ fn introduction(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette, commands: &mu
     ui.add(egui::Label::new(RichText::new(text).color(colours.quiet)).wrap());
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| add_buttons(ui, shown, commands));
-    if let Some(note) = shown.pins.note() {
-        ui.add(egui::Label::new(RichText::new(note).color(colours.alarm)).wrap());
-    }
+    note(ui, shown.pins, colours);
+}
+
+/// What became of the last request.
+fn note(ui: &mut Ui, pins: &Pins, colours: &Palette) {
+    let (text, colour) = match pins.note() {
+        Some(Note::Remark(text)) => (text, colours.quiet),
+        Some(Note::Failure(text)) => (text, colours.alarm),
+        None => return,
+    };
+    ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
 }
 
 /// What adds a pin.
