@@ -2,10 +2,13 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod memory;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use memory::Memory;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, Ended, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
@@ -16,7 +19,6 @@ use squeezefilm::job::Run;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::Outcome;
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -375,26 +377,6 @@ fn nothing_is_redrawn_while_nothing_moves() {
     window.step();
     window.step();
     assert!(delay(&window) < Duration::from_millis(50), "{:?}", delay(&window));
-}
-
-/// Storage in memory, as eframe keeps it in a file.
-#[derive(Default)]
-struct Memory(BTreeMap<String, String>);
-
-impl eframe::Storage for Memory {
-    fn get_string(&self, key: &str) -> Option<String> {
-        self.0.get(key).cloned()
-    }
-
-    fn set_string(&mut self, key: &str, value: String) {
-        self.0.insert(key.to_owned(), value);
-    }
-
-    fn remove_string(&mut self, key: &str) {
-        self.0.remove(key);
-    }
-
-    fn flush(&mut self) {}
 }
 
 #[test]

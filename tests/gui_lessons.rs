@@ -2,10 +2,13 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod memory;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use memory::Memory;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::dialogs::Answer;
@@ -15,31 +18,10 @@ use squeezefilm::gui::state::Tab;
 use squeezefilm::gui::world::World;
 use squeezefilm::lessons::{self, Act, Doing, Known, Prediction, Step, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 type Window = Harness<'static, App>;
-
-/// Storage in memory, as eframe keeps it in a file.
-#[derive(Clone, Default)]
-struct Memory(BTreeMap<String, String>);
-
-impl eframe::Storage for Memory {
-    fn get_string(&self, key: &str) -> Option<String> {
-        self.0.get(key).cloned()
-    }
-
-    fn set_string(&mut self, key: &str, value: String) {
-        self.0.insert(key.to_owned(), value);
-    }
-
-    fn remove_string(&mut self, key: &str) {
-        self.0.remove(key);
-    }
-
-    fn flush(&mut self) {}
-}
 
 fn world() -> World {
     World { ask: |_, _| Answer::NoDialog, ..World::default() }
@@ -91,6 +73,18 @@ fn click(window: &mut Window, label: &str) {
 fn choose(window: &mut Window, entry: &str) {
     window.get_by_label_contains(entry).click();
     window.run_steps(3);
+}
+
+/// Waits until a path is asked for, which a dialog that cannot be shown leads to.
+fn await_path(window: &mut Window) {
+    for _ in 0..500 {
+        window.step();
+        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    window.run_steps(2);
 }
 
 fn shows(window: &Window, part: &str) -> bool {
@@ -623,14 +617,7 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
     let mut window = window("fundamental");
     click(&mut window, "Lessons");
     choose(&mut window, "Open a folder of lessons…");
-    for _ in 0..500 {
-        window.step();
-        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    window.run_steps(2);
+    await_path(&mut window);
     window.get_by_role_and_label(Role::TextInput, "Path").type_text(folder.path().to_str().unwrap());
     window.step();
     window.key_press(Key::Enter);
@@ -874,14 +861,7 @@ fn a_preset_that_a_lesson_lends_can_be_saved_as_a_copy() {
     open(&mut window, "The squeeze number");
     let lent = window.state().document().scene().clone();
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    for _ in 0..500 {
-        window.step();
-        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    window.run_steps(2);
+    await_path(&mut window);
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
     window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
     window.step();

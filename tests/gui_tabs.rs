@@ -2,10 +2,13 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod memory;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use memory::Memory;
 use squeezefilm::analysis::compare;
 use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::Sweep;
@@ -24,7 +27,6 @@ use squeezefilm::lessons::glossary;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Value, presets};
 use squeezefilm::solve::Settings;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -657,26 +659,6 @@ fn exports_say_what_they_write() {
         let found = exports.iter().find(|(_, name, _)| name == entry).unwrap_or_else(|| panic!("{entry}: {exports:?}"));
         assert!(found.2.as_ref().is_some_and(|text| text.len() > 20), "{found:?}");
     }
-}
-
-/// Storage in memory, as eframe keeps it in a file.
-#[derive(Clone, Default)]
-struct Memory(BTreeMap<String, String>);
-
-impl eframe::Storage for Memory {
-    fn get_string(&self, key: &str) -> Option<String> {
-        self.0.get(key).cloned()
-    }
-
-    fn set_string(&mut self, key: &str, value: String) {
-        self.0.insert(key.to_owned(), value);
-    }
-
-    fn remove_string(&mut self, key: &str) {
-        self.0.remove(key);
-    }
-
-    fn flush(&mut self) {}
 }
 
 /// What a window leaves behind.
