@@ -26,8 +26,10 @@ pub enum Fidelity {
 pub struct Spec {
     /// Intervals along a tooth of ordinary width.
     pub along: usize,
-    /// Intervals across half the contact width.
+    /// Unknown nodes across half the contact width, to begin with, of a polynomial.
     pub across: usize,
+    /// Intervals across half the contact width with finite volumes.
+    pub volumes: usize,
     /// Steps in a cycle, at least.
     pub steps: usize,
     /// Nodes in one wavelength that a tooth as wide as the wave would have.
@@ -74,7 +76,8 @@ impl Fidelity {
         match self {
             Self::Draft => Spec {
                 along: 8,
-                across: 4,
+                across: 2,
+                volumes: 4,
                 steps: 36,
                 per_wave: 32,
                 edge_fraction: 0.7,
@@ -89,8 +92,9 @@ impl Fidelity {
             },
             Self::Standard => Spec {
                 along: 12,
-                across: 4,
-                steps: 72,
+                across: 2,
+                volumes: 4,
+                steps: 36,
                 per_wave: 64,
                 edge_fraction: 0.85,
                 harmonic_fraction: 3e-2,
@@ -104,8 +108,9 @@ impl Fidelity {
             },
             Self::Fine => Spec {
                 along: 24,
-                across: 8,
-                steps: 108,
+                across: 3,
+                volumes: 8,
+                steps: 72,
                 per_wave: 128,
                 edge_fraction: 0.5,
                 harmonic_fraction: 1e-2,
@@ -119,8 +124,9 @@ impl Fidelity {
             },
             Self::Reference => Spec {
                 along: 48,
-                across: 20,
-                steps: 288,
+                across: 4,
+                volumes: 20,
+                steps: 144,
                 per_wave: 256,
                 edge_fraction: 0.2,
                 harmonic_fraction: 1e-3,

@@ -2,7 +2,7 @@
 
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
-use crate::numerics::grading::{clustering, middle_clustering};
+use crate::numerics::grading::{clustering, map, middle_clustering};
 use crate::problem::{Flow, Motor, Named, Numerics, Plate, Teeth, Time, Wedge, Width};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
@@ -17,6 +17,18 @@ pub struct Grid {
     /// Rotor harmonics are kept until they fall below this fraction of the local compliance: four times as large on a
     /// grid of twice the spacing, so that what the cut changes is extrapolated, and estimated, with the rest.
     pub harmonic_fraction: f64,
+}
+
+impl Grid {
+    /// Twice as fine. A polynomial across stays what it is.
+    pub fn finer(&self, spectral: bool) -> Self {
+        Self {
+            along: 2 * self.along,
+            across: if spectral { self.across } else { 2 * self.across },
+            steps: 2 * self.steps,
+            harmonic_fraction: 0.25 * self.harmonic_fraction,
+        }
+    }
 }
 
 /// What was decided about one part of the model, and why.
@@ -54,6 +66,8 @@ pub struct Plan {
     pub clustering_along: f64,
     /// Clustering parameter of the nodes across.
     pub clustering_across: f64,
+    /// Across the width a field is one polynomial, on the same nodes on all grids; or finite volumes, which nothing breaks.
+    pub spectral: bool,
     /// Solve half the width and mirror it.
     pub half_width: bool,
     /// Solve every tooth (or one, by lag symmetry).
@@ -68,6 +82,14 @@ pub struct Plan {
     pub left_out: f64,
     /// Rotor harmonics kept at most.
     pub most_harmonics: usize,
+    /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
+    pub accuracy: f64,
+    /// Grids at most, those of `grids` included, and unknown nodes of a polynomial across half the width.
+    pub most_grids: usize,
+    /// See `most_grids`.
+    pub most_across: usize,
+    /// Nodes across and their clustering, should it have to be finite volumes.
+    pub robust: (usize, f64),
     /// Largest relative change that counts as a repeating cycle.
     pub tolerance: f64,
     /// Rounds of the coupling after which the solve gives up.
@@ -124,8 +146,10 @@ impl Plan {
         } else {
             graded(base, asked, motor.tooth_width, edge)
         };
-        let (across, clustering_across) =
-            graded(spec.across, numerics.film_nodes_across.map(|n| n / 2), 0.5 * motor.contact_width, edge);
+        let half = 0.5 * motor.contact_width;
+        let robust = graded(spec.volumes, numerics.film_nodes_across.map(|n| n / 2), half, edge);
+        let across = numerics.film_nodes_across.map_or(spec.across, |n| (n / 2).max(1));
+        let clustering_across = spectral_clustering(layer / half);
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;
 
@@ -154,9 +178,10 @@ impl Plan {
         let moving = |decision: &&Decision| !trapped || decision.key == Some("numerics.time");
         Self {
             fidelity: name(fidelity, numerics),
-            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }),
+            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, true),
             clustering_along,
             clustering_across,
+            spectral: true,
             half_width,
             every_tooth,
             shear: !trapped && decisions[2].chosen == Wedge::On.name(),
@@ -167,11 +192,23 @@ impl Plan {
             trapped,
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
             most_harmonics: spec.most_harmonics,
+            accuracy: if custom(numerics) { 0.0 } else { spec.aim },
+            most_grids: if custom(numerics) { GRIDS } else { GRIDS + 2 },
+            most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
+            robust,
             tolerance: numerics.tolerance.unwrap_or(spec.tolerance),
             round_limit: ROUND_LIMIT,
             maps: true,
             decisions,
         }
+    }
+
+    /// The same plan with finite volumes across.
+    pub fn volumes(&self) -> Self {
+        let (across, clustering_across) = self.robust;
+        let finest = self.grids.last().map(|grid| Grid { across, ..*grid });
+        let grids = finest.map_or_else(Vec::new, |finest| nested(finest, false));
+        Self { spectral: false, grids, clustering_across, ..self.clone() }
     }
 
     /// A sentence for each decision.
@@ -214,9 +251,10 @@ impl Plan {
         ];
         Self {
             fidelity: name(fidelity, numerics),
-            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }),
+            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, false),
             clustering_along,
             clustering_across,
+            spectral: false,
             half_width: true,
             every_tooth: false,
             shear: false,
@@ -224,6 +262,10 @@ impl Plan {
             trapped: false,
             left_out: 0.0,
             most_harmonics: spec.most_harmonics,
+            accuracy: if custom(numerics) { 0.0 } else { spec.aim },
+            most_grids: if custom(numerics) { GRIDS } else { GRIDS + 2 },
+            most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
+            robust: (across, clustering_across),
             tolerance: numerics.tolerance.unwrap_or(spec.plate_tolerance),
             round_limit: ROUND_LIMIT,
             maps: true,
@@ -530,17 +572,34 @@ fn round_up(count: usize) -> usize {
     count.max(1).next_multiple_of(1 << (GRIDS - 1))
 }
 
-/// The grids down to the coarsest.
-fn nested(finest: Grid) -> Vec<Grid> {
+/// The grids down to the coarsest. A polynomial across is the same on all of them.
+fn nested(finest: Grid, spectral: bool) -> Vec<Grid> {
     (0..GRIDS)
         .rev()
         .map(|halved| Grid {
             along: finest.along >> halved,
-            across: finest.across >> halved,
+            across: if spectral { finest.across } else { finest.across >> halved },
             steps: finest.steps >> halved,
             harmonic_fraction: finest.harmonic_fraction * (1 << (2 * halved)) as f64,
         })
         .collect()
+}
+
+/// Clustering of spectral nodes for a boundary layer of `layer` times the half width: the edge's interval of a polynomial with three
+/// nodes, 0.17 of the half width without clustering, is at most 1.5 layers.
+fn spectral_clustering(layer: f64) -> f64 {
+    const OUTERMOST: f64 = 0.830_223_896_278_567;
+    let interval = |beta: f64| 1.0 - map(beta, OUTERMOST);
+    let asked = 1.5 * layer;
+    let (mut low, mut high) = (0.0, 20.0);
+    if interval(low) <= asked {
+        return 0.0;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if interval(middle) > asked { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
 }
 
 /// Intervals over `length` and their clustering, so that the first is `edge` \[m\]. A thin layer gets more of them: the map

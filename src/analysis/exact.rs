@@ -12,7 +12,7 @@
 use crate::dimensionless::Dimensionless;
 use crate::estimate::{Estimate, extrapolate};
 use crate::film::exact::{linear_rectangle, linear_strip, viscous_rectangle_force, viscous_strip_force};
-use crate::film::slip::{Mobility, Potential, SlipLaw};
+use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::trapped::edge_height;
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -158,22 +158,14 @@ pub fn invariant_deviation(plate: &Plate, recording: &Recording) -> Option<f64> 
     let law = SlipLaw::of(&plate.gas);
     let ambient = plate.gas.ambient_pressure;
     let gaps: Vec<f64> = (0..frames).map(|m| plate.gap(m as f64 / frames as f64)).collect();
-    let (mut low, mut high) = (f64::INFINITY, 0.0f64);
-    for (gap, map) in gaps.iter().zip(recording.pressure.chunks_exact(size)) {
-        for pressure in map.iter().chain([&ambient]) {
-            let z = gap * pressure / ambient;
-            (low, high) = (low.min(z), high.max(z));
-        }
-    }
-    let potential = Potential::new(law, [low, high]);
     let mut sums = vec![0.0; size];
     let (mut edge, mut scale) = (0.0, 0.0);
     for (gap, map) in gaps.iter().zip(recording.pressure.chunks_exact(size)) {
         let factor = gap / ambient;
         for (sum, pressure) in sums.iter_mut().zip(map) {
-            *sum += gap * potential.at(factor * pressure);
+            *sum += gap * law.potential(factor * pressure);
         }
-        edge += gap * potential.at(*gap);
+        edge += gap * law.potential(*gap);
         scale += gap * gap * (law.at(*gap).0 - 0.5 * gap);
     }
     Some(sums.iter().map(|sum| (sum - edge).abs()).fold(0.0, f64::max) / scale)

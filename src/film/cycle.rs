@@ -15,7 +15,7 @@
 use super::grid::FilmGrid;
 use super::stepper::{Film, FilmError, FilmState, StepCost};
 use crate::control::Cancel;
-use crate::numerics::five_point::{BlockSolver, FivePoint};
+use crate::numerics::rows::{Coupling, RowSolver};
 use crate::problem::Gas;
 
 /// Why a cycle ended early.
@@ -54,8 +54,8 @@ pub struct FilmCycle {
     pressure: Vec<f64>,
     marched: bool,
     before: Vec<f64>,
-    leak: FivePoint,
-    solver: BlockSolver,
+    leak: Coupling,
+    solver: RowSolver,
     shift: Vec<f64>,
 }
 
@@ -63,14 +63,15 @@ impl FilmCycle {
     /// A cycle of `steps` on `grid`.
     pub fn new(grid: FilmGrid, gas: &Gas, steps: usize) -> Self {
         let (unknowns, columns) = (grid.unknowns(), grid.y.unknown().len());
+        let solver = RowSolver::new(unknowns / columns, columns, &grid.y.diffusion());
         Self {
             film: Film::new(grid, gas),
             steps,
             pressure: vec![1.0; steps * unknowns],
             marched: false,
             before: vec![0.0; unknowns],
-            leak: FivePoint::new(unknowns),
-            solver: BlockSolver::new(unknowns / columns, columns),
+            leak: Coupling::new(unknowns),
+            solver,
             shift: vec![0.0; unknowns],
         }
     }
@@ -186,8 +187,7 @@ impl FilmCycle {
             let east = 1.0 / h[ix + 1];
             let nodes = row * columns..(row + 1) * columns;
             add(&mut leak.centre[nodes.clone()], &jacobian.centre[nodes.clone()], here);
-            add(&mut leak.south[nodes.clone()], &jacobian.south[nodes.clone()], here);
-            add(&mut leak.north[nodes.clone()], &jacobian.north[nodes.clone()], here);
+            add(&mut leak.within[nodes.clone()], &jacobian.within[nodes.clone()], here);
             add(&mut leak.west[nodes.clone()], &jacobian.west[nodes.clone()], west);
             add(&mut leak.east[nodes.clone()], &jacobian.east[nodes], east);
             (west, here) = (here, east);

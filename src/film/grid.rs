@@ -1,6 +1,6 @@
 //! Nodes of the film on one tooth or plate: a tensor grid with nodes on the edges, graded towards ambient edges.
 
-use crate::numerics::grading;
+use crate::numerics::{grading, legendre};
 
 /// What lies beyond the first node along an axis. Beyond the last there is always ambient gas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +20,9 @@ pub struct Axis {
     pub lengths: Vec<f64>,
     /// What lies before the first node.
     pub start: Start,
+    /// Slopes of a spectral axis at every node by the values at every node \[1/m\], `[node][value]`; empty where the nodes are
+    /// those of finite volumes.
+    slopes: Vec<f64>,
 }
 
 impl Axis {
@@ -37,7 +40,31 @@ impl Axis {
             Start::Mirror => grading::one_sided(half, intervals, beta),
         };
         let lengths = grading::node_lengths(&nodes);
-        Self { nodes, lengths, start }
+        Self { nodes, lengths, start, slopes: Vec::new() }
+    }
+
+    /// An axis on which a field is one polynomial: `count` nodes of Gauss, Lobatto and Legendre over half-length `half` \[m\]
+    /// beside the edge, clustered further by β. Of a whole length, as many again on the other side.
+    pub fn spectral(half: f64, start: Start, count: usize, beta: f64) -> Self {
+        let (positions, weights) = legendre::lobatto(2 * count);
+        let derivative = legendre::derivative(&positions);
+        let all = positions.len();
+        let stretch: Vec<f64> = positions.iter().map(|eta| half * grading::slope(beta, *eta)).collect();
+        // Of a mirrored field the node at −y has the value of that at y.
+        let first = if start == Start::Mirror { count } else { 0 };
+        let entry = |node: usize, value: usize| {
+            let own = derivative[node * all + value];
+            let twin = all - 1 - value;
+            let both = if first > 0 && twin != value { own + derivative[node * all + twin] } else { own };
+            both / stretch[node]
+        };
+        let share = |node: usize| if first > 0 && node == first { 0.5 } else { 1.0 };
+        Self {
+            nodes: positions[first..].iter().map(|eta| half * grading::map(beta, *eta)).collect(),
+            lengths: (first..all).map(|node| share(node) * weights[node] * stretch[node]).collect(),
+            start,
+            slopes: (first..all).flat_map(|node| (first..all).map(move |value| (node, value))).map(|(n, v)| entry(n, v)).collect(),
+        }
     }
 
     /// The single node of an infinitely wide film, standing for one metre.
@@ -47,7 +74,7 @@ impl Axis {
 
     /// The single node of a film that does not flow along this axis, standing for all of its `length` \[m\].
     pub fn single(length: f64) -> Self {
-        Self { nodes: vec![0.0], lengths: vec![length], start: Start::Mirror }
+        Self { nodes: vec![0.0], lengths: vec![length], start: Start::Mirror, slopes: Vec::new() }
     }
 
     /// Number of nodes.
@@ -66,6 +93,34 @@ impl Axis {
             return 0..1;
         }
         usize::from(self.start == Start::Ambient)..self.len() - 1
+    }
+
+    /// −∂²/∂y² \[1/m²\] between the unknown nodes, for a field that vanishes on the edges: `[node][value]`. Finite volumes have an
+    /// M-matrix, of second order; a spectral axis has the weak form of the same, ∫ f′v′ = Σ lengths × f′v′.
+    pub fn diffusion(&self) -> Vec<f64> {
+        let (unknown, count) = (self.unknown(), self.len());
+        let mut matrix = Vec::with_capacity(unknown.len().pow(2));
+        for i in unknown.clone() {
+            for j in unknown.clone() {
+                let stiffness = if !self.slopes.is_empty() {
+                    let term = |node: usize| {
+                        self.lengths[node] * self.slopes[node * count + i] * self.slopes[node * count + j]
+                    };
+                    (0..count).map(term).sum()
+                } else {
+                    let face = |low: usize| 1.0 / (self.nodes[low + 1] - self.nodes[low]);
+                    if i == j {
+                        (if i > 0 { face(i - 1) } else { 0.0 }) + if i + 1 < count { face(i) } else { 0.0 }
+                    } else if i.abs_diff(j) == 1 {
+                        -face(i.min(j))
+                    } else {
+                        0.0
+                    }
+                };
+                matrix.push(stiffness / self.lengths[i]);
+            }
+        }
+        matrix
     }
 
     /// How many times the solved part makes the whole.
@@ -114,5 +169,48 @@ impl FilmGrid {
         for (column, ix) in field.chunks_exact(uy.len()).zip(ux) {
             out[ix] = self.y.copies() * column.iter().zip(widths).map(|(f, w)| f * w).sum::<f64>();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spectral_axis_is_exact_for_polynomials_and_finite_volumes_for_a_parabola() {
+        let half = 0.3;
+        for start in [Start::Mirror, Start::Ambient] {
+            let spectral = Axis::spectral(half, start, 4, 0.0);
+            let volumes = Axis::clustered(half, start, if start == Start::Mirror { 4 } else { 8 }, 0.0);
+            for (axis, power, within) in [(&spectral, 2, 1e-11), (&spectral, 4, 1e-11), (&volumes, 2, 1e-12)] {
+                let field = |y: f64| 1.0 - (y / half).powi(power);
+                let exact = |y: f64| f64::from(power * (power - 1)) * (y / half).powi(power - 2) / (half * half);
+                let unknown = axis.unknown();
+                let values: Vec<f64> = unknown.clone().map(|i| field(axis.nodes[i])).collect();
+                for (row, i) in axis.diffusion().chunks_exact(values.len()).zip(unknown) {
+                    let found: f64 = row.iter().zip(&values).map(|(a, v)| a * v).sum();
+                    assert!((found - exact(axis.nodes[i])).abs() < within / (half * half), "{start:?} {power} {i}: {found}");
+                }
+            }
+            let length: f64 = spectral.lengths.iter().sum::<f64>() * spectral.copies();
+            assert!((length - 2.0 * half).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_layer_at_the_edge_is_found_spectrally() {
+        // f″ = κ²(f − 1), f = 0 on the edges: mean of f is 1 − tanh κ/κ.
+        let kappa: f64 = 8.0;
+        let error = |count: usize, beta: f64| {
+            let axis = Axis::spectral(1.0, Start::Mirror, count, beta);
+            let n = axis.unknown().len();
+            let matrix = nalgebra::DMatrix::from_row_slice(n, n, &axis.diffusion())
+                + nalgebra::DMatrix::identity(n, n) * (kappa * kappa);
+            let found = matrix.lu().solve(&nalgebra::DVector::from_element(n, kappa * kappa)).unwrap();
+            let mean: f64 = found.iter().zip(&axis.lengths).map(|(f, l)| f * l).sum();
+            (mean / (1.0 - kappa.tanh() / kappa) - 1.0).abs()
+        };
+        assert!(error(4, 0.0) < 1e-3 && error(6, 0.0) < 1e-6, "{} {}", error(4, 0.0), error(6, 0.0));
+        assert!(error(8, 1.0) < 1e-6, "{}", error(8, 1.0));
     }
 }

@@ -6,11 +6,15 @@
 
 use crate::numerics::gauss_legendre;
 use crate::problem::{Gas, Slip};
+use std::sync::LazyLock;
 
 /// ψ and dψ/dZ of a slip law.
 pub trait Mobility: Copy {
     /// `(ψ [m], dψ/dZ)` at trapped height `z` = h p/p_a \[m\], z > 0.
     fn at(self, z: f64) -> (f64, f64);
+
+    /// Φ = ∫ψ dZ \[m²\], up to a constant: for uniform gaps the flux is −M h ∇Φ.
+    fn potential(self, z: f64) -> f64;
 }
 
 /// ψ = Z + s: no slip (s = 0) and first order (s = 6 λ_a).
@@ -24,6 +28,11 @@ impl Mobility for Affine {
     #[inline(always)]
     fn at(self, z: f64) -> (f64, f64) {
         (z + self.offset, 1.0)
+    }
+
+    #[inline(always)]
+    fn potential(self, z: f64) -> f64 {
+        z * (0.5 * z + self.offset)
     }
 }
 
@@ -39,6 +48,12 @@ impl Mobility for SecondOrder {
     fn at(self, z: f64) -> (f64, f64) {
         let knudsen = self.mean_free_path / z;
         (z + 6.0 * self.mean_free_path * (1.0 + knudsen), 1.0 - 6.0 * knudsen * knudsen)
+    }
+
+    #[inline(always)]
+    fn potential(self, z: f64) -> f64 {
+        let path = self.mean_free_path;
+        z * (0.5 * z + 6.0 * path) + 6.0 * path * path * (z / path).ln()
     }
 }
 
@@ -72,21 +87,85 @@ fn blend(below: (f64, f64), above: (f64, f64), x: f64, join: f64) -> (f64, f64) 
     (below.0 + s * (above.0 - below.0), below.1 + s * (above.1 - below.1) + ds * (above.0 - below.0))
 }
 
+/// Q_P(D) and D dQ_P/dD.
+fn flow_rate(x: f64) -> (f64, f64) {
+    if x > 1.0 {
+        blend(piece(TRANSITION, x), piece(CONTINUUM, x), x, 5.0)
+    } else if x >= RAREFIED_END {
+        blend(piece(RAREFIED, x), piece(TRANSITION, x), x, 0.15)
+    } else {
+        let fall = std::f64::consts::PI.sqrt().recip();
+        (piece(RAREFIED, RAREFIED_END).0 - fall * (x / RAREFIED_END).ln(), -fall)
+    }
+}
+
+/// D at which the fit ends.
+const RAREFIED_END: f64 = 0.01;
+
+/// F(D) = ∫ Q_P dD, up to a constant: cubics in ln D between nodes, and in closed form beyond either end.
+struct FlowPotential {
+    /// F and dF/d ln D at the nodes.
+    nodes: Vec<(f64, f64)>,
+}
+
+impl FlowPotential {
+    const FIRST: f64 = RAREFIED_END;
+    const LAST: f64 = 10.0;
+    const INTERVALS: usize = 800;
+
+    fn step() -> f64 {
+        (Self::LAST / Self::FIRST).ln() / Self::INTERVALS as f64
+    }
+
+    fn new() -> Self {
+        let slope = |s: f64| s.exp() * flow_rate(s.exp()).0;
+        let mut sum = 0.0;
+        let mut nodes = Vec::with_capacity(Self::INTERVALS + 1);
+        for i in 0..=Self::INTERVALS {
+            let here = Self::FIRST.ln() + i as f64 * Self::step();
+            nodes.push((sum, slope(here)));
+            sum += gauss_legendre(here, here + Self::step(), slope);
+        }
+        Self { nodes }
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        let (first, last) = (self.nodes[0], self.nodes[Self::INTERVALS]);
+        if x <= Self::FIRST {
+            // ∫ of end − fall ln(D/D₀).
+            let ((end, fall), ratio) = (flow_rate(Self::FIRST), x / Self::FIRST);
+            let whole = |ratio: f64| Self::FIRST * ratio * (end - fall.abs() * (ratio.ln() - 1.0));
+            first.0 + whole(ratio) - whole(1.0)
+        } else if x >= Self::LAST {
+            let [a, b, c, d] = CONTINUUM;
+            let whole = |x: f64| x * (0.5 * a * x + b) + c * x.ln() - d / x;
+            last.0 + whole(x) - whole(Self::LAST)
+        } else {
+            let place = (x / Self::FIRST).ln() / Self::step();
+            let left = (place as usize).min(Self::INTERVALS - 1);
+            let t = place - left as f64;
+            let ((a, slope_a), (b, slope_b)) = (self.nodes[left], self.nodes[left + 1]);
+            let (rise, start, end) = (b - a, slope_a * Self::step(), slope_b * Self::step());
+            a + t * (start + t * (3.0 * rise - 2.0 * start - end + t * (start + end - 2.0 * rise)))
+        }
+    }
+}
+
+static FLOW_POTENTIAL: LazyLock<FlowPotential> = LazyLock::new(FlowPotential::new);
+
 impl Mobility for FukuiKaneko {
     fn at(self, z: f64) -> (f64, f64) {
         let x = 0.5 * std::f64::consts::PI.sqrt() * z / self.mean_free_path;
-        let (flow, slope) = if x > 1.0 {
-            blend(piece(TRANSITION, x), piece(CONTINUUM, x), x, 5.0)
-        } else if x >= 0.01 {
-            blend(piece(RAREFIED, x), piece(TRANSITION, x), x, 0.15)
-        } else {
-            let end = piece(RAREFIED, 0.01).0;
-            let fall = std::f64::consts::PI.sqrt().recip();
-            (end - fall * (x / 0.01).ln(), -fall)
-        };
+        let (flow, slope) = flow_rate(x);
         // ψ = Z·6 Q_P/D is proportional to Q_P, so dψ/dZ = ψ (D Q_P')/(Q_P Z).
         let psi = 6.0 * flow * z / x;
         (psi, psi * slope / (flow * z))
+    }
+
+    fn potential(self, z: f64) -> f64 {
+        // ψ = 6 (2λ_a/√π) Q_P(D), and dZ = (2λ_a/√π) dD.
+        let unit = 2.0 * self.mean_free_path / std::f64::consts::PI.sqrt();
+        6.0 * unit * unit * FLOW_POTENTIAL.at(z / unit)
     }
 }
 
@@ -122,68 +201,12 @@ impl Mobility for SlipLaw {
             Self::FukuiKaneko(law) => law.at(z),
         }
     }
-}
 
-/// Φ(Z) = ∫ψ dZ over a range of Z, up to a constant: for uniform gaps the flux is −M h ∇Φ.
-#[derive(Clone, Debug)]
-pub enum Potential {
-    /// Z²/2 + sZ + 6 λ_a² ln Z, of all laws but the last.
-    Closed {
-        /// s \[m\].
-        offset: f64,
-        /// 6 λ_a² \[m²\], or 0.
-        logarithm: f64,
-    },
-    /// Linearised Boltzmann: cubics in ln Z between nodes.
-    Table {
-        /// ln Z of the first node, and from node to node.
-        first: f64,
-        /// Spacing of the nodes in ln Z.
-        step: f64,
-        /// Φ and dΦ/d ln Z at the nodes \[m²\].
-        nodes: Vec<(f64, f64)>,
-    },
-}
-
-impl Potential {
-    /// Of a law, for trapped heights between `low` and `high` \[m\].
-    pub fn new(law: SlipLaw, [low, high]: [f64; 2]) -> Self {
-        const INTERVALS: usize = 400;
-        match law {
-            SlipLaw::Affine(law) => Self::Closed { offset: law.offset, logarithm: 0.0 },
-            SlipLaw::SecondOrder(SecondOrder { mean_free_path }) => {
-                Self::Closed { offset: 6.0 * mean_free_path, logarithm: 6.0 * mean_free_path * mean_free_path }
-            }
-            SlipLaw::FukuiKaneko(law) => {
-                let first = low.ln();
-                let step = ((high.ln() - first) / INTERVALS as f64).max(1e-9);
-                let slope = |s: f64| s.exp() * law.at(s.exp()).0;
-                let (mut sum, mut nodes) = (0.0, Vec::with_capacity(INTERVALS + 1));
-                for i in 0..=INTERVALS {
-                    let here = first + i as f64 * step;
-                    nodes.push((sum, slope(here)));
-                    sum += gauss_legendre(here, here + step, slope);
-                }
-                Self::Table { first, step, nodes }
-            }
-        }
-    }
-
-    /// Φ \[m²\] at trapped height `z` \[m\] within the range.
-    pub fn at(&self, z: f64) -> f64 {
+    fn potential(self, z: f64) -> f64 {
         match self {
-            Self::Closed { offset, logarithm } => {
-                let algebraic = z * (0.5 * z + offset);
-                if *logarithm > 0.0 { algebraic + logarithm * z.ln() } else { algebraic }
-            }
-            Self::Table { first, step, nodes } => {
-                let place = ((z.ln() - first) / step).clamp(0.0, (nodes.len() - 1) as f64);
-                let left = (place as usize).min(nodes.len() - 2);
-                let t = place - left as f64;
-                let ((a, slope_a), (b, slope_b)) = (nodes[left], nodes[left + 1]);
-                let (rise, start, end) = (b - a, slope_a * step, slope_b * step);
-                a + t * (start + t * (3.0 * rise - 2.0 * start - end + t * (start + end - 2.0 * rise)))
-            }
+            Self::Affine(law) => law.potential(z),
+            Self::SecondOrder(law) => law.potential(z),
+            Self::FukuiKaneko(law) => law.potential(z),
         }
     }
 }
@@ -194,17 +217,16 @@ mod tests {
 
     #[test]
     fn the_potential_is_the_integral_of_the_mobility() {
-        let range = [1e-8, 3e-6];
+        let range = [1e-10, 3e-5];
         for law in laws() {
-            let potential = Potential::new(law, range);
             let exact = |z: f64| {
-                let parts = 40;
+                let parts = 200;
                 let (from, to) = (range[0].ln(), z.ln());
                 let at = |i: usize| from + (to - from) * i as f64 / parts as f64;
                 (0..parts).map(|i| gauss_legendre(at(i), at(i + 1), |s| s.exp() * law.at(s.exp()).0)).sum::<f64>()
             };
-            for z in [2e-8, 1e-7, 7.7e-7, 2.9e-6] {
-                let found = potential.at(z) - potential.at(range[0]);
+            for z in [2e-10, 2e-8, 1e-7, 7.7e-7, 2.9e-5] {
+                let found = law.potential(z) - law.potential(range[0]);
                 assert!((found / exact(z) - 1.0).abs() < 1e-6, "{law:?} {z}: {found} {}", exact(z));
             }
         }

@@ -24,7 +24,7 @@
 
 use super::grid::{FilmGrid, Start};
 use super::slip::{Mobility, SlipLaw};
-use crate::numerics::five_point::{BlockSolver, FivePoint, with_columns};
+use crate::numerics::rows::{Coupling, RowSolver, with_columns};
 use crate::numerics::vectorised;
 use crate::problem::Gas;
 
@@ -99,16 +99,17 @@ pub struct Film {
     fitting: Vec<f64>,
     rhs: Vec<f64>,
     residual: Vec<f64>,
-    jacobian: FivePoint,
+    jacobian: Coupling,
     /// Centre of Newton's matrix: the Jacobian's and the film's inertia.
     pivots: Vec<f64>,
-    solver: BlockSolver,
+    solver: RowSolver,
     /// Faces before and after the row being assembled.
     faces: [FaceRow; 2],
-    across: AcrossRow,
-    /// 1/(Δy × node length) \[1/m²\] of the faces before and after each unknown node across; 0 where nothing flows.
-    south_scale: Vec<f64>,
-    north_scale: Vec<f64>,
+    /// −∂²/∂y² across \[1/m²\], `[value][node]`: column by column.
+    across: Vec<f64>,
+    /// Φ at the nodes of the row being assembled, less that of the edge \[m²\], and what flows out across.
+    potential: Vec<f64>,
+    outflow: Vec<f64>,
 }
 
 /// Δt × flux \[m²\] through one row of x faces and its derivatives by the pressures on either side.
@@ -141,42 +142,6 @@ impl Face {
             coefficient: dt * mobility * before * behind / spacing,
             weights: [0.5 * before, 0.5 * behind],
             choke: [choke(before, behind), choke(behind, before)],
-        }
-    }
-}
-
-/// The faces across one row of nodes: face j is before node j.
-#[derive(Clone, Debug)]
-struct AcrossRow {
-    /// Pressure at the nodes, and beyond either end.
-    pressure: Vec<f64>,
-    /// ψ (P₁ − P₀) \[m\] of each face, P₀ before it and P₁ behind, and its derivatives by them.
-    flow: Vec<f64>,
-    by_south: Vec<f64>,
-    by_north: Vec<f64>,
-}
-
-impl AcrossRow {
-    fn new(columns: usize) -> Self {
-        let faces = vec![0.0; columns + 1];
-        Self { pressure: vec![0.0; columns + 2], flow: faces.clone(), by_south: faces.clone(), by_north: faces }
-    }
-
-    #[inline(always)]
-    fn of<L: Mobility, const B: usize>(&mut self, law: L, gap: f64, south: f64, own: &[f64], north: f64) {
-        let b = if B == 0 { own.len() } else { B };
-        let pressure = &mut self.pressure[..b + 2];
-        pressure[0] = south;
-        pressure[1..=b].copy_from_slice(own);
-        pressure[b + 1] = north;
-        let (flow, by_south, by_north) = (&mut self.flow[..=b], &mut self.by_south[..=b], &mut self.by_north[..=b]);
-        for j in 0..=b {
-            let (psi, slope) = law.at(gap * 0.5 * (pressure[j] + pressure[j + 1]));
-            let drop = pressure[j + 1] - pressure[j];
-            let variation = 0.5 * slope * gap * drop;
-            flow[j] = psi * drop;
-            by_south[j] = variation - psi;
-            by_north[j] = variation + psi;
         }
     }
 }
@@ -234,14 +199,8 @@ impl Film {
     pub fn new(grid: FilmGrid, gas: &Gas) -> Self {
         let unknowns = grid.unknowns();
         let columns = grid.y.unknown().len();
-        let scale = |face: Option<usize>, node: usize| match face {
-            Some(face) if face + 1 < grid.y.len() => {
-                1.0 / ((grid.y.nodes[face + 1] - grid.y.nodes[face]) * grid.y.lengths[node])
-            }
-            _ => 0.0,
-        };
-        let south_scale = grid.y.unknown().map(|j| scale(j.checked_sub(1), j)).collect();
-        let north_scale = grid.y.unknown().map(|j| scale(Some(j), j)).collect();
+        let diffusion = grid.y.diffusion();
+        let across = (0..columns * columns).map(|k| diffusion[k % columns * columns + k / columns]).collect();
         Self {
             law: SlipLaw::of(gas),
             mobility: gas.ambient_pressure / (12.0 * gas.viscosity),
@@ -253,13 +212,13 @@ impl Film {
             fitting: vec![0.0; grid.len()],
             rhs: vec![0.0; unknowns],
             residual: vec![0.0; unknowns],
-            jacobian: FivePoint::new(unknowns),
+            jacobian: Coupling::new(unknowns),
             pivots: vec![0.0; unknowns],
-            solver: BlockSolver::new(unknowns / columns, columns),
-            across: AcrossRow::new(columns),
+            solver: RowSolver::new(unknowns / columns, columns, &diffusion),
             faces: [FaceRow::new(columns), FaceRow::new(columns)],
-            south_scale,
-            north_scale,
+            across,
+            potential: vec![0.0; columns],
+            outflow: vec![0.0; columns],
             grid,
         }
     }
@@ -299,7 +258,7 @@ impl Film {
     }
 
     /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
-    pub fn last_jacobian(&self) -> &FivePoint {
+    pub fn last_jacobian(&self) -> &Coupling {
         &self.jacobian
     }
 
@@ -459,7 +418,6 @@ impl Film {
         } else {
             ux.start - 1
         };
-        let (south_scale, north_scale) = (&self.south_scale[..b], &self.north_scale[..b]);
         for face in first..ux.end {
             // The face after node `face`; the one before it was made in the last turn.
             let mut between = Face::after(&self.grid, self.mobility, face, h, dt);
@@ -477,38 +435,41 @@ impl Film {
             if face >= ux.start {
                 let (row, gap) = (face - ux.start, h[face]);
                 let nodes = row * b..(row + 1) * b;
-                let across = dt * self.mobility * gap * gap;
                 let inverse = 1.0 / self.grid.x.lengths[face];
-                let south_edge = if y0 > 0 { self.pressure[face * ny + y0 - 1] } else { west[0] };
-                let north_edge = if ny > 1 { self.pressure[face * ny + y0 + b] } else { west[b - 1] };
-                self.across.of::<L, B>(law, gap, south_edge, west, north_edge);
-                let own = &self.across.pressure[1..=b];
-                let (flow, by_south, by_north) =
-                    (&self.across.flow[..=b], &self.across.by_south[..=b], &self.across.by_north[..=b]);
+                let edge = if ny > 1 { self.pressure[face * ny + y0 + b] } else { west[b - 1] };
+                let at_edge = law.potential(gap * edge);
+                let (potential, outflow) = (&mut self.potential[..b], &mut self.outflow[..b]);
+                for (potential, p) in potential.iter_mut().zip(west) {
+                    *potential = law.potential(gap * p) - at_edge;
+                }
+                outflow.fill(0.0);
+                for (column, potential) in self.across[..b * b].chunks_exact(b).zip(&*potential) {
+                    for (outflow, entry) in outflow.iter_mut().zip(column) {
+                        *outflow += entry * potential;
+                    }
+                }
+                let scale = dt * self.mobility * gap;
+                let own = west;
                 let residual = &mut self.residual[nodes.clone()];
                 let (rhs, theta) = (&self.rhs[nodes.clone()], &self.theta[nodes.clone()]);
                 let jacobian = &mut self.jacobian;
                 let centre = &mut jacobian.centre[nodes.clone()];
+                let within = &mut jacobian.within[nodes.clone()];
                 let to_west = &mut jacobian.west[nodes.clone()];
                 let to_east = &mut jacobian.east[nodes.clone()];
-                let to_south = &mut jacobian.south[nodes.clone()];
-                let to_north = &mut jacobian.north[nodes.clone()];
                 let pivots = &mut self.pivots[nodes];
                 let (flux_west, west_by_west, west_by_east) =
                     (&before.flux[..b], &before.by_west[..b], &before.by_east[..b]);
                 let (flux_east, east_by_west, east_by_east) =
                     (&after.flux[..b], &after.by_west[..b], &after.by_east[..b]);
                 for j in 0..b {
-                    let (south, north) = (across * south_scale[j], across * north_scale[j]);
                     let inertia = (1.0 + 0.5 * theta[j]) * gap;
-                    let divergence = south * flow[j] - north * flow[j + 1] + (flux_east[j] - flux_west[j]) * inverse;
+                    let divergence = scale * outflow[j] + (flux_east[j] - flux_west[j]) * inverse;
                     residual[j] = rhs[j] - inertia * own[j] - divergence;
-                    let here =
-                        south * by_north[j] - north * by_south[j + 1] + (east_by_west[j] - west_by_east[j]) * inverse;
+                    let here = (east_by_west[j] - west_by_east[j]) * inverse;
                     centre[j] = here;
-                    pivots[j] = inertia + (1.0 + damping) * here;
-                    to_south[j] = south * by_south[j];
-                    to_north[j] = -north * by_north[j + 1];
+                    within[j] = scale * gap * law.at(gap * own[j]).0;
+                    pivots[j] = inertia + here + damping * (here + within[j] * self.across[j * b + j]);
                     to_west[j] = -west_by_west[j] * inverse;
                     to_east[j] = east_by_east[j] * inverse;
                 }

@@ -66,6 +66,9 @@ impl Level {
         let x = Axis::clustered(0.5 * motor.tooth_width, Start::Ambient, grid.along, plan.clustering_along);
         let y = if plan.flow == Flow::Along {
             Axis::single(motor.contact_width)
+        } else if plan.spectral {
+            let start = if plan.half_width { Start::Mirror } else { Start::Ambient };
+            Axis::spectral(0.5 * motor.contact_width, start, grid.across, plan.clustering_across)
         } else if plan.half_width {
             Axis::clustered(0.5 * motor.contact_width, Start::Mirror, grid.across, plan.clustering_across)
         } else {
@@ -160,6 +163,17 @@ impl Level {
         self.films[0].grid()
     }
 
+    /// Unknown nodes across half the width.
+    pub(super) fn across(&self) -> usize {
+        let y = &self.grid().y;
+        if y.start == Start::Mirror { y.unknown().len() } else { y.len() / 2 }
+    }
+
+    /// No tooth touches at any instant.
+    pub(super) fn floats(&self) -> bool {
+        self.contact_load.iter().all(|load| *load == 0.0)
+    }
+
     fn instants(&self) -> usize {
         self.shapes.len()
     }
@@ -220,7 +234,8 @@ impl Level {
         let (cnx, cny) = (coarse.nx, coarse.grid().y.len());
         let (ux, uy) = (self.grid().x.unknown(), self.grid().y.unknown());
         let along: Vec<_> = (0..nx).map(|ix| Between::of(ix, nx - 1, cnx - 1)).collect();
-        let across: Vec<_> = (0..ny).map(|iy| Between::of(iy, (ny - 1).max(1), (cny - 1).max(1))).collect();
+        let (y, there) = (&self.grid().y.nodes, &coarse.grid().y.nodes);
+        let across: Vec<_> = (0..ny).map(|iy| Between::at(y[iy] / y[ny - 1], there)).collect();
         let widths = coarse.interior_width;
         for tooth in 0..self.stored {
             let mut pressure = vec![1.0; cnx * cny];
@@ -578,6 +593,15 @@ impl Between {
     fn of(i: usize, fine: usize, coarse: usize) -> Self {
         let (low, rest) = (i * coarse / fine, i * coarse % fine);
         Self { low, fraction: rest as f64 / fine as f64 }
+    }
+
+    /// Where the share `place` of the last of `nodes` lies between them.
+    fn at(place: f64, nodes: &[f64]) -> Self {
+        let place = place * nodes[nodes.len() - 1];
+        let high = nodes.partition_point(|node| *node <= place).min(nodes.len() - 1);
+        let low = high.saturating_sub(1);
+        let fraction = if high > low { (place - nodes[low]) / (nodes[high] - nodes[low]) } else { 0.0 };
+        Self { low, fraction: if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 } }
     }
 
     fn high(&self) -> usize {

@@ -16,10 +16,10 @@ pub use dry::without_film;
 
 use crate::contact::ContactError;
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::extrapolate;
+use crate::estimate::{Estimate, extrapolate};
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
-use crate::plan::Plan;
+use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
 use crate::recording::Recording;
 use crate::solution::{MotorResult, Stats, Status};
@@ -50,6 +50,10 @@ pub enum MotorError {
 const WARM_ROUNDS: usize = 12;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
+/// Share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
+/// docs/validation.md), and the share of the accuracy asked for that it may have.
+const WIDTH_SHARE: f64 = 0.15;
+const WIDTH_AIM: f64 = 0.3;
 
 /// Interrupted or failed: what ends a round early.
 enum Stop {
@@ -75,23 +79,25 @@ pub struct Periodic {
     pub result: MotorResult,
     /// α of each grid, coarse to fine.
     pub alphas: Vec<f64>,
+    /// What the last polynomial across changed of α on the coarsest grid; 0 with finite volumes.
+    pub across: f64,
     /// What it cost, all grids.
     pub stats: Stats,
     /// Fields of one cycle on the finest grid.
     pub recording: Recording,
 }
 
-/// The states that the last solve ended with, one of each grid: where the solve of a similar motor starts.
+/// The states that the last solve ended with: where the solve of a similar motor starts.
 ///
 /// A start changes how many rounds a solve takes, and its result by no more than the stated error.
 #[derive(Default)]
 pub struct Warm {
-    levels: Vec<Level>,
+    found: Option<Found>,
 }
 
 impl std::fmt::Debug for Warm {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Warm").field("grids", &self.levels.len()).finish()
+        f.debug_struct("Warm").field("grids", &self.found.as_ref().map_or(0, |found| found.levels.len())).finish()
     }
 }
 
@@ -120,59 +126,177 @@ pub fn periodic_from(
     cancel: &Cancel,
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
-    let mut alphas = Vec::new();
-    let mut levels: Vec<Level> = Vec::new();
-    let mut status = Status::Cancelled;
-    for (number, grid) in plan.grids.iter().enumerate() {
-        let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
-        let finest = number + 1 == plan.grids.len();
-        let rounds = if finest { plan.round_limit } else { plan.round_limit.min(COARSE_ROUNDS) };
-        // A motor too far from the last one is soon known, and started anew.
-        if let Some(similar) = warm.levels.get(number).filter(|last| last.serves(motor, plan)) {
-            let mut level = Level::new(motor, plan, grid);
-            level.start_from(similar);
-            let tried = level.converge(plan, WARM_ROUNDS, &mut stats, &mut report, cancel);
-            match tried {
-                Ok(Status::Converged) => {
-                    status = Status::Converged;
-                    alphas.push(level.alpha(motor));
-                    levels.push(level);
-                    continue;
-                }
-                Err(Stop::Cancelled) => {
-                    status = Status::Cancelled;
-                    alphas.push(level.alpha(motor));
-                    levels.push(level);
-                    break;
-                }
-                Ok(_) | Err(Stop::Failed(_)) => {}
+    let last = warm.found.take();
+    let found = Search { motor, plan, observer: &mut *observer, cancel, stats: &mut stats }.run(last.as_ref());
+    let broken = match &found {
+        Ok(found) => matches!(found.status, Status::NotConverged { .. }),
+        Err(_) => true,
+    };
+    let (found, plan) = if broken && plan.spectral {
+        // Polynomials across may swing below no pressure at all; finite volumes cannot.
+        let volumes = plan.volumes();
+        (Search { motor, plan: &volumes, observer, cancel, stats: &mut stats }.run(None)?, volumes)
+    } else {
+        (found?, plan.clone())
+    };
+    let result = finish(motor, &plan, &found, stats);
+    if found.status == Status::Converged {
+        warm.found = Some(found);
+    }
+    Ok(result)
+}
+
+/// What a solve went through: the grids that converged, coarse to fine, and how the last one ended.
+struct Found {
+    status: Status,
+    levels: Vec<Level>,
+    /// α on each.
+    alphas: Vec<f64>,
+    /// The coarsest grid with one polynomial less across, and by how much that changed α there; `None` with finite volumes.
+    narrower: Option<(Level, f64)>,
+}
+
+/// One solve on a plan's grids, and on finer ones until the stated error is what was asked for.
+struct Search<'a> {
+    motor: &'a Motor,
+    plan: &'a Plan,
+    observer: &'a mut dyn Observer,
+    cancel: &'a Cancel,
+    stats: &'a mut Stats,
+}
+
+impl Search<'_> {
+    fn run(&mut self, last: Option<&Found>) -> Result<Found, MotorError> {
+        let (motor, plan) = (self.motor, self.plan);
+        let last = last.filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
+        let mut found =
+            Found { status: Status::Converged, levels: Vec::new(), alphas: Vec::new(), narrower: None };
+        let mut across = plan.grids.first().map_or(0, |grid| grid.across);
+        if plan.spectral && plan.grids.len() > 1 {
+            across = last.map_or(across, |last| last.levels[0].across());
+            let Some(settled) = self.settle_across(across, last, &mut found)? else { return Ok(found) };
+            across = settled;
+        }
+        let mut number = found.levels.len();
+        let mut finest = plan.grids.last().copied();
+        while let Some(mut grid) = plan.grids.get(number).copied().or(finest) {
+            if plan.spectral {
+                grid.across = across;
+            }
+            let enough = plan.grids.len().max(number + 1);
+            let similar = last.and_then(|last| last.levels.get(number));
+            let start = similar.or(found.levels.last());
+            let (status, level) = self.level(&grid, start, similar.is_some(), number, enough)?;
+            found.status = status;
+            if status == Status::Converged || number + 1 >= plan.grids.len() {
+                found.alphas.push(level.alpha(motor));
+                found.levels.push(level);
+            } else {
+                // A coarse grid without a periodic state says nothing about the next one.
+                found.alphas.clear();
+                found.levels.clear();
+            }
+            number += 1;
+            finest = Some(Grid { ..grid.finer(plan.spectral) });
+            let more = number < plan.grids.len() || number < plan.most_grids && !precise_enough(motor, plan, &found);
+            if status == Status::Cancelled || !more {
+                break;
             }
         }
+        Ok(found)
+    }
+
+    /// The coarsest grid with more and more polynomials across, until one less hardly matters; how many that are. `None` if
+    /// cancelled, or if there is no periodic state.
+    fn settle_across(
+        &mut self,
+        first: usize,
+        last: Option<&Found>,
+        found: &mut Found,
+    ) -> Result<Option<usize>, MotorError> {
+        let (motor, plan) = (self.motor, self.plan);
+        let mut across = first.max(2);
+        let coarsest = Grid { across: across - 1, ..plan.grids[0] };
+        let start = last.and_then(|last| last.narrower.as_ref()).map(|(level, _)| level);
+        let (mut status, mut narrower) = self.level(&coarsest, start, start.is_some(), 0, plan.grids.len())?;
+        loop {
+            if status != Status::Converged {
+                break;
+            }
+            let grid = Grid { across, ..coarsest };
+            let similar = last.map(|last| &last.levels[0]).filter(|level| level.across() == across);
+            let level;
+            (status, level) = self.level(&grid, similar.or(Some(&narrower)), similar.is_some(), 0, plan.grids.len())?;
+            let (alpha, less) = (level.alpha(motor), narrower.alpha(motor));
+            let change = (alpha - less).abs();
+            found.status = status;
+            found.alphas = vec![alpha];
+            if status == Status::Converged
+                && WIDTH_SHARE * change > WIDTH_AIM * plan.accuracy * unit(alpha)
+                && across < plan.most_across
+            {
+                narrower = level;
+                across += 1;
+                continue;
+            }
+            found.levels = vec![level];
+            found.narrower = Some((narrower, change));
+            return Ok((status == Status::Converged).then_some(across));
+        }
+        found.status = status;
+        found.alphas = vec![narrower.alpha(motor)];
+        found.levels = vec![narrower];
+        Ok(None)
+    }
+
+    /// Solves one grid, started from another's state: first within a few rounds, if that is another motor's.
+    fn level(
+        &mut self,
+        grid: &Grid,
+        start: Option<&Level>,
+        similar: bool,
+        number: usize,
+        grids: usize,
+    ) -> Result<(Status, Level), MotorError> {
+        let (motor, plan) = (self.motor, self.plan);
+        let limit = if number + 1 < plan.grids.len() { plan.round_limit.min(COARSE_ROUNDS) } else { plan.round_limit };
+        let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
         let mut level = Level::new(motor, plan, grid);
-        match levels.last() {
-            // A coarse grid without a periodic state says nothing about the next one.
-            Some(coarse) if status == Status::Converged => level.start_from(coarse),
-            _ => {
-                alphas.clear();
-                level.start(motor);
+        let mut rounds = limit;
+        match start {
+            Some(other) => level.start_from(other),
+            None => level.start(motor),
+        }
+        if similar {
+            rounds = WARM_ROUNDS;
+        }
+        loop {
+            match level.converge(plan, rounds, self.stats, &mut report, self.cancel) {
+                Err(Stop::Cancelled) => return Ok((Status::Cancelled, level)),
+                // A motor too far from the last one is soon known, and started anew.
+                Ok(Status::NotConverged { .. }) | Err(Stop::Failed(_)) if rounds < limit => {
+                    level = Level::new(motor, plan, grid);
+                    level.start(motor);
+                    rounds = limit;
+                }
+                Ok(status) => return Ok((status, level)),
+                Err(Stop::Failed(error)) => return Err(error),
             }
         }
-        status = match level.converge(plan, rounds, &mut stats, &mut report, cancel) {
-            Ok(status) => status,
-            Err(Stop::Cancelled) => Status::Cancelled,
-            Err(Stop::Failed(error)) => return Err(error),
-        };
-        alphas.push(level.alpha(motor));
-        levels.push(level);
-        if status == Status::Cancelled {
-            break;
-        }
     }
-    let found = finish(motor, plan, &levels, status, alphas, stats);
-    if status == Status::Converged {
-        warm.levels = levels;
+}
+
+/// What an accuracy of α is relative to: α, or a hundredth of the load where the film carries less than that.
+fn unit(alpha: f64) -> f64 {
+    alpha.abs().max(0.01)
+}
+
+/// Whether the numbers so far are as exact as was asked.
+fn precise_enough(motor: &Motor, plan: &Plan, found: &Found) -> bool {
+    found.status == Status::Converged && {
+        let estimate = stated(motor, plan, found);
+        estimate.error <= plan.accuracy * unit(estimate.value)
     }
-    Ok(found)
 }
 
 /// A motor from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
@@ -241,42 +365,43 @@ impl<'a> Transient<'a> {
     }
 }
 
+/// α with its error.
+fn stated(motor: &Motor, plan: &Plan, found: &Found) -> Estimate {
+    let estimate = extrapolate(&found.alphas);
+    let Some(level) = found.levels.last() else { return estimate };
+    // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
+    if level.floats() {
+        let error = if found.status == Status::Converged { level.mean_imbalance() } else { 1.0 };
+        return Estimate { value: 1.0, error };
+    }
+    let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
+    let value = estimate.value.min(found.alphas.iter().copied().fold(1.0, f64::max));
+    // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
+    // (Twice the latter: calibrated, docs/validation.md.)
+    let repeating = level.residual().min(1.0) * level.gas_force() / motor.load;
+    let across = found.narrower.as_ref().map_or(0.0, |(_, change)| WIDTH_SHARE * change);
+    let left_out = plan.left_out * value.abs();
+    let error = estimate.error.min(1.0) + astray + 2.0 * level.mean_imbalance() + repeating + across + left_out;
+    Estimate { value, error }
+}
+
 /// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.
-fn finish(
-    motor: &Motor,
-    plan: &Plan,
-    levels: &[Level],
-    status: Status,
-    alphas: Vec<f64>,
-    mut stats: Stats,
-) -> Periodic {
-    let Some((level, coarser)) = levels.split_last() else {
-        return Periodic { status, result: MotorResult::default(), alphas, stats, recording: Recording::default() };
+fn finish(motor: &Motor, plan: &Plan, found: &Found, mut stats: Stats) -> Periodic {
+    let (status, alphas) = (found.status, found.alphas.clone());
+    let across = found.narrower.as_ref().map_or(0.0, |(_, change)| *change);
+    let Some((level, coarser)) = found.levels.split_last() else {
+        return Periodic { status, result: MotorResult::default(), alphas, across, stats, recording: Recording::default() };
     };
     let mut recording = level.recording(motor, plan.maps);
-    // Those that α is extrapolated from.
-    let usable = (alphas.len() - 1).min(coarser.len());
-    recording.coarser = coarser[coarser.len() - usable..].iter().map(|level| level.line_loads(motor)).collect();
+    recording.coarser = coarser.iter().map(|level| level.line_loads(motor)).collect();
     let mut result = summarise(motor, &recording);
-    let estimate = extrapolate(&alphas);
-    // What floats carries the whole load, by balance.
-    let alpha = if result.levitated { 1.0 } else { estimate.value.min(alphas.iter().copied().fold(1.0, f64::max)) };
-    result.set_alpha(motor, alpha);
-    let astray = if let Status::NotConverged { residual, .. } = status { residual.min(1.0) } else { 0.0 };
-    let estimated = if estimate.error.is_finite() { estimate.error } else { 1.0 };
-    // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
-    // (Twice the latter: calibrated, docs/validation.md.) What floats carries its load whatever that is, and whatever was
-    // left out; only the height changes.
-    let (repeating, left_out) = if result.levitated {
-        (0.0, 0.0)
-    } else {
-        (level.residual().min(1.0) * level.gas_force() / motor.load, plan.left_out * estimate.value.abs())
-    };
-    result.alpha_error = estimated + astray + 2.0 * level.mean_imbalance() + repeating + left_out;
+    let estimate = stated(motor, plan, found);
+    result.set_alpha(motor, estimate.value);
+    result.alpha_error = estimate.error;
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();
-    Periodic { status, result, alphas, stats, recording }
+    Periodic { status, result, alphas, across, stats, recording }
 }
 
 /// Cycle means and extremes of a recording.

@@ -29,13 +29,25 @@ fn inverse(ratio: f64) -> f64 {
     0.5 * (low + high)
 }
 
-fn map(beta: f64, eta: f64) -> f64 {
+/// The map: η ∈ [−1, 1] to [−1, 1].
+pub fn map(beta: f64, eta: f64) -> f64 {
     if beta.abs() < 1e-9 {
         eta
     } else if beta > 0.0 {
         (beta * eta).tanh() / beta.tanh()
     } else {
         (beta * eta).sinh() / beta.sinh()
+    }
+}
+
+/// Its slope at η.
+pub fn slope(beta: f64, eta: f64) -> f64 {
+    if beta.abs() < 1e-9 {
+        1.0
+    } else if beta > 0.0 {
+        beta / ((beta * eta).cosh().powi(2) * beta.tanh())
+    } else {
+        beta * (beta * eta).cosh() / beta.sinh()
     }
 }
 

@@ -1,8 +1,9 @@
 //! Numerical building blocks that know no physics.
 
 pub mod anderson;
-pub mod five_point;
 pub mod grading;
+pub mod legendre;
+pub mod rows;
 
 /// Runs `work`, which has to be inlined whole, compiled for the widest vector registers of this processor. The operations
 /// and their order stay the same, and so do the results, to the last bit, on every machine.

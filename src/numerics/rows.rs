@@ -1,46 +1,44 @@
-//! Linear systems of five-point stencils on a tensor grid: block LU without pivoting.
+//! Linear systems of nodes in rows, dense within a row: block LU without pivoting.
 //!
-//! Unknown k = row × columns + column couples to its neighbours in its own row (south, north: k ∓ 1) and to the same
-//! column of the rows on either side (west, east: k ∓ columns). By rows the matrix is block tridiagonal, with tridiagonal
-//! blocks D on the diagonal and diagonal blocks W, E beside it:
+//! Unknown k = row × columns + column couples to every node of its own row, by a matrix A that is the same for all rows but
+//! for a factor of each column, and to the same column of the rows on either side (west, east: k ∓ columns). By rows the
+//! system is block tridiagonal, with dense blocks D = diag(centre) + A diag(within) on the diagonal and diagonal blocks W, E
+//! beside it:
 //!
 //! ```text
 //! D̃₀ = D₀,   D̃ᵢ = Dᵢ − Wᵢ D̃ᵢ₋₁⁻¹ Eᵢ₋₁,   yᵢ = D̃ᵢ⁻¹ (rᵢ − Wᵢ yᵢ₋₁),   xᵢ = yᵢ − D̃ᵢ⁻¹ Eᵢ xᵢ₊₁
 //! ```
 //!
-//! The inverses are formed in place by Gauss–Jordan elimination, columns³ operations each, as many as a banded LU would
-//! take; unlike that, every operation is on whole columns that stay where they are, which suits vector registers: three
-//! times fewer instructions (docs/performance.md). For M-matrices, such as those of the film, all D̃ are M-matrices too and
-//! no pivoting is needed.
+//! The inverses are formed in place by Gauss–Jordan elimination, columns³ operations each, whatever A is. Every operation is
+//! on whole columns that stay where they are, which suits vector registers (docs/performance.md). For M-matrices all D̃ are
+//! M-matrices too and no pivoting is needed; nor is it where the symmetric part is definite, as with a spectral A.
 
 use super::vectorised;
 
-/// The coefficients of a five-point stencil, one value an unknown.
+/// The coefficients of a system, one value an unknown.
 #[derive(Clone, Debug, Default)]
-pub struct FivePoint {
-    /// Node itself.
+pub struct Coupling {
+    /// Node itself, beside A.
     pub centre: Vec<f64>,
-    /// Neighbour at smaller x.
+    /// Node at smaller x.
     pub west: Vec<f64>,
-    /// Neighbour at larger x.
+    /// Node at larger x.
     pub east: Vec<f64>,
-    /// Neighbour at smaller y.
-    pub south: Vec<f64>,
-    /// Neighbour at larger y.
-    pub north: Vec<f64>,
+    /// Factor of the node's column of A.
+    pub within: Vec<f64>,
 }
 
-impl FivePoint {
+impl Coupling {
     /// All zero, for `unknowns` nodes.
     pub fn new(unknowns: usize) -> Self {
         let zero = vec![0.0; unknowns];
-        Self { centre: zero.clone(), west: zero.clone(), east: zero.clone(), south: zero.clone(), north: zero }
+        Self { centre: zero.clone(), west: zero.clone(), east: zero.clone(), within: zero }
     }
 
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
-        for diagonal in [&mut self.centre, &mut self.west, &mut self.east, &mut self.south, &mut self.north] {
-            diagonal.fill(0.0);
+        for values in [&mut self.centre, &mut self.west, &mut self.east, &mut self.within] {
+            values.fill(0.0);
         }
     }
 }
@@ -64,10 +62,12 @@ pub(crate) use with_columns;
 type Lanes = [f64; LANES];
 const LANES: usize = 4;
 
-/// Solver for five-point systems of one size, with its workspace.
+/// Solver for systems of one size and one A, with its workspace.
 #[derive(Clone, Debug)]
-pub struct BlockSolver {
+pub struct RowSolver {
     columns: usize,
+    /// A, column by column, each padded with zeros to whole registers.
+    matrix: Vec<Lanes>,
     /// D̃⁻¹ of every row, column by column, each column padded with zeros to whole registers.
     inverses: Vec<Lanes>,
     /// W of the row at hand, what D̃⁻¹ is multiplied with, and the product.
@@ -79,17 +79,23 @@ pub struct BlockSolver {
     units: Vec<Lanes>,
 }
 
-impl BlockSolver {
-    /// For `rows` × `columns` unknowns.
-    pub fn new(rows: usize, columns: usize) -> Self {
+impl RowSolver {
+    /// For `rows` × `columns` unknowns, with A = `matrix[row][column]`.
+    pub fn new(rows: usize, columns: usize, matrix: &[f64]) -> Self {
         let groups = columns.div_ceil(LANES);
         let line = vec![[0.0; LANES]; groups];
         let mut units = vec![[0.0; LANES]; columns * groups];
         for p in 0..columns {
             units[p * groups + p / LANES][p % LANES] = 1.0;
         }
+        let mut padded = vec![[0.0; LANES]; columns * groups];
+        for (k, entry) in matrix.iter().enumerate() {
+            let (row, column) = (k / columns, k % columns);
+            padded[column * groups + row / LANES][row % LANES] = *entry;
+        }
         Self {
             columns,
+            matrix: padded,
             inverses: vec![[0.0; LANES]; rows * columns * groups],
             west: line.clone(),
             known: line.clone(),
@@ -99,17 +105,17 @@ impl BlockSolver {
         }
     }
 
-    /// Replaces `rhs` by the solution of the system with `stencil`'s neighbours and `centre` \[a value an unknown\] in place
-    /// of its own. Couplings that leave the grid are ignored.
-    pub fn solve(&mut self, stencil: &FivePoint, centre: &[f64], rhs: &mut [f64]) {
+    /// Replaces `rhs` by the solution of the system with `coupling`, and `centre` \[a value an unknown\] in place of its
+    /// own. Couplings that leave the grid are ignored.
+    pub fn solve(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
         with_columns!(self.columns, B => vectorised(
             #[inline(always)]
-            || self.solve_columns::<B>(stencil, centre, rhs)
+            || self.solve_columns::<B>(coupling, centre, rhs)
         ));
     }
 
     #[inline(always)]
-    fn solve_columns<const B: usize>(&mut self, stencil: &FivePoint, centre: &[f64], rhs: &mut [f64]) {
+    fn solve_columns<const B: usize>(&mut self, coupling: &Coupling, centre: &[f64], rhs: &mut [f64]) {
         let b = if B == 0 { self.columns } else { B };
         let groups = b.div_ceil(LANES);
         let block = b * groups;
@@ -119,26 +125,21 @@ impl BlockSolver {
             let at = row * b;
             let (before, rest) = self.inverses.split_at_mut(row * block);
             let inverse = &mut rest[..block];
-            inverse.fill([0.0; LANES]);
-            let entries = inverse.as_flattened_mut();
-            let s = groups * LANES;
             for c in 0..b {
-                entries[c * s + c] = centre[at + c];
-                if c > 0 {
-                    entries[c * s + c - 1] = stencil.north[at + c - 1];
-                }
-                if c + 1 < b {
-                    entries[c * s + c + 1] = stencil.south[at + c + 1];
+                let (factor, own) = (coupling.within[at + c], centre[at + c]);
+                let (column, unit) = (&self.matrix[c * groups..][..groups], &self.units[c * groups..][..groups]);
+                for (g, entry) in inverse[c * groups..][..groups].iter_mut().enumerate() {
+                    *entry = plus(scaled(column[g], factor), scaled(unit[g], own));
                 }
             }
             known.as_flattened_mut()[..b].copy_from_slice(&rhs[at..at + b]);
             if row > 0 {
                 let last = &before[(row - 1) * block..][..block];
-                west.as_flattened_mut()[..b].copy_from_slice(&stencil.west[at..at + b]);
+                west.as_flattened_mut()[..b].copy_from_slice(&coupling.west[at..at + b]);
                 for g in 0..groups {
                     known[g] = minus(known[g], times(west[g], image[g]));
                 }
-                let east = &stencil.east[at - b..at];
+                let east = &coupling.east[at - b..at];
                 for ((column, last), east) in inverse.chunks_exact_mut(groups).zip(last.chunks_exact(groups)).zip(east)
                 {
                     for g in 0..groups {
@@ -153,7 +154,7 @@ impl BlockSolver {
         for row in (0..rows.saturating_sub(1)).rev() {
             let at = row * b;
             for (r, known) in known.as_flattened_mut()[..b].iter_mut().enumerate() {
-                *known = stencil.east[at + r] * rhs[at + b + r];
+                *known = coupling.east[at + r] * rhs[at + b + r];
             }
             multiply::<B>(&self.inverses[row * block..][..block], b, known, image);
             for (x, image) in rhs[at..at + b].iter_mut().zip(image.as_flattened()) {
@@ -236,31 +237,29 @@ mod tests {
             [(1, 1), (9, 1), (7, 2), (1, 5), (6, 3), (5, 4), (4, 7), (5, 8), (3, 13), (4, 16), (3, 25)]
         {
             let n = rows * columns;
-            let mut stencil = FivePoint::new(n);
+            let mut coupling = Coupling::new(n);
             let mut dense = DMatrix::<f64>::zeros(n, n);
             let value = |k: usize, d: usize| -0.1 - ((k * 7 + d * 13) % 11) as f64 / 11.0;
+            let matrix: Vec<f64> = (0..columns * columns).map(|k| 0.2 * value(k, 3)).collect();
             for k in 0..n {
-                stencil.centre[k] = 5.0 + (k % 3) as f64;
-                (stencil.west[k], stencil.east[k]) = (value(k, 1), value(k, 2));
-                (stencil.south[k], stencil.north[k]) = (value(k, 3), value(k, 4));
-                dense[(k, k)] = stencil.centre[k];
+                coupling.centre[k] = 9.0 + (k % 3) as f64;
+                coupling.within[k] = 0.5 - value(k, 5);
+                (coupling.west[k], coupling.east[k]) = (value(k, 1), value(k, 2));
+                for j in 0..columns {
+                    dense[(k / columns * columns + j, k)] = matrix[j * columns + k % columns] * coupling.within[k];
+                }
+                dense[(k, k)] += coupling.centre[k];
                 if k >= columns {
-                    dense[(k, k - columns)] = stencil.west[k];
+                    dense[(k, k - columns)] = coupling.west[k];
                 }
                 if k + columns < n {
-                    dense[(k, k + columns)] = stencil.east[k];
-                }
-                if k % columns > 0 {
-                    dense[(k, k - 1)] = stencil.south[k];
-                }
-                if (k + 1) % columns > 0 {
-                    dense[(k, k + 1)] = stencil.north[k];
+                    dense[(k, k + columns)] = coupling.east[k];
                 }
             }
             let mut rhs: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
             let expected = dense.lu().solve(&DVector::from_vec(rhs.clone())).unwrap();
-            let centre = stencil.centre.clone();
-            BlockSolver::new(rows, columns).solve(&stencil, &centre, &mut rhs);
+            let centre = coupling.centre.clone();
+            RowSolver::new(rows, columns, &matrix).solve(&coupling, &centre, &mut rhs);
             for i in 0..n {
                 assert!((rhs[i] - expected[i]).abs() < 1e-13, "{rows} × {columns}, {i}: {} {}", rhs[i], expected[i]);
             }
