@@ -1,13 +1,25 @@
 //! What a caller holds over a running solve: cancellation and progress. No clock, no terminal.
 
+use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that any thread may raise; solvers look at it in their inner loops.
-#[derive(Clone, Debug, Default)]
+/// A flag that any thread may raise; solvers look at it in their inner loops. It may come with a budget: then a solve that has a
+/// result stops making it better once that is spent.
+#[derive(Clone, Default)]
 pub struct Cancel {
     flag: Arc<AtomicBool>,
     above: Option<Box<Cancel>>,
+    /// Whether the budget is spent; the caller's clock.
+    spent: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
+    /// The flag counts as raised when the budget is spent.
+    strict: bool,
+}
+
+impl fmt::Debug for Cancel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Cancel").field("cancelled", &self.is_cancelled()).finish()
+    }
 }
 
 impl Cancel {
@@ -18,7 +30,22 @@ impl Cancel {
 
     /// A flag that is up when this one is, and can be raised alone.
     pub fn child(&self) -> Self {
-        Self { flag: Arc::default(), above: Some(Box::new(self.clone())) }
+        Self { above: Some(Box::new(self.clone())), spent: self.spent.clone(), ..Self::default() }
+    }
+
+    /// The same flag with a budget that is spent when `spent` says so.
+    pub fn with_budget(&self, spent: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Self { spent: Some(Arc::new(spent)), ..self.child() }
+    }
+
+    /// Whether the budget is spent; never, if there is none.
+    pub fn is_spent(&self) -> bool {
+        self.spent.as_ref().is_some_and(|spent| spent())
+    }
+
+    /// A flag that is also up once the budget is spent.
+    pub fn within_budget(&self) -> Self {
+        Self { strict: true, ..self.child() }
     }
 
     /// Raises the flag.
@@ -28,7 +55,9 @@ impl Cancel {
 
     /// Whether the flag is up.
     pub fn is_cancelled(&self) -> bool {
-        self.flag.load(Ordering::Relaxed) || self.above.as_ref().is_some_and(|above| above.is_cancelled())
+        self.flag.load(Ordering::Relaxed)
+            || self.above.as_ref().is_some_and(|above| above.is_cancelled())
+            || self.strict && self.is_spent()
     }
 }
 

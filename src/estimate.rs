@@ -33,6 +33,12 @@ pub fn extrapolate(results: &[f64]) -> Estimate {
     }
 }
 
+/// A value of extrapolated fields, judged by that of the fields extrapolated from the two coarser grids, `before`, and that of the
+/// `finest` grid as it was solved.
+pub fn judged(value: f64, before: f64, finest: f64) -> Estimate {
+    Estimate { value, error: (SPREAD * (value - before).abs()).max(CORRECTION * (value - finest).abs()) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -77,6 +77,7 @@ pub mod film;
 pub mod gui;
 pub mod hold;
 pub mod job;
+pub mod ladder;
 pub mod lessons;
 pub mod motor;
 pub mod numerics;

@@ -1,21 +1,27 @@
 //! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::extrapolate;
+use crate::estimate::{Estimate, extrapolate};
 use crate::film::cycle::{FilmCycle, Interrupted};
 use crate::film::exact::trapped_height;
-use crate::film::grid::{Axis, FilmGrid, Start};
+use crate::film::grid::{Axis, Between, FilmGrid, Start};
 use crate::film::stepper::FilmState;
 use crate::numerics::anderson::Anderson;
+use crate::ladder::{Found, Scene, climb};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
-use crate::recording::Recording;
+use crate::recording::{Balance, LineLoads, Recording};
 use crate::solution::{PlateResult, Stats, Status};
 
 /// Earlier cycles that the acceleration remembers.
 const DEPTH: usize = 8;
 /// Longest step of the acceleration in ln Z.
 const LONGEST_STEP: f64 = 1.5;
+/// Share of the error asked for that a cycle which does not quite repeat may have, and the change that is round-off.
+const REPEATING_SHARE: f64 = 0.2;
+const LEAST_CHANGE: f64 = 1e-12;
+/// Share of the load's swing below which its mean need not be known more exactly.
+const LEAST_SHARE_OF_SWING: f64 = 1e-4;
 
 /// A plate's periodic state: the numbers, how they were reached, and the fields.
 #[derive(Clone, Debug)]
@@ -43,38 +49,97 @@ pub fn periodic(
     cancel: &Cancel,
 ) -> Result<Periodic, Interrupted> {
     let mut stats = Stats::default();
-    let mut loads = Vec::new();
-    let mut status = Status::Cancelled;
-    let mut recording = Recording::default();
-    let mut coarser = Vec::new();
-    for (number, grid) in plan.grids.iter().enumerate() {
-        let mut level = Level::new(plate, plan, grid);
-        let mut report = Reporter::new(&mut *observer, number, plan.grids.len(), plan.tolerance);
-        status = match level.converge(plan, &mut stats, &mut report, cancel) {
-            Ok(status) => status,
-            Err(Interrupted::Cancelled) => Status::Cancelled,
-            Err(failed) => return Err(failed),
-        };
-        loads.push(level.mean_load());
-        stats.film_nodes = level.cycle.grid().len();
-        stats.steps_per_cycle = grid.steps;
-        if status == Status::Cancelled || number + 1 == plan.grids.len() {
-            recording = level.recording(plate, plan.maps);
-        } else {
-            coarser.push(level.loads());
+    let mut search = Search { plate, plan, observer: &mut *observer, cancel, stats: &mut stats };
+    let found = climb(&mut search, plan, None, cancel);
+    let broken = match &found {
+        Ok(found) => matches!(found.status, Status::NotConverged { .. }),
+        Err(_) => true,
+    };
+    let (found, plan) = if broken && plan.spectral {
+        // A polynomial across may swing below no pressure at all; finite volumes cannot.
+        let volumes = plan.volumes();
+        let mut search = Search { plate, plan: &volumes, observer, cancel, stats: &mut stats };
+        (climb(&mut search, &volumes, None, cancel)?, volumes)
+    } else {
+        (found?, plan.clone())
+    };
+    let loads = found.headlines.clone();
+    let Some((level, coarser)) = found.levels.split_last() else {
+        let (result, recording) = (PlateResult::default(), Recording::default());
+        return Ok(Periodic { status: found.status, result, loads, stats, recording });
+    };
+    stats.film_nodes = level.cycle.grid().len();
+    stats.steps_per_cycle = level.steps;
+    let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(plate)).collect();
+    let recording = level.recording(plate, &coarser, plan.maps);
+    let estimate = stated(plate, &found);
+    // The mean of the fields is the headline.
+    let mut result = PlateResult::of(&recording);
+    result.film_load_error = estimate.error + (result.film_load - estimate.value).abs();
+    Ok(Periodic { status: found.status, result, loads, stats, recording })
+}
+
+/// Mean load with its error \[N\].
+fn stated(plate: &Plate, found: &Found<Level>) -> Estimate {
+    let estimate = extrapolate(&found.headlines);
+    let Some(level) = found.levels.last() else { return estimate };
+    let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
+    let repeating = (level.residual + astray) * plate.gas.ambient_pressure * plate.area();
+    Estimate { error: estimate.error + repeating + found.width_error(), ..estimate }
+}
+
+/// One solve of a plate by a plan.
+struct Search<'a> {
+    plate: &'a Plate,
+    plan: &'a Plan,
+    observer: &'a mut dyn Observer,
+    cancel: &'a Cancel,
+    stats: &'a mut Stats,
+}
+
+impl Scene for Search<'_> {
+    type Level = Level;
+    type Error = Interrupted;
+
+    fn solve(
+        &mut self,
+        grid: &Grid,
+        start: Option<&Level>,
+        _: bool,
+        number: usize,
+    ) -> Result<(Status, Level), Interrupted> {
+        let plan = self.plan;
+        let mut level = Level::new(self.plate, plan, grid);
+        if let Some(coarse) = start {
+            level.start_from(coarse);
         }
-        if status == Status::Cancelled {
-            break;
+        let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
+        let grids = plan.grids.len().max(number + 1);
+        let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
+        match level.converge(plan, self.stats, &mut report, &cancel) {
+            Ok(status) => Ok((status, level)),
+            Err(Interrupted::Cancelled) => Ok((Status::Cancelled, level)),
+            Err(failed) => Err(failed),
         }
     }
-    recording.coarser_film_load = coarser;
-    let estimate = extrapolate(&loads);
-    let result = PlateResult {
-        film_load: estimate.value,
-        film_load_error: estimate.error + plan.tolerance * estimate.value.abs(),
-        ..PlateResult::of(&recording)
-    };
-    Ok(Periodic { status, result, loads, stats, recording })
+
+    fn headline(&self, level: &Level) -> f64 {
+        level.mean_load()
+    }
+
+    fn unit(&self, level: &Level) -> f64 {
+        level.unit()
+    }
+
+    fn across(&self, level: &Level) -> usize {
+        level.cycle.grid().y.unknown().len()
+    }
+
+    fn settled(&self, found: &Found<Level>) -> bool {
+        let whole = stated(self.plate, found);
+        let unit = found.levels.last().map_or(0.0, Level::unit);
+        whole.error <= self.plan.accuracy * unit || extrapolate(&found.headlines).error < 0.3 * whole.error
+    }
 }
 
 /// A plate from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
@@ -114,10 +179,17 @@ impl<'a> Transient<'a> {
     pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(PlateResult, Recording, f64)>, Interrupted> {
         let finest = self.levels.len() - 1;
         let mut loads = Vec::with_capacity(self.levels.len());
-        let mut last = (Recording::default(), f64::INFINITY);
+        let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
-            let maps = self.maps && number == finest;
-            last = match level.transient_cycle(self.plate, maps, &mut self.stats, cancel) {
+            let told = |level: &Level| {
+                if number < finest {
+                    coarser.push(level.line_loads(self.plate));
+                    Recording::default()
+                } else {
+                    level.recording(self.plate, &coarser, self.maps)
+                }
+            };
+            last = match level.transient_cycle(&mut self.stats, cancel, told) {
                 Ok(cycle) => cycle,
                 Err(Interrupted::Cancelled) => return Ok(None),
                 Err(failed) => return Err(failed),
@@ -129,8 +201,8 @@ impl<'a> Transient<'a> {
         self.stats.cycles += 1;
         let (recording, change) = last;
         let estimate = extrapolate(&loads);
-        let result =
-            PlateResult { film_load: estimate.value, film_load_error: estimate.error, ..PlateResult::of(&recording) };
+        let mut result = PlateResult::of(&recording);
+        result.film_load_error = estimate.error + (result.film_load - estimate.value).abs();
         Ok(Some((result, recording, change)))
     }
 
@@ -159,9 +231,13 @@ impl PlateResult {
 /// Nodes of a quarter of a plate, or of half a strip.
 pub(crate) fn film_grid(plate: &Plate, plan: &Plan, grid: &Grid) -> FilmGrid {
     let x = Axis::clustered(0.5 * plate.length, Start::Mirror, grid.along, plan.clustering_along);
-    let y = plate.width.map_or_else(Axis::unit, |width| {
-        Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across)
-    });
+    let y = match plate.width {
+        Some(width) if plan.spectral => {
+            Axis::spectral(0.5 * width, Start::Mirror, grid.across, plan.clustering_across)
+        }
+        Some(width) => Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across),
+        None => Axis::unit(),
+    };
     FilmGrid { x, y }
 }
 
@@ -176,6 +252,8 @@ struct Level {
     gap: Vec<f64>,
     /// Z integrated across, `[step][ix]`.
     line: Vec<f64>,
+    /// Change of ln Z in the last round.
+    residual: f64,
 }
 
 impl Level {
@@ -195,6 +273,7 @@ impl Level {
             state: FilmState::at_rest(vec![trapped; nodes.unknowns()]),
             gap: gaps.iter().flat_map(|h| std::iter::repeat_n(*h, nx)).collect(),
             line: vec![0.0; steps * nx],
+            residual: f64::INFINITY,
             cycle: FilmCycle::new(nodes, &plate.gas, steps),
         }
     }
@@ -207,36 +286,66 @@ impl Level {
         self.cycle.remember(false);
     }
 
-    /// One cycle on, with nothing accelerated: its recording, the first frame being the present, and the largest change of ln Z.
+    /// Starts from the state on another grid, interpolated linearly between its nodes.
+    fn start_from(&mut self, coarse: &Self) {
+        let (to, from) = (self.cycle.grid(), coarse.cycle.grid());
+        let between = |axis: &Axis, other: &Axis| -> Vec<Between> {
+            let end = axis.nodes[axis.len() - 1];
+            let place = |node: &f64| if end > 0.0 { node / end } else { 0.0 };
+            axis.unknown().map(|i| Between::at(place(&axis.nodes[i]), &other.nodes)).collect()
+        };
+        let (along, across) = (between(&to.x, &from.x), between(&to.y, &from.y));
+        let (rows, columns) = (from.x.unknown().len(), from.y.unknown().len());
+        // On the edges Z is the gap.
+        let at = |field: &[f64], i: usize, j: usize| {
+            if i < rows && j < columns { field[i * columns + j] } else { coarse.gap[0] }
+        };
+        let mix = |field: &[f64], x: &Between, y: &Between| {
+            let row = |i: usize| y.mix(at(field, i, y.low), at(field, i, y.high()));
+            x.mix(row(x.low), row(x.high()))
+        };
+        for (row, x) in along.iter().enumerate() {
+            for (column, y) in across.iter().enumerate() {
+                let k = row * across.len() + column;
+                self.state.trapped[k] = mix(&coarse.state.trapped, x, y);
+                self.state.carried[k] = mix(&coarse.state.carried, x, y);
+            }
+        }
+    }
+
+    /// One cycle on, with nothing accelerated: what `told` makes of it, the first frame being the present, and the largest change of
+    /// ln Z.
     fn transient_cycle(
         &mut self,
-        plate: &Plate,
-        maps: bool,
         stats: &mut Stats,
         cancel: &Cancel,
+        told: impl FnOnce(&Self) -> Recording,
     ) -> Result<(Recording, f64), Interrupted> {
-        let nx = self.cycle.grid().x.len();
         let before = self.state.clone();
-        let mut recording = Recording::default();
-        for step in 1..=self.steps {
+        for step in 1..self.steps {
             if cancel.is_cancelled() {
                 return Err(Interrupted::Cancelled);
             }
-            if step == self.steps {
-                recording = self.recording(plate, maps);
-            }
-            let m = step % self.steps;
-            let here = m * nx..(m + 1) * nx;
-            let taken = self
-                .cycle
-                .advance(m, &self.gap[here.clone()], None, self.dt, &mut self.state, &mut self.line[here])
-                .map_err(|source| Interrupted::Failed { step, source })?;
-            stats.film_steps += 1;
-            stats.film_solves += u64::from(taken.solves);
-            stats.limited_steps += u64::from(taken.limited);
+            self.advance(step, step, stats)?;
         }
+        let recording = told(self);
+        self.advance(self.steps, 0, stats)?;
         self.cycle.remember(true);
         Ok((recording, self.state.change_since(&before)))
+    }
+
+    /// One step, to step `m` of the cycle.
+    fn advance(&mut self, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
+        let nx = self.cycle.grid().x.len();
+        let here = m * nx..(m + 1) * nx;
+        let taken = self
+            .cycle
+            .advance(m, &self.gap[here.clone()], None, self.dt, &mut self.state, &mut self.line[here])
+            .map_err(|source| Interrupted::Failed { step, source })?;
+        stats.film_steps += 1;
+        stats.film_solves += u64::from(taken.solves);
+        stats.limited_steps += u64::from(taken.limited);
+        Ok(())
     }
 
     fn converge(
@@ -249,7 +358,6 @@ impl Level {
         let mut anderson = Anderson::new(DEPTH, LONGEST_STEP);
         let unknowns = self.state.trapped.len();
         let (mut present, mut image) = (vec![0.0; 2 * unknowns], vec![0.0; 2 * unknowns]);
-        let mut residual = f64::INFINITY;
         pack(&self.state, &mut present);
         for round in 1..=plan.round_limit {
             let cost = self.cycle.march(&self.gap, None, self.dt, &mut self.state, &mut self.line, cancel)?;
@@ -259,9 +367,10 @@ impl Level {
             stats.cycles += 1;
             self.cycle.shift(&mut self.state);
             pack(&self.state, &mut image);
-            residual = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let residual = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            self.residual = residual;
             report.round(round, residual, self.mean_load());
-            if residual < plan.tolerance {
+            if residual < plan.tolerance && residual <= self.allowed_change(plan) {
                 return Ok(Status::Converged);
             }
             anderson.advance(&mut present, &image);
@@ -270,7 +379,7 @@ impl Level {
                 self.state.carried[k] = present[unknowns + k].exp();
             }
         }
-        Ok(Status::NotConverged { residual, tolerance: plan.tolerance })
+        Ok(Status::NotConverged { residual: self.residual, tolerance: plan.tolerance })
     }
 
     /// Net gauge line load \[N/m\] at a node of the lines (for a strip: times one metre).
@@ -288,6 +397,24 @@ impl Level {
         x.copies() * sum / self.steps as f64
     }
 
+    /// What the accuracy of the mean load is relative to \[N\]: itself, or a small share of the swing of the load where the mean is next
+    /// to nothing beside it.
+    fn unit(&self) -> f64 {
+        let loads = self.loads();
+        let (low, high) = loads.iter().fold((0.0f64, 0.0f64), |(low, high), load| (low.min(*load), high.max(*load)));
+        self.mean_load().abs().max(LEAST_SHARE_OF_SWING * (high - low))
+    }
+
+    /// By how much ln Z may still change from round to round: what that does to the load is a share of the error asked for.
+    fn allowed_change(&self, plan: &Plan) -> f64 {
+        if plan.accuracy == 0.0 {
+            return f64::INFINITY;
+        }
+        let grid = self.cycle.grid();
+        let area = grid.interior_width() * grid.x.copies() * grid.x.lengths.iter().sum::<f64>();
+        (REPEATING_SHARE * plan.accuracy * self.unit() / (self.ambient_pressure * area)).max(LEAST_CHANGE)
+    }
+
     /// Film load at each step \[N\].
     fn loads(&self) -> Vec<f64> {
         let x = &self.cycle.grid().x;
@@ -296,13 +423,18 @@ impl Level {
         (0..self.steps).map(at).collect()
     }
 
-    fn recording(&self, plate: &Plate, maps: bool) -> Recording {
+    /// The film of one cycle; lengths are those of the whole plate.
+    fn line_loads(&self, plate: &Plate) -> LineLoads {
         let grid = self.cycle.grid();
-        let greatest: Vec<f64> = (0..self.steps)
-            .map(|m| self.cycle.pressure(m).iter().fold(1.0, |top: f64, p| top.max(*p)) * self.ambient_pressure)
-            .collect();
-        let mut recording = Recording {
-            period: 1.0 / plate.frequency,
+        let columns = grid.y.unknown().len();
+        let mut peak = vec![self.ambient_pressure; self.line.len()];
+        for (step, peak) in peak.chunks_exact_mut(grid.x.len()).enumerate() {
+            for (peak, across) in peak.iter_mut().zip(self.cycle.pressure(step).chunks_exact(columns)) {
+                *peak = self.ambient_pressure * across.iter().fold(1.0, |top: f64, p| top.max(*p));
+            }
+        }
+        let width = self.ambient_pressure * grid.interior_width();
+        LineLoads {
             frames: self.steps,
             length: plate.length,
             teeth: 1,
@@ -310,19 +442,29 @@ impl Level {
             pitch: plate.length,
             x: grid.x.nodes.clone(),
             node_length: grid.x.lengths.iter().map(|length| grid.x.copies() * length).collect(),
-            film_thickness: self.gap.clone(),
-            stator: vec![0.0; self.gap.len()],
             contact: vec![0.0; self.gap.len()],
             film: (0..self.line.len()).map(|i| self.line_load(i)).collect(),
+            film_thickness: self.gap.clone(),
+            peak,
+            ambient: (0..grid.x.len()).map(|i| if grid.x.unknown().contains(&i) { width } else { 0.0 }).collect(),
+        }
+    }
+
+    /// The cycle as it is drawn and exported: this, the finest grid, extrapolated with the `coarser` ones, coarse to fine.
+    fn recording(&self, plate: &Plate, coarser: &[LineLoads], maps: bool) -> Recording {
+        let grid = self.cycle.grid();
+        let pressure = if maps { self.cycle.full_pressure(self.ambient_pressure) } else { Vec::new() };
+        let base = Recording {
+            period: 1.0 / plate.frequency,
+            stator: vec![0.0; self.gap.len()],
             map_x: grid.x.nodes.clone(),
             map_y: grid.y.nodes.clone(),
             half_width: true,
             half_length: true,
-            pressure: if maps { self.cycle.full_pressure(self.ambient_pressure) } else { Vec::new() },
             ..Recording::default()
         };
-        recording.fill_series(&greatest);
-        recording
+        let balance = Balance { load: None, min_spacing: 0.0 };
+        base.of_lines(self.line_loads(plate), coarser, &balance, pressure, grid.y.unknown())
     }
 }
 

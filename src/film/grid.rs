@@ -172,6 +172,41 @@ impl FilmGrid {
     }
 }
 
+/// A place between two nodes of another grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Between {
+    /// The node before it.
+    pub low: usize,
+    fraction: f64,
+}
+
+impl Between {
+    /// Node `i` of `fine` intervals between those of `coarse` ones.
+    pub fn of(i: usize, fine: usize, coarse: usize) -> Self {
+        let (low, rest) = (i * coarse / fine, i * coarse % fine);
+        Self { low, fraction: rest as f64 / fine as f64 }
+    }
+
+    /// Where the share `place` of the last of `nodes` lies between them.
+    pub fn at(place: f64, nodes: &[f64]) -> Self {
+        let place = place * nodes[nodes.len() - 1];
+        let high = nodes.partition_point(|node| *node <= place).min(nodes.len() - 1);
+        let low = high.saturating_sub(1);
+        let fraction = if high > low { (place - nodes[low]) / (nodes[high] - nodes[low]) } else { 0.0 };
+        Self { low, fraction: if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 } }
+    }
+
+    /// The node behind it, or the one it is on.
+    pub fn high(&self) -> usize {
+        if self.fraction > 0.0 { self.low + 1 } else { self.low }
+    }
+
+    /// The value there, from those of the two nodes.
+    pub fn mix(&self, low: f64, high: f64) -> f64 {
+        if self.fraction > 0.0 { low + self.fraction * (high - low) } else { low }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -58,6 +58,7 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
             node_length: axis.lengths,
             film: vec![0.0; load.len()],
             contact: load,
+            ..LineLoads::default()
         });
     }
     Ok(Some(cycles))

@@ -2,18 +2,18 @@
 
 mod startup;
 
-use super::{MotorError, Stop};
+use super::{MotorError, Stop, unit};
 use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
 use crate::control::{Cancel, Reporter};
 use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
-use crate::film::grid::{Axis, FilmGrid, Start};
+use crate::film::grid::{Axis, Between, FilmGrid, Start};
 use crate::film::stepper::{FilmState, NEWTON_TOLERANCE};
 use crate::film::trapped::TrappedFilm;
 use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
-use crate::recording::{LineLoads, Recording};
+use crate::recording::{Balance, LineLoads, Recording};
 use crate::solution::{Stats, Status};
 
 /// Earlier rounds that the acceleration remembers.
@@ -23,6 +23,10 @@ const LONGEST_STEP: f64 = 1.5;
 
 /// Imbalance of the contact problems, as a share of the residual of the round before.
 const CONTACT_SHARE: f64 = 1e-3;
+
+/// Share of the error asked for that a cycle which does not quite repeat may have, and what round-off leaves of the load.
+const REPEATING_SHARE: f64 = 0.3;
+const LEAST_CHANGE: f64 = 1e-9;
 
 /// The periodic state on one grid. Lines are `[tooth][step][ix]` over the stored teeth.
 pub(super) struct Level {
@@ -457,13 +461,22 @@ impl Level {
             residual = change.max(imbalance);
             self.residual = residual;
             report.round(round, residual, self.mean_film_load());
-            if residual < plan.tolerance {
+            if residual < plan.tolerance && residual * self.gas_force() <= self.allowed_change(plan) {
                 return Ok(Status::Converged);
             }
             anderson.advance(&mut present, &image);
             self.unpack(&present);
         }
         Ok(Status::NotConverged { residual, tolerance: plan.tolerance })
+    }
+
+    /// By how much the film's load may still change from round to round \[N\].
+    fn allowed_change(&self, plan: &Plan) -> f64 {
+        if plan.accuracy == 0.0 {
+            return f64::INFINITY;
+        }
+        let alpha = self.mean_film_load() / self.load;
+        (REPEATING_SHARE * plan.accuracy * unit(alpha)).max(LEAST_CHANGE) * self.load
     }
 
     /// Film line load \[N/m\] at a node of the lines, from the film's own pressure.
@@ -520,9 +533,17 @@ impl Level {
         self.imbalances().sum::<f64>().abs() / self.instants() as f64
     }
 
-    /// Contact and film alone.
+    /// Film, contact and gap.
     pub(super) fn line_loads(&self, motor: &Motor) -> LineLoads {
         let x = &self.grid().x;
+        let (rows, columns) = (x.unknown(), self.grid().y.unknown().len());
+        let mut peak = vec![self.ambient_pressure; self.line.len()];
+        for (line, peak) in peak.chunks_exact_mut(self.nx).enumerate() {
+            let pressure = self.films[line / self.steps].pressure(line % self.steps);
+            for (peak, across) in peak[rows.clone()].iter_mut().zip(pressure.chunks_exact(columns)) {
+                *peak = self.ambient_pressure * across.iter().fold(1.0, |top: f64, p| top.max(*p));
+            }
+        }
         LineLoads {
             frames: self.steps,
             length: motor.wavelength(),
@@ -533,12 +554,19 @@ impl Level {
             node_length: x.lengths.clone(),
             contact: self.contact_load.clone(),
             film: (0..self.line.len()).map(|i| self.film_line_load(i)).collect(),
+            film_thickness: self.film_thickness.clone(),
+            peak,
+            ambient: (0..self.nx)
+                .map(|ix| if rows.contains(&ix) { self.ambient_pressure * self.interior_width } else { 0.0 })
+                .collect(),
         }
     }
 
-    pub(super) fn recording(&self, motor: &Motor, maps: bool) -> Recording {
+    /// The cycle as it is drawn and exported: the lines of this, the finest grid, extrapolated with those of the `coarser` ones,
+    /// coarse to fine; without them as they are.
+    pub(super) fn recording(&self, motor: &Motor, coarser: &[LineLoads], maps: bool) -> Recording {
         let grid = self.grid();
-        let (nx, steps) = (self.nx, self.steps);
+        let nx = self.nx;
         let mut stator = vec![0.0; self.line.len()];
         for s in 0..self.instants() {
             for tooth in 0..self.teeth {
@@ -546,34 +574,18 @@ impl Level {
                 stator[to..to + nx].copy_from_slice(&self.stator[from..from + nx]);
             }
         }
-        let mut recording = Recording {
+        let balance = Balance { load: Some(motor.load), min_spacing: motor.min_spacing };
+        let mut pressure = self.films.iter().filter(|_| maps).map(|film| film.full_pressure(self.ambient_pressure));
+        let base = Recording {
             period: motor.period(),
-            frames: steps,
-            length: motor.wavelength(),
-            teeth: self.teeth,
-            stored_teeth: self.stored,
-            pitch: motor.pitch(),
-            x: grid.x.nodes.clone(),
-            node_length: grid.x.lengths.clone(),
-            film_thickness: self.film_thickness.clone(),
             stator,
-            contact: self.contact_load.clone(),
-            film: (0..self.line.len()).map(|i| self.film_line_load(i)).collect(),
             map_x: grid.x.nodes.clone(),
             map_y: grid.y.nodes.clone(),
             half_width: grid.y.start == Start::Mirror,
-            half_length: false,
-            pressure: if maps { self.films[0].full_pressure(self.ambient_pressure) } else { Vec::new() },
             ..Recording::default()
         };
-        let greatest: Vec<f64> = (0..self.stored * steps)
-            .map(|line| {
-                let (tooth, step) = (line / steps, line % steps);
-                self.films[tooth].pressure(step).iter().fold(1.0, |top: f64, p| top.max(*p)) * self.ambient_pressure
-            })
-            .collect();
-        recording.fill_series(&greatest);
-        recording
+        let maps = pressure.by_ref().flatten().collect();
+        base.of_lines(self.line_loads(motor), coarser, &balance, maps, grid.y.unknown())
     }
 }
 
@@ -581,34 +593,4 @@ impl Level {
 /// last change leaves an error of about its square, a hundredth of the residual.
 fn step_tolerance(residual: f64) -> f64 {
     (0.1 * residual.min(1.0).sqrt()).max(NEWTON_TOLERANCE)
-}
-
-/// Where node `i` of `fine` intervals lies between the nodes of `coarse` intervals.
-struct Between {
-    low: usize,
-    fraction: f64,
-}
-
-impl Between {
-    fn of(i: usize, fine: usize, coarse: usize) -> Self {
-        let (low, rest) = (i * coarse / fine, i * coarse % fine);
-        Self { low, fraction: rest as f64 / fine as f64 }
-    }
-
-    /// Where the share `place` of the last of `nodes` lies between them.
-    fn at(place: f64, nodes: &[f64]) -> Self {
-        let place = place * nodes[nodes.len() - 1];
-        let high = nodes.partition_point(|node| *node <= place).min(nodes.len() - 1);
-        let low = high.saturating_sub(1);
-        let fraction = if high > low { (place - nodes[low]) / (nodes[high] - nodes[low]) } else { 0.0 };
-        Self { low, fraction: if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 } }
-    }
-
-    fn high(&self) -> usize {
-        if self.fraction > 0.0 { self.low + 1 } else { self.low }
-    }
-
-    fn mix(&self, low: f64, high: f64) -> f64 {
-        if self.fraction > 0.0 { low + self.fraction * (high - low) } else { low }
-    }
 }

@@ -19,9 +19,10 @@ use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, extrapolate};
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
+use crate::ladder::{Found, Scene, climb};
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
-use crate::recording::Recording;
+use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Stats, Status};
 use level::Level;
 
@@ -50,10 +51,6 @@ pub enum MotorError {
 const WARM_ROUNDS: usize = 12;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
-/// Share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
-/// docs/validation.md), and the share of the accuracy asked for that it may have.
-const WIDTH_SHARE: f64 = 0.15;
-const WIDTH_AIM: f64 = 0.3;
 
 /// Interrupted or failed: what ends a round early.
 enum Stop {
@@ -92,7 +89,7 @@ pub struct Periodic {
 /// A start changes how many rounds a solve takes, and its result by no more than the stated error.
 #[derive(Default)]
 pub struct Warm {
-    found: Option<Found>,
+    found: Option<Found<Level>>,
 }
 
 impl std::fmt::Debug for Warm {
@@ -126,8 +123,9 @@ pub fn periodic_from(
     cancel: &Cancel,
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
-    let last = warm.found.take();
-    let found = Search { motor, plan, observer: &mut *observer, cancel, stats: &mut stats }.run(last.as_ref());
+    let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
+    let mut search = Search { motor, plan, observer: &mut *observer, cancel, stats: &mut stats };
+    let found = climb(&mut search, plan, last.as_ref(), cancel);
     let broken = match &found {
         Ok(found) => matches!(found.status, Status::NotConverged { .. }),
         Err(_) => true,
@@ -135,7 +133,8 @@ pub fn periodic_from(
     let (found, plan) = if broken && plan.spectral {
         // Polynomials across may swing below no pressure at all; finite volumes cannot.
         let volumes = plan.volumes();
-        (Search { motor, plan: &volumes, observer, cancel, stats: &mut stats }.run(None)?, volumes)
+        let mut search = Search { motor, plan: &volumes, observer, cancel, stats: &mut stats };
+        (climb(&mut search, &volumes, None, cancel)?, volumes)
     } else {
         (found?, plan.clone())
     };
@@ -146,17 +145,7 @@ pub fn periodic_from(
     Ok(result)
 }
 
-/// What a solve went through: the grids that converged, coarse to fine, and how the last one ended.
-struct Found {
-    status: Status,
-    levels: Vec<Level>,
-    /// α on each.
-    alphas: Vec<f64>,
-    /// The coarsest grid with one polynomial less across, and by how much that changed α there; `None` with finite volumes.
-    narrower: Option<(Level, f64)>,
-}
-
-/// One solve on a plan's grids, and on finer ones until the stated error is what was asked for.
+/// One solve of a motor by a plan.
 struct Search<'a> {
     motor: &'a Motor,
     plan: &'a Plan,
@@ -165,113 +154,30 @@ struct Search<'a> {
     stats: &'a mut Stats,
 }
 
-impl Search<'_> {
-    fn run(&mut self, last: Option<&Found>) -> Result<Found, MotorError> {
-        let (motor, plan) = (self.motor, self.plan);
-        let last = last.filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-        let mut found =
-            Found { status: Status::Converged, levels: Vec::new(), alphas: Vec::new(), narrower: None };
-        let mut across = plan.grids.first().map_or(0, |grid| grid.across);
-        if plan.spectral && plan.grids.len() > 1 {
-            across = last.map_or(across, |last| last.levels[0].across());
-            let Some(settled) = self.settle_across(across, last, &mut found)? else { return Ok(found) };
-            across = settled;
-        }
-        let mut number = found.levels.len();
-        let mut finest = plan.grids.last().copied();
-        while let Some(mut grid) = plan.grids.get(number).copied().or(finest) {
-            if plan.spectral {
-                grid.across = across;
-            }
-            let enough = plan.grids.len().max(number + 1);
-            let similar = last.and_then(|last| last.levels.get(number));
-            let start = similar.or(found.levels.last());
-            let (status, level) = self.level(&grid, start, similar.is_some(), number, enough)?;
-            found.status = status;
-            if status == Status::Converged || number + 1 >= plan.grids.len() {
-                found.alphas.push(level.alpha(motor));
-                found.levels.push(level);
-            } else {
-                // A coarse grid without a periodic state says nothing about the next one.
-                found.alphas.clear();
-                found.levels.clear();
-            }
-            number += 1;
-            finest = Some(Grid { ..grid.finer(plan.spectral) });
-            let more = number < plan.grids.len() || number < plan.most_grids && !precise_enough(motor, plan, &found);
-            if status == Status::Cancelled || !more {
-                break;
-            }
-        }
-        Ok(found)
-    }
+impl Scene for Search<'_> {
+    type Level = Level;
+    type Error = MotorError;
 
-    /// The coarsest grid with more and more polynomials across, until one less hardly matters; how many that are. `None` if
-    /// cancelled, or if there is no periodic state.
-    fn settle_across(
-        &mut self,
-        first: usize,
-        last: Option<&Found>,
-        found: &mut Found,
-    ) -> Result<Option<usize>, MotorError> {
-        let (motor, plan) = (self.motor, self.plan);
-        let mut across = first.max(2);
-        let coarsest = Grid { across: across - 1, ..plan.grids[0] };
-        let start = last.and_then(|last| last.narrower.as_ref()).map(|(level, _)| level);
-        let (mut status, mut narrower) = self.level(&coarsest, start, start.is_some(), 0, plan.grids.len())?;
-        loop {
-            if status != Status::Converged {
-                break;
-            }
-            let grid = Grid { across, ..coarsest };
-            let similar = last.map(|last| &last.levels[0]).filter(|level| level.across() == across);
-            let level;
-            (status, level) = self.level(&grid, similar.or(Some(&narrower)), similar.is_some(), 0, plan.grids.len())?;
-            let (alpha, less) = (level.alpha(motor), narrower.alpha(motor));
-            let change = (alpha - less).abs();
-            found.status = status;
-            found.alphas = vec![alpha];
-            if status == Status::Converged
-                && WIDTH_SHARE * change > WIDTH_AIM * plan.accuracy * unit(alpha)
-                && across < plan.most_across
-            {
-                narrower = level;
-                across += 1;
-                continue;
-            }
-            found.levels = vec![level];
-            found.narrower = Some((narrower, change));
-            return Ok((status == Status::Converged).then_some(across));
-        }
-        found.status = status;
-        found.alphas = vec![narrower.alpha(motor)];
-        found.levels = vec![narrower];
-        Ok(None)
-    }
-
-    /// Solves one grid, started from another's state: first within a few rounds, if that is another motor's.
-    fn level(
+    fn solve(
         &mut self,
         grid: &Grid,
         start: Option<&Level>,
         similar: bool,
         number: usize,
-        grids: usize,
     ) -> Result<(Status, Level), MotorError> {
         let (motor, plan) = (self.motor, self.plan);
         let limit = if number + 1 < plan.grids.len() { plan.round_limit.min(COARSE_ROUNDS) } else { plan.round_limit };
+        let grids = plan.grids.len().max(number + 1);
         let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
         let mut level = Level::new(motor, plan, grid);
-        let mut rounds = limit;
         match start {
             Some(other) => level.start_from(other),
             None => level.start(motor),
         }
-        if similar {
-            rounds = WARM_ROUNDS;
-        }
+        let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
+        let mut rounds = if similar { WARM_ROUNDS } else { limit };
         loop {
-            match level.converge(plan, rounds, self.stats, &mut report, self.cancel) {
+            match level.converge(plan, rounds, self.stats, &mut report, &cancel) {
                 Err(Stop::Cancelled) => return Ok((Status::Cancelled, level)),
                 // A motor too far from the last one is soon known, and started anew.
                 Ok(Status::NotConverged { .. }) | Err(Stop::Failed(_)) if rounds < limit => {
@@ -284,19 +190,29 @@ impl Search<'_> {
             }
         }
     }
+
+    fn headline(&self, level: &Level) -> f64 {
+        level.alpha(self.motor)
+    }
+
+    fn unit(&self, level: &Level) -> f64 {
+        unit(level.alpha(self.motor))
+    }
+
+    fn across(&self, level: &Level) -> usize {
+        level.across()
+    }
+
+    fn settled(&self, found: &Found<Level>) -> bool {
+        let whole = stated(self.motor, self.plan, found);
+        let grids = extrapolate(&found.headlines).error;
+        whole.error <= self.plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
+    }
 }
 
 /// What an accuracy of α is relative to: α, or a hundredth of the load where the film carries less than that.
 fn unit(alpha: f64) -> f64 {
     alpha.abs().max(0.01)
-}
-
-/// Whether the numbers so far are as exact as was asked.
-fn precise_enough(motor: &Motor, plan: &Plan, found: &Found) -> bool {
-    found.status == Status::Converged && {
-        let estimate = stated(motor, plan, found);
-        estimate.error <= plan.accuracy * unit(estimate.value)
-    }
 }
 
 /// A motor from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
@@ -336,10 +252,18 @@ impl<'a> Transient<'a> {
         let tolerance = 0.1 * self.plan.tolerance;
         let finest = self.levels.len() - 1;
         let mut alphas = Vec::with_capacity(self.levels.len());
-        let mut last = (Recording::default(), f64::INFINITY);
+        let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
             let maps = self.plan.maps && number == finest;
-            last = match level.transient_cycle(self.motor, maps, tolerance, &mut self.stats, cancel) {
+            let told = |level: &Level| {
+                if number < finest {
+                    coarser.push(level.line_loads(self.motor));
+                    Recording::default()
+                } else {
+                    level.recording(self.motor, &coarser, maps)
+                }
+            };
+            last = match level.transient_cycle(tolerance, &mut self.stats, cancel, told) {
                 Ok(cycle) => cycle,
                 Err(Stop::Cancelled) => return Ok(None),
                 Err(Stop::Failed(error)) => return Err(error),
@@ -353,9 +277,8 @@ impl<'a> Transient<'a> {
         let (recording, change) = last;
         let mut result = summarise(self.motor, &recording);
         let estimate = extrapolate(&alphas);
-        result.set_alpha(self.motor, if result.levitated { 1.0 } else { estimate.value });
         let left_out = if result.levitated { 0.0 } else { self.plan.left_out * estimate.value.abs() };
-        result.alpha_error = estimate.error.min(1.0) + left_out + tolerance;
+        result.alpha_error = estimate.error.min(1.0) + (result.alpha - estimate.value).abs() + left_out + tolerance;
         Ok(Some((result, recording, change)))
     }
 
@@ -366,8 +289,8 @@ impl<'a> Transient<'a> {
 }
 
 /// α with its error.
-fn stated(motor: &Motor, plan: &Plan, found: &Found) -> Estimate {
-    let estimate = extrapolate(&found.alphas);
+fn stated(motor: &Motor, plan: &Plan, found: &Found<Level>) -> Estimate {
+    let estimate = extrapolate(&found.headlines);
     let Some(level) = found.levels.last() else { return estimate };
     // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
     if level.floats() {
@@ -375,29 +298,28 @@ fn stated(motor: &Motor, plan: &Plan, found: &Found) -> Estimate {
         return Estimate { value: 1.0, error };
     }
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
-    let value = estimate.value.min(found.alphas.iter().copied().fold(1.0, f64::max));
+    let value = estimate.value.min(found.headlines.iter().copied().fold(1.0, f64::max));
     // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
     // (Twice the latter: calibrated, docs/validation.md.)
     let repeating = level.residual().min(1.0) * level.gas_force() / motor.load;
-    let across = found.narrower.as_ref().map_or(0.0, |(_, change)| WIDTH_SHARE * change);
     let left_out = plan.left_out * value.abs();
-    let error = estimate.error.min(1.0) + astray + 2.0 * level.mean_imbalance() + repeating + across + left_out;
+    let error = estimate.error.min(1.0) + astray + 2.0 * level.mean_imbalance() + repeating + found.width_error() + left_out;
     Estimate { value, error }
 }
 
 /// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.
-fn finish(motor: &Motor, plan: &Plan, found: &Found, mut stats: Stats) -> Periodic {
-    let (status, alphas) = (found.status, found.alphas.clone());
+fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) -> Periodic {
+    let (status, alphas) = (found.status, found.headlines.clone());
     let across = found.narrower.as_ref().map_or(0.0, |(_, change)| *change);
     let Some((level, coarser)) = found.levels.split_last() else {
         return Periodic { status, result: MotorResult::default(), alphas, across, stats, recording: Recording::default() };
     };
-    let mut recording = level.recording(motor, plan.maps);
-    recording.coarser = coarser.iter().map(|level| level.line_loads(motor)).collect();
+    let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
+    let recording = level.recording(motor, &coarser, plan.maps);
+    // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
     let estimate = stated(motor, plan, found);
-    result.set_alpha(motor, estimate.value);
-    result.alpha_error = estimate.error;
+    result.alpha_error = estimate.error + (result.alpha - estimate.value).abs();
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();

@@ -42,8 +42,6 @@ impl Recorder {
             .collect();
         let lines = teeth * frames * nodes;
         let recording = Recording {
-            transient: false,
-            other_pressure: Vec::new(),
             period: motor.period(),
             frames,
             length: motor.wavelength(),
@@ -65,9 +63,8 @@ impl Recorder {
             teeth_in_contact: vec![0; frames],
             min_film_thickness: vec![0.0; frames],
             max_pressure: vec![0.0; frames],
-            coarser: Vec::new(),
-            coarser_film_load: Vec::new(),
             x,
+            ..Recording::default()
         };
         let mut recorder = Self { recording, places, shares, touched: vec![false; teeth] };
         for frame in 0..frames {

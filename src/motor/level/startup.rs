@@ -10,7 +10,6 @@ use crate::control::Cancel;
 use crate::film::stepper::FilmState;
 use crate::motor::{MotorError, Stop};
 use crate::numerics::anderson::Anderson;
-use crate::problem::Motor;
 use crate::recording::Recording;
 use crate::solution::Stats;
 
@@ -50,35 +49,27 @@ impl Level {
         Ok(())
     }
 
-    /// One cycle on from the present instant, t = 0 of the cycle, each step solved to `tolerance` in ln ζ. Returns the cycle's
-    /// recording, its first frame being the present, and the largest change of ln Z over the cycle.
+    /// One cycle on from the present instant, t = 0 of the cycle, each step solved to `tolerance` in ln ζ. Returns what `told`
+    /// makes of the cycle whose first frame is the present, and the largest change of ln Z over the cycle.
     pub(in crate::motor) fn transient_cycle(
         &mut self,
-        motor: &Motor,
-        maps: bool,
         tolerance: f64,
         stats: &mut Stats,
         cancel: &Cancel,
+        told: impl FnOnce(&Self) -> Recording,
     ) -> Result<(Recording, f64), Stop> {
         let exact = step_tolerance(tolerance / self.stiffness);
         self.films.iter_mut().for_each(|film| film.accept(exact));
         self.contact.accept(CONTACT_SHARE * tolerance);
         let before: Vec<FilmState> = self.states.clone();
-        let mut recording = Recording::default();
-        for step in 1..=self.steps {
+        for step in 1..self.steps {
             if cancel.is_cancelled() {
                 return Err(Stop::Cancelled);
             }
-            if step == self.steps {
-                recording = self.recording(motor, maps);
-                if maps {
-                    let others = self.films.iter().skip(1);
-                    recording.other_pressure =
-                        others.flat_map(|film| film.full_pressure(self.ambient_pressure)).collect();
-                }
-            }
-            self.transient_step(step % self.steps, tolerance, stats)?;
+            self.transient_step(step, tolerance, stats)?;
         }
+        let recording = told(self);
+        self.transient_step(0, tolerance, stats)?;
         self.films.iter_mut().for_each(|film| film.remember(true));
         let change = self.states.iter().zip(&before).map(|(now, then)| now.change_since(then)).fold(0.0, f64::max);
         Ok((recording, change))

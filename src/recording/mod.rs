@@ -1,5 +1,17 @@
 //! Fields of one cycle: plain data, what views and exports read.
 
+mod extrapolated;
+
+pub use extrapolated::Balance;
+
+use crate::estimate::{self, Estimate};
+
+fn offset([stored, teeth, frames, nodes]: [usize; 4], tooth: usize, frame: usize) -> usize {
+    let (tooth, frame) =
+        if stored == teeth { (tooth, frame) } else { (0, (frame + tooth * frames / teeth) % frames) };
+    (tooth * frames + frame) * nodes
+}
+
 /// Fields of one cycle of the periodic state, every array flat and in SI units.
 ///
 /// Frame `m` is at t = m T/frames. Lines are stored `[tooth][frame][node]` for `stored_teeth` teeth: with lag
@@ -55,14 +67,18 @@ pub struct Recording {
     pub min_film_thickness: Vec<f64>,
     /// Per frame: greatest pressure on any tooth \[Pa\].
     pub max_pressure: Vec<f64>,
-    /// The line loads on the coarser grids of the same solve, coarse to fine: what is made of them has its error from these.
-    /// Empty if there was one grid only, and of a plate.
-    pub coarser: Vec<LineLoads>,
-    /// Film load of a plate over the cycle \[N\] on the coarser grids, coarse to fine.
-    pub coarser_film_load: Vec<Vec<f64>>,
+    /// Estimated numerical errors of the series, absolute, a value each frame; empty where they are not known.
+    pub film_load_error: Vec<f64>,
+    /// Of `min_film_thickness` \[m\].
+    pub min_film_thickness_error: Vec<f64>,
+    /// Of `max_pressure` \[Pa\].
+    pub max_pressure_error: Vec<f64>,
+    /// What the lines of this recording are judged by ([`Recording::estimate`]): extrapolated from the two coarser grids, and those of
+    /// the finest grid as it was solved. Empty if there were not three grids.
+    pub yardsticks: Vec<LineLoads>,
 }
 
-/// Contact and film of a motor over one cycle on one grid, in the conventions of [`Recording`].
+/// Film, contact and gap of one cycle on one grid, in the conventions of [`Recording`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineLoads {
     /// Frames in the cycle.
@@ -83,21 +99,31 @@ pub struct LineLoads {
     pub contact: Vec<f64>,
     /// Film's net gauge line load \[N/m\], likewise; zero without film.
     pub film: Vec<f64>,
+    /// Film thickness \[m\], likewise; empty without film.
+    pub film_thickness: Vec<f64>,
+    /// Greatest pressure across the width \[Pa\], likewise; empty without film.
+    pub peak: Vec<f64>,
+    /// Ambient pressure × width of the film whose pressure is unknown \[N/m\], `nodes`; empty without film.
+    pub ambient: Vec<f64>,
 }
 
 impl Recording {
     /// Offset of tooth `tooth`, frame `frame` in the line arrays; `nodes` = `x.len()` values follow it.
     pub fn line_offset(&self, tooth: usize, frame: usize) -> usize {
-        let (tooth, frame) = if self.stored_teeth == self.teeth {
-            (tooth, frame)
-        } else {
-            (0, (frame + tooth * self.frames / self.teeth) % self.frames)
-        };
-        (tooth * self.frames + frame) * self.x.len()
+        offset([self.stored_teeth, self.teeth, self.frames, self.x.len()], tooth, frame)
     }
 
-    /// Fills the series of each frame from the lines. `greatest`: greatest pressure \[Pa\] of each stored line.
-    pub fn fill_series(&mut self, greatest: &[f64]) {
+    /// What follows from the lines, with its error: from how it differs on those that this recording is judged by.
+    pub fn estimate(&self, value: impl Fn(&LineLoads) -> f64) -> Estimate {
+        let found = value(&self.line_loads());
+        match &self.yardsticks[..] {
+            [before, finest] => estimate::judged(found, value(before), value(finest)),
+            _ => Estimate { value: found, error: f64::INFINITY },
+        }
+    }
+
+    /// Fills the series of each frame from the lines.
+    pub fn fill_series(&mut self, peak: &[f64]) {
         let nodes = self.x.len();
         for frame in 0..self.frames {
             let (mut film, mut contact, mut touching) = (0.0, 0.0, 0);
@@ -108,9 +134,9 @@ impl Recording {
                     film += self.film[line + i] * length;
                     contact += self.contact[line + i] * length;
                     least = least.min(self.film_thickness[line + i]);
+                    most = most.max(peak[line + i]);
                 }
                 touching += usize::from(self.contact[line..line + nodes].iter().any(|c| *c > 0.0));
-                most = most.max(greatest[line / nodes]);
             }
             self.film_load.push(film);
             self.contact_load.push(contact);
@@ -132,6 +158,9 @@ impl Recording {
             node_length: self.node_length.clone(),
             contact: self.contact.clone(),
             film: self.film.clone(),
+            film_thickness: self.film_thickness.clone(),
+            peak: Vec::new(),
+            ambient: Vec::new(),
         }
     }
 

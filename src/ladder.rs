@@ -1,0 +1,157 @@
+//! Grids of half the spacing, one after the other, until the stated error is what was asked for.
+//!
+//! Two things are refined. Across the width the field is one polynomial: on the coarsest grid its nodes grow one by one until the
+//! last of them hardly changes the headline, and that many are used on every grid. Along and in time each grid halves the one before
+//! and starts from its state: first those of the plan, which an extrapolation needs, then as many as it takes.
+
+use crate::control::Cancel;
+use crate::plan::{Grid, Plan};
+use crate::solution::Status;
+
+/// Share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
+/// docs/validation.md), and the share of the error asked for that this may be.
+pub const WIDTH_SHARE: f64 = 0.15;
+const WIDTH_AIM: f64 = 0.3;
+
+/// A scene that can be solved on any grid.
+pub trait Scene {
+    /// Its state on one grid.
+    type Level;
+    /// Why it cannot be solved.
+    type Error;
+
+    /// Solves on `grid`, started from `start`, which is the state of another scene if `similar`. `number` counts the grids from 0.
+    ///
+    /// # Errors
+    /// If a step has no solution to working precision.
+    fn solve(
+        &mut self,
+        grid: &Grid,
+        start: Option<&Self::Level>,
+        similar: bool,
+        number: usize,
+    ) -> Result<(Status, Self::Level), Self::Error>;
+
+    /// The headline on one grid.
+    fn headline(&self, level: &Self::Level) -> f64;
+
+    /// What the accuracy asked for is relative to.
+    fn unit(&self, level: &Self::Level) -> f64;
+
+    /// Unknown nodes across.
+    fn across(&self, level: &Self::Level) -> usize;
+
+    /// Whether the headline is as exact as was asked, or further grids would not make it so.
+    fn settled(&self, found: &Found<Self::Level>) -> bool;
+}
+
+/// What a solve went through: the grids that converged, coarse to fine, and how the last one ended.
+#[derive(Debug)]
+pub struct Found<L> {
+    /// How the last grid ended.
+    pub status: Status,
+    /// The states.
+    pub levels: Vec<L>,
+    /// The headline on each.
+    pub headlines: Vec<f64>,
+    /// The coarsest grid with one node less across, and by how much that changed the headline there; `None` with finite volumes.
+    pub narrower: Option<(L, f64)>,
+}
+
+impl<L> Found<L> {
+    /// Estimated error of the headline of a polynomial with so many nodes across, absolute.
+    pub fn width_error(&self) -> f64 {
+        self.narrower.as_ref().map_or(0.0, |(_, change)| WIDTH_SHARE * change)
+    }
+}
+
+/// Climbs the grids of `plan`, and further, started from what was found for a similar scene, until `cancel`'s budget is spent: then
+/// the best so far is what there is.
+///
+/// # Errors
+/// Those of the scene.
+pub fn climb<S: Scene>(
+    scene: &mut S,
+    plan: &Plan,
+    last: Option<&Found<S::Level>>,
+    cancel: &Cancel,
+) -> Result<Found<S::Level>, S::Error> {
+    let mut found = Found { status: Status::Converged, levels: Vec::new(), headlines: Vec::new(), narrower: None };
+    let mut across = plan.grids.first().map_or(0, |grid| grid.across);
+    if plan.spectral && plan.grids.len() > 1 {
+        let first = last.map_or(across, |last| scene.across(&last.levels[0])).max(2);
+        across = settle_across(scene, plan, first, last, &mut found)?;
+        if found.status != Status::Converged {
+            return Ok(found);
+        }
+    }
+    let mut number = found.levels.len();
+    let mut finer = None;
+    while let Some(grid) = plan.grids.get(number).copied().or(finer) {
+        let grid = if plan.spectral { Grid { across, ..grid } } else { grid };
+        let similar = last.and_then(|last| last.levels.get(number));
+        let start = similar.or(found.levels.last());
+        let (status, level) = scene.solve(&grid, start, similar.is_some(), number)?;
+        number += 1;
+        if number > plan.grids.len() && status != Status::Converged {
+            // What the coarser grids gave stands.
+            if cancel.is_cancelled() {
+                found.status = status;
+            }
+            break;
+        }
+        found.status = status;
+        if status != Status::Converged && number < plan.grids.len() {
+            // A coarse grid without a periodic state says nothing about the next one.
+            found.headlines.clear();
+            found.levels.clear();
+        } else {
+            found.headlines.push(scene.headline(&level));
+            found.levels.push(level);
+        }
+        finer = Some(grid.finer(plan.spectral));
+        let more = number < plan.grids.len()
+            || number < plan.most_grids && status == Status::Converged && !scene.settled(&found) && !cancel.is_spent();
+        if status == Status::Cancelled || !more {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+/// Solves the coarsest grid with more and more nodes across, from `first` on, until one less hardly matters; how many that are.
+fn settle_across<S: Scene>(
+    scene: &mut S,
+    plan: &Plan,
+    first: usize,
+    last: Option<&Found<S::Level>>,
+    found: &mut Found<S::Level>,
+) -> Result<usize, S::Error> {
+    let mut across = first;
+    let coarsest = plan.grids[0];
+    let start = last.and_then(|last| last.narrower.as_ref()).map(|(level, _)| level);
+    let grid = Grid { across: across - 1, ..coarsest };
+    let (mut status, mut narrower) = scene.solve(&grid, start, start.is_some(), 0)?;
+    while status == Status::Converged {
+        let similar = last.map(|last| &last.levels[0]).filter(|level| scene.across(level) == across);
+        let start = similar.unwrap_or(&narrower);
+        let level;
+        (status, level) = scene.solve(&Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
+        let change = (scene.headline(&level) - scene.headline(&narrower)).abs();
+        let matters = WIDTH_SHARE * change > WIDTH_AIM * plan.accuracy * scene.unit(&level);
+        if status == Status::Converged && matters && across < plan.most_across {
+            narrower = level;
+            across += 1;
+            continue;
+        }
+        found.status = status;
+        found.headlines = vec![scene.headline(&level)];
+        found.levels = vec![level];
+        found.narrower = Some((narrower, change));
+        return Ok(across);
+    }
+    found.status = status;
+    found.headlines = vec![scene.headline(&narrower)];
+    found.levels = vec![narrower];
+    Ok(across)
+}

@@ -1,0 +1,223 @@
+//! The lines of a cycle extrapolated to zero spacing, point by point, from two grids one of which has half the intervals and steps.
+//!
+//! Every coarse step is a fine one. Loads are compared cell by cell: a coarse cell is the fine one of the same node and half of
+//! those beside it. A third of the difference is what the fine cells still miss, at second order; it is spread over
+//! them evenly, and between two coarse steps the mean of theirs is taken. So load extrapolates with its sum: film and contact
+//! together keep that of the grids, at every instant. What physics asks for is kept: contact never pulls, and acts where it does on
+//! the fine grid, the gap is closed there and nowhere less than closed, absolute pressure stays positive. Whatever balance this
+//! costs is put right at the end, with the contact's load or, where there is none, with the film's.
+
+use super::{LineLoads, Recording, offset};
+use std::ops::Range;
+
+/// What the lines of a scene have to obey.
+#[derive(Clone, Copy, Debug)]
+pub struct Balance {
+    /// Load L that film and contact carry at each instant \[N\]; `None` for a plate, which is held.
+    pub load: Option<f64>,
+    /// Least film thickness \[m\].
+    pub min_spacing: f64,
+}
+
+/// Largest factor by which extrapolation changes an absolute pressure.
+const LARGEST_FACTOR: f64 = 2.0;
+
+impl LineLoads {
+    /// Offset of tooth `tooth`, frame `frame`; `nodes` = `x.len()` values follow it.
+    pub fn line_offset(&self, tooth: usize, frame: usize) -> usize {
+        offset([self.stored_teeth, self.teeth, self.frames, self.x.len()], tooth, frame)
+    }
+
+    /// This grid's lines less what the `coarse` one shows to be missing still.
+    pub fn extrapolated(&self, coarse: &LineLoads, balance: &Balance) -> LineLoads {
+        let (nodes, few) = (self.x.len(), coarse.x.len());
+        let mut out = self.clone();
+        let mut missing = Missing::new(self, coarse);
+        for tooth in 0..self.stored_teeth {
+            for frame in 0..self.frames {
+                let line = (tooth * self.frames + frame) * nodes;
+                missing.at(tooth, frame);
+                for i in 0..nodes {
+                    let (low, high) = (i / 2, (i.div_ceil(2)).min(few - 1));
+                    let between = |values: &[f64]| 0.5 * (values[low] + values[high]);
+                    let k = line + i;
+                    out.film[k] = self.film[k] + between(&missing.film);
+                    let (thick, touching) = (self.film_thickness[k], self.contact[k] > 0.0);
+                    if touching {
+                        out.contact[k] = (self.contact[k] + between(&missing.contact)).max(0.0);
+                    } else {
+                        let thicker = (thick + between(&missing.thickness)).max(0.5 * thick);
+                        out.film_thickness[k] = thicker.max(balance.min_spacing);
+                    }
+                    if self.ambient[i] > 0.0 {
+                        let absolute = self.film[k] + self.ambient[i];
+                        let factor = (out.film[k] + self.ambient[i]) / absolute;
+                        let factor = factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR);
+                        out.film[k] = factor * absolute - self.ambient[i];
+                    }
+                }
+            }
+        }
+        if let Some(load) = balance.load {
+            out.restore(load);
+        }
+        for (line, peak) in out.peak.chunks_exact_mut(nodes).enumerate() {
+            for (i, peak) in peak.iter_mut().enumerate().filter(|(i, _)| self.ambient[*i] > 0.0) {
+                let k = line * nodes + i;
+                *peak *= (out.film[k] + self.ambient[i]) / (self.film[k] + self.ambient[i]);
+            }
+        }
+        out
+    }
+
+    /// Makes film and contact carry `load` at every instant.
+    fn restore(&mut self, load: f64) {
+        let nodes = self.x.len();
+        let instants = self.frames * self.stored_teeth / self.teeth;
+        for frame in 0..instants {
+            let lines: Vec<usize> = (0..self.teeth).map(|tooth| self.line_offset(tooth, frame)).collect();
+            let (mut film, mut contact, mut ambient) = (0.0, 0.0, 0.0);
+            for line in &lines {
+                for i in 0..nodes {
+                    film += self.film[line + i] * self.node_length[i];
+                    contact += self.contact[line + i] * self.node_length[i];
+                    ambient += self.ambient[i] * self.node_length[i];
+                }
+            }
+            let held = contact > 0.0 && film < load;
+            let contact_factor = if held { (load - film) / contact } else { 0.0 };
+            let film_factor = if held || film + ambient <= 0.0 { 1.0 } else { (load + ambient) / (film + ambient) };
+            for line in &lines {
+                for i in 0..nodes {
+                    self.contact[line + i] *= contact_factor;
+                    self.film[line + i] = film_factor * (self.film[line + i] + self.ambient[i]) - self.ambient[i];
+                }
+            }
+        }
+    }
+
+    /// Film load of each frame \[N\].
+    pub fn film_loads(&self, copies: f64) -> Vec<f64> {
+        let nodes = self.x.len();
+        let sum = |frame: usize| -> f64 {
+            let line = |tooth: usize| self.line_offset(tooth, frame);
+            (0..self.teeth).map(|t| (0..nodes).map(|i| self.film[line(t) + i] * self.node_length[i]).sum::<f64>()).sum()
+        };
+        (0..self.frames).map(|frame| copies * sum(frame)).collect()
+    }
+}
+
+impl Recording {
+    /// This recording with the lines of the `finest` grid, extrapolated with those of the `coarser` ones, coarse to fine, and as
+    /// they are without them. `pressure` is that of the finest grid, tooth after tooth, and `y` its unknown nodes across: there it
+    /// follows the line loads.
+    pub fn of_lines(
+        self,
+        finest: LineLoads,
+        coarser: &[LineLoads],
+        balance: &Balance,
+        mut pressure: Vec<f64>,
+        y: Range<usize>,
+    ) -> Self {
+        let (lines, yardsticks) = match coarser {
+            [.., first, second] => {
+                (finest.extrapolated(second, balance), vec![second.extrapolated(first, balance), finest.clone()])
+            }
+            [only] => (finest.extrapolated(only, balance), Vec::new()),
+            [] => (finest.clone(), Vec::new()),
+        };
+        let (nodes, size) = (lines.x.len(), self.map_x.len() * self.map_y.len() * lines.frames);
+        for (k, column) in pressure.chunks_exact_mut(self.map_y.len()).enumerate() {
+            let known = finest.ambient[k % nodes];
+            if known > 0.0 {
+                let factor = (lines.film[k] + known) / (finest.film[k] + known);
+                column[y.clone()].iter_mut().for_each(|p| *p *= factor);
+            }
+        }
+        let other_pressure = pressure.split_off(size.min(pressure.len()));
+        let mut recording = Self {
+            frames: lines.frames,
+            length: lines.length,
+            teeth: lines.teeth,
+            stored_teeth: lines.stored_teeth,
+            pitch: lines.pitch,
+            x: lines.x,
+            node_length: lines.node_length,
+            film_thickness: lines.film_thickness,
+            contact: lines.contact,
+            film: lines.film,
+            pressure,
+            other_pressure,
+            yardsticks,
+            ..self
+        };
+        recording.fill_series(&lines.peak);
+        recording
+    }
+}
+
+/// What the fine grid misses at the coarse nodes of one frame: line loads \[N/m\] and thickness \[m\].
+struct Missing<'a> {
+    fine: &'a LineLoads,
+    coarse: &'a LineLoads,
+    film: Vec<f64>,
+    contact: Vec<f64>,
+    thickness: Vec<f64>,
+}
+
+impl<'a> Missing<'a> {
+    fn new(fine: &'a LineLoads, coarse: &'a LineLoads) -> Self {
+        let zero = vec![0.0; coarse.x.len()];
+        Self { fine, coarse, film: zero.clone(), contact: zero.clone(), thickness: zero }
+    }
+
+    /// Of a fine frame.
+    fn at(&mut self, tooth: usize, frame: usize) {
+        for values in [&mut self.film, &mut self.contact, &mut self.thickness] {
+            values.fill(0.0);
+        }
+        if frame % 2 == 0 {
+            self.add(tooth, frame / 2, 1.0);
+        } else {
+            self.add(tooth, frame / 2, 0.5);
+            self.add(tooth, (frame / 2 + 1) % self.coarse.frames, 0.5);
+        }
+        // On an ambient edge the film is known: what its cell misses is its neighbour's.
+        let (last, nodes) = (self.film.len() - 1, self.fine.x.len());
+        for (edge, beside, node) in [(0, 1, 0), (last, last - 1, nodes - 1)] {
+            if self.fine.ambient[node] == 0.0 && last > 1 {
+                self.film[beside] += self.film[edge] * self.cell(edge) / self.cell(beside);
+                self.film[edge] = 0.0;
+            }
+        }
+    }
+
+    /// Length of the fine cells that make a coarse one \[m\].
+    fn cell(&self, i: usize) -> f64 {
+        cell(&self.fine.node_length, |k| self.fine.node_length[k], i)
+    }
+
+    fn add(&mut self, tooth: usize, step: usize, share: f64) {
+        let (fine, coarse) = (self.fine, self.coarse);
+        let from = (tooth * fine.frames + 2 * step) * fine.x.len();
+        let to = (tooth * coarse.frames + step) * coarse.x.len();
+        let third = share / 3.0;
+        for i in 0..coarse.x.len() {
+            let length = self.cell(i);
+            let missing = |all: &[f64], few: &[f64]| {
+                let load = cell(&fine.node_length, |k| all[from + k] * fine.node_length[k], i);
+                third * (load - few[to + i] * coarse.node_length[i]) / length
+            };
+            self.film[i] += missing(&fine.film, &coarse.film);
+            self.contact[i] += missing(&fine.contact, &coarse.contact);
+            self.thickness[i] += third * (fine.film_thickness[from + 2 * i] - coarse.film_thickness[to + i]);
+        }
+    }
+}
+
+/// Sum of the fine cells that make coarse cell `i`.
+fn cell(lengths: &[f64], value: impl Fn(usize) -> f64, i: usize) -> f64 {
+    let before = if i > 0 { 0.5 * value(2 * i - 1) } else { 0.0 };
+    let behind = if 2 * i + 1 < lengths.len() { 0.5 * value(2 * i + 1) } else { 0.0 };
+    before + value(2 * i) + behind
+}
