@@ -118,6 +118,9 @@ const SHARE: f64 = 0.2;
 /// Intervals along a tooth for each factor of e between those in the middle of a crown and uniform ones, over those of a flat
 /// tooth.
 const MIDDLE: f64 = 1.0;
+/// Steps within the peak of a plate's load as it nearly touches, and the narrowest such peak \[rad\] that is followed.
+const STEPS_IN_PEAK: f64 = 2.0;
+const NARROWEST_PEAK: f64 = 2e-4;
 /// Intervals along a tooth that leave a node to solve on the coarsest grid.
 const FEWEST_ALONG: usize = 2 << (GRIDS - 1);
 const ROUND_LIMIT: usize = 300;
@@ -223,11 +226,19 @@ impl Plan {
         let edge = spec.plate_edge_fraction * layer;
         let (along, clustering_along) =
             graded(spec.plate, numerics.film_nodes_along.map(|n| n / 2), 0.5 * plate.length, edge);
-        let (across, clustering_across) = match plate.width {
-            Some(width) => graded(spec.plate, numerics.film_nodes_across.map(|n| n / 2), 0.5 * width, edge),
-            None => (0, 0.0),
+        let (across, clustering_across, robust) = match plate.width {
+            Some(width) => {
+                let asked = numerics.film_nodes_across.map(|n| n / 2);
+                let across = asked.map_or(spec.across, |asked| asked.max(1));
+                (across, spectral_clustering(2.0 * layer / width), graded(spec.plate, asked, 0.5 * width, edge))
+            }
+            None => (0, 0.0, (0, 0.0)),
         };
-        let steps = round_up(numerics.steps_per_cycle.unwrap_or(spec.plate_steps));
+        // Near touching, the load is a peak as narrow as √(2(1 − ε)) of a cycle's 2π.
+        let excursion = (plate.amplitude / plate.mean_gap).min(1.0);
+        let narrowest = (2.0 * (1.0 - excursion)).sqrt().max(NARROWEST_PEAK);
+        let follow = (STEPS_IN_PEAK * std::f64::consts::TAU / narrowest) as usize;
+        let steps = round_up(numerics.steps_per_cycle.unwrap_or(spec.plate_steps.max(follow)));
         let exact = |term: &'static str, words: String| Decision {
             term,
             key: None,
@@ -249,12 +260,13 @@ impl Plan {
             },
             exact("time", format!("{steps} steps a cycle; two coarser grids for the error estimate")),
         ];
+        let spectral = plate.width.is_some();
         Self {
             fidelity: name(fidelity, numerics),
-            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, false),
+            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, spectral),
             clustering_along,
             clustering_across,
-            spectral: false,
+            spectral,
             half_width: true,
             every_tooth: false,
             shear: false,
@@ -263,9 +275,9 @@ impl Plan {
             left_out: 0.0,
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
-            most_grids: if custom(numerics) { GRIDS } else { GRIDS + 2 },
+            most_grids: if custom(numerics) { GRIDS } else { GRIDS + 6 },
             most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
-            robust: (across, clustering_across),
+            robust,
             tolerance: numerics.tolerance.unwrap_or(spec.plate_tolerance),
             round_limit: ROUND_LIMIT,
             maps: true,
