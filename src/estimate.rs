@@ -14,10 +14,16 @@ pub struct Estimate {
     pub error: f64,
 }
 
-/// Share of the spread of two extrapolations that is taken as error (calibrated: docs/validation.md).
+/// Share of the spread of two extrapolations that is taken as error where the grids come closer at least as fast as an error of second
+/// order would (calibrated, as all of these: docs/validation.md).
 const SPREAD: f64 = 0.25;
 /// Least share of the last correction that is taken as error.
-const CORRECTION: f64 = 0.22;
+const CORRECTION: f64 = 0.25;
+/// Share of what a slower approach leaves that is taken as error, and the slowest one that it is taken for.
+const REST: f64 = 1.0;
+const SLOWEST: f64 = 1.3;
+/// Least share of the change before the last that is taken as error: the last one may be small by chance.
+const BEFORE: f64 = 0.025;
 
 /// From results on nested grids, coarse to fine. One grid gives no estimate (an infinite error).
 pub fn extrapolate(results: &[f64]) -> Estimate {
@@ -28,7 +34,17 @@ pub fn extrapolate(results: &[f64]) -> Estimate {
         [coarse, fine] => Estimate { value: richardson(coarse, fine), error: (fine - coarse).abs() },
         [.., first, second, third] => {
             let (before, value) = (richardson(first, second), richardson(second, third));
-            Estimate { value, error: (SPREAD * (value - before).abs()).max(CORRECTION * (value - third).abs()) }
+            let (change, correction) = (third - second, value - third);
+            let ratio = if change == 0.0 { f64::INFINITY } else { (second - first) / change };
+            let left = if ratio >= 4.0 {
+                (SPREAD * (value - before).abs()).min(correction.abs())
+            } else if ratio > 0.0 {
+                REST * (change / (ratio.max(SLOWEST) - 1.0) - correction).abs()
+            } else {
+                0.5 * change.abs()
+            };
+            let least = (CORRECTION * correction.abs()).max(BEFORE * (second - first).abs());
+            Estimate { value, error: left.max(least) }
         }
     }
 }

@@ -1,8 +1,9 @@
-//! What draft, standard, fine and reference mean: how many nodes and steps, and how exactly the cycle has to repeat.
+//! What an accuracy means, and draft, standard, fine and reference, which are names of four: where the grids begin, and how exactly
+//! the cycle has to repeat.
 //!
-//! Each level is solved on three nested grids, every one with half the intervals and steps of the next; the results are
-//! extrapolated to zero spacing (the scheme is of second order in both) and the spread of the extrapolations is the
-//! error estimate. The measured error and cost of each level are in `docs/validation.md`.
+//! A scene is solved on three nested grids, every one with half the intervals and steps of the next; the results are extrapolated to
+//! zero spacing (the scheme is of second order in both), and how they come closer is the error estimate. Finer grids follow until that
+//! is what was asked for (`ladder`). The measured error and cost of each level are in `docs/validation.md`.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,15 +11,17 @@ use std::str::FromStr;
 /// How much accuracy to buy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Fidelity {
-    /// For dragging a slider: about a per cent.
+    /// For dragging a slider: 2 %.
     Draft,
-    /// For everyday use: a few tenths of a per cent.
+    /// For everyday use: 0.5 %.
     #[default]
     Standard,
-    /// For figures: a few hundredths of a per cent.
+    /// For figures: 0.1 %.
     Fine,
-    /// For judging the others.
+    /// For judging the others: 0.02 %.
     Reference,
+    /// To a relative error of the headline in millionths.
+    To(u32),
 }
 
 /// What a fidelity asks of the finest grid.
@@ -68,11 +71,29 @@ impl Fidelity {
             Self::Standard => "standard",
             Self::Fine => "fine",
             Self::Reference => "reference",
+            Self::To(_) => "accuracy",
         }
     }
 
-    /// What the level means.
+    /// The level whose stated relative error of the headline is to be at most `accuracy`, from 1e-6 to 0.5.
+    pub fn to(accuracy: f64) -> Self {
+        Self::To((1e6 * accuracy.clamp(ACCURACY[0], ACCURACY[1])).round() as u32)
+    }
+
+    /// Relative error of the headline that is asked for.
+    pub fn accuracy(self) -> f64 {
+        if let Self::To(millionths) = self { f64::from(millionths) * 1e-6 } else { self.spec().aim }
+    }
+
+    /// What the level means. Between the named ones, grids and tolerances are theirs, in proportion to the logarithm of the error.
     pub fn spec(self) -> Spec {
+        if let Self::To(_) = self {
+            let aim = self.accuracy();
+            let after = Self::ALL.iter().position(|level| level.spec().aim <= aim).unwrap_or(Self::ALL.len() - 1).max(1);
+            let (coarse, fine) = (Self::ALL[after - 1].spec(), Self::ALL[after].spec());
+            let share = ((coarse.aim / aim).ln() / (coarse.aim / fine.aim).ln()).clamp(0.0, 1.0);
+            return coarse.towards(&fine, share, aim);
+        }
         match self {
             Self::Draft => Spec {
                 along: 8,
@@ -138,13 +159,67 @@ impl Fidelity {
                 plate_edge_fraction: 0.4,
                 aim: 2e-4,
             },
+            Self::To(_) => Self::Standard.spec(),
         }
+    }
+}
+
+/// Least and greatest relative error that can be asked for.
+pub const ACCURACY: [f64; 2] = [1e-6, 0.5];
+
+impl Spec {
+    /// A share of the way to a finer specification, in logarithms, for an error of `aim`.
+    fn towards(&self, fine: &Self, share: f64, aim: f64) -> Self {
+        let real = |a: f64, b: f64| a * (b / a).powf(share);
+        let count = |a: usize, b: usize| real(a as f64, b as f64).round() as usize;
+        Self {
+            along: count(self.along, fine.along),
+            across: count(self.across, fine.across),
+            volumes: count(self.volumes, fine.volumes),
+            steps: count(self.steps, fine.steps),
+            per_wave: count(self.per_wave, fine.per_wave),
+            edge_fraction: real(self.edge_fraction, fine.edge_fraction),
+            harmonic_fraction: real(self.harmonic_fraction, fine.harmonic_fraction),
+            most_harmonics: count(self.most_harmonics, fine.most_harmonics),
+            tolerance: real(self.tolerance, fine.tolerance),
+            plate: count(self.plate, fine.plate),
+            plate_steps: count(self.plate_steps, fine.plate_steps),
+            plate_tolerance: real(self.plate_tolerance, fine.plate_tolerance),
+            plate_edge_fraction: real(self.plate_edge_fraction, fine.plate_edge_fraction),
+            aim,
+        }
+    }
+
+    /// The same aim from coarse grids on, so that there soon is a result to be made better.
+    pub fn from_coarse(&self) -> Self {
+        let coarse = Fidelity::Draft.spec();
+        let (along, steps, per_wave) = (coarse.along, coarse.steps, coarse.per_wave);
+        Self { along, steps, per_wave, plate: coarse.plate, plate_steps: coarse.plate_steps, ..*self }
+    }
+}
+
+/// An accuracy as people write it: `0.1%`, `0.1 %` or `0.001`.
+///
+/// # Errors
+/// Words that name the value and what is allowed.
+pub fn parse_accuracy(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    let value = number.trim().parse::<f64>().ok().map(|value| value * unit);
+    match value {
+        Some(value) if (ACCURACY[0]..=ACCURACY[1]).contains(&value) => Ok(value),
+        _ => Err(format!("accuracy = {text} is not allowed: a relative error from 0.0001% to 50%, as 0.1% or 0.001")),
     }
 }
 
 impl fmt::Display for Fidelity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        match self {
+            Self::To(_) => write!(f, "{} %", 100.0 * self.accuracy()),
+            _ => f.write_str(self.name()),
+        }
     }
 }
 

@@ -211,7 +211,7 @@ impl Plan {
         let (across, clustering_across) = self.robust;
         let finest = self.grids.last().map(|grid| Grid { across, ..*grid });
         let grids = finest.map_or_else(Vec::new, |finest| nested(finest, false));
-        Self { spectral: false, grids, clustering_across, ..self.clone() }
+        Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
     }
 
     /// A sentence for each decision.

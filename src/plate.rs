@@ -71,12 +71,31 @@ pub fn periodic(
     stats.film_nodes = level.cycle.grid().len();
     stats.steps_per_cycle = level.steps;
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(plate)).collect();
-    let recording = level.recording(plate, &coarser, plan.maps);
+    let mut recording = level.recording(plate, &coarser, plan.maps);
     let estimate = stated(plate, &found);
+    let elsewhere = estimate.error - extrapolate(&found.headlines).error;
+    recording.judge_series(elsewhere / (plate.gas.ambient_pressure * plate.area()));
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
-    result.film_load_error = estimate.error + (result.film_load - estimate.value).abs();
-    Ok(Periodic { status: found.status, result, loads, stats, recording })
+    let force = result.film_load;
+    result.film_load_error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
+    let asked = plan.accuracy * level.unit();
+    let status = match found.status {
+        Status::Converged if result.film_load_error > asked.max(force.abs()) => {
+            Status::NotResolved { error: result.film_load_error / force.abs() }
+        }
+        status => status,
+    };
+    Ok(Periodic { status, result, loads, stats, recording })
+}
+
+/// By how much a mean load \[N\] is outside what the equations allow: Z is nowhere less than the least gap and nowhere more than the
+/// greatest (its equation has a maximum principle), so the mean of P = Z/H is within (1 ± ε)⟨1/H⟩ = √((1 ± ε)/(1 ∓ ε)).
+fn beyond_limits(plate: &Plate, load: f64) -> f64 {
+    let excursion = plate.amplitude / plate.mean_gap;
+    let ratio = 1.0 + PlateResult::ratio(load, plate);
+    let most = ((1.0 + excursion) / (1.0 - excursion)).sqrt();
+    (ratio - most).max(1.0 / most - ratio).max(0.0) * plate.gas.ambient_pressure * plate.area()
 }
 
 /// Mean load with its error \[N\].
@@ -85,7 +104,8 @@ fn stated(plate: &Plate, found: &Found<Level>) -> Estimate {
     let Some(level) = found.levels.last() else { return estimate };
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
     let repeating = (level.residual + astray) * plate.gas.ambient_pressure * plate.area();
-    Estimate { error: estimate.error + repeating + found.width_error(), ..estimate }
+    let beyond = beyond_limits(plate, estimate.value);
+    Estimate { error: estimate.error + repeating + found.width_error() + beyond, ..estimate }
 }
 
 /// One solve of a plate by a plan.
@@ -224,6 +244,16 @@ impl PlateResult {
             film_load_max: most(&recording.film_load),
             min_gap: least(&recording.min_film_thickness),
             max_pressure: most(&recording.max_pressure),
+            film_load_range_error: [f64::min, f64::max].map(|greater| {
+                let (loads, errors) = (&recording.film_load, &recording.film_load_error);
+                recording.extreme_error(LineLoads::film_loads, loads, errors, greater)
+            }),
+            max_pressure_error: recording.extreme_error(
+                LineLoads::max_pressures,
+                &recording.max_pressure,
+                &recording.max_pressure_error,
+                f64::max,
+            ),
         }
     }
 }

@@ -15,8 +15,47 @@ pub enum Status {
         /// What it had to fall below.
         tolerance: f64,
     },
+    /// The cycle repeats, but the headline's stated error is as large as the headline: these grids do not tell it.
+    NotResolved {
+        /// Stated error over the headline, at least 1.
+        error: f64,
+    },
     /// The caller cancelled.
     Cancelled,
+}
+
+/// Why a solve was content with the grids it had.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StoppedBy {
+    /// The stated error is what was asked for.
+    Accuracy,
+    /// The time allowed was up.
+    Budget,
+    /// No finer grid is tried, or none would help.
+    #[default]
+    Limit,
+}
+
+impl StoppedBy {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accuracy => "accuracy",
+            Self::Budget => "budget",
+            Self::Limit => "limit",
+        }
+    }
+}
+
+/// The accuracy of the headline, relative to it; that of α to a hundredth of the load where the film carries less than that.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Accuracy {
+    /// Asked for; 0 on grids that the scene prescribes.
+    pub asked: f64,
+    /// Stated.
+    pub stated: f64,
+    /// Why no finer grid was solved.
+    pub stopped_by: StoppedBy,
 }
 
 /// Results of a motor scene: cycle means for one wavelength.
@@ -32,6 +71,8 @@ pub struct MotorResult {
     pub film_load_min: f64,
     /// Greatest film force in the cycle \[N\].
     pub film_load_max: f64,
+    /// Estimated errors of the two, absolute \[N\].
+    pub film_load_range_error: [f64; 2],
     /// Cycle mean of the contact force \[N\].
     pub contact_load: f64,
     /// Greatest torque of the whole ring, μ_d (1−α) waves L r \[N m\].
@@ -44,6 +85,12 @@ pub struct MotorResult {
     pub min_gap: f64,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: f64,
+    /// Estimated errors of teeth in contact, least film thickness \[m\] and greatest pressure \[Pa\], absolute.
+    pub teeth_in_contact_error: f64,
+    /// See `teeth_in_contact_error`.
+    pub min_gap_error: f64,
+    /// See `teeth_in_contact_error`.
+    pub max_pressure_error: f64,
 }
 
 /// Results of a plate scene. Forces of a strip are per metre of width.
@@ -61,6 +108,10 @@ pub struct PlateResult {
     pub min_gap: f64,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: f64,
+    /// Estimated errors of least and greatest force, absolute \[N or N/m\].
+    pub film_load_range_error: [f64; 2],
+    /// Estimated error of the greatest pressure, absolute \[Pa\].
+    pub max_pressure_error: f64,
 }
 
 /// The result of either scene.
@@ -127,6 +178,8 @@ pub struct Solution {
     pub stats: Stats,
     /// What was modelled.
     pub model: Model,
+    /// How exact the headline is.
+    pub accuracy: Accuracy,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Fields of one cycle.

@@ -9,7 +9,7 @@ use crate::plan::Plan;
 use crate::plate;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
-use crate::solution::{Model, Outcome, Solution, Status};
+use crate::solution::{Accuracy, Model, Outcome, Solution, Status, StoppedBy};
 
 /// How to solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -99,7 +99,9 @@ pub fn solve_from(
             let plan = Plan { maps, ..Plan::motor(motor, settings.fidelity, &problem.numerics) };
             let found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
+            let result = &found.result;
             Solution {
+                accuracy: accuracy(&plan, result.alpha_error, motor::unit(result.alpha), cancel),
                 warnings: warnings(&found.status),
                 status: found.status,
                 outcome: Outcome::Motor(found.result),
@@ -111,7 +113,9 @@ pub fn solve_from(
         (Scenario::Plate(plate), Method::Auto) => {
             let plan = Plan { maps, ..Plan::plate(plate, settings.fidelity, &problem.numerics) };
             let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
+            let result = &found.result;
             Solution {
+                accuracy: accuracy(&plan, result.film_load_error, result.film_load.abs(), cancel),
                 warnings: warnings(&found.status),
                 status: found.status,
                 outcome: Outcome::Plate(found.result),
@@ -127,6 +131,18 @@ pub fn solve_from(
         solution.recording = Recording::default();
     }
     Ok(solution)
+}
+
+fn accuracy(plan: &Plan, error: f64, unit: f64, cancel: &Cancel) -> Accuracy {
+    let stated = if error == 0.0 { 0.0 } else { error / unit };
+    let stopped_by = if stated <= plan.accuracy {
+        StoppedBy::Accuracy
+    } else if cancel.is_spent() {
+        StoppedBy::Budget
+    } else {
+        StoppedBy::Limit
+    };
+    Accuracy { asked: plan.accuracy, stated, stopped_by }
 }
 
 fn model(plan: &Plan, teeth_solved: usize) -> Model {
@@ -146,6 +162,9 @@ fn warnings(status: &Status) -> Vec<String> {
         Status::Converged => Vec::new(),
         Status::NotConverged { residual, tolerance } => vec![format!(
             "not converged: the last round still changed by {residual:.1e}, allowed {tolerance:.0e}; the numbers are what was reached"
+        )],
+        Status::NotResolved { error } => vec![format!(
+            "not resolved: the stated error is {error:.1} times the result itself; ask for more accuracy, or take it as next to nothing"
         )],
         Status::Cancelled => vec!["cancelled: the numbers are what was reached".to_owned()],
     }

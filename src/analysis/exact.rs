@@ -82,11 +82,8 @@ impl Comparison {
 pub fn solved(plate: &Plate, recording: &Recording) -> Option<Harmonic<Estimate>> {
     let excursion = plate.amplitude / plate.mean_gap;
     let scale = plate.gas.ambient_pressure * plate.area() * excursion;
-    let series: Vec<&[f64]> =
-        recording.coarser_film_load.iter().map(Vec::as_slice).chain([recording.film_load.as_slice()]).collect();
     let of = |part: fn(&Harmonic<f64>) -> f64| {
-        let all: Vec<f64> = series.iter().map(|load| part(&first_harmonic(load)) / scale).collect();
-        extrapolate(&all)
+        recording.estimate(|lines| part(&first_harmonic(&lines.film_loads())) / scale)
     };
     (excursion > 0.0 && !recording.film_load.is_empty())
         .then(|| Harmonic { spring: of(|h| h.spring), damping: of(|h| h.damping) })

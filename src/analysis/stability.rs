@@ -437,6 +437,7 @@ mod tests {
             status: Status::Converged,
             outcome: Outcome::Motor(result),
             stats: Stats::default(),
+            accuracy: Default::default(),
             model: Model::default(),
             warnings: Vec::new(),
             recording,

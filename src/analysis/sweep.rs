@@ -375,7 +375,7 @@ impl Sweep {
                 Ok(solution) => {
                     let ending = match solution.status {
                         Status::Converged => Ending::Converged,
-                        Status::NotConverged { .. } => Ending::NotConverged,
+                        Status::NotConverged { .. } | Status::NotResolved { .. } => Ending::NotConverged,
                         Status::Cancelled => break,
                     };
                     (ending, Numbers::of(problem, &solution))

@@ -361,7 +361,7 @@ impl Merit {
     /// From the contact with the film, in `recording`, and without it, coarse to fine.
     pub fn from_contacts(motor: &Motor, result: &MotorResult, recording: &Recording, dry: &[LineLoads]) -> Self {
         let wet_fine = Drive::new(&recording.line_loads());
-        let wet_coarse = recording.coarser.last().map(Drive::new);
+        let wet_coarse = recording.yardsticks.first().map(Drive::new);
         let dry: Vec<Drive> = dry.iter().rev().take(2).map(Drive::new).collect();
         let nothing = Drive { frames: 1, lines: Vec::new(), load: 0.0, forward: 0.0 };
         let share = (1.0 - result.alpha).max(0.0);
@@ -432,7 +432,7 @@ fn lines(loads: &LineLoads) -> impl Iterator<Item = (f64, usize)> {
 pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
     let loads = recording.line_loads();
     let given = given(motor, &loads);
-    let coarse = recording.coarser.last().map_or(f64::INFINITY, |coarse| self::given(motor, coarse));
+    let coarse = recording.yardsticks.first().map_or(f64::INFINITY, |coarse| self::given(motor, coarse));
     let (frames, nodes) = (loads.frames, loads.x.len());
     let mut taken = 0.0;
     for (line, (_, at)) in lines(&loads).enumerate() {

@@ -259,7 +259,7 @@ fn run_once(problem: &Problem, run: &mut Run, effort: &Effort, clock: &dyn Fn() 
         Ok(solution) => {
             run.ended = match solution.status {
                 Status::Converged => Ended::Converged,
-                Status::NotConverged { .. } => Ended::NotConverged,
+                Status::NotConverged { .. } | Status::NotResolved { .. } => Ended::NotConverged,
                 Status::Cancelled => Ended::GivenUp,
             };
             if run.ended != Ended::GivenUp {

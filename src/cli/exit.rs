@@ -32,7 +32,7 @@ impl Exit {
     pub(super) fn of(status: &Status) -> Self {
         match status {
             Status::Converged => Self::Solved,
-            Status::NotConverged { .. } => Self::NotConverged,
+            Status::NotConverged { .. } | Status::NotResolved { .. } => Self::NotConverged,
             Status::Cancelled => Self::Other,
         }
     }

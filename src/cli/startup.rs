@@ -152,7 +152,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     }
     Ok(match ended.status {
         Status::Converged => Exit::Solved,
-        Status::NotConverged { .. } => Exit::NotConverged,
+        Status::NotConverged { .. } | Status::NotResolved { .. } => Exit::NotConverged,
         Status::Cancelled => Exit::Other,
     })
 }
@@ -170,7 +170,7 @@ const SHOWN: usize = 8;
 fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady: Option<(f64, f64)>) -> String {
     let how = match ended.status {
         Status::Converged => format!("the cycle repeats after {}", ended.cycles),
-        Status::NotConverged { .. } => format!("NOT REPEATING after {}", ended.cycles),
+        Status::NotConverged { .. } | Status::NotResolved { .. } => format!("NOT REPEATING after {}", ended.cycles),
         Status::Cancelled => format!("CANCELLED after {}", ended.cycles),
     };
     let mut text = paragraph(&format!("{}, start-up from rest: {how}", scene.name), "", "");

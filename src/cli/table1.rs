@@ -152,6 +152,7 @@ fn mark(status: &Status) -> &'static str {
     match status {
         Status::Converged => "",
         Status::NotConverged { .. } => "NOT CONVERGED",
+        Status::NotResolved { .. } => "NOT RESOLVED",
         Status::Cancelled => "cancelled",
     }
 }

@@ -27,7 +27,7 @@ pub fn ending(run: &Run) -> Ending {
     match &run.solved {
         Ok(solution) => match solution.status {
             Status::Converged => Ending::Converged,
-            Status::NotConverged { .. } => Ending::NotConverged,
+            Status::NotConverged { .. } | Status::NotResolved { .. } => Ending::NotConverged,
             Status::Cancelled => Ending::Failed("cancelled".to_owned()),
         },
         Err(reason) => Ending::Failed(reason.clone()),

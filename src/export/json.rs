@@ -269,6 +269,7 @@ pub fn status_name(status: &Status) -> &'static str {
     match status {
         Status::Converged => "converged",
         Status::NotConverged { .. } => "not converged",
+        Status::NotResolved { .. } => "not resolved",
         Status::Cancelled => "cancelled",
     }
 }

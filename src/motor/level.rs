@@ -59,6 +59,8 @@ pub(super) struct Level {
     stiffness: f64,
     /// Residual of the last round.
     residual: f64,
+    /// What the gas, as it changed in the last round, changes of the film's load \[N\].
+    drift: f64,
     /// ζ from the film's last cycle, lines.
     line: Vec<f64>,
     /// `line` moved by the slow shift: ζ for the next round.
@@ -142,13 +144,10 @@ impl Level {
             stiffness: (gas.ambient_pressure * motor.contact_width * motor.tooth_width * teeth as f64 / motor.load)
                 .max(1.0),
             residual: f64::INFINITY,
+            drift: f64::INFINITY,
             line: vec![0.0; stored * steps * nx],
             next: vec![0.0; stored * steps * nx],
         }
-    }
-
-    pub(super) fn residual(&self) -> f64 {
-        self.residual
     }
 
     pub(super) fn steps(&self) -> usize {
@@ -460,8 +459,9 @@ impl Level {
             let change = image.iter().zip(&present).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             residual = change.max(imbalance);
             self.residual = residual;
+            self.drift = self.force_of_change(&present, &image);
             report.round(round, residual, self.mean_film_load());
-            if residual < plan.tolerance && residual * self.gas_force() <= self.allowed_change(plan) {
+            if residual < plan.tolerance && self.drift <= self.allowed_change(plan) {
                 return Ok(Status::Converged);
             }
             anderson.advance(&mut present, &image);
@@ -488,12 +488,32 @@ impl Level {
         self.ambient_pressure * (self.line[index] / self.film_thickness[index] - self.interior_width)
     }
 
+    /// Cycle mean of the force on one wavelength \[N\] by which the gas of two rounds differs, packed as by `pack`, all of it counted
+    /// one way.
+    fn force_of_change(&self, before: &[f64], after: &[f64]) -> f64 {
+        let (ux, lengths) = (self.grid().x.unknown(), &self.grid().x.lengths);
+        let mut sum = 0.0;
+        for (line, (before, after)) in before.chunks_exact(ux.len()).zip(after.chunks_exact(ux.len())).enumerate() {
+            let at = line * self.nx;
+            if at >= self.line.len() {
+                break;
+            }
+            for ((ix, before), after) in ux.clone().zip(before).zip(after) {
+                sum += (after - before).abs() * self.line[at + ix] / self.film_thickness[at + ix] * lengths[ix];
+            }
+        }
+        sum * self.ambient_pressure * self.teeth as f64 / (self.stored * self.steps) as f64
+    }
+
     /// Cycle mean of the absolute force of the gas on one wavelength \[N\], ambient pressure included.
     pub(super) fn gas_force(&self) -> f64 {
-        let lengths = &self.grid().x.lengths;
-        let force = |i: usize| self.ambient_pressure * self.line[i] / self.film_thickness[i] * lengths[i % self.nx];
-        let sum: f64 = (0..self.line.len()).map(force).sum();
-        sum * self.teeth as f64 / (self.stored * self.steps) as f64
+        let ambient = self.ambient_pressure * self.interior_width * self.grid().x.unknown().map(|ix| self.grid().x.lengths[ix]).sum::<f64>();
+        self.mean_film_load() + ambient * self.teeth as f64
+    }
+
+    /// What the gas, as it changed in the last round, changes of the film's load \[N\].
+    pub(super) fn drift(&self) -> f64 {
+        self.drift
     }
 
     /// Cycle mean of the film load on one wavelength \[N\].

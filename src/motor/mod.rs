@@ -211,7 +211,7 @@ impl Scene for Search<'_> {
 }
 
 /// What an accuracy of α is relative to: α, or a hundredth of the load where the film carries less than that.
-fn unit(alpha: f64) -> f64 {
+pub fn unit(alpha: f64) -> f64 {
     alpha.abs().max(0.01)
 }
 
@@ -301,7 +301,7 @@ fn stated(motor: &Motor, plan: &Plan, found: &Found<Level>) -> Estimate {
     let value = estimate.value.min(found.headlines.iter().copied().fold(1.0, f64::max));
     // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
     // (Twice the latter: calibrated, docs/validation.md.)
-    let repeating = level.residual().min(1.0) * level.gas_force() / motor.load;
+    let repeating = level.drift() / motor.load;
     let left_out = plan.left_out * value.abs();
     let error = estimate.error.min(1.0) + astray + 2.0 * level.mean_imbalance() + repeating + found.width_error() + left_out;
     Estimate { value, error }
@@ -315,11 +315,20 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
         return Periodic { status, result: MotorResult::default(), alphas, across, stats, recording: Recording::default() };
     };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
-    let recording = level.recording(motor, &coarser, plan.maps);
+    let mut recording = level.recording(motor, &coarser, plan.maps);
+    let estimate = stated(motor, plan, found);
+    let elsewhere = (estimate.error - extrapolate(&found.headlines).error.min(1.0)).max(0.0);
+    recording.judge_series(elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE));
     // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
-    let estimate = stated(motor, plan, found);
     result.alpha_error = estimate.error + (result.alpha - estimate.value).abs();
+    let asked = plan.accuracy * unit(result.alpha);
+    let status = match status {
+        Status::Converged if result.alpha_error > asked.max(result.alpha.abs()) => {
+            Status::NotResolved { error: result.alpha_error / result.alpha.abs() }
+        }
+        status => status,
+    };
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();
@@ -341,6 +350,19 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
         ..MotorResult::default()
     };
     result.set_alpha(motor, mean(&recording.film_load) / motor.load);
+    let loads = |greater| {
+        recording.extreme_error(LineLoads::film_loads, &recording.film_load, &recording.film_load_error, greater)
+    };
+    result.film_load_range_error = [loads(f64::min), loads(f64::max)];
+    let (pressures, thicknesses) = (&recording.max_pressure, &recording.min_film_thickness);
+    let (series, errors) = (LineLoads::max_pressures, &recording.max_pressure_error);
+    result.max_pressure_error = recording.extreme_error(series, pressures, errors, f64::max);
+    let (series, errors) = (LineLoads::min_film_thicknesses, &recording.min_film_thickness_error);
+    result.min_gap_error = recording.extreme_error(series, thicknesses, errors, f64::min);
+    // When a tooth begins and ends to touch is known to half a frame each.
+    let frame = motor.teeth as f64 / recording.frames.max(1) as f64;
+    result.teeth_in_contact_error =
+        if result.levitated { 0.0 } else { recording.estimate(LineLoads::teeth_in_contact).error + frame };
     result
 }
 

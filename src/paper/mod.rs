@@ -44,7 +44,7 @@ pub use film::FactoredFilm;
 
 use crate::control::{Cancel, Observer, Progress};
 use crate::problem::{Motor, Numerics, Slip};
-use crate::solution::{Model, MotorResult, Outcome, Solution, Stats, Status};
+use crate::solution::{Accuracy, Model, MotorResult, Outcome, Solution, Stats, Status, StoppedBy};
 use contact::Balance;
 use march::{INNER_TOLERANCE, March, Step};
 use record::Recorder;
@@ -98,18 +98,25 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
     let contact_load = mean(&recording.contact_load);
     let alpha = film_load / motor.load;
     let touching: usize = recording.teeth_in_contact.iter().sum();
+    let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [film_load_min, film_load_max] = [-most(&recording.film_load.iter().map(|f| -f).collect::<Vec<_>>()), most(&recording.film_load)];
+    let max_pressure = most(&recording.max_pressure);
     let outcome = MotorResult {
+        film_load_range_error: [film_load_min, film_load_max].map(|load| relative_error * load.abs()),
+        max_pressure_error: relative_error * max_pressure,
+        min_gap_error: relative_error * (most(&recording.min_film_thickness) - motor.min_spacing),
+        teeth_in_contact_error: motor.teeth as f64 / steps as f64,
         alpha,
         alpha_error: run.alpha_remaining + relative_error * alpha.abs(),
         film_load,
-        film_load_min: recording.film_load.iter().copied().fold(f64::INFINITY, f64::min),
-        film_load_max: recording.film_load.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        film_load_min,
+        film_load_max,
         contact_load,
         max_torque: motor.dry_friction * (1.0 - alpha) * f64::from(motor.waves) * motor.load * motor.contact_radius,
         teeth_in_contact: touching as f64 / steps as f64,
         levitated: touching == 0,
         min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
-        max_pressure: recording.max_pressure.iter().copied().fold(0.0, f64::max),
+        max_pressure,
     };
     let teeth = motor.teeth as u64;
     let stats = Stats {
@@ -124,7 +131,9 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         contact_nodes: n + 1,
         steps_per_cycle: steps,
     };
+    let stated = outcome.alpha_error / alpha.abs();
     Solution {
+        accuracy: Accuracy { asked: 0.0, stated, stopped_by: StoppedBy::Limit },
         status,
         outcome: Outcome::Motor(outcome),
         stats,

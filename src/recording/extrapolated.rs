@@ -97,13 +97,33 @@ impl LineLoads {
     }
 
     /// Film load of each frame \[N\].
-    pub fn film_loads(&self, copies: f64) -> Vec<f64> {
-        let nodes = self.x.len();
-        let sum = |frame: usize| -> f64 {
-            let line = |tooth: usize| self.line_offset(tooth, frame);
-            (0..self.teeth).map(|t| (0..nodes).map(|i| self.film[line(t) + i] * self.node_length[i]).sum::<f64>()).sum()
+    pub fn film_loads(&self) -> Vec<f64> {
+        self.series(0.0, |sum, line, i| sum + self.film[line + i] * self.node_length[i])
+    }
+
+    /// Greatest pressure of each frame \[Pa\].
+    pub fn max_pressures(&self) -> Vec<f64> {
+        self.series(0.0, |most: f64, line, i| most.max(self.peak[line + i]))
+    }
+
+    /// Least film thickness of each frame \[m\].
+    pub fn min_film_thicknesses(&self) -> Vec<f64> {
+        self.series(f64::INFINITY, |least: f64, line, i| least.min(self.film_thickness[line + i]))
+    }
+
+    /// Teeth that touch, mean over the cycle.
+    pub fn teeth_in_contact(&self) -> f64 {
+        let touching = self.contact.chunks_exact(self.x.len()).filter(|line| line.iter().any(|c| *c > 0.0)).count();
+        (touching * self.teeth) as f64 / (self.stored_teeth * self.frames) as f64
+    }
+
+    /// A value of each frame, from every node of every tooth.
+    fn series(&self, start: f64, add: impl Fn(f64, usize, usize) -> f64) -> Vec<f64> {
+        let of = |frame: usize| {
+            let lines = (0..self.teeth).map(|tooth| self.line_offset(tooth, frame));
+            lines.fold(start, |value, line| (0..self.x.len()).fold(value, |value, i| add(value, line, i)))
         };
-        (0..self.frames).map(|frame| copies * sum(frame)).collect()
+        (0..self.frames).map(of).collect()
     }
 }
 

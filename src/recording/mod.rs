@@ -4,7 +4,10 @@ mod extrapolated;
 
 pub use extrapolated::Balance;
 
-use crate::estimate::{self, Estimate};
+use crate::estimate::{Estimate, judged};
+
+/// Least error of a series at any instant, over the mean of its errors.
+const SHARE_OF_MEAN: f64 = 0.3;
 
 fn offset([stored, teeth, frames, nodes]: [usize; 4], tooth: usize, frame: usize) -> usize {
     let (tooth, frame) =
@@ -117,7 +120,7 @@ impl Recording {
     pub fn estimate(&self, value: impl Fn(&LineLoads) -> f64) -> Estimate {
         let found = value(&self.line_loads());
         match &self.yardsticks[..] {
-            [before, finest] => estimate::judged(found, value(before), value(finest)),
+            [before, finest] => judged(found, value(before), value(finest)),
             _ => Estimate { value: found, error: f64::INFINITY },
         }
     }
@@ -144,6 +147,42 @@ impl Recording {
             self.min_film_thickness.push(least);
             self.max_pressure.push(most);
         }
+    }
+
+    /// Errors of the series, frame by frame: that of the fields there, from what they are judged by, and `everywhere`, the relative error
+    /// of the gas's force that no grid shows.
+    pub fn judge_series(&mut self, everywhere: f64) {
+        let [before, finest] = &self.yardsticks[..] else { return };
+        let errors = |found: &[f64], series: &dyn Fn(&LineLoads) -> Vec<f64>, everywhere: &dyn Fn(f64) -> f64| {
+            let (coarse, fine) = (series(before), series(finest));
+            let frames = found.len();
+            let at = |frame: usize| judged(found[frame], coarse[frame / 2], fine[frame]).error;
+            let whole: Vec<f64> = (0..frames).map(|frame| at(frame / 2 * 2)).collect();
+            let mean = whole.iter().sum::<f64>() / frames.max(1) as f64;
+            // Between two instants that can be judged the greater of their errors counts, and everywhere some of the mean.
+            let near = |frame: usize| whole[frame].max(whole[(frame + 1) % frames]).max(SHARE_OF_MEAN * mean);
+            (0..frames).map(|frame| near(frame) + everywhere(found[frame])).collect::<Vec<f64>>()
+        };
+        let ambient: f64 = finest.ambient.iter().zip(&finest.node_length).map(|(force, length)| force * length).sum();
+        let gas = ambient * self.teeth as f64;
+        self.film_load_error = errors(&self.film_load, &LineLoads::film_loads, &|load| everywhere * (gas + load));
+        self.max_pressure_error = errors(&self.max_pressure, &LineLoads::max_pressures, &|p| everywhere * p);
+        self.min_film_thickness_error = errors(&self.min_film_thickness, &LineLoads::min_film_thicknesses, &|_| 0.0);
+    }
+
+    /// Error of an extreme of a series: by how much it differs on what this recording is judged by, and the error of the series there.
+    pub fn extreme_error(
+        &self,
+        series: impl Fn(&LineLoads) -> Vec<f64>,
+        found: &[f64],
+        errors: &[f64],
+        greater: fn(f64, f64) -> f64,
+    ) -> f64 {
+        let [before, finest] = &self.yardsticks[..] else { return f64::INFINITY };
+        let extreme = |values: &[f64]| values.iter().copied().reduce(greater).unwrap_or(0.0);
+        let value = extreme(found);
+        let there = found.iter().position(|v| *v == value).and_then(|frame| errors.get(frame)).copied();
+        judged(value, extreme(&series(before)), extreme(&series(finest))).error.max(there.unwrap_or(0.0))
     }
 
     /// Contact and film alone.

@@ -171,6 +171,10 @@ fn convergence_banner(ui: &mut egui::Ui, run: &Run, colours: &Palette) {
             let text = format!("The last round still changed by {residual:.1e}, allowed {tolerance:.0e}");
             banner(ui, colours.alarm, "Not converged", &text);
         }
+        Status::NotResolved { error } => {
+            let words = format!("The stated error is {error:.1} times the result: ask for more accuracy");
+            banner(ui, colours.alarm, "Not resolved", &words);
+        }
         Status::Cancelled => banner(ui, colours.alarm, "Cancelled", "These numbers are on the way, not the result"),
     }
 }

@@ -97,6 +97,7 @@ pub fn status(
             glossary::hover(ui, label, "Fidelity");
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(palette.alarm))),
+                Status::NotResolved { .. } => drop(ui.label(RichText::new("not resolved").color(palette.alarm))),
                 _ if activity.stale(run) => drop(ui.label(RichText::new("of the scene before this edit").weak())),
                 _ => {}
             }
