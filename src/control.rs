@@ -4,14 +4,19 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that any thread may raise; solvers look at it in their inner loops. It may come with a budget: then a solve that has a
-/// result stops making it better once that is spent.
+/// Whether a budget is spent.
+type Spent = Arc<dyn Fn() -> bool + Send + Sync>;
+
+/// A flag that any thread may raise; solvers look at it in their inner loops. It may come with a budget for each solve: one that has
+/// a result stops making it better once that is spent.
 #[derive(Clone, Default)]
 pub struct Cancel {
     flag: Arc<AtomicBool>,
     above: Option<Box<Cancel>>,
-    /// Whether the budget is spent; the caller's clock.
-    spent: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
+    /// Starts the budget of a solve on the caller's clock.
+    start: Option<Arc<dyn Fn() -> Spent + Send + Sync>>,
+    /// The budget of the solve that is running.
+    spent: Option<Spent>,
     /// The flag counts as raised when the budget is spent.
     strict: bool,
 }
@@ -30,12 +35,26 @@ impl Cancel {
 
     /// A flag that is up when this one is, and can be raised alone.
     pub fn child(&self) -> Self {
-        Self { above: Some(Box::new(self.clone())), spent: self.spent.clone(), ..Self::default() }
+        let above = Some(Box::new(self.clone()));
+        Self { above, start: self.start.clone(), spent: self.spent.clone(), ..Self::default() }
     }
 
-    /// The same flag with a budget that is spent when `spent` says so.
-    pub fn with_budget(&self, spent: impl Fn() -> bool + Send + Sync + 'static) -> Self {
-        Self { spent: Some(Arc::new(spent)), ..self.child() }
+    /// The same flag with a budget for each solve: `start` is called when one begins, and what it returns says when it is spent.
+    pub fn with_budget<S: Fn() -> bool + Send + Sync + 'static>(
+        &self,
+        start: impl Fn() -> S + Send + Sync + 'static,
+    ) -> Self {
+        Self { start: Some(Arc::new(move || Arc::new(start()))), ..self.child() }
+    }
+
+    /// The flag of a solve that begins now.
+    pub fn started(&self) -> Self {
+        Self { spent: self.start.as_ref().map(|start| start()), ..self.child() }
+    }
+
+    /// Whether there is a budget.
+    pub fn has_budget(&self) -> bool {
+        self.spent.is_some()
     }
 
     /// Whether the budget is spent; never, if there is none.

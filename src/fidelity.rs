@@ -80,6 +80,11 @@ impl Fidelity {
         Self::To((1e6 * accuracy.clamp(ACCURACY[0], ACCURACY[1])).round() as u32)
     }
 
+    /// The option of the command line that asks for it.
+    pub fn option(self) -> String {
+        if let Self::To(_) = self { format!("--accuracy {self}") } else { format!("--fidelity {self}") }
+    }
+
     /// Relative error of the headline that is asked for.
     pub fn accuracy(self) -> f64 {
         if let Self::To(millionths) = self { f64::from(millionths) * 1e-6 } else { self.spec().aim }
@@ -217,7 +222,7 @@ pub fn parse_accuracy(text: &str) -> Result<f64, String> {
 impl fmt::Display for Fidelity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::To(_) => write!(f, "{} %", 100.0 * self.accuracy()),
+            Self::To(_) => write!(f, "{}%", 100.0 * self.accuracy()),
             _ => f.write_str(self.name()),
         }
     }

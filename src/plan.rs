@@ -118,6 +118,8 @@ const SHARE: f64 = 0.2;
 /// Intervals along a tooth for each factor of e between those in the middle of a crown and uniform ones, over those of a flat
 /// tooth.
 const MIDDLE: f64 = 1.0;
+/// Grids beyond those of the plan, at most: each costs about four times the one before.
+const MORE_GRIDS: usize = 3;
 /// Steps within the peak of a plate's load as it nearly touches, and the narrowest such peak \[rad\] that is followed.
 const STEPS_IN_PEAK: f64 = 2.0;
 const NARROWEST_PEAK: f64 = 2e-4;
@@ -196,7 +198,7 @@ impl Plan {
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
-            most_grids: if custom(numerics) { GRIDS } else { GRIDS + 2 },
+            most_grids: if custom(numerics) { GRIDS } else { GRIDS + MORE_GRIDS },
             most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
             robust,
             tolerance: numerics.tolerance.unwrap_or(spec.tolerance),
@@ -221,7 +223,11 @@ impl Plan {
 
     /// The plan of a plate at a fidelity; `numerics` overrules grid sizes.
     pub fn plate(plate: &Plate, fidelity: Fidelity, numerics: &Numerics) -> Self {
-        let spec = fidelity.spec();
+        Self::plate_to(plate, fidelity, &fidelity.spec(), numerics)
+    }
+
+    /// The plan of a plate to a specification.
+    pub fn plate_to(plate: &Plate, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Self {
         let layer = Dimensionless::of_plate(plate).boundary_layer;
         let edge = spec.plate_edge_fraction * layer;
         let (along, clustering_along) =
@@ -576,7 +582,7 @@ fn custom(numerics: &Numerics) -> bool {
 }
 
 fn name(fidelity: Fidelity, numerics: &Numerics) -> String {
-    if custom(numerics) { "custom".to_owned() } else { fidelity.name().to_owned() }
+    if custom(numerics) { "custom".to_owned() } else { fidelity.to_string() }
 }
 
 /// Rounded up so that it can be halved for the coarser grids.

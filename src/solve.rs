@@ -94,9 +94,12 @@ pub fn solve_from(
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
     let maps = settings.record == Record::Everything;
+    let cancel = &cancel.started();
+    let spec = settings.fidelity.spec();
+    let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
     let mut solution = match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
-            let plan = Plan { maps, ..Plan::motor(motor, settings.fidelity, &problem.numerics) };
+            let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, &spec, &problem.numerics) };
             let found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
             let result = &found.result;
@@ -111,7 +114,7 @@ pub fn solve_from(
             }
         }
         (Scenario::Plate(plate), Method::Auto) => {
-            let plan = Plan { maps, ..Plan::plate(plate, settings.fidelity, &problem.numerics) };
+            let plan = Plan { maps, ..Plan::plate_to(plate, settings.fidelity, &spec, &problem.numerics) };
             let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
             let result = &found.result;
             Solution {

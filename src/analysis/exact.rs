@@ -10,7 +10,7 @@
 //! every σ (`film::exact`); slip enters by its factor Q at the mean gap, as σ/Q.
 
 use crate::dimensionless::Dimensionless;
-use crate::estimate::{Estimate, extrapolate};
+use crate::estimate::Estimate;
 use crate::film::exact::{linear_rectangle, linear_strip, viscous_rectangle_force, viscous_strip_force};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::trapped::edge_height;

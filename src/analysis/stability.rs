@@ -249,6 +249,9 @@ pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<
             let verdict = match solution.status {
                 Status::Converged if faults.is_empty() => Verdict::Solved,
                 Status::Converged => Verdict::NonPhysical,
+                // That nothing is told is told: the numbers are within their errors.
+                Status::NotResolved { .. } if faults.is_empty() => Verdict::Solved,
+                Status::NotResolved { .. } => Verdict::NonPhysical,
                 Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,
             };
             (verdict, faults)

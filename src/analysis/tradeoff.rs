@@ -58,7 +58,7 @@ impl Candidate {
     /// The options of the command line that choose it.
     pub fn options(&self) -> String {
         let mut options = match self.settings.method {
-            Method::Auto => format!("--fidelity {}", self.settings.fidelity),
+            Method::Auto => self.settings.fidelity.option(),
             Method::Paper => "--method paper".to_owned(),
         };
         let Numerics { film_nodes_along, film_nodes_across, contact_nodes, steps_per_cycle, .. } = self.numerics;

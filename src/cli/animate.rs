@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let scene = arguments.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
     let mut bar = Bar::solve(force_unit(&problem));
     let solved = solve(&problem, &settings, &mut bar, &cancel);

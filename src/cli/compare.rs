@@ -77,7 +77,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         Staged::new(folder)?.add("report.html", |_| Ok(()))?;
     }
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
     let bar = Bar::points(scenes.len(), 0);
     let started = Instant::now();

@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     // Finds out whether it can be written before anything is solved.
     Staged::new(&arguments.out)?.add("report.html", |_| Ok(()))?;
     let settings = arguments.solve.prepare(Fidelity::Fine, Method::Auto)?;
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     let started = Instant::now();
     let bar = Bar::points(number_of_solves(), 0);
     let solved = reproduce(&settings, &cancel, &|name| bar.point_done(name));

@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let scene = arguments.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
     let mut bar = Bar::solve(force_unit(&problem));
     let started = Instant::now();

@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let maps: Vec<&'static Map> =
         if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
     let count = usize::from(arguments.cells);
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
     let total = number_of_cells(&scene, &maps, &methods, count);
     let bar = Bar::points(total, 0);
@@ -90,7 +90,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     drop(bar);
     let cells = solved?;
 
-    let alone = format!("{} --fidelity {}", arguments.scene.command(&arguments.preset), settings.fidelity);
+    let alone = format!("{} {}", arguments.scene.command(&arguments.preset), settings.fidelity.option());
     let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
     let complete = cells.len() == total;
     if complete {

@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         // Finds out whether it can be written before anything is solved.
         Staged::new(folder)?.add("startup.csv", |_| Ok(()))?;
     }
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     let settings = startup::Settings {
         fidelity: chosen.fidelity,
         cycles: arguments.cycles as usize,

@@ -52,6 +52,9 @@ fn name(scene: &Scene) -> &str {
 }
 
 fn status(summary: &Summary) -> String {
+    if summary.status == "not resolved" {
+        return "NOT RESOLVED: the stated error is as large as the result".to_owned();
+    }
     match (summary.residual, summary.tolerance) {
         (Some(residual), Some(tolerance)) => {
             format!("NOT CONVERGED (the last round still changed by {residual:.1e}, allowed {tolerance:.0e})")
@@ -82,7 +85,11 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     ]);
     columns.row([
         "teeth in contact",
-        &format!("{} of {}", shown(or_nan(summary.teeth_in_contact)), motor.teeth),
+        &format!(
+            "{} of {}",
+            with_error(or_nan(summary.teeth_in_contact), or_nan(summary.teeth_in_contact_error)),
+            motor.teeth
+        ),
         "mean over the cycle",
     ]);
     columns.row(match summary.levitated {
@@ -188,15 +195,21 @@ fn film_load(columns: &mut Columns, summary: &Summary) {
         "mean over the cycle",
     ]);
     let (least, most) = (or_nan(summary.film_load_min_n), or_nan(summary.film_load_max_n));
-    columns.row(["", &format!("{} … {} {unit}", shown(least), shown(most)), "least and greatest in the cycle"]);
+    let (of_least, of_most) = (or_nan(summary.film_load_min_error_n), or_nan(summary.film_load_max_error_n));
+    let range = format!("{} … {} {unit}", with_error(least, of_least), with_error(most, of_most));
+    columns.row(["", &range, "least and greatest in the cycle"]);
 }
 
 fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: f64) {
-    columns.row(["least film thickness", &format!("{} nm", shown(or_nan(summary.min_gap_nm))), thickness]);
+    let least = match summary.min_gap_error_nm {
+        Some(error) if error > 0.0 => with_error(or_nan(summary.min_gap_nm), error),
+        _ => shown(or_nan(summary.min_gap_nm)),
+    };
+    columns.row(["least film thickness", &format!("{least} nm"), thickness]);
     let pressure = or_nan(summary.max_pressure_kpa);
     columns.row([
         "highest pressure",
-        &format!("{} kPa", shown(pressure)),
+        &format!("{} kPa", with_error(pressure, or_nan(summary.max_pressure_error_kpa))),
         &format!("{} × ambient", significant(pressure * 1e3 / ambient, 3)),
     ]);
 }
@@ -216,6 +229,15 @@ fn cost(summary: &Summary) -> String {
         parts.push(format!("{} contact problems", stats.contact_solves));
     } else {
         parts.push(format!("{} cycles", stats.cycles));
+    }
+    let relative = |value: f64| format!("{} %", significant(100.0 * value, 2));
+    if let (Some(asked), Some(stated)) = (summary.accuracy_asked, summary.accuracy_stated) {
+        let why = match summary.stopped_by {
+            "budget" => ", the time allowed was up",
+            "limit" => ", no finer grid was tried",
+            _ => "",
+        };
+        parts.push(format!("stated error {} of {} asked for{why}", relative(stated), relative(asked)));
     }
     let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
     paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(stats.wall_s)), parts.join(", ")), "\n", "  ")

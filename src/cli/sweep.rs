@@ -84,7 +84,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         Some(folder) if !arguments.restart => folder.left_over()?,
         _ => Vec::new(),
     };
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     if !done.is_empty() {
         terminal::note(&format!("going on: {} of {} points were solved before", done.len(), sweep.len()));
     }

@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     }
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
     let settings = arguments.solve.prepare(Fidelity::Fine, method)?;
-    let cancel = cancel_on_interrupt();
+    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
     let bar = Bar::rows(published().len());
     let started = Instant::now();

@@ -112,12 +112,24 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
                 "teeth_in_contact",
                 "min_film_thickness_nm",
                 "max_pressure_kpa",
+                "film_load_error_n",
+                "min_film_thickness_error_nm",
+                "max_pressure_error_kpa",
             ])?;
             true
         }
         Scenario::Plate(plate) => {
             let load = if plate.width.is_none() { "film_load_n_per_m" } else { "film_load_n" };
-            table.header(&["time_s", load, "min_film_thickness_nm", "max_pressure_kpa"])?;
+            let error = if plate.width.is_none() { "film_load_error_n_per_m" } else { "film_load_error_n" };
+            table.header(&[
+                "time_s",
+                load,
+                "min_film_thickness_nm",
+                "max_pressure_kpa",
+                error,
+                "min_film_thickness_error_nm",
+                "max_pressure_error_kpa",
+            ])?;
             false
         }
     };
@@ -130,6 +142,16 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
         }
         table.number(recording.min_film_thickness[frame] * 1e9)?;
         table.number(recording.max_pressure[frame] * 1e-3)?;
+        for (errors, unit) in [
+            (&recording.film_load_error, 1.0),
+            (&recording.min_film_thickness_error, 1e9),
+            (&recording.max_pressure_error, 1e-3),
+        ] {
+            match errors.get(frame) {
+                Some(error) => table.number(error * unit)?,
+                None => table.nothing()?,
+            }
+        }
         table.end_row()?;
     }
     table.finish()
@@ -155,6 +177,10 @@ impl<'a> Table<'a> {
         // Writing to a String cannot fail.
         let _ = if value == 0.0 { write!(self.text, "0") } else { write!(self.text, "{value:.8e}") };
         Ok(self.writer.write_field(&self.text)?)
+    }
+
+    fn nothing(&mut self) -> io::Result<()> {
+        Ok(self.writer.write_field("")?)
     }
 
     fn whole(&mut self, value: usize) -> io::Result<()> {

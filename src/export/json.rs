@@ -25,12 +25,19 @@ pub struct Summary {
     pub scene: &'static str,
     /// The cycle repeats to the tolerance.
     pub converged: bool,
-    /// `converged`, `not converged` or `cancelled`.
+    /// `converged`, `not converged`, `not resolved` (the error is as large as the result) or `cancelled`.
     pub status: &'static str,
     /// Relative change of the last round, if it did not converge …
     pub residual: Option<f64>,
     /// … and what it had to fall below.
     pub tolerance: Option<f64>,
+    /// Error of the headline (α, or a plate's mean load) that was asked for, relative to it, and to a hundredth of the load where α is
+    /// less than that; `null` on grids that the scene prescribes.
+    pub accuracy_asked: Option<f64>,
+    /// Its stated error, likewise.
+    pub accuracy_stated: Option<f64>,
+    /// Why no finer grid was solved: `accuracy`, `budget` or `limit`.
+    pub stopped_by: &'static str,
     /// The film's share of the load.
     pub alpha: Option<f64>,
     /// Estimated numerical error of `alpha`, absolute.
@@ -45,8 +52,10 @@ pub struct Summary {
     pub film_load_min_n: Option<f64>,
     /// Its greatest value in the cycle.
     pub film_load_max_n: Option<f64>,
-    /// Cycle mean on the finest grid, as in the recorded fields; `film_load_n` is extrapolated from all grids.
-    pub film_load_finest_grid_n: Option<f64>,
+    /// Estimated numerical errors of the two, absolute.
+    pub film_load_min_error_n: Option<f64>,
+    /// See `film_load_min_error_n`.
+    pub film_load_max_error_n: Option<f64>,
     /// Cycle mean of the contact force on one wavelength.
     pub contact_load_n: Option<f64>,
     /// Greatest torque of the whole ring.
@@ -55,12 +64,18 @@ pub struct Summary {
     pub dry_torque_nm: Option<f64>,
     /// Cycle mean of the number of teeth that touch.
     pub teeth_in_contact: Option<f64>,
+    /// Estimated numerical error of `teeth_in_contact`, absolute.
+    pub teeth_in_contact_error: Option<f64>,
     /// No tooth touches at any instant.
     pub levitated: Option<bool>,
     /// Least film thickness, H_m included.
     pub min_gap_nm: Option<f64>,
+    /// Estimated numerical error of `min_gap_nm`, absolute (motor; the gap of a plate is given).
+    pub min_gap_error_nm: Option<f64>,
     /// Greatest absolute pressure.
     pub max_pressure_kpa: Option<f64>,
+    /// Estimated numerical error of `max_pressure_kpa`, absolute.
+    pub max_pressure_error_kpa: Option<f64>,
     /// Film load over ambient pressure × area (plate).
     pub mean_load_ratio: Option<f64>,
     /// Estimated numerical error of `mean_load_ratio`, absolute.
@@ -180,7 +195,9 @@ impl Summary {
             squeeze_number: numbers.take("squeeze_number", groups.squeeze_number),
             bearing_number: numbers.take("bearing_number", groups.bearing_number),
             knudsen_number: numbers.take("knudsen_number", groups.knudsen_number),
-            film_load_finest_grid_n: numbers.take("film_load_finest_grid_n", mean(&solution.recording.film_load)),
+            accuracy_asked: (solution.accuracy.asked > 0.0).then_some(solution.accuracy.asked),
+            accuracy_stated: numbers.take("accuracy_stated", solution.accuracy.stated),
+            stopped_by: solution.accuracy.stopped_by.name(),
             stats: StatsObject::new(&solution.stats, numbers.take("stats.wall_s", wall_s)),
             model: ModelObject::new(&solution.model),
             version: env!("CARGO_PKG_VERSION"),
@@ -220,6 +237,9 @@ impl Summary {
         self.film_load_error_n = numbers.take("film_load_error_n", result.alpha_error * motor.load);
         self.film_load_min_n = numbers.take("film_load_min_n", result.film_load_min);
         self.film_load_max_n = numbers.take("film_load_max_n", result.film_load_max);
+        self.fill_range(result.film_load_range_error, result.max_pressure_error, numbers);
+        self.teeth_in_contact_error = numbers.take("teeth_in_contact_error", result.teeth_in_contact_error);
+        self.min_gap_error_nm = numbers.take("min_gap_error_nm", result.min_gap_error * 1e9);
         self.contact_load_n = numbers.take("contact_load_n", result.contact_load);
         self.max_torque_nm = numbers.take("max_torque_nm", result.max_torque);
         self.dry_torque_nm = numbers.take("dry_torque_nm", dry_torque(motor));
@@ -237,11 +257,18 @@ impl Summary {
         self.film_load_max_n = numbers.take("film_load_max_n", result.film_load_max);
         self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
         self.max_pressure_kpa = numbers.take("max_pressure_kpa", result.max_pressure * 1e-3);
+        self.fill_range(result.film_load_range_error, result.max_pressure_error, numbers);
         let mut ratio = |name, load| numbers.take(name, PlateResult::ratio(load, plate));
         self.mean_load_ratio = ratio("mean_load_ratio", result.film_load);
         self.mean_load_ratio_error = ratio("mean_load_ratio_error", result.film_load_error);
         self.load_ratio_min = ratio("load_ratio_min", result.film_load_min);
         self.load_ratio_max = ratio("load_ratio_max", result.film_load_max);
+    }
+
+    fn fill_range(&mut self, [least, most]: [f64; 2], pressure: f64, numbers: &mut Numbers) {
+        self.film_load_min_error_n = numbers.take("film_load_min_error_n", least);
+        self.film_load_max_error_n = numbers.take("film_load_max_error_n", most);
+        self.max_pressure_error_kpa = numbers.take("max_pressure_error_kpa", pressure * 1e-3);
     }
 
     /// As text, indented, with a line break at the end.
@@ -272,10 +299,6 @@ pub fn status_name(status: &Status) -> &'static str {
         Status::NotResolved { .. } => "not resolved",
         Status::Cancelled => "cancelled",
     }
-}
-
-fn mean(series: &[f64]) -> f64 {
-    series.iter().sum::<f64>() / series.len() as f64
 }
 
 impl StatsObject {
