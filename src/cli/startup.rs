@@ -120,7 +120,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         schema: SCHEMA,
         preset: &scene.name,
         scene: scene.scene(),
-        fidelity: settings.fidelity.name(),
+        fidelity: settings.fidelity.to_string(),
         converged: converged(&ended),
         remaining: ended.remaining.is_finite().then_some(ended.remaining),
         tolerance: settings.tolerance,
@@ -142,7 +142,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add("startup.csv", |out| write_csv(&rows, out))?;
         staged.add("startup.json", |out| out.write_all(json::text(&object).as_bytes()))?;
         let mut drawn = figure(&problem, &rows, steady, &loads, frames);
-        drawn.provenance.fidelity = settings.fidelity.name().to_owned();
+        drawn.provenance.fidelity = settings.fidelity.to_string();
         if let Some((value, error)) = rows.last().map(Row::main) {
             drawn.provenance.error = format!("ends at {}", with_error(value, error));
         }

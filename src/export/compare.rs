@@ -50,7 +50,7 @@ pub struct Object<'a> {
     /// `auto` or `paper`.
     pub method: &'static str,
     /// `draft`, `standard`, …; of method paper null.
-    pub fidelity: Option<&'static str>,
+    pub fidelity: Option<String>,
     /// One for each preset; differences are against the first.
     pub runs: Vec<RunObject<'a>>,
     /// Keys in which the scenes differ, each with its value in every run, null where there is none.
@@ -129,7 +129,7 @@ impl<'a> Object<'a> {
         Self {
             schema: SCHEMA,
             method: settings.method.name(),
-            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.name()),
+            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
             runs: runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) }).collect(),
             differing: parameter_rows(runs)
                 .iter()

@@ -68,6 +68,13 @@ pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dy
     archive.numbers("film_thickness_nm", shape, lines(&recording.film_thickness, 1e9))?;
     archive.numbers(film, shape, lines(&recording.film, 1.0))?;
     archive.numbers(load, &[frames], recording.film_load.iter().copied())?;
+    let loads = format!("{}_error{}", &load[..9], &load[9..]);
+    for (name, errors, unit) in [
+        (loads.as_str(), &recording.film_load_error, 1.0),
+        ("max_pressure_error_kpa", &recording.max_pressure_error, 1e-3),
+    ] {
+        archive.numbers(name, &[errors.len()], errors.iter().map(|error| error * unit))?;
+    }
     let (nx, ny) = (recording.map_x.len(), recording.map_y.len());
     archive.numbers("map_x_m", &[nx], recording.map_x.iter().copied())?;
     archive.numbers("map_y_m", &[ny], recording.map_y.iter().copied())?;

@@ -94,7 +94,7 @@ pub struct Object<'a> {
     /// [`SCHEMA`].
     pub schema: u32,
     /// Of the converged values: `draft`, `standard`, ….
-    pub fidelity: &'static str,
+    pub fidelity: String,
     /// Table I.
     pub table1: Vec<RowObject>,
     /// Fig. 10.
@@ -119,7 +119,7 @@ impl<'a> Object<'a> {
         };
         Self {
             schema: SCHEMA,
-            fidelity: all.settings.fidelity.name(),
+            fidelity: all.settings.fidelity.to_string(),
             table1: all.rows.iter().map(RowObject::new).collect(),
             fig10: all.frequencies.iter().map(point).collect(),
             statements: statements(all),

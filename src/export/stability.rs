@@ -20,7 +20,7 @@ pub struct Object<'a> {
     /// Name of the scene whose parameters are mapped.
     pub preset: &'a str,
     /// Fidelity of method auto.
-    pub fidelity: &'static str,
+    pub fidelity: String,
     /// One for each cell.
     pub cells: Vec<CellObject>,
     /// Version of this program.
@@ -35,7 +35,7 @@ impl<'a> Object<'a> {
         Self {
             schema: SCHEMA,
             preset,
-            fidelity: fidelity.name(),
+            fidelity: fidelity.to_string(),
             cells: cells.iter().map(CellObject::new).collect(),
             version: env!("CARGO_PKG_VERSION"),
             command,
@@ -149,7 +149,7 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
     let provenance = Provenance {
         preset: preset.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        fidelity: fidelity.name().to_owned(),
+        fidelity: fidelity.to_string(),
         ..Provenance::default()
     };
     let width = if columns == 2 { Width::Page } else { Width::Column };

@@ -106,7 +106,7 @@ pub struct Object<'a> {
     /// `motor` or `plate`.
     pub scene: &'static str,
     /// `draft`, `standard`, …
-    pub fidelity: &'static str,
+    pub fidelity: String,
     /// The cycle repeats to the tolerance.
     pub converged: bool,
     /// By how much ln Z may still change; null if nothing is known.

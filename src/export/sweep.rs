@@ -147,7 +147,7 @@ pub struct Object<'a> {
     /// `auto` or `paper`.
     pub method: &'static str,
     /// `draft`, `standard`, …; of method paper null.
-    pub fidelity: Option<&'static str>,
+    pub fidelity: Option<String>,
     /// All points are there.
     pub complete: bool,
     /// Fingerprint of the sweep, as in the first column of the CSV.
@@ -235,7 +235,7 @@ impl<'a> Object<'a> {
             preset: &sweep.scene().name,
             scene: sweep.scene().scene(),
             method: settings.method.name(),
-            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.name()),
+            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
             complete: rows.len() == sweep.len(),
             sweep: sweep.fingerprint(),
             axes: sweep
@@ -274,7 +274,7 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
         preset: sweep.scene().name.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         fidelity: match settings.method {
-            Method::Auto => settings.fidelity.name().to_owned(),
+            Method::Auto => settings.fidelity.to_string(),
             Method::Paper => "paper mesh".to_owned(),
         },
         error: format!("errors up to {worst:.1e}"),

@@ -36,7 +36,7 @@ pub struct Object {
     /// `auto` or `paper`.
     pub method: &'static str,
     /// `draft`, `standard`, …; of method paper null.
-    pub fidelity: Option<&'static str>,
+    pub fidelity: Option<String>,
 }
 
 impl Object {
@@ -62,7 +62,7 @@ impl Object {
                 Err(error) => format!("failed: {error}"),
             },
             method: settings.method.name(),
-            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.name()),
+            fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
         }
     }
 }

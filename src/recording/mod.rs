@@ -6,6 +6,9 @@ pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
 
+/// Error of a greatest pressure over that of a load which differs as much from grid to grid: it is found where contact begins, or between
+/// nodes, and comes closer with the first order only.
+const PEAK: f64 = 6.0;
 /// Least error of a series at any instant, over the mean of its errors.
 const SHARE_OF_MEAN: f64 = 0.3;
 
@@ -153,10 +156,11 @@ impl Recording {
     /// of the gas's force that no grid shows.
     pub fn judge_series(&mut self, everywhere: f64) {
         let [before, finest] = &self.yardsticks[..] else { return };
-        let errors = |found: &[f64], series: &dyn Fn(&LineLoads) -> Vec<f64>, everywhere: &dyn Fn(f64) -> f64| {
+        type Series = fn(&LineLoads) -> Vec<f64>;
+        let errors = |found: &[f64], series: Series, factor: f64, everywhere: &dyn Fn(f64) -> f64| {
             let (coarse, fine) = (series(before), series(finest));
             let frames = found.len();
-            let at = |frame: usize| judged(found[frame], coarse[frame / 2], fine[frame]).error;
+            let at = |frame: usize| factor * judged(found[frame], coarse[frame / 2], fine[frame]).error;
             let whole: Vec<f64> = (0..frames).map(|frame| at(frame / 2 * 2)).collect();
             let mean = whole.iter().sum::<f64>() / frames.max(1) as f64;
             // Between two instants that can be judged the greater of their errors counts, and everywhere some of the mean.
@@ -165,9 +169,10 @@ impl Recording {
         };
         let ambient: f64 = finest.ambient.iter().zip(&finest.node_length).map(|(force, length)| force * length).sum();
         let gas = ambient * self.teeth as f64;
-        self.film_load_error = errors(&self.film_load, &LineLoads::film_loads, &|load| everywhere * (gas + load));
-        self.max_pressure_error = errors(&self.max_pressure, &LineLoads::max_pressures, &|p| everywhere * p);
-        self.min_film_thickness_error = errors(&self.min_film_thickness, &LineLoads::min_film_thicknesses, &|_| 0.0);
+        self.film_load_error = errors(&self.film_load, LineLoads::film_loads, 1.0, &|load| everywhere * (gas + load));
+        self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| everywhere * p);
+        self.min_film_thickness_error =
+            errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, 1.0, &|_| 0.0);
     }
 
     /// Error of an extreme of a series: by how much it differs on what this recording is judged by, and the error of the series there.
@@ -182,7 +187,8 @@ impl Recording {
         let extreme = |values: &[f64]| values.iter().copied().reduce(greater).unwrap_or(0.0);
         let value = extreme(found);
         let there = found.iter().position(|v| *v == value).and_then(|frame| errors.get(frame)).copied();
-        judged(value, extreme(&series(before)), extreme(&series(finest))).error.max(there.unwrap_or(0.0))
+        // Extremes between two frames: the change from twice the steps counts in full.
+        (value - extreme(&series(before))).abs().max(there.unwrap_or(0.0)).max((value - extreme(&series(finest))).abs())
     }
 
     /// Contact and film alone.
