@@ -18,24 +18,44 @@ pub struct Estimate {
 /// order would (calibrated, as all of these: docs/validation.md).
 const SPREAD: f64 = 0.25;
 /// Least share of the last correction that is taken as error.
-const CORRECTION: f64 = 0.25;
+const CORRECTION: f64 = 0.35;
 /// Share of what a slower approach leaves that is taken as error, and the slowest one that it is taken for.
-const REST: f64 = 1.0;
+const REST: f64 = 1.3;
 const SLOWEST: f64 = 1.3;
 /// Least share of the change before the last that is taken as error: the last one may be small by chance.
 const BEFORE: f64 = 0.025;
 
+/// A cycle mean on one grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mean {
+    /// Over all steps.
+    pub all: f64,
+    /// Over every second step, those of the next coarser grid: what that one's mean is compared with, so that how a mean depends on its
+    /// instants is not taken for an error of the scheme.
+    pub shared: f64,
+}
+
 /// From results on nested grids, coarse to fine. One grid gives no estimate (an infinite error).
 pub fn extrapolate(results: &[f64]) -> Estimate {
-    let richardson = |coarse: f64, fine: f64| fine + (fine - coarse) / 3.0;
-    match *results {
+    let last = &results[results.len().saturating_sub(3)..];
+    let means: Vec<Mean> = last.iter().map(|result| Mean { all: *result, shared: *result }).collect();
+    extrapolate_means(&means)
+}
+
+/// As [`extrapolate`], of cycle means.
+pub fn extrapolate_means(means: &[Mean]) -> Estimate {
+    match *means {
         [] => Estimate { value: 0.0, error: f64::INFINITY },
-        [only] => Estimate { value: only, error: f64::INFINITY },
-        [coarse, fine] => Estimate { value: richardson(coarse, fine), error: (fine - coarse).abs() },
+        [only] => Estimate { value: only.all, error: f64::INFINITY },
+        [coarse, fine] => {
+            let change = fine.shared - coarse.all;
+            Estimate { value: fine.all + change / 3.0, error: change.abs() }
+        }
         [.., first, second, third] => {
-            let (before, value) = (richardson(first, second), richardson(second, third));
-            let (change, correction) = (third - second, value - third);
-            let ratio = if change == 0.0 { f64::INFINITY } else { (second - first) / change };
+            let (earlier, change) = (second.shared - first.all, third.shared - second.all);
+            let correction = change / 3.0;
+            let (before, value) = (second.all + earlier / 3.0, third.all + correction);
+            let ratio = if change == 0.0 { f64::INFINITY } else { earlier / change };
             let left = if ratio >= 4.0 {
                 (SPREAD * (value - before).abs()).min(correction.abs())
             } else if ratio > 0.0 {
@@ -43,7 +63,7 @@ pub fn extrapolate(results: &[f64]) -> Estimate {
             } else {
                 0.5 * change.abs()
             };
-            let least = (CORRECTION * correction.abs()).max(BEFORE * (second - first).abs());
+            let least = (CORRECTION * correction.abs()).max(BEFORE * earlier.abs());
             Estimate { value, error: left.max(least) }
         }
     }

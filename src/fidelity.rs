@@ -94,7 +94,8 @@ impl Fidelity {
     pub fn spec(self) -> Spec {
         if let Self::To(_) = self {
             let aim = self.accuracy();
-            let after = Self::ALL.iter().position(|level| level.spec().aim <= aim).unwrap_or(Self::ALL.len() - 1).max(1);
+            let after =
+                Self::ALL.iter().position(|level| level.spec().aim <= aim).unwrap_or(Self::ALL.len() - 1).max(1);
             let (coarse, fine) = (Self::ALL[after - 1].spec(), Self::ALL[after].spec());
             let share = ((coarse.aim / aim).ln() / (coarse.aim / fine.aim).ln()).clamp(0.0, 1.0);
             return coarse.towards(&fine, share, aim);
@@ -102,7 +103,7 @@ impl Fidelity {
         match self {
             Self::Draft => Spec {
                 along: 8,
-                across: 2,
+                across: 3,
                 volumes: 4,
                 steps: 36,
                 per_wave: 32,
@@ -118,7 +119,7 @@ impl Fidelity {
             },
             Self::Standard => Spec {
                 along: 12,
-                across: 2,
+                across: 3,
                 volumes: 4,
                 steps: 36,
                 per_wave: 64,

@@ -5,6 +5,7 @@
 //! and starts from its state: first those of the plan, which an extrapolation needs, then as many as it takes.
 
 use crate::control::Cancel;
+use crate::estimate::Mean;
 use crate::plan::{Grid, Plan};
 use crate::solution::Status;
 
@@ -33,7 +34,7 @@ pub trait Scene {
     ) -> Result<(Status, Self::Level), Self::Error>;
 
     /// The headline on one grid.
-    fn headline(&self, level: &Self::Level) -> f64;
+    fn headline(&self, level: &Self::Level) -> Mean;
 
     /// What the accuracy asked for is relative to.
     fn unit(&self, level: &Self::Level) -> f64;
@@ -53,7 +54,7 @@ pub struct Found<L> {
     /// The states.
     pub levels: Vec<L>,
     /// The headline on each.
-    pub headlines: Vec<f64>,
+    pub headlines: Vec<Mean>,
     /// The coarsest grid with one node less across, and by how much that changed the headline there; `None` with finite volumes.
     pub narrower: Option<(L, f64)>,
 }
@@ -137,7 +138,7 @@ fn settle_across<S: Scene>(
         let start = similar.unwrap_or(&narrower);
         let level;
         (status, level) = scene.solve(&Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
-        let change = (scene.headline(&level) - scene.headline(&narrower)).abs();
+        let change = (scene.headline(&level).all - scene.headline(&narrower).all).abs();
         let matters = WIDTH_SHARE * change > WIDTH_AIM * plan.accuracy * scene.unit(&level);
         if status == Status::Converged && matters && across < plan.most_across {
             narrower = level;

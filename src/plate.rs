@@ -1,13 +1,13 @@
 //! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, extrapolate};
+use crate::estimate::{Estimate, Mean, extrapolate_means};
 use crate::film::cycle::{FilmCycle, Interrupted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, Between, FilmGrid, Start};
 use crate::film::stepper::FilmState;
-use crate::numerics::anderson::Anderson;
 use crate::ladder::{Found, Scene, climb};
+use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::recording::{Balance, LineLoads, Recording};
@@ -63,7 +63,7 @@ pub fn periodic(
     } else {
         (found?, plan.clone())
     };
-    let loads = found.headlines.clone();
+    let loads = found.headlines.iter().map(|mean| mean.all).collect();
     let Some((level, coarser)) = found.levels.split_last() else {
         let (result, recording) = (PlateResult::default(), Recording::default());
         return Ok(Periodic { status: found.status, result, loads, stats, recording });
@@ -73,7 +73,7 @@ pub fn periodic(
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(plate)).collect();
     let mut recording = level.recording(plate, &coarser, plan.maps);
     let estimate = stated(plate, &found);
-    let elsewhere = estimate.error - extrapolate(&found.headlines).error;
+    let elsewhere = estimate.error - extrapolate_means(&found.headlines).error;
     recording.judge_series(elsewhere / (plate.gas.ambient_pressure * plate.area()));
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
@@ -100,7 +100,7 @@ fn beyond_limits(plate: &Plate, load: f64) -> f64 {
 
 /// Mean load with its error \[N\].
 fn stated(plate: &Plate, found: &Found<Level>) -> Estimate {
-    let estimate = extrapolate(&found.headlines);
+    let estimate = extrapolate_means(&found.headlines);
     let Some(level) = found.levels.last() else { return estimate };
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
     let repeating = (level.residual + astray) * plate.gas.ambient_pressure * plate.area();
@@ -143,8 +143,8 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn headline(&self, level: &Level) -> f64 {
-        level.mean_load()
+    fn headline(&self, level: &Level) -> Mean {
+        level.mean()
     }
 
     fn unit(&self, level: &Level) -> f64 {
@@ -158,7 +158,7 @@ impl Scene for Search<'_> {
     fn settled(&self, found: &Found<Level>) -> bool {
         let whole = stated(self.plate, found);
         let unit = found.levels.last().map_or(0.0, Level::unit);
-        whole.error <= self.plan.accuracy * unit || extrapolate(&found.headlines).error < 0.3 * whole.error
+        whole.error <= self.plan.accuracy * unit || extrapolate_means(&found.headlines).error < 0.3 * whole.error
     }
 }
 
@@ -214,13 +214,13 @@ impl<'a> Transient<'a> {
                 Err(Interrupted::Cancelled) => return Ok(None),
                 Err(failed) => return Err(failed),
             };
-            loads.push(level.mean_load());
+            loads.push(level.mean());
             self.stats.film_nodes = level.cycle.grid().len();
             self.stats.steps_per_cycle = level.steps;
         }
         self.stats.cycles += 1;
         let (recording, change) = last;
-        let estimate = extrapolate(&loads);
+        let estimate = extrapolate_means(&loads);
         let mut result = PlateResult::of(&recording);
         result.film_load_error = estimate.error + (result.film_load - estimate.value).abs();
         Ok(Some((result, recording, change)))
@@ -262,9 +262,7 @@ impl PlateResult {
 pub(crate) fn film_grid(plate: &Plate, plan: &Plan, grid: &Grid) -> FilmGrid {
     let x = Axis::clustered(0.5 * plate.length, Start::Mirror, grid.along, plan.clustering_along);
     let y = match plate.width {
-        Some(width) if plan.spectral => {
-            Axis::spectral(0.5 * width, Start::Mirror, grid.across, plan.clustering_across)
-        }
+        Some(width) if plan.spectral => Axis::spectral(0.5 * width, Start::Mirror, grid.across, plan.clustering_across),
         Some(width) => Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across),
         None => Axis::unit(),
     };
@@ -425,6 +423,13 @@ impl Level {
         let x = &self.cycle.grid().x;
         let sum: f64 = (0..self.line.len()).map(|i| self.line_load(i) * x.lengths[i % x.len()]).sum();
         x.copies() * sum / self.steps as f64
+    }
+
+    /// Mean load over all steps, and over those of the next coarser grid \[N\].
+    fn mean(&self) -> Mean {
+        let loads = self.loads();
+        let shared = loads.iter().step_by(2).sum::<f64>() / self.steps.div_ceil(2) as f64;
+        Mean { all: loads.iter().sum::<f64>() / self.steps as f64, shared }
     }
 
     /// What the accuracy of the mean load is relative to \[N\]: itself, or a small share of the swing of the load where the mean is next

@@ -298,7 +298,11 @@ impl Sweep {
         hash.text(&self.scene.to_toml());
         hash.text(self.settings.method.name());
         // The paper's method has no fidelity.
-        hash.text(&if self.settings.method == Method::Auto { self.settings.fidelity.to_string() } else { String::new() });
+        hash.text(&if self.settings.method == Method::Auto {
+            self.settings.fidelity.to_string()
+        } else {
+            String::new()
+        });
         hash.text(&CHUNK.to_string());
         for axis in &self.axes {
             hash.text(axis.parameter.key);

@@ -63,7 +63,10 @@ impl Axis {
             nodes: positions[first..].iter().map(|eta| half * grading::map(beta, *eta)).collect(),
             lengths: (first..all).map(|node| share(node) * weights[node] * stretch[node]).collect(),
             start,
-            slopes: (first..all).flat_map(|node| (first..all).map(move |value| (node, value))).map(|(n, v)| entry(n, v)).collect(),
+            slopes: (first..all)
+                .flat_map(|node| (first..all).map(move |value| (node, value)))
+                .map(|(n, v)| entry(n, v))
+                .collect(),
         }
     }
 
@@ -224,7 +227,10 @@ mod tests {
                 let values: Vec<f64> = unknown.clone().map(|i| field(axis.nodes[i])).collect();
                 for (row, i) in axis.diffusion().chunks_exact(values.len()).zip(unknown) {
                     let found: f64 = row.iter().zip(&values).map(|(a, v)| a * v).sum();
-                    assert!((found - exact(axis.nodes[i])).abs() < within / (half * half), "{start:?} {power} {i}: {found}");
+                    assert!(
+                        (found - exact(axis.nodes[i])).abs() < within / (half * half),
+                        "{start:?} {power} {i}: {found}"
+                    );
                 }
             }
             let length: f64 = spectral.lengths.iter().sum::<f64>() * spectral.copies();

@@ -5,6 +5,7 @@ mod startup;
 use super::{MotorError, Stop, unit};
 use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
 use crate::control::{Cancel, Reporter};
+use crate::estimate::Mean;
 use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, Between, FilmGrid, Start};
@@ -507,7 +508,9 @@ impl Level {
 
     /// Cycle mean of the absolute force of the gas on one wavelength \[N\], ambient pressure included.
     pub(super) fn gas_force(&self) -> f64 {
-        let ambient = self.ambient_pressure * self.interior_width * self.grid().x.unknown().map(|ix| self.grid().x.lengths[ix]).sum::<f64>();
+        let ambient = self.ambient_pressure
+            * self.interior_width
+            * self.grid().x.unknown().map(|ix| self.grid().x.lengths[ix]).sum::<f64>();
         self.mean_film_load() + ambient * self.teeth as f64
     }
 
@@ -518,13 +521,25 @@ impl Level {
 
     /// Cycle mean of the film load on one wavelength \[N\].
     fn mean_film_load(&self) -> f64 {
-        let lengths = &self.grid().x.lengths;
-        let sum: f64 = (0..self.line.len()).map(|i| self.film_line_load(i) * lengths[i % self.nx]).sum();
-        sum * self.teeth as f64 / (self.stored * self.steps) as f64
+        self.mean_film_load_of(1)
+    }
+
+    /// The same over every so many steps.
+    fn mean_film_load_of(&self, every: usize) -> f64 {
+        let (lengths, size) = (&self.grid().x.lengths, self.nx);
+        let lines = (0..self.stored * self.steps).filter(|line| line % self.steps % every == 0);
+        let load = |line: usize| (0..size).map(|i| self.film_line_load(line * size + i) * lengths[i]).sum::<f64>();
+        let sum: f64 = lines.map(load).sum();
+        sum * self.teeth as f64 / (self.stored * self.steps.div_ceil(every)) as f64
     }
 
     pub(super) fn alpha(&self, motor: &Motor) -> f64 {
         self.mean_film_load() / motor.load
+    }
+
+    /// α over all steps, and over those of the next coarser grid.
+    pub(super) fn mean_alpha(&self, motor: &Motor) -> Mean {
+        Mean { all: self.alpha(motor), shared: self.mean_film_load_of(2) / motor.load }
     }
 
     /// (film load + contact load − L)/L of each instant, the film's load from its own pressure: how far film and contact

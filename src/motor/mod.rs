@@ -16,7 +16,7 @@ pub use dry::without_film;
 
 use crate::contact::ContactError;
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, extrapolate};
+use crate::estimate::{Estimate, Mean, extrapolate_means};
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
 use crate::ladder::{Found, Scene, climb};
@@ -51,6 +51,9 @@ pub enum MotorError {
 const WARM_ROUNDS: usize = 12;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
+
+/// A share of the load that no one minds: an error below it is no reason to call a result unresolved.
+const NEGLIGIBLE: f64 = 1e-4;
 
 /// Interrupted or failed: what ends a round early.
 enum Stop {
@@ -191,8 +194,8 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn headline(&self, level: &Level) -> f64 {
-        level.alpha(self.motor)
+    fn headline(&self, level: &Level) -> Mean {
+        level.mean_alpha(self.motor)
     }
 
     fn unit(&self, level: &Level) -> f64 {
@@ -205,7 +208,7 @@ impl Scene for Search<'_> {
 
     fn settled(&self, found: &Found<Level>) -> bool {
         let whole = stated(self.motor, self.plan, found);
-        let grids = extrapolate(&found.headlines).error;
+        let grids = extrapolate_means(&found.headlines).error;
         whole.error <= self.plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
     }
 }
@@ -268,7 +271,7 @@ impl<'a> Transient<'a> {
                 Err(Stop::Cancelled) => return Ok(None),
                 Err(Stop::Failed(error)) => return Err(error),
             };
-            alphas.push(level.alpha(self.motor));
+            alphas.push(level.mean_alpha(self.motor));
             self.stats.film_nodes = level.film_nodes();
             self.stats.contact_nodes = level.contact_nodes();
             self.stats.steps_per_cycle = level.steps();
@@ -276,7 +279,7 @@ impl<'a> Transient<'a> {
         self.stats.cycles += 1;
         let (recording, change) = last;
         let mut result = summarise(self.motor, &recording);
-        let estimate = extrapolate(&alphas);
+        let estimate = extrapolate_means(&alphas);
         let left_out = if result.levitated { 0.0 } else { self.plan.left_out * estimate.value.abs() };
         result.alpha_error = estimate.error.min(1.0) + (result.alpha - estimate.value).abs() + left_out + tolerance;
         Ok(Some((result, recording, change)))
@@ -290,7 +293,7 @@ impl<'a> Transient<'a> {
 
 /// α with its error.
 fn stated(motor: &Motor, plan: &Plan, found: &Found<Level>) -> Estimate {
-    let estimate = extrapolate(&found.headlines);
+    let estimate = extrapolate_means(&found.headlines);
     let Some(level) = found.levels.last() else { return estimate };
     // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
     if level.floats() {
@@ -298,31 +301,39 @@ fn stated(motor: &Motor, plan: &Plan, found: &Found<Level>) -> Estimate {
         return Estimate { value: 1.0, error };
     }
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
-    let value = estimate.value.min(found.headlines.iter().copied().fold(1.0, f64::max));
+    let value = found.headlines.iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
     // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
     // (Twice the latter: calibrated, docs/validation.md.)
     let repeating = level.drift() / motor.load;
     let left_out = plan.left_out * value.abs();
-    let error = estimate.error.min(1.0) + astray + 2.0 * level.mean_imbalance() + repeating + found.width_error() + left_out;
+    let error =
+        estimate.error.min(1.0) + astray + 2.0 * level.mean_imbalance() + repeating + found.width_error() + left_out;
     Estimate { value, error }
 }
 
 /// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.
 fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) -> Periodic {
-    let (status, alphas) = (found.status, found.headlines.clone());
+    let (status, alphas) = (found.status, found.headlines.iter().map(|mean| mean.all).collect());
     let across = found.narrower.as_ref().map_or(0.0, |(_, change)| *change);
     let Some((level, coarser)) = found.levels.split_last() else {
-        return Periodic { status, result: MotorResult::default(), alphas, across, stats, recording: Recording::default() };
+        return Periodic {
+            status,
+            result: MotorResult::default(),
+            alphas,
+            across,
+            stats,
+            recording: Recording::default(),
+        };
     };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
     let mut recording = level.recording(motor, &coarser, plan.maps);
     let estimate = stated(motor, plan, found);
-    let elsewhere = (estimate.error - extrapolate(&found.headlines).error.min(1.0)).max(0.0);
+    let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
     recording.judge_series(elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE));
     // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
     result.alpha_error = estimate.error + (result.alpha - estimate.value).abs();
-    let asked = plan.accuracy * unit(result.alpha);
+    let asked = (plan.accuracy * unit(result.alpha)).max(NEGLIGIBLE);
     let status = match status {
         Status::Converged if result.alpha_error > asked.max(result.alpha.abs()) => {
             Status::NotResolved { error: result.alpha_error / result.alpha.abs() }

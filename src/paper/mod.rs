@@ -99,7 +99,8 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
     let alpha = film_load / motor.load;
     let touching: usize = recording.teeth_in_contact.iter().sum();
     let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let [film_load_min, film_load_max] = [-most(&recording.film_load.iter().map(|f| -f).collect::<Vec<_>>()), most(&recording.film_load)];
+    let [film_load_min, film_load_max] =
+        [-most(&recording.film_load.iter().map(|f| -f).collect::<Vec<_>>()), most(&recording.film_load)];
     let max_pressure = most(&recording.max_pressure);
     let outcome = MotorResult {
         film_load_range_error: [film_load_min, film_load_max].map(|load| relative_error * load.abs()),

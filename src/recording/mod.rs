@@ -13,8 +13,7 @@ const PEAK: f64 = 6.0;
 const SHARE_OF_MEAN: f64 = 0.3;
 
 fn offset([stored, teeth, frames, nodes]: [usize; 4], tooth: usize, frame: usize) -> usize {
-    let (tooth, frame) =
-        if stored == teeth { (tooth, frame) } else { (0, (frame + tooth * frames / teeth) % frames) };
+    let (tooth, frame) = if stored == teeth { (tooth, frame) } else { (0, (frame + tooth * frames / teeth) % frames) };
     (tooth * frames + frame) * nodes
 }
 

@@ -126,7 +126,9 @@ fn ending(starting: &Starting, colours: &Palette, usual: egui::Color32) -> (Stri
             Status::Converged => (format!("Cycle {cycles}: repeats to {:.1e}", ended.remaining), colours.good),
             Status::Cancelled if cycles == 0 => ("Cancelled in the first cycle".to_owned(), colours.quiet),
             Status::Cancelled => (format!("Cancelled after cycle {cycles}: {open}"), colours.quiet),
-            Status::NotConverged { .. } | Status::NotResolved { .. } => (format!("Ended after cycle {cycles}: {open}"), colours.alarm),
+            Status::NotConverged { .. } | Status::NotResolved { .. } => {
+                (format!("Ended after cycle {cycles}: {open}"), colours.alarm)
+            }
         },
     }
 }
