@@ -502,6 +502,7 @@ mod tests {
             film: vec![0.0; nodes * frames],
             contact: contact.collect(),
             x,
+            ..LineLoads::default()
         }
     }
 
@@ -583,6 +584,7 @@ mod tests {
                     load(centred(frame as f64 / frames as f64 + tooth as f64 * pitch + x[node]))
                 })
                 .collect(),
+            ..LineLoads::default()
         };
         let (one, all) = (Drive::new(&store(1)), Drive::new(&store(3)));
         for v in [-0.5, 0.0, 0.7, 0.95] {

@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn the_potential_is_the_integral_of_the_mobility() {
-        let range = [1e-10, 3e-5];
+        let range: [f64; 2] = [1e-10, 3e-5];
         for law in laws() {
             let exact = |z: f64| {
                 let parts = 200;
@@ -225,7 +225,7 @@ mod tests {
                 let at = |i: usize| from + (to - from) * i as f64 / parts as f64;
                 (0..parts).map(|i| gauss_legendre(at(i), at(i + 1), |s| s.exp() * law.at(s.exp()).0)).sum::<f64>()
             };
-            for z in [2e-10, 2e-8, 1e-7, 7.7e-7, 2.9e-5] {
+            for z in [2e-10_f64, 2e-8, 1e-7, 7.7e-7, 2.9e-5] {
                 let found = law.potential(z) - law.potential(range[0]);
                 assert!((found / exact(z) - 1.0).abs() < 1e-6, "{law:?} {z}: {found} {}", exact(z));
             }

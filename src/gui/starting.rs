@@ -273,7 +273,6 @@ mod tests {
                     outcome: Outcome::Plate(Default::default()),
                     stats: Stats::default(),
                     accuracy: Default::default(),
-                    accuracy: Default::default(),
                     model: Model::default(),
                     warnings: Vec::new(),
                     recording: Recording { pressure: vec![0.0; values], ..Recording::default() },
