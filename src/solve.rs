@@ -130,6 +130,9 @@ pub fn solve_from(
         (Scenario::Motor(motor), Method::Paper) => paper::solve(motor, &problem.numerics, observer, cancel),
         (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
     };
+    if let Scenario::Motor(motor) = &problem.scenario {
+        solution.warnings.extend(motor.compliance_not_covered());
+    }
     if settings.record == Record::Numbers {
         solution.recording = Recording::default();
     }

@@ -49,7 +49,7 @@ impl Default for Settings {
 /// How a start-up ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Startup {
-    /// Converged: the cycle repeats.
+    /// Converged: the cycle repeats, and film and contact agreed in every step on the way.
     pub status: Status,
     /// Cycles completed.
     pub cycles: usize,
@@ -100,7 +100,9 @@ pub fn startup(
         let recording = Recording { transient: true, ..recording };
         last = change;
         ended = Startup {
-            status: Status::NotConverged { residual: remaining, tolerance: settings.tolerance },
+            status: transient
+                .unsettled()
+                .unwrap_or(Status::NotConverged { residual: remaining, tolerance: settings.tolerance }),
             cycles: number,
             outcome,
             remaining,
@@ -108,7 +110,7 @@ pub fn startup(
         };
         each(Cycle { number, outcome, change, remaining, recording });
         if remaining < settings.tolerance {
-            ended.status = Status::Converged;
+            ended.status = transient.unsettled().unwrap_or(Status::Converged);
             break;
         }
     }
@@ -146,6 +148,14 @@ impl<'a> Transient<'a> {
                 .map_err(SolveError::Plate)?
                 .map(|(result, recording, change)| (Outcome::Plate(result), recording, change)),
         })
+    }
+
+    /// If steps on the way did not settle; a plate has nothing to agree with.
+    fn unsettled(&self) -> Option<Status> {
+        match self {
+            Self::Motor(transient) => transient.unsettled(),
+            Self::Plate(_) => None,
+        }
     }
 
     fn stats(&self) -> Stats {

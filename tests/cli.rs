@@ -97,9 +97,9 @@ fn json_of_a_motor_has_every_name() {
 
 #[test]
 fn json_of_a_plate_has_every_name_and_null_where_there_is_no_motor() {
-    for (width, unit) in [("none", "N/m"), ("1", "N")] {
+    for (width, unit, name) in [("none", "N/m", "Plate, crossover"), ("1", "N", "Plate, crossover, changed: 1 key")] {
         let result = solved(&["plate-crossover", "--set", &format!("plate.width_mm={width}")]);
-        check_common(&result, "Plate, crossover", "plate");
+        check_common(&result, name, "plate");
         assert_eq!(result["force_unit"], unit);
         PLATE_NUMBERS.iter().for_each(|key| assert!(result[key].is_number(), "{key}"));
         MOTOR_NUMBERS.iter().for_each(|key| assert!(result.get(key).is_some_and(Value::is_null), "{key}"));
@@ -132,10 +132,66 @@ fn changes_reach_the_scene() {
 }
 
 #[test]
+fn a_changed_preset_says_so_wherever_its_name_leads() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = folder.path().to_str().unwrap();
+    let arguments =
+        ["solve", "fundamental", "--fidelity=draft", "--set=film.min_spacing_nm=100", "--set=film.slip=none"];
+    let output = run(&[&arguments[..], &["--out", results, "--figures", "svg"]].concat());
+    let name = "Fundamental case, changed: 2 keys";
+    assert!(out(&output).starts_with(&format!("{name}: ")) && !out(&output).contains("first row"), "{}", out(&output));
+    assert!(out(&output).contains("film.min_spacing_nm = 100 nm, was 200 nm"), "{}", out(&output));
+    for (file, words) in [
+        ("summary.json", format!("\"preset\": \"{name}\"")),
+        ("scene.toml", format!("name = \"{name}\"")),
+        ("wave.svg", name.to_owned()),
+    ] {
+        let text = fs::read_to_string(folder.path().join(file)).unwrap();
+        assert!(text.contains(&words), "{file}");
+    }
+}
+
+#[test]
+fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let vary = ["--fidelity=draft", "--vary=plate.frequency_khz=10:20:2", "--figures=none"];
+    for (changes, column) in [(&[][..], "film_load_min_n_per_m"), (&["--set=plate.width_mm=1"], "film_load_min_n")] {
+        let output = run(&[&["sweep", "plate-crossover", "--out", &to(column)][..], &vary, changes].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        let text = fs::read_to_string(folder.path().join(column).join("sweep.csv")).unwrap();
+        assert!(text.lines().next().unwrap().split(',').any(|name| name == column), "{text}");
+    }
+    let cycles =
+        ["startup", "plate-crossover", "--fidelity=draft", "--cycles=2", "--figures=none", "--out", &to("start")];
+    run(&cycles);
+    let text = fs::read_to_string(folder.path().join("start/startup.csv")).unwrap();
+    let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    assert!(head.contains(&"film_load_n_per_m") && head.contains(&"contact_load_n"), "{text}");
+    assert_eq!(text.lines().count(), 3);
+
+    let output = run(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft"]);
+    let line = out(&output).lines().find(|line| line.trim_start().starts_with("film load ")).unwrap().to_owned();
+    assert!(line.contains(" N/m") && line.ends_with("none: N/m is not N"), "{line}");
+    let output = run(&["compare", "fundamental", "plate-crossover", "--fidelity", "draft", "--json"]);
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&result["runs"][0]["force_unit"], &result["runs"][1]["force_unit"]), (&"N".into(), &"N/m".into()));
+    assert!(result["runs"][1]["difference_percent"].get("film_load_n").is_none());
+}
+
+#[test]
 fn bad_input_is_named_and_exits_with_2() {
     let motor = |change: &'static str| ["solve", "fundamental", "--set", change];
     refused(&motor("film.min_spacing_nm=3"), 2, &["film.min_spacing_nm", "= 3", "5 to 10000 nm"]);
     refused(&motor("film.min_spacing_nm=nan"), 2, &["film.min_spacing_nm", "NaN"]);
+    refused(
+        &["solve", "plate-viscous", "--set", "film.min_spacing_nm=100"],
+        2,
+        &["film.min_spacing_nm", "no effect on a plate"],
+    );
+    refused(&["sweep", "plate-viscous", "--vary", "film.min_spacing_nm=50:100:2"], 2, &["no effect on a plate"]);
+    let contrary = ["solve", "fundamental", "--set", "film.shear=false", "--set", "numerics.wedge=on"];
+    refused(&contrary, 2, &["film.shear", "numerics.wedge"]);
     refused(&motor("film.slip=second"), 2, &["film.slip", "second-order"]);
     refused(&motor("film.min_spacing=100"), 2, &["unknown key film.min_spacing", "film.min_spacing_nm"]);
     refused(&motor("plate.length_mm=1"), 2, &["plate.length_mm", "motor"]);

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
-use squeezefilm::contact::{Contact, Instant, Modes, Shape};
+use squeezefilm::contact::{Contact, Instant, Modes, Shape, cutoff};
 use squeezefilm::problem::RotorCompliance;
 use std::f64::consts::{PI, TAU};
 
@@ -136,6 +136,89 @@ fn a_point_load_deflects_the_rotor_by_its_greens_function() {
     println!("Green's function: {worst:.1e}");
 }
 
+/// Deflection of every node of a uniform mesh under a unit force on each \[m/N\], harmonic by harmonic, with nothing split off.
+fn flexibility(rotor: &RotorCompliance, nodes: usize) -> Vec<Vec<f64>> {
+    let by_distance: Vec<f64> = (0..nodes)
+        .map(|d| {
+            let term = |n: usize| {
+                // The highest harmonic of the mesh has no sine.
+                let parts = if 2 * n == nodes { 1.0 } else { 2.0 };
+                parts / WAVE * rotor.at(TAU * n as f64 / WAVE) * (TAU * (n * d) as f64 / nodes as f64).cos()
+            };
+            (1..=nodes / 2).map(term).sum()
+        })
+        .collect();
+    (0..nodes).map(|i| (0..nodes).map(|j| by_distance[(i + nodes - j) % nodes]).collect()).collect()
+}
+
+/// Nodal contact forces \[N\] by projected Gauss–Seidel: raise or lower one force at a time until its gap or itself is zero, and the
+/// rigid offset by bisection.
+fn by_brute_force(flexibility: &[Vec<f64>], stator: &[f64], load: f64) -> Vec<f64> {
+    let nodes = stator.len();
+    let mut force = vec![load / nodes as f64; nodes];
+    let mut relax = |z0: f64| -> (f64, Vec<f64>) {
+        for _ in 0..4000 {
+            let mut moved = 0.0_f64;
+            for i in 0..nodes {
+                let gap = z0 - stator[i] + flexibility[i].iter().zip(&force).map(|(g, f)| g * f).sum::<f64>();
+                let next = (force[i] - gap / flexibility[i][i]).max(0.0);
+                moved = moved.max((next - force[i]).abs());
+                force[i] = next;
+            }
+            if moved < 1e-13 * load {
+                break;
+            }
+        }
+        (force.iter().sum(), force.clone())
+    };
+    let (mut low, mut high) = (-1e-4, 1e-4);
+    let mut found = Vec::new();
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let (total, forces) = relax(middle);
+        found = forces;
+        if total > load { low = middle } else { high = middle }
+    }
+    found
+}
+
+#[test]
+fn a_table_with_a_dip_is_solved_as_it_stands() {
+    let beam = RotorCompliance::Beam { decay_length: 4e-3, point_compliance: 0.64e-6, local_compliance: 1.05e-10 };
+    let nodes = 64;
+    // Harmonics that are stiffer than the last: one at the fourth, a deep one at the first, several.
+    for dips in [&[(4, 0.2)][..], &[(1, 0.02)], &[(2, 0.5), (3, 0.1), (7, 0.3), (12, 0.05)]] {
+        let last = beam.at(TAU * 32.0 / WAVE);
+        let row = |n: usize| {
+            let k = TAU * n as f64 / WAVE;
+            let dip = dips.iter().find(|(at, _)| *at == n);
+            (k, dip.map_or(beam.at(k), |(_, share)| share * last))
+        };
+        let rotor = RotorCompliance::Table((1..=nodes / 2).map(row).collect());
+        let stator = |x: f64| 1.3e-6 * (TAU * x / WAVE).cos() + 2e-7 * (4.0 * TAU * x / WAVE).sin();
+        for load in [0.3, 2.45, 30.0] {
+            let (x, out, length) = dry(&rotor, nodes / 2, nodes, load, stator);
+            check_conditions(&out, &vec![length; nodes], load);
+            let stator: Vec<f64> = x.iter().map(|x| stator(*x)).collect();
+            let exact = by_brute_force(&flexibility(&rotor, nodes), &stator, load);
+            for (c, f) in out.contact.iter().zip(&exact) {
+                assert!((c * length - f).abs() < 1e-6 * load, "{dips:?}, {load} N: {} {f}", c * length);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_dip_is_kept_whatever_comes_after_it() {
+    let wave = |n: usize| TAU * n as f64 / WAVE;
+    let flat = |dip: usize| {
+        RotorCompliance::Table((1..=40).map(|n| (wave(n), if n == dip { 2e-11 } else { 1e-10 })).collect())
+    };
+    for (dip, harmonics) in [(1, 4), (3, 4), (4, 5), (17, 18)] {
+        assert_eq!(cutoff(&flat(dip), WAVE, 0.03, 32), harmonics, "dip at {dip}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
@@ -164,6 +247,38 @@ proptest! {
             let (c, h) = (out.contact[i], out.film_thickness[i]);
             prop_assert!(c >= 0.0 && h >= spacing && c * (h - spacing) == 0.0, "{} {}", c, h);
             let force = (c + ten(pressure) * (gas[i] / h - width)) * lengths[i];
+            total += force;
+            scale += force.abs();
+        }
+        prop_assert!((total - load).abs() < 1e-10 * scale, "Σf = {}, L = {}, scale {}", total, load, scale);
+    }
+    /// Any positive table, rough as it may be: the problem is solved, the conditions hold and the load is balanced.
+    #[test]
+    fn any_positive_table_is_solved(
+        compliances in proptest::collection::vec(-12.0f64..-7.0, 24),
+        load in -2.0f64..2.0, spacing in -8.3f64..-6.0, amplitude in -8.0f64..-5.0, trapped in -9.0f64..-6.0, seed in 0u32..1000,
+    ) {
+        let ten = |e: f64| 10f64.powf(e);
+        let row = |(n, c): (usize, &f64)| (TAU * (n + 1) as f64 / WAVE, ten(*c));
+        let rotor = RotorCompliance::Table(compliances.iter().enumerate().map(row).collect());
+        // Nine teeth on two thirds of the wavelength.
+        let (teeth, along, width, load, spacing) = (9, 16, 3e-4, ten(load), ten(spacing));
+        let node = |i: usize| WAVE / 9.0 * ((i / along) as f64 + 0.667 * ((i % along) as f64 + 0.5) / along as f64);
+        let x: Vec<f64> = (0..teeth * along).map(node).collect();
+        let nodes = x.len();
+        let lengths = vec![0.667 * WAVE / nodes as f64; nodes];
+        let modes = Modes::new(&rotor, WAVE, cutoff(&rotor, WAVE, 1e-2, 32), &x);
+        let mut contact = Contact::new(modes, lengths.clone(), &vec![width; nodes], 101_325.0, spacing, load);
+        let stator: Vec<f64> = x.iter().map(|x| ten(amplitude) * (TAU * x / WAVE + f64::from(seed)).cos()).collect();
+        let gas: Vec<f64> = (0..nodes).map(|i| width * ten(trapped) * (1.0 + 0.9 * (i as f64 * f64::from(seed)).sin())).collect();
+        let mut out = Instant::default();
+        let solved = contact.solve(&stator, &gas, &mut Shape::unknown(), &mut out);
+        prop_assert!(solved.is_ok(), "{solved:?}");
+        let (mut total, mut scale) = (0.0, load);
+        for i in 0..nodes {
+            let (c, h) = (out.contact[i], out.film_thickness[i]);
+            prop_assert!(c >= 0.0 && h >= spacing && c * (h - spacing) == 0.0, "{} {}", c, h);
+            let force = (c + 101_325.0 * (gas[i] / h - width)) * lengths[i];
             total += force;
             scale += force.abs();
         }

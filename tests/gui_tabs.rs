@@ -128,7 +128,7 @@ fn two_runs_are_pinned_and_the_table_has_their_difference() {
     // The window starts from the last solve: the same to a fraction of the stated error.
     let within = theirs.difference_error_percent.unwrap();
     assert!((ours.difference_percent.unwrap() - theirs.difference_percent.unwrap()).abs() < within);
-    let texts = [value_text(shown, ours), difference_text(ours)];
+    let texts = [value_text(shown, ours), difference_text(shown, ours)];
     click(&mut window, "Numbers");
     for text in &texts {
         assert!(!text.is_empty() && window.query_all_by_label(text).next().is_some(), "{text}");

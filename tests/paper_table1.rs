@@ -130,15 +130,20 @@ fn the_wedge_hardly_matters() {
 #[test]
 fn stiff_films_and_light_loads_are_reported_not_hidden() {
     let coarse = Numerics { film_nodes_along: Some(21), steps_per_cycle: Some(90), ..Numerics::default() };
+    let mut overloaded = false;
     for (min_spacing, load) in [(60e-9, 2.45), (20e-9, 2.45), (1e-9, 2.45), (200e-9, 0.2), (200e-9, 1e-6)] {
         let (solution, result) = solve(&Motor { min_spacing, load, ..fundamental() }, &coarse);
         println!("{min_spacing:e} {load} {:?} {:?} {:?}", solution.status, result, solution.warnings);
         assert!(matches!(solution.status, Status::NotConverged { residual, .. } if residual.is_finite()));
         assert!(!solution.warnings.is_empty());
         assert_finite(&result);
+        // A film that carries more than the load leaves no torque, and no negative one.
+        assert!(result.max_torque >= 0.0 && (result.alpha < 1.0 || result.max_torque == 0.0), "{result:?}");
+        overloaded |= result.alpha > 1.0;
         assert!(solution.recording.pressure.iter().all(|p| p.is_finite()));
         assert!(solution.recording.film_thickness.iter().all(|h| h.is_finite()));
     }
+    assert!(overloaded);
 }
 
 /// Lag symmetry is not used, so it is a check: tooth k at frame m is tooth 0 at frame m + k frames/teeth.

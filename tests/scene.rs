@@ -524,11 +524,16 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         // The model first: it decides which keys apply.
         for keep in ["rotor.model", ""] {
             for (parameter, value) in PARAMETERS.iter().zip(&values) {
-                let applies = parameter.key.starts_with(keep) && scene.parameters().any(|p| p.key == parameter.key);
+                let applies = parameter.key.starts_with(keep)
+                    && scene.parameters().any(|p| p.key == parameter.key)
+                    && scene.heeds(parameter.key);
                 if let (true, Some(value)) = (applies, value) {
                     scene.set_value(parameter.key, value.clone()).unwrap();
                 }
             }
+        }
+        if scene.get("film.shear") == Some(Value::Flag(false)) && is_motor {
+            scene.set("numerics.wedge", "off").unwrap();
         }
         for key in ["stator.tooth_width_mm", "plate.amplitude_um"] {
             if let Some(range) = scene.range(key) {
@@ -564,7 +569,7 @@ proptest! {
     #[test]
     fn set_of_what_get_shows_changes_nothing(scene in any_scene()) {
         let mut copy = scene.clone();
-        for parameter in scene.parameters() {
+        for parameter in scene.parameters().filter(|parameter| scene.heeds(parameter.key)) {
             match scene.get(parameter.key) {
                 Some(Value::Number(number)) => copy.set(parameter.key, &number.to_string()).unwrap(),
                 Some(Value::Whole(whole)) => copy.set(parameter.key, &whole.to_string()).unwrap(),
@@ -584,4 +589,33 @@ proptest! {
         }
         let _ = presets::find(&text);
     }
+}
+
+#[test]
+fn a_plate_refuses_changes_of_what_it_does_not_heed_and_loads_files_that_have_it() {
+    let text =
+        "schema = 1\nscene = \"plate\"\n[film]\nmin_spacing_nm = 100\nshear = false\n[numerics]\nwedge = \"on\"\n";
+    let mut plate = read(text).unwrap();
+    assert_eq!(plate.get("film.min_spacing_nm"), Some(Value::Number(100.0)));
+    assert_eq!(Scene::from_toml(&plate.to_toml(), "saved.toml").unwrap(), plate);
+    let before = plate.clone();
+    for (key, text) in [("film.min_spacing_nm", "200"), ("film.shear", "true"), ("numerics.teeth", "all")] {
+        let message = plate.set(key, text).unwrap_err().to_string();
+        assert_eq!(message, format!("{key} has no effect on a plate: it cannot be changed or varied here"));
+        assert_eq!(plate, before);
+    }
+    plate.set("film.viscosity_upa_s", "20").unwrap();
+    plate.set("numerics.steps_per_cycle", "72").unwrap();
+}
+
+#[test]
+fn the_wedge_cannot_be_asked_for_and_ruled_out() {
+    let error = read("schema = 1\n[film]\nshear = false\n[numerics]\nwedge = \"on\"\n").unwrap_err();
+    assert_eq!((error.faults().len(), error.faults()[0].line), (1, Some(5)), "{error}");
+    let told = error.to_string();
+    assert!(told.contains("numerics.wedge = \"on\"") && told.contains("film.shear = false"), "{told}");
+    let mut scene = Scene::motor();
+    assert!(scene.set_all([("film.shear", "false"), ("numerics.wedge", "on")]).is_err());
+    assert_eq!(scene, Scene::motor());
+    scene.set_all([("film.shear", "false"), ("numerics.wedge", "off")]).unwrap();
 }

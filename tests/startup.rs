@@ -127,3 +127,19 @@ fn a_limit_and_a_cancelled_run_say_so_and_keep_their_cycles() {
     let ended = startup(&problem, &Settings::default(), &mut stop, &cancel).unwrap();
     assert_eq!((ended.status, ended.cycles, seen), (Status::Cancelled, 3, 3));
 }
+
+#[test]
+fn a_step_that_does_not_settle_is_counted_and_told() {
+    // Film and contact cannot agree to less than round-off: every step ends at its round limit.
+    let settles = problem("fundamental", &[]);
+    let mut problem = settles.clone();
+    problem.numerics.tolerance = Some(1e-17);
+    let settings = Settings { fidelity: Fidelity::Draft, cycles: 40, tolerance: 1e-2 };
+    let (_, ended) = run(&problem, &settings);
+    assert!(ended.remaining < settings.tolerance && ended.stats.unsettled_steps > 0, "{ended:?}");
+    let Status::NotConverged { residual, tolerance } = ended.status else { panic!("{ended:?}") };
+    assert!(residual > tolerance && tolerance < 1e-17, "{ended:?}");
+    let words = squeezefilm::export::startup::unsettled(&ended).unwrap();
+    assert!(words.contains(&format!("in {} steps", ended.stats.unsettled_steps)), "{words}");
+    assert_eq!(squeezefilm::export::startup::unsettled(&run(&settles, &settings).1), None);
+}

@@ -5,7 +5,7 @@
 //! go on. Differences are against the first run.
 
 use super::attempt::attempt;
-use super::quantity::{Numbers, Quantity};
+use super::quantity::{Numbers, Quantity, labelled};
 use crate::control::Cancel;
 use crate::problem::Problem;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value};
@@ -128,18 +128,29 @@ pub fn parameters(scenes: &[&Scene]) -> Vec<ParameterRow> {
 pub struct ResultRow {
     /// The quantity.
     pub quantity: Quantity,
+    /// Its unit, if all runs that have it have it in the same one.
+    pub unit: Option<&'static str>,
     /// One for each run.
     pub cells: Vec<ResultCell>,
+}
+
+impl ResultRow {
+    /// What it is, with its unit after a comma; where runs have it in different units, every value has its own.
+    pub fn label(&self) -> String {
+        labelled(self.quantity.words(), self.unit.unwrap_or(""))
+    }
 }
 
 /// A quantity of one run. What is not there, and what is not finite, is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ResultCell {
-    /// Its value, in the quantity's unit.
+    /// Its value, in the quantity's unit of this run's problem.
     pub value: Option<f64>,
+    /// That unit; empty for a pure number.
+    pub unit: &'static str,
     /// Its estimated numerical error, absolute, if there is an estimate.
     pub error: Option<f64>,
-    /// By how much it exceeds that of the first run \[%\]; of the first run itself `None`.
+    /// By how much it exceeds that of the first run \[%\]; of the first run itself, and of one in another unit, `None`.
     pub difference_percent: Option<f64>,
     /// Error of that difference \[percentage points\]: both errors, added up.
     pub difference_error_percent: Option<f64>,
@@ -151,14 +162,20 @@ pub fn results(runs: &[Run]) -> Vec<ResultRow> {
     let errors: Vec<Quantity> = Quantity::all().filter_map(Quantity::error).collect();
     let row = |quantity: Quantity| {
         let first = numbers.first().map(|numbers| side(numbers, quantity)).unwrap_or_default();
+        let units: Vec<&'static str> = runs.iter().map(|run| quantity.unit(&run.problem)).collect();
         let cell = |(i, numbers): (usize, &Numbers)| {
             let own = side(numbers, quantity);
+            // N/m less N is nothing.
+            let alike = i > 0 && units[i] == units[0];
             let (difference_percent, difference_error_percent) =
-                if i == 0 { (None, None) } else { difference(first, own) };
-            ResultCell { value: own.0, error: own.1, difference_percent, difference_error_percent }
+                if alike { difference(first, own) } else { (None, None) };
+            ResultCell { value: own.0, unit: units[i], error: own.1, difference_percent, difference_error_percent }
         };
         let cells: Vec<_> = numbers.iter().enumerate().map(cell).collect();
-        cells.iter().any(|cell| cell.value.is_some()).then_some(ResultRow { quantity, cells })
+        let mut there = cells.iter().filter(|cell| cell.value.is_some()).map(|cell| cell.unit);
+        let unit = there.next()?;
+        let unit = there.all(|other| other == unit).then_some(unit);
+        Some(ResultRow { quantity, unit, cells })
     };
     Quantity::all().filter(|quantity| !errors.contains(quantity)).filter_map(row).collect()
 }
@@ -208,6 +225,11 @@ mod tests {
         assert_eq!((first.difference_percent, second.difference_percent), (None, Some(exact)));
         assert!(second.difference_error_percent.unwrap() > 100.0 * second.error.unwrap() / first.value.unwrap());
         assert_eq!(*plate, ResultCell::default());
+        // A strip's force is per metre: it has a unit of its own, and no difference from a motor's.
+        let load = results.iter().find(|row| row.quantity == Quantity::FilmLoad).unwrap();
+        let [_, second, strip] = &load.cells[..] else { panic!("{load:?}") };
+        assert!(second.difference_percent.is_some() && strip.value.is_some(), "{load:?}");
+        assert_eq!((strip.difference_percent, strip.unit, load.unit), (None, "N/m", None));
         assert!(results.iter().all(|row| !row.quantity.name().contains("_error")));
     }
 

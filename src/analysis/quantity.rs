@@ -123,14 +123,25 @@ impl Quantity {
         TABLE[self as usize].2
     }
 
-    /// Its unit; empty for a pure number. Forces of a strip are per metre of width.
-    pub fn unit(self) -> &'static str {
-        TABLE[self as usize].3
+    /// Its unit in the results of `problem`; empty for a pure number. Forces of a strip are per metre of width.
+    pub fn unit(self, problem: &Problem) -> &'static str {
+        match TABLE[self as usize].3 {
+            "N" => force_unit(problem),
+            unit => unit,
+        }
     }
 
     /// For the head of a table: what it is, with its unit after a comma.
-    pub fn label(self) -> String {
-        if self.unit().is_empty() { self.words().to_owned() } else { format!("{}, {}", self.words(), self.unit()) }
+    pub fn label(self, problem: &Problem) -> String {
+        labelled(self.words(), self.unit(problem))
+    }
+
+    /// The name in the columns of a CSV file: as [`Self::name`], but for the forces of a strip, `film_load_n_per_m`.
+    pub fn column(self, problem: &Problem) -> String {
+        match (self.name().strip_suffix("_n"), self.unit(problem)) {
+            (Some(_), "N/m") => format!("{}_per_m", self.name()),
+            _ => self.name().to_owned(),
+        }
     }
 
     /// Whether it counts something: whole numbers.
@@ -149,6 +160,19 @@ impl Quantity {
             _ => None,
         }
     }
+}
+
+/// What the forces of a problem are in: those of a strip are per metre of width.
+pub fn force_unit(problem: &Problem) -> &'static str {
+    match &problem.scenario {
+        Scenario::Plate(plate) if plate.width.is_none() => "N/m",
+        Scenario::Plate(_) | Scenario::Motor(_) => "N",
+    }
+}
+
+/// `film load, N`: words, and a unit if there is one.
+pub fn labelled(words: &str, unit: &str) -> String {
+    if unit.is_empty() { words.to_owned() } else { format!("{words}, {unit}") }
 }
 
 /// All numbers of one solve. What a scene does not have, and what is not finite, is not there.

@@ -262,6 +262,11 @@ impl Sweep {
         &self.settings
     }
 
+    /// The problem of its first point: all are of one kind.
+    pub fn problem(&self) -> &Problem {
+        &self.points[0].1
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.points.len()
@@ -287,8 +292,7 @@ impl Sweep {
 
     /// The quantities its rows have.
     pub fn quantities(&self) -> Vec<Quantity> {
-        // All points are of one kind of scene.
-        self.points.first().map_or_else(Vec::new, |(_, problem)| Quantity::of(problem).collect())
+        Quantity::of(self.problem()).collect()
     }
 
     /// Sixteen digits that differ if anything differs that the results depend on: scene, axes, settings or version.
@@ -518,6 +522,13 @@ mod tests {
         assert_eq!(chunks.iter().cloned().flatten().collect::<Vec<_>>(), (0..18).collect::<Vec<_>>());
         assert!(chunks.iter().all(|chunk| chunk.start / 6 == (chunk.end - 1) / 6));
         assert_eq!((sweep.values(0), sweep.values(7)), (&[1.0, 100.0][..], &[2.0, 110.0][..]));
+    }
+
+    #[test]
+    fn what_a_plate_does_not_heed_is_not_varied() {
+        let refused = |vary| sweep("plate-crossover", &[vary]).unwrap_err().to_string();
+        assert!(refused("film.min_spacing_nm=100:200:3").starts_with("film.min_spacing_nm has no effect on a plate"));
+        assert!(refused("numerics.contact_nodes=100:200:3").starts_with("numerics.contact_nodes has no effect"));
     }
 
     #[test]

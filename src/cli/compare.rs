@@ -173,11 +173,11 @@ fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
     let pair = |i: usize| if i == 0 { vec![letter(i)] } else { vec![letter(i), format!("{} − A", letter(i))] };
     columns.row(std::iter::once("result".to_owned()).chain((0..runs.len()).flat_map(pair)));
     for row in results(runs) {
-        let mut cells = vec![row.quantity.label()];
+        let mut cells = vec![row.label()];
         for (i, cell) in row.cells.iter().enumerate() {
             cells.push(value_text(&row, cell));
             if i > 0 {
-                cells.push(difference_text(cell));
+                cells.push(difference_text(&row, cell));
             }
         }
         columns.row(cells);

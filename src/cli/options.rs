@@ -24,10 +24,13 @@ pub(super) struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The scene of a PRESET argument with the changes made.
+    /// The scene of a PRESET argument with the changes made, and a name that says so.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
-        let mut scene = presets::find(preset)?;
+        let original = presets::find(preset)?;
+        let mut scene = original.clone();
         scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        // What was changed is no longer what the preset's name and description claim.
+        scene.retitle(&original);
         Ok(scene)
     }
 
@@ -181,6 +184,24 @@ fn method() -> ValueParser {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_changed_scene_does_not_claim_to_be_the_preset() {
+        let scene = |changes: &[(&str, &str)]| {
+            let changes = changes.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+            SceneOptions { changes }.scene("fundamental").unwrap()
+        };
+        let published = presets::find("fundamental").unwrap();
+        assert_eq!(scene(&[("film.min_spacing_nm", "200")]), published);
+        let one = scene(&[("film.min_spacing_nm", "100")]);
+        assert_eq!(one.name, "Fundamental case, changed: 1 key");
+        assert_eq!(one.about, "Fundamental case with film.min_spacing_nm = 100 nm, was 200 nm.");
+        let three = [("film.min_spacing_nm", "100"), ("stator.tooth_radius_m", "3"), ("film.slip", "none")];
+        assert_eq!(scene(&three).name, "Fundamental case, changed: 3 keys");
+        assert!(scene(&three).about.contains("stator.tooth_radius_m = 3 m, was none;"), "{}", scene(&three).about);
+        let named = scene(&[("film.min_spacing_nm", "100"), ("name", "Mine"), ("about", "My own.")]);
+        assert_eq!((named.name.as_str(), named.about.as_str()), ("Mine", "My own."));
+    }
 
     #[test]
     fn a_command_can_be_copied() {

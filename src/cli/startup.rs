@@ -12,7 +12,7 @@ use super::terminal;
 use crate::export::digits::{significant, with_error};
 use crate::export::folder::Staged;
 use crate::export::json::{self, force_unit};
-use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, write_csv};
+use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, unsettled, write_csv};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -121,6 +121,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         preset: &scene.name,
         scene: scene.scene(),
         fidelity: settings.fidelity.to_string(),
+        force_unit: force_unit(&problem),
         converged: converged(&ended),
         remaining: ended.remaining.is_finite().then_some(ended.remaining),
         tolerance: settings.tolerance,
@@ -129,17 +130,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         film_steps: ended.stats.film_steps,
         contact_solves: ended.stats.contact_solves,
         coupling_iterations: ended.stats.coupling_iterations,
+        unsettled_steps: ended.stats.unsettled_steps,
         wall_s,
         rows: &rows,
         version: env!("CARGO_PKG_VERSION"),
         command,
     };
+    if let Some(warning) = unsettled(&ended) {
+        terminal::warning(&warning);
+    }
     let human = text(&scene, &problem, &rows, &ended, steady);
     terminal::data(&if arguments.output.json { json::text(&object) } else { human })?;
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = &arguments.output.out {
         let mut staged = Staged::new(folder)?;
-        staged.add("startup.csv", |out| write_csv(&rows, out))?;
+        staged.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
         staged.add("startup.json", |out| out.write_all(json::text(&object).as_bytes()))?;
         let mut drawn = figure(&problem, &rows, steady, &loads, frames);
         drawn.provenance.fidelity = settings.fidelity.to_string();
@@ -170,6 +175,9 @@ const SHOWN: usize = 8;
 fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady: Option<(f64, f64)>) -> String {
     let how = match ended.status {
         Status::Converged => format!("the cycle repeats after {}", ended.cycles),
+        Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {
+            format!("NOT CONVERGED in some steps, {} cycles", ended.cycles)
+        }
         Status::NotConverged { .. } | Status::NotResolved { .. } => format!("NOT REPEATING after {}", ended.cycles),
         Status::Cancelled => format!("CANCELLED after {}", ended.cycles),
     };

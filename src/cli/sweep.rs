@@ -209,7 +209,9 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
     let mut columns = Columns::new();
     let labels = |quantities: &[Quantity]| {
         let keys = keys.iter().map(ToString::to_string);
-        keys.chain(quantities.iter().map(|quantity| quantity.label())).chain([String::new()]).collect::<Vec<_>>()
+        keys.chain(quantities.iter().map(|quantity| quantity.label(sweep.problem())))
+            .chain([String::new()])
+            .collect::<Vec<_>>()
     };
     columns.row(labels(&shown));
     for row in rows {

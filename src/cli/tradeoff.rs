@@ -100,7 +100,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let wall_s = clock();
     drop(bar);
     let tradeoff = Tradeoff::of(&runs);
-    let human = text(&scene.name, &tradeoff);
+    let human = text(&problem, &tradeoff);
     if cancel.is_cancelled() {
         terminal::note(&format!("cancelled; measured was\n\n{human}"));
         return Ok(Exit::Other);
@@ -172,9 +172,10 @@ fn percent(share: f64) -> String {
 }
 
 /// The table for people.
-fn text(name: &str, tradeoff: &Tradeoff) -> String {
-    let judged = tradeoff.judged.label();
-    let mut text = paragraph(&format!("{name}: error against solve time, measured now on this machine"), "", "");
+fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
+    let judged = tradeoff.judged.label(problem);
+    let mut text =
+        paragraph(&format!("{}: error against solve time, measured now on this machine", problem.name), "", "");
     text.push('\n');
     let mut columns = Columns::new();
     let head = [

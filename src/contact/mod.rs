@@ -13,7 +13,8 @@
 //! g = s + C_∞ q,   c ≥ 0, g ≥ 0, c g = 0   ⟹   q = φ(s), decreasing, piecewise smooth, in closed form
 //! ```
 //!
-//! What is left are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function. Newton's method (semi-smooth,
+//! What is left are z₀ and 2(N−1) amplitudes, the minimum of a strictly convex function (if a table has a harmonic stiffer than
+//! the last, its saddle point: see `modes`). Newton's method (semi-smooth,
 //! since φ has a corner where contact begins) with a line search on the slope converges from anywhere; once no node
 //! changes sides the remaining error is round-off. Complementarity holds exactly by construction.
 
@@ -256,14 +257,21 @@ impl Contact {
     fn newton_step(&self, gradient: &[f64]) -> Option<DVector<f64>> {
         let mut hessian: DMatrix<f64> = self.modes.stiffness(&self.stiffness);
         for k in 1..hessian.nrows() {
-            hessian[(k, k)] += 1.0;
+            hessian[(k, k)] += self.modes.sign(k);
         }
         if hessian[(0, 0)] <= 0.0 {
             return None;
         }
-        let factors = Cholesky::new(hessian)?;
         let mut step = DVector::from_column_slice(gradient);
-        factors.solve_mut(&mut step);
+        if self.modes.is_minimum() {
+            Cholesky::new(hessian)?.solve_mut(&mut step);
+        } else {
+            // The balance a − ⟨q, ψ⟩ of a concave mode is its gradient with the other sign, and so is its step.
+            hessian.lu().solve_mut(&mut step).then_some(())?;
+            for k in 1..step.len() {
+                step[k] *= self.modes.sign(k);
+            }
+        }
         step.neg_mut();
         step.iter().all(|v| v.is_finite()).then_some(step)
     }

@@ -1,7 +1,11 @@
 //! The smooth part of the rotor's deflection as a few harmonics of the wavelength.
 //!
-//! Amplitudes are scaled by √(2(C_n − C_∞)/λ), so that every mode's own stiffness is 1 and the matrices are well
+//! Amplitudes are scaled by √(2|C_n − C_∞|/λ), so that every mode's own stiffness is ±1 and the matrices are well
 //! conditioned. Order of unknowns: z₀, cos₁ … cos_{N−1}, sin₁ … sin_{N−1}.
+//!
+//! A table may have a harmonic that is stiffer than the last one, C_n < C_∞. Its part of the deflection is negative and so is its
+//! stiffness: what is solved is then not a minimum but a saddle point, convex in all other unknowns and concave in this one. There is
+//! still exactly one, because the whole compliance, C_n > 0, is positive.
 
 use super::Shape;
 use crate::numerics::dot;
@@ -15,23 +19,26 @@ pub struct Modes {
     /// Harmonics with a smooth part, N − 1.
     count: usize,
     local: f64,
-    /// √(2(C_n − C_∞)/λ) for n = 1 … N−1.
+    /// √(2|C_n − C_∞|/λ) for n = 1 … N−1.
     scale: Vec<f64>,
+    /// Sign of C_n − C_∞ for n = 1 … N−1: −1 for a harmonic that is stiffer than the local part.
+    sign: Vec<f64>,
     /// cos(k_n x_i), `[n][i]`, n = 0 … 2(N−1).
     cosines: Vec<f64>,
     /// sin(k_n x_i), `[n][i]`.
     sines: Vec<f64>,
 }
 
-/// How many harmonics N a rotor needs: the first whose smooth part is below `fraction` of the local compliance it would
-/// leave behind, at least 4 and at most `most`.
+/// How many harmonics N a rotor needs: the first from which on all differ by at most `fraction` from the local compliance that they
+/// would leave behind, at least 4 and at most `most`.
 ///
-/// Harmonics from N on are given the compliance C(k_N): too soft by at most `fraction`, or, at the limit `most`, by
-/// what the error estimate of the finer grid shows.
+/// Harmonics from N on are given the compliance C(k_N): off by at most `fraction`, or, at the limit `most`, by what the
+/// error estimate of the finer grid shows.
 pub fn cutoff(rotor: &RotorCompliance, wavelength: f64, fraction: f64, most: usize) -> usize {
     let k = |n: usize| std::f64::consts::TAU * n as f64 / wavelength;
     let last = rotor.at(1e3 * k(most));
-    (4..most).find(|&n| rotor.at(k(n)) - last <= fraction * last).unwrap_or(most)
+    let matters = |n: usize| (rotor.at(k(n)) - last).abs() > fraction * last;
+    (4..most).rev().find(|&n| matters(n)).map_or(4.min(most), |n| n + 1)
 }
 
 impl Modes {
@@ -40,7 +47,9 @@ impl Modes {
         let k = |n: usize| std::f64::consts::TAU * n as f64 / wavelength;
         let local = rotor.at(k(harmonics));
         let count = harmonics - 1;
-        let scale = (1..=count).map(|n| (2.0 * (rotor.at(k(n)) - local).max(0.0) / wavelength).sqrt()).collect();
+        let smooth = |n: usize| rotor.at(k(n)) - local;
+        let scale = (1..=count).map(|n| (2.0 * smooth(n).abs() / wavelength).sqrt()).collect();
+        let sign = (1..=count).map(|n| if smooth(n) < 0.0 { -1.0 } else { 1.0 }).collect();
         // Harmonic by harmonic, every node's angle turned on by its first harmonic's.
         let nodes = x.len();
         let (mut cosines, mut sines) = (vec![1.0; nodes], vec![0.0; nodes]);
@@ -52,12 +61,22 @@ impl Modes {
                 sines.push(s * cos + c * sin);
             }
         }
-        Self { nodes, count, local, scale, cosines, sines }
+        Self { nodes, count, local, scale, sign, cosines, sines }
     }
 
     /// C_∞ \[m²/N\].
     pub fn local_compliance(&self) -> f64 {
         self.local
+    }
+
+    /// Sign of the own stiffness of unknown `index`, z₀ not among them: −1 for a mode stiffer than the local part.
+    pub(super) fn sign(&self, index: usize) -> f64 {
+        self.sign[(index - 1) % self.count]
+    }
+
+    /// Whether the local part is the stiffest of all: then every sign is positive, and the solution a minimum.
+    pub(super) fn is_minimum(&self) -> bool {
+        self.sign.iter().all(|sign| *sign > 0.0)
     }
 
     /// Unknowns: z₀ and two for each harmonic.
@@ -89,7 +108,8 @@ impl Modes {
     pub fn deflection(&self, amplitudes: &[f64], out: &mut [f64]) {
         out.fill(amplitudes[0]);
         for n in 1..=self.count {
-            let (a, b) = (amplitudes[n] * self.scale[n - 1], amplitudes[self.count + n] * self.scale[n - 1]);
+            let scale = self.sign[n - 1] * self.scale[n - 1];
+            let (a, b) = (amplitudes[n] * scale, amplitudes[self.count + n] * scale);
             for ((u, c), s) in out.iter_mut().zip(self.cosine(n)).zip(self.sine(n)) {
                 *u += a * c + b * s;
             }

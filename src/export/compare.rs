@@ -9,7 +9,7 @@ use super::figures::compare::{self as figures, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
 use super::json::status_name;
 use crate::analysis::compare::{ParameterRow, ResultCell, ResultRow, Run, parameters, results};
-use crate::analysis::quantity::Quantity;
+use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::sweep::Ending;
 use crate::control::Cancel;
 use crate::problem::Scenario;
@@ -87,6 +87,7 @@ impl Serialize for RunObject<'_> {
         map.serialize_entry("scene", self.run.scene.scene())?;
         map.serialize_entry("status", &status(self.run))?;
         map.serialize_entry("converged", &self.run.converged())?;
+        map.serialize_entry("force_unit", force_unit(&self.run.problem))?;
         let numbers = self.run.numbers();
         for quantity in Quantity::of(&self.run.problem) {
             let value = numbers.get(quantity);
@@ -172,14 +173,13 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
     for row in results(runs) {
         for (i, (run, cell)) in runs.iter().zip(&row.cells).enumerate() {
             let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-            let unit = row.quantity.unit();
             writer.write_record([
                 (i + 1).to_string().as_str(),
                 &run.label,
                 run.scene.scene(),
                 &status(run),
                 row.quantity.name(),
-                unit,
+                cell.unit,
                 &number(cell.value),
                 &number(cell.error),
                 &number(cell.difference_percent),
@@ -314,20 +314,25 @@ pub fn frames(runs: &[Run], most: usize) -> usize {
         + figures::common_frames(plate_runs(runs).iter().map(|run| run.recording), most)
 }
 
-/// A value with its error, as many digits as that justifies; counts whole.
+/// A value with its error, as many digits as that justifies; counts whole. With its unit, if runs have it in different ones.
 pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
-    match (cell.value, cell.error) {
-        (None, _) => String::new(),
+    let text = match (cell.value, cell.error) {
+        (None, _) => return String::new(),
         (Some(value), _) if row.quantity.is_count() => format!("{value}"),
         (Some(value), Some(error)) => with_error(value, error),
         // It has an estimate, but not here: that is told.
         (Some(value), None) if row.quantity.error().is_some() => with_error(value, f64::INFINITY),
         (Some(value), None) => significant(value, 4),
-    }
+    };
+    if row.unit.is_none() { format!("{text} {}", cell.unit) } else { text }
 }
 
-/// `+3.2 ± 0.1 %`
-pub fn difference_text(cell: &ResultCell) -> String {
+/// `+3.2 ± 0.1 %`; of what is in another unit than the first run's: that there is none.
+pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
+    let first = row.cells.first().filter(|first| first.value.is_some() && cell.value.is_some());
+    if let Some(first) = first.filter(|first| first.unit != cell.unit) {
+        return format!("none: {} is not {}", cell.unit, first.unit);
+    }
     match (cell.difference_percent, cell.difference_error_percent) {
         (None, _) => String::new(),
         (Some(0.0), _) => "0 %".to_owned(),
@@ -488,11 +493,11 @@ fn result_table(runs: &[Run]) -> Table {
     }
     let mut table = Table::new("").heads(heads);
     for row in results(runs) {
-        let mut cells = vec![(Kind::Words, row.quantity.label())];
+        let mut cells = vec![(Kind::Words, row.label())];
         let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
         let kind = if main { Kind::Strong } else { Kind::Number };
         for (i, cell) in row.cells.iter().enumerate() {
-            let (value, difference) = (value_text(&row, cell), difference_text(cell));
+            let (value, difference) = (value_text(&row, cell), difference_text(&row, cell));
             match (beside, i) {
                 (_, 0) => cells.push((kind, value)),
                 (true, _) => cells.extend([(kind, value), (Kind::Number, difference)]),

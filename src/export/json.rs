@@ -1,6 +1,7 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
 use crate::analysis::exact::Comparison;
+pub use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::Merit;
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
@@ -281,14 +282,6 @@ impl Summary {
 pub fn text(object: &impl Serialize) -> String {
     // Fails only for maps whose keys are not text, and for types that refuse: ours are plain structs.
     serde_json::to_string_pretty(object).map_or_else(|_| String::new(), |text| text + "\n")
-}
-
-/// What the forces of a problem are in: those of a strip are per metre of width.
-pub fn force_unit(problem: &Problem) -> &'static str {
-    match &problem.scenario {
-        Scenario::Plate(plate) if plate.width.is_none() => "N/m",
-        Scenario::Plate(_) | Scenario::Motor(_) => "N",
-    }
 }
 
 /// How a solve ended, in a word.

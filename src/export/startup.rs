@@ -107,7 +107,9 @@ pub struct Object<'a> {
     pub scene: &'static str,
     /// `draft`, `standard`, …
     pub fidelity: String,
-    /// The cycle repeats to the tolerance.
+    /// What forces are in: `N`, or `N/m` for a strip.
+    pub force_unit: &'static str,
+    /// The cycle repeats to the tolerance, and no step was unsettled.
     pub converged: bool,
     /// By how much ln Z may still change; null if nothing is known.
     pub remaining: Option<f64>,
@@ -123,6 +125,8 @@ pub struct Object<'a> {
     pub contact_solves: u64,
     /// Rounds of film and contact.
     pub coupling_iterations: u64,
+    /// Steps in which film and contact did not agree to the tolerance within their rounds.
+    pub unsettled_steps: u64,
     /// Wall time \[s\].
     pub wall_s: f64,
     /// One for each cycle.
@@ -152,16 +156,35 @@ pub fn converged(startup: &Startup) -> bool {
     startup.status == Status::Converged
 }
 
-/// Writes the rows as CSV, the header first; what is null is empty.
+/// In words, what was taken although film and contact did not agree; `None` if every step settled.
+pub fn unsettled(startup: &Startup) -> Option<String> {
+    let (stats, Status::NotConverged { residual, tolerance }) = (&startup.stats, startup.status) else { return None };
+    (stats.unsettled_steps > 0).then(|| {
+        format!(
+            "in {} steps film and contact did not agree within their rounds: they still changed by up to {residual:.1e}, \
+             allowed {tolerance:.0e}",
+            stats.unsettled_steps
+        )
+    })
+}
+
+/// Writes the rows as CSV, the header first; what is null is empty. Columns of a strip's forces are named `film_load_n_per_m`.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_csv(rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
+pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
         writer.serialize(row)?;
     }
-    writer.flush()
+    let text = String::from_utf8(writer.into_inner().map_err(|error| error.into_error())?).map_err(io::Error::other)?;
+    let (head, body) = text.split_once('\n').unwrap_or((&text, ""));
+    let strip = force_unit(problem) == "N/m";
+    let column =
+        |name: &str| if strip && name.starts_with("film_load") { format!("{name}_per_m") } else { name.to_owned() };
+    let head: Vec<String> = head.split(',').map(column).collect();
+    write!(out, "{}\n{body}", head.join(","))?;
+    out.flush()
 }
 
 /// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] at `frames` equal steps a cycle.

@@ -3,7 +3,7 @@
 //! Numbers are written with the fewest digits that read back to the same bits, so that a sweep that was cancelled and
 //! gone on with is the same, byte by byte, as one that was not.
 
-use crate::analysis::quantity::{Numbers, Quantity};
+use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep};
 use crate::analysis::table1::Published;
 use crate::export::figure::{
@@ -34,11 +34,11 @@ pub fn status(ending: &Ending) -> String {
     }
 }
 
-fn header(sweep: &Sweep) -> Vec<&'static str> {
-    let mut names = FIRST.to_vec();
-    names.extend(sweep.axes().iter().map(|axis| axis.parameter.key));
-    names.push(STATUS);
-    names.extend(sweep.quantities().into_iter().map(Quantity::name));
+fn header(sweep: &Sweep) -> Vec<String> {
+    let mut names = FIRST.map(str::to_owned).to_vec();
+    names.extend(sweep.axes().iter().map(|axis| axis.parameter.key.to_owned()));
+    names.push(STATUS.to_owned());
+    names.extend(sweep.quantities().into_iter().map(|quantity| quantity.column(sweep.problem())));
     names
 }
 
@@ -144,6 +144,8 @@ pub struct Object<'a> {
     pub preset: &'a str,
     /// `motor` or `plate`.
     pub scene: &'static str,
+    /// What forces are in: `N`, or `N/m` for a strip.
+    pub force_unit: &'static str,
     /// `auto` or `paper`.
     pub method: &'static str,
     /// `draft`, `standard`, …; of method paper null.
@@ -234,6 +236,7 @@ impl<'a> Object<'a> {
             schema: SCHEMA,
             preset: &sweep.scene().name,
             scene: sweep.scene().scene(),
+            force_unit: force_unit(sweep.problem()),
             method: settings.method.name(),
             fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
             complete: rows.len() == sweep.len(),
@@ -323,7 +326,8 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
         _ => f64::NAN,
     };
     let colour = Colour::FILM;
-    let mut panel = Panel::new("", figure_axis(x), Axis::new(quantity.words(), quantity.unit()).including([0.0]));
+    let mut panel =
+        Panel::new("", figure_axis(x), Axis::new(quantity.words(), quantity.unit(sweep.problem())).including([0.0]));
     if let Some(error) = quantity.error() {
         let band = rows.iter().map(|row| {
             let (value, error) = (value(row), row.numbers.get(error).unwrap_or(f64::NAN));
@@ -384,11 +388,10 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
     for row in rows {
         let place = |axis: &[f64], value: f64| axis.iter().position(|at| *at == value);
         let at = place(&xs, row.values[0]).zip(place(&ys, row.values[1]));
-        if let (Some((i, j)), Some(value)) = (at, row.numbers.get(quantity)) {
-            values[i * ys.len() + j] = value;
-        }
         if row.ending != Ending::Converged {
             unsound.push([row.values[0], row.values[1]]);
+        } else if let (Some((i, j)), Some(value)) = (at, row.numbers.get(quantity)) {
+            values[i * ys.len() + j] = value;
         }
     }
     let grid = Grid { x: xs, y: ys, values };

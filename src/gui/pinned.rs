@@ -194,7 +194,7 @@ impl Pins {
         self.tabulate();
     }
 
-    /// The scene's name, and what it differs in from a pin of that name.
+    /// What it is called, or the scene's name and what it differs in from a pin of that name.
     fn name_of(&self, run: &Run) -> String {
         let name = &run.scene.name;
         let taken = |label: &str| self.runs.iter().any(|other| other.label == label);
@@ -214,7 +214,7 @@ impl Pins {
                 _ => {}
             }
         }
-        unique(name, taken)
+        unique(&run.label, taken)
     }
 
     /// Waits for `task`, which solves this scene.

@@ -185,10 +185,12 @@ impl Name {
         }
     }
 
-    /// Its unit.
-    pub fn unit(self) -> &'static str {
+    /// Its unit in this scene.
+    pub fn unit(self, scene: &Scene) -> &'static str {
         match self {
-            Self::Quantity(quantity) => quantity.unit(),
+            Self::Quantity(quantity) => {
+                crate::problem::Problem::new(scene).map_or("", |problem| quantity.unit(&problem))
+            }
             Self::Live(live) => live.unit(),
             Self::Key(parameter) => parameter.unit,
         }
@@ -281,7 +283,7 @@ impl Comparison {
             return Some(format!("{subject} is not known {tab}"));
         };
         let unit = match &self.left {
-            Expression::Name { name, .. } if !name.unit().is_empty() => format!(" {}", name.unit()),
+            Expression::Name { name, .. } => format!(" {}", name.unit(now.scene)).trim_end().to_owned(),
             _ => String::new(),
         };
         let shown = |value: f64| {

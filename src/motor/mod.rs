@@ -224,6 +224,8 @@ pub struct Transient<'a> {
     plan: Plan,
     levels: Vec<Level>,
     stats: Stats,
+    /// Largest residual of any step so far, in ln ζ.
+    worst: f64,
 }
 
 impl std::fmt::Debug for Transient<'_> {
@@ -243,7 +245,7 @@ impl<'a> Transient<'a> {
         for level in &mut levels {
             level.rest()?;
         }
-        Ok(Self { motor, plan, levels, stats: Stats::default() })
+        Ok(Self { motor, plan, levels, stats: Stats::default(), worst: 0.0 })
     }
 
     /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
@@ -252,7 +254,7 @@ impl<'a> Transient<'a> {
     /// # Errors
     /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
     pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
-        let tolerance = 0.1 * self.plan.tolerance;
+        let tolerance = self.tolerance();
         let finest = self.levels.len() - 1;
         let mut alphas = Vec::with_capacity(self.levels.len());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
@@ -277,12 +279,28 @@ impl<'a> Transient<'a> {
             self.stats.steps_per_cycle = level.steps();
         }
         self.stats.cycles += 1;
+        let astray = self.levels.iter().map(Level::residual).fold(tolerance, f64::max);
+        self.worst = self.worst.max(astray);
         let (recording, change) = last;
         let mut result = summarise(self.motor, &recording);
         let estimate = extrapolate_means(&alphas);
         let left_out = if result.levitated { 0.0 } else { self.plan.left_out * estimate.value.abs() };
-        result.alpha_error = estimate.error.min(1.0) + (result.alpha - estimate.value).abs() + left_out + tolerance;
+        // What film and contact still disagree by, as a force of the gas; what floats carries its load whatever that is.
+        let gas = if result.levitated { 1.0 } else { self.levels[finest].gas_force() / self.motor.load };
+        result.alpha_error =
+            estimate.error.min(1.0) + (result.alpha - estimate.value).abs() + left_out + astray.min(1.0) * gas.max(1.0);
         Ok(Some((result, recording, change)))
+    }
+
+    /// What film and contact have to agree to in every step, in ln ζ.
+    fn tolerance(&self) -> f64 {
+        0.1 * self.plan.tolerance
+    }
+
+    /// If steps were taken although film and contact did not agree: not converged, by the largest residual of any of them.
+    pub fn unsettled(&self) -> Option<Status> {
+        let tolerance = self.tolerance();
+        (self.stats.unsettled_steps > 0).then_some(Status::NotConverged { residual: self.worst, tolerance })
     }
 
     /// What it has cost so far, all grids.

@@ -6,7 +6,7 @@ pub mod legendre;
 pub mod rows;
 
 /// Runs `work`, which has to be inlined whole, compiled for the widest vector registers of this processor. The operations
-/// and their order stay the same, and so do the results, to the last bit, on every machine.
+/// and their order stay the same, and so do the results of `work`, to the last bit, whatever the registers.
 #[inline(always)]
 pub fn vectorised<R>(work: impl FnOnce() -> R) -> R {
     /// A closure to be compiled anew for each instruction set.

@@ -113,7 +113,12 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         film_load_min,
         film_load_max,
         contact_load,
-        max_torque: motor.dry_friction * (1.0 - alpha) * f64::from(motor.waves) * motor.load * motor.contact_radius,
+        // A film that carries more than the load leaves nothing to rub.
+        max_torque: motor.dry_friction
+            * (1.0 - alpha).max(0.0)
+            * f64::from(motor.waves)
+            * motor.load
+            * motor.contact_radius,
         teeth_in_contact: touching as f64 / steps as f64,
         levitated: touching == 0,
         min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
@@ -128,6 +133,7 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         coupling_iterations: march.rounds,
         contact_solves: march.contact_solves,
         contact_iterations: march.contact.rounds,
+        unsettled_steps: 0,
         film_nodes: nx * ny,
         contact_nodes: n + 1,
         steps_per_cycle: steps,

@@ -3,7 +3,7 @@
 //! By translation invariance along the ring, a line load q_n cos(k_n x), k_n = 2πn/λ, deflects the rotor by
 //! C(k_n) q_n cos(k_n x). The rigid offset (n = 0) is not part of the compliance: the load balance fixes it.
 
-use crate::problem::RotorCompliance;
+use crate::problem::{Motor, RotorCompliance};
 
 impl RotorCompliance {
     /// Compliance C(k) \[m²/N\] at wavenumber `k` \[rad/m\], k > 0.
@@ -16,6 +16,34 @@ impl RotorCompliance {
             }
             Self::Table(rows) => interpolate_log(rows, k),
         }
+    }
+}
+
+/// An end of a table counts as covering a wavenumber that is this near to it, relative.
+const NEAR: f64 = 0.01;
+/// Harmonics that contact is always resolved with.
+const FEWEST_HARMONICS: f64 = 4.0;
+
+impl Motor {
+    /// In words, what the rotor's compliance table does not cover of what contact asks of it: wavelengths from that of the wave,
+    /// k₁ = waves/r, down to the width of a tooth, 2π/b. `None` if it covers all that, or the rotor is no table.
+    pub fn compliance_not_covered(&self) -> Option<String> {
+        let RotorCompliance::Table(rows) = &self.rotor else { return None };
+        let (first, last) = (rows.first()?.0, rows.last()?.0);
+        let wave = std::f64::consts::TAU / self.wavelength();
+        let tooth = (std::f64::consts::TAU / self.tooth_width).max(FEWEST_HARMONICS * wave);
+        let mut missing = Vec::new();
+        if first > (1.0 + NEAR) * wave || last < (1.0 - NEAR) * wave {
+            let end = if first > wave { "first" } else { "last" };
+            missing.push(format!("the wave itself, {wave:.1} 1/m, has the compliance of the {end} row"));
+        }
+        if last < (1.0 - NEAR) * tooth {
+            missing.push(format!("waves as short as a tooth, {tooth:.0} 1/m, have that of the last row"));
+        }
+        (!missing.is_empty()).then(|| {
+            let rows = if rows.len() == 1 { format!("{first} 1/m only") } else { format!("{first} to {last} 1/m") };
+            format!("rotor.compliance covers wavenumbers {rows}: {}", missing.join("; "))
+        })
     }
 }
 
@@ -45,6 +73,23 @@ mod tests {
         let sum: f64 = (0..2_000_000).map(|i| rotor.at((i as f64 + 0.5) * dk) * dk).sum();
         let point = sum / std::f64::consts::PI;
         assert!((point / point_compliance - 1.0).abs() < 1e-6, "{point}");
+    }
+
+    #[test]
+    fn a_table_says_what_it_does_not_cover() {
+        let problem = crate::problem::Problem::new(&crate::scene::presets::find("fundamental").unwrap()).unwrap();
+        let crate::problem::Scenario::Motor(motor) = problem.scenario else { panic!("a motor") };
+        let told = |rows: &[(f64, f64)]| {
+            Motor { rotor: RotorCompliance::Table(rows.to_vec()), ..motor.clone() }.compliance_not_covered()
+        };
+        assert_eq!(motor.compliance_not_covered(), None);
+        assert_eq!(told(&[(241.4, 2e-9), (4000.0, 1e-10)]), None);
+        let below = told(&[(300.0, 2e-9), (4000.0, 1e-10)]).unwrap();
+        assert!(below.contains("300 to 4000 1/m: the wave itself, 241.4") && !below.contains("tooth"), "{below}");
+        let above = told(&[(200.0, 2e-9), (900.0, 1e-10)]).unwrap();
+        assert!(above.contains("a tooth, 3621") && !above.contains("the wave itself"), "{above}");
+        let neither = told(&[(100.0, 2e-9)]).unwrap();
+        assert!(neither.contains("100 1/m only") && neither.contains("of the last row; waves"), "{neither}");
     }
 
     #[test]

@@ -216,6 +216,22 @@ impl Scene {
         PARAMETERS.iter().filter(|parameter| self.applies(parameter).is_ok())
     }
 
+    /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics
+    /// that only a motor heeds; to set or to vary one is refused.
+    pub fn heeds(&self, key: &str) -> bool {
+        const MOTOR_ONLY: [&str; 8] = [
+            "film.min_spacing_nm",
+            "film.shear",
+            "numerics.contact_nodes",
+            "numerics.wedge",
+            "numerics.teeth",
+            "numerics.width",
+            "numerics.flow",
+            "numerics.time",
+        ];
+        self.rotor_model().is_some() || !MOTOR_ONLY.contains(&key)
+    }
+
     /// Whether a key applies to this scene; if not, why.
     pub(super) fn applies(&self, parameter: &'static Parameter) -> Result<(), What> {
         let key = parameter.key;
@@ -265,6 +281,7 @@ impl Scene {
         }
         let parameter = Parameter::find(key).ok_or_else(|| self.unknown_key(key))?;
         match self.applies(parameter) {
+            Ok(()) if !self.heeds(parameter.key) => Err(What::NoEffect { key: parameter.key, scene: self.scene() }),
             Err(What::OtherModel { needs: "table", .. }) => Ok(parameter),
             applies => applies.map(|()| parameter),
         }

@@ -4,6 +4,7 @@ use super::access::accept;
 use super::error::{Fault, SceneError, What};
 use super::parameter::{NARROWEST_TOOTH, ParameterKind, Range};
 use super::{Kind, Parameter, RotorModel, Scene, compliance};
+use crate::problem::Wedge;
 
 /// A rule between keys that is broken, and the keys it is about.
 pub(super) struct Broken {
@@ -54,7 +55,10 @@ impl Scene {
     pub(super) fn broken_rules(&self) -> Vec<Broken> {
         let mut broken = Vec::new();
         match &self.kind {
-            Kind::Motor { motor, stator, .. } => {
+            Kind::Motor { motor, stator, film, .. } => {
+                if !film.shear && self.numerics.wedge == Wedge::On {
+                    broken.push(Broken { what: What::WedgeWithoutShear, keys: &["numerics.wedge", "film.shear"] });
+                }
                 let allowed = self.tooth_widths_mm().filter(|range| !range.contains(stator.tooth_width_mm));
                 if let Some(range) = allowed {
                     broken.push(Broken {

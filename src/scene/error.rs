@@ -199,6 +199,20 @@ pub enum What {
     /// A rotor model that is planned.
     #[error("rotor.model = \"ring\" is reserved and not available: allowed \"beam\" or \"table\"")]
     ReservedModel,
+    /// A key that this kind of scene does not heed.
+    #[error("{key} has no effect on a {scene}: it cannot be changed or varied here")]
+    NoEffect {
+        /// The dotted key.
+        key: &'static str,
+        /// The scene this is.
+        scene: &'static str,
+    },
+    /// The wedge term is asked for and ruled out.
+    #[error(
+        "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: \
+         change one of the two"
+    )]
+    WedgeWithoutShear,
     /// A key that makes the scene what it is.
     #[error("{key} cannot be changed: start from another preset")]
     Fixed {
@@ -335,6 +349,7 @@ impl What {
             Self::UnknownKey { key, .. } | Self::OtherScene { key, .. } => Some(key),
             Self::OtherModel { key, .. }
             | Self::Fixed { key }
+            | Self::NoEffect { key, .. }
             | Self::TooManyRows { key, .. }
             | Self::Row { key, .. } => Some(key),
             Self::WrongType { parameter, .. }
@@ -345,6 +360,7 @@ impl What {
             Self::UnknownScene { .. } => Some("scene"),
             Self::UnknownTable { table, .. } => Some(table),
             Self::NotATable { table, .. } => Some(table),
+            Self::WedgeWithoutShear => Some("numerics.wedge"),
             Self::ReservedModel | Self::ComplianceMissing => Some("rotor.model"),
             Self::ToothAndPitch { .. } => Some("stator.tooth_width_mm"),
             Self::AmplitudeAndGap { .. } => Some("plate.amplitude_um"),

@@ -229,6 +229,41 @@ impl Scene {
         }
     }
 
+    /// The keys, but for name and description, in which this scene differs from `original`.
+    pub fn changed<'a>(&'a self, original: &'a Self) -> impl Iterator<Item = &'static Parameter> + 'a {
+        let told = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
+        told.filter(move |parameter| self.get(parameter.key) != original.get(parameter.key))
+    }
+
+    /// What to call a scene that was made of `original`: `Fundamental case, changed: 3 keys`, unless it has a name of its own.
+    pub fn title(&self, original: &Self) -> String {
+        match self.changed(original).count() {
+            keys if keys > 0 && self.name == original.name => {
+                format!("{}, changed: {keys} {}", self.name, if keys == 1 { "key" } else { "keys" })
+            }
+            _ => self.name.clone(),
+        }
+    }
+
+    /// Gives a scene that was made of `original` a name and a description that claim no more than is true: its [`Scene::title`], and
+    /// what was changed. Words of its own are kept.
+    pub fn retitle(&mut self, original: &Self) {
+        let shown = |scene: &Self, Parameter { key, unit, .. }: &Parameter| match scene.get(key) {
+            None => "none".to_owned(),
+            Some(Value::Rows(_)) => "another table".to_owned(),
+            Some(value) => format!("{value} {unit}").trim_end().to_owned(),
+        };
+        let changes = self.changed(original).map(|parameter| {
+            format!("{} = {}, was {}", parameter.key, shown(self, parameter), shown(original, parameter))
+        });
+        let changes = changes.collect::<Vec<_>>().join("; ");
+        let title = self.title(original);
+        if !changes.is_empty() && self.about == original.about {
+            self.about = format!("{} with {changes}.", original.name);
+        }
+        self.name = title;
+    }
+
     fn with_defaults(kind: Kind) -> Self {
         let mut scene = Self { name: String::new(), about: String::new(), kind, numerics: Numerics::default() };
         for parameter in PARAMETERS {

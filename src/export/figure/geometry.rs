@@ -104,6 +104,15 @@ pub(super) fn clipped_area(points: &[[f64; 2]], rect: &Rect) -> Vec<[f64; 2]> {
     thinned(&area)
 }
 
+/// A line of equal value keeps this share of the range from either end.
+const NEAR_END: f64 = 0.02;
+
+/// Whether a value at this fraction of the range of a map gets a line of equal value: near an end the line would follow what the
+/// error is of, not the field.
+pub(crate) fn is_contour(fraction: f64) -> bool {
+    (NEAR_END..=1.0 - NEAR_END).contains(&fraction)
+}
+
 /// The lines on which values at the nodes `x` × `y` (`[ix][iy]`) equal `level`, each in one piece. Cells with a value
 /// that is not a number have none.
 pub(crate) fn contour(x: &[f64], y: &[f64], values: &[f64], level: f64) -> Vec<Vec<[f64; 2]>> {

@@ -52,7 +52,7 @@ pub use description::{
 pub use files::{FigureError, Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
 
 #[cfg(feature = "gui")]
-pub(crate) use geometry::contour;
+pub(crate) use geometry::{contour, is_contour};
 
 pub(super) use files::{Pixels, pixels, png_bytes};
 

@@ -4,7 +4,7 @@ use super::colour::{Colour, Colours};
 use super::description::{
     Anchor, Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Panel, Points, Scale, Style,
 };
-use super::geometry::{clipped_area, clipped_line, contour};
+use super::geometry::{clipped_area, clipped_line, contour, is_contour};
 use super::isoline::{self, Isoline};
 use super::layout::{
     BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, TICK, axis_label, fills, first_map, map_range,
@@ -430,7 +430,8 @@ fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
     let scale = map.map_or(Scale::Linear, |map| map.scale);
     let range = Scaled::new(&super::description::Range::Auto, scale, values.into_iter(), false);
     let ticks = Ticks::new(&range, 10, false).ticks;
-    let labelled = ticks.into_iter().filter(|tick| tick.label.is_some()).map(|tick| tick.at).collect();
+    let labelled = ticks.into_iter().filter(|tick| tick.label.is_some()).map(|tick| tick.at);
+    let labelled = labelled.filter(|at| is_contour(range.fraction(*at))).collect();
     (labelled, round_step(range.to - range.from, 10).0)
 }
 
@@ -451,6 +452,15 @@ mod tests {
         assert_eq!(shown.len(), MARKERS);
         assert_ne!(shown, sparse(&points, 0));
         assert_eq!(sparse(&points[..5], 3).len(), 5);
+    }
+
+    #[test]
+    fn no_contour_follows_what_is_error_alone() {
+        // α of a map whose half carries nothing, up to the solver's error.
+        let values = vec![-1.1e-6, 2e-7, -3e-7, 0.98];
+        let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values };
+        let (values, _) = levels(&Contours { grid, ..Contours::default() }, None);
+        assert!(values.len() >= 4 && values.iter().all(|value| *value > 0.05), "{values:?}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Exports: the same code and the same names as those of the command line, on a thread of their own.
 
 use super::App;
+use crate::analysis::compare;
 use crate::analysis::torque::Merit;
 use crate::control::Cancel;
 use crate::export::animation::Options;
@@ -17,6 +18,8 @@ use crate::gui::pinned::{fidelity, of_window};
 use crate::job::Run;
 use crate::job::task::Task;
 use crate::motor::MotorError;
+use crate::problem::Problem;
+use crate::scene::Scene;
 use crate::solve::Settings;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -81,37 +84,47 @@ impl App {
         }
     }
 
+    /// The run on screen, and its scene with a name and a description that claim no more than is true of it.
+    fn named(&self) -> Option<(Arc<Run>, (Scene, Problem))> {
+        let run = self.shown.clone()?;
+        let mut scene = run.scene.clone();
+        scene.retitle(self.document.saved());
+        let problem = Problem { name: scene.name.clone(), ..run.problem.clone() };
+        Some((run, (scene, problem)))
+    }
+
     /// What is to be done, with its own share of all that it needs.
     fn work(&self, export: Export, path: PathBuf) -> Option<Work> {
         Some(match export {
             Export::Data => {
-                let run = self.shown.clone()?;
+                let (run, named) = self.named()?;
                 Box::new(move |control| {
-                    let mut summary = Summary::new(&run.problem, &run.solution, run.wall_s, &[]);
+                    let mut summary = Summary::new(&named.1, &run.solution, run.wall_s, &[]);
                     let merit = summary.add_merit(merit(&run, control.cancel));
-                    let solved = Solved { merit: merit.as_ref(), ..solved(&run) };
+                    let solved = Solved { merit: merit.as_ref(), ..solved(&run, &named) };
                     files::solve(&path, &solved, &summary, &BESIDE_DATA, control)
                 })
             }
             Export::Figures => {
-                let run = self.shown.clone()?;
+                let (run, named) = self.named()?;
                 Box::new(move |control| {
                     // Without it the other figures are still worth having.
                     let merit = merit(&run, control.cancel).ok().flatten();
-                    let solved = Solved { merit: merit.as_ref(), ..solved(&run) };
+                    let solved = Solved { merit: merit.as_ref(), ..solved(&run, &named) };
                     files::solve_figures(&path, &solved, &Format::ALL, control)
                 })
             }
             Export::Fields => {
-                let run = self.shown.clone()?;
-                Box::new(move |_| files::fields(&path, &solved(&run)))
+                let (run, named) = self.named()?;
+                Box::new(move |_| files::fields(&path, &solved(&run, &named)))
             }
             Export::Animation => {
-                let run = self.shown.clone()?;
-                Box::new(move |control| files::animation(&path, &solved(&run), &Options::default(), control))
+                let (run, named) = self.named()?;
+                Box::new(move |control| files::animation(&path, &solved(&run, &named), &Options::default(), control))
             }
             Export::Report => {
-                let run = of_window(self.shown.as_ref()?);
+                let (run, (scene, problem)) = self.named()?;
+                let run = compare::Run { label: scene.name.clone(), scene, problem, ..of_window(&run) };
                 let settings = at(&[fidelity(&run)]);
                 Box::new(move |control| files::html(&path, &[run], &settings, control))
             }
@@ -150,8 +163,8 @@ impl App {
     }
 }
 
-fn solved(run: &Run) -> Solved<'_> {
-    let Run { scene, problem, solution, history, .. } = run;
+fn solved<'a>(run: &'a Run, (scene, problem): &'a (Scene, Problem)) -> Solved<'a> {
+    let Run { solution, history, .. } = run;
     Solved { scene, problem, solution, history, merit: None }
 }
 

@@ -21,7 +21,8 @@ impl App {
         match asked {
             Pinning::Shown => {
                 if let Some(run) = &self.shown {
-                    self.pins.add(of_window(run));
+                    let label = run.scene.title(self.document.saved());
+                    self.pins.add(Run { label, ..of_window(run) });
                 }
             }
             Pinning::Preset(name) => self.pin_preset(ctx, name),

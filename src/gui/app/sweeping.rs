@@ -32,7 +32,10 @@ impl App {
             Sweeping::Open(point) => {
                 // Every point is a scene: the sweep has made them all.
                 let scene = self.sweeps.swept().and_then(|swept| swept.sweep().scene_at(point).ok());
-                if let Some(scene) = scene {
+                if let Some(mut scene) = scene {
+                    // A sweep says in its name what was changed; the present scene keeps its own.
+                    let present = self.document.scene();
+                    (scene.name, scene.about) = (present.name.clone(), present.about.clone());
                     self.change_scene(scene);
                 }
             }
@@ -45,7 +48,9 @@ impl App {
         let fidelity = self.sweeps.form().map(|form| form.fidelity).unwrap_or_default();
         // What is wrong with an axis is said at the axis.
         let Ok(vary) = self.sweeps.asked(scene) else { return };
-        match Sweep::new(scene, &vary, &Settings { fidelity, ..Settings::default() }) {
+        let mut swept = scene.clone();
+        swept.retitle(self.document.saved());
+        match Sweep::new(&swept, &vary, &Settings { fidelity, ..Settings::default() }) {
             Ok(sweep) => self.run_sweep(ctx, Arc::new(sweep), Vec::new()),
             Err(error) => self.sweeps.refuse(&error),
         }

@@ -282,7 +282,10 @@ fn numbers(ui: &mut Ui, teaching: &Teaching, step: &Step, scene: &Scene, colours
         row(ui, &mut |ui| drop(ui.label(quiet("Your run"))), [quiet("at first"), quiet("now"), quiet("")]);
         for &shown_name in &step.show {
             let words = shown_name.words();
-            let unit = if shown_name.unit().is_empty() { String::new() } else { format!(", {}", shown_name.unit()) };
+            let unit = match shown_name.unit(scene) {
+                "" => String::new(),
+                unit => format!(", {unit}"),
+            };
             let (first, now) = (value(shown_name, true), value(shown_name, false));
             let ratio = match (first, now) {
                 (Some(first), Some(now)) if first.abs() > 0.0 && (now / first - 1.0).abs() > UNCHANGED => {

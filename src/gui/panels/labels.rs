@@ -138,18 +138,9 @@ pub fn field_name(parameter: &Parameter) -> String {
 
 /// What the user should know about a parameter that has no effect here.
 pub fn unused(scene: &Scene, parameter: &Parameter) -> Option<&'static str> {
-    match (scene.scene(), parameter.key) {
-        ("plate", "film.min_spacing_nm" | "film.shear") => Some("No effect on a plate"),
-        (
-            "plate",
-            "numerics.contact_nodes"
-            | "numerics.wedge"
-            | "numerics.teeth"
-            | "numerics.width"
-            | "numerics.flow"
-            | "numerics.time",
-        ) => Some("No effect on a plate"),
-        (_, "numerics.contact_nodes") => Some("Only for squeezefilm solve --method paper"),
+    match parameter.key {
+        key if !scene.heeds(key) => Some("No effect on a plate"),
+        "numerics.contact_nodes" => Some("Only for squeezefilm solve --method paper"),
         _ => None,
     }
 }

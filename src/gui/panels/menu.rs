@@ -54,7 +54,7 @@ pub fn show(
         });
         ui.separator();
         let mark = if document.is_dirty() { " •" } else { "" };
-        let name = &document.scene().name;
+        let name = document.scene().title(document.saved());
         let title = ui.add(egui::Label::new(egui::RichText::new(format!("{name}{mark}")).strong()).truncate());
         let place = document.path().map_or_else(
             || {

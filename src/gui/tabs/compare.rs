@@ -297,13 +297,13 @@ fn results(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette) {
         for row in shown.pins.results() {
             let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
             let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
-            let label = ui.label(strong(capitalised(&row.quantity.label())));
+            let label = ui.label(strong(capitalised(&row.label())));
             glossary::here(ui, label, row.quantity.words());
             for (i, cell) in row.cells.iter().enumerate() {
                 if beside {
                     ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
                     if i > 0 {
-                        let difference = RichText::new(difference_text(cell)).color(colours.quiet);
+                        let difference = RichText::new(difference_text(row, cell)).color(colours.quiet);
                         ui.add(egui::Label::new(difference).extend());
                     }
                     continue;
@@ -311,7 +311,7 @@ fn results(ui: &mut Ui, shown: &Shown<'_>, colours: &Palette) {
                 ui.vertical(|ui| {
                     ui.spacing_mut().item_spacing.y = 0.0;
                     ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
-                    let difference = difference_text(cell);
+                    let difference = difference_text(row, cell);
                     if !difference.is_empty() {
                         ui.add(egui::Label::new(RichText::new(difference).color(colours.quiet)).extend());
                     }

@@ -48,12 +48,12 @@ $$ F = F_0 + p_a A \, \varepsilon \left( -S\,\cos\tau + D\,\sin\tau \right) + \d
     const STRIP: &str = r"
 Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow:
 
-$$ S - iD = 1 - \frac{2}{\kappa} \tanh\frac{\kappa}{2} \qquad \kappa^2 = \frac{i\sigma}{Q} $$";
+$$ S + iD = 1 - \frac{2}{\kappa} \tanh\frac{\kappa}{2} \qquad \kappa^2 = \frac{i\sigma}{Q} $$";
 
     const RECTANGLE: &str = r"
 Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow and $a$, width over length:
 
-$$ S - iD = \sum_{n\text{ odd}} \frac{8}{(n\pi)^2} \, \frac{i\sigma'}{q^2} \, \left( 1 - \frac{2}{qa} \tanh\frac{qa}{2} \right) $$
+$$ S + iD = \sum_{n\text{ odd}} \frac{8}{(n\pi)^2} \, \frac{i\sigma'}{q^2} \, \left( 1 - \frac{2}{qa} \tanh\frac{qa}{2} \right) $$
 
 $$ q^2 = (n\pi)^2 + i\sigma' \qquad \sigma' = \frac{\sigma}{Q} $$";
 

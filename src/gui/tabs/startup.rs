@@ -1,5 +1,6 @@
 //! The transient from rest, cycle after cycle as it is computed: how the film pumps up until the cycle repeats.
 
+use crate::export::startup::unsettled;
 use crate::gui::command::Command;
 use crate::gui::panels::hint::Hint;
 use crate::gui::spot;
@@ -126,6 +127,9 @@ fn ending(starting: &Starting, colours: &Palette, usual: egui::Color32) -> (Stri
             Status::Converged => (format!("Cycle {cycles}: repeats to {:.1e}", ended.remaining), colours.good),
             Status::Cancelled if cycles == 0 => ("Cancelled in the first cycle".to_owned(), colours.quiet),
             Status::Cancelled => (format!("Cancelled after cycle {cycles}: {open}"), colours.quiet),
+            Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {
+                (format!("Ended after cycle {cycles}: {}", unsettled(ended).unwrap_or_default()), colours.alarm)
+            }
             Status::NotConverged { .. } | Status::NotResolved { .. } => {
                 (format!("Ended after cycle {cycles}: {open}"), colours.alarm)
             }

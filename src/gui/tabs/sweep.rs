@@ -202,13 +202,14 @@ fn buttons(ui: &mut Ui, shown: &Shown<'_>, form: &Form, good: bool, commands: &m
 
 /// What is drawn of the points: changing it solves nothing.
 fn quantity(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
-    let all: Vec<Quantity> = match shown.sweeps.swept() {
-        Some(swept) => swept.sweep().quantities(),
+    let problem = match shown.sweeps.swept() {
+        Some(swept) => swept.sweep().problem().clone(),
         None => match Problem::new(shown.scene) {
-            Ok(problem) => Quantity::of(&problem).collect(),
+            Ok(problem) => problem,
             Err(_) => return,
         },
     };
+    let all: Vec<Quantity> = Quantity::of(&problem).collect();
     let present = shown.sweeps.quantity(&all);
     let em = ui.text_style_height(&TextStyle::Body);
     let combo = ComboBox::from_id_salt("quantity")
@@ -217,7 +218,7 @@ fn quantity(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         .height(24.0 * em)
         .show_ui(ui, |ui| {
             for quantity in all {
-                let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label()));
+                let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label(&problem)));
                 if glossary::hover(ui, entry, quantity.words()).clicked() {
                     send(commands, Sweeping::Draw(quantity));
                 }

@@ -8,7 +8,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Ending, Row, Sweep};
 use crate::analysis::table1::Published;
 use crate::export::digits::{significant, with_error};
-use crate::export::figure::contour;
+use crate::export::figure::{contour, is_contour};
 use crate::gui::command::Command;
 use crate::gui::panels::labels::label;
 use crate::gui::panels::parameters::capitalised;
@@ -29,8 +29,6 @@ const RING: f32 = 7.0;
 const NEAR: f32 = 40.0;
 /// Lines of equal value, about.
 const LEVELS: usize = 7;
-/// A line of equal value is at least this share of the range from its ends.
-const NEAR_END: f64 = 0.02;
 /// An end of the colours that is less than this share of the range is zero.
 const NOTHING: f64 = 1e-3;
 /// An axis of equal ratios has ticks at 2 and 5 if it spans fewer decades than this.
@@ -80,7 +78,7 @@ impl Plotted<'_> {
         for (axis, value) in self.sweep.axes().iter().zip(&row.values) {
             lines.push(format!("{} {} {}", label(axis.parameter), short(*value), axis.parameter.unit));
         }
-        let unit = self.quantity.unit();
+        let unit = self.quantity.unit(self.sweep.problem());
         let name = capitalised(self.quantity.words());
         let value = row.numbers.get(self.quantity).map(|value| {
             let error = self.quantity.error().map(|error| row.numbers.get(error).unwrap_or(f64::INFINITY));
@@ -277,7 +275,7 @@ fn line<'a>(ui: &Ui, ink: &Ink, area: Rect, plotted: &Plotted<'a>, axis: &Axis) 
     if table.iter().any(|at| inside(&at)) {
         legend.push(("Table I", ink.palette.contact));
     }
-    let title = capitalised(&plotted.quantity.label());
+    let title = capitalised(&plotted.quantity.label(plotted.sweep.problem()));
     ink.title(&painter, rect, plotted.quantity.words(), &[&title], &legend);
 
     let inner = painter.with_clip_rect(painter.clip_rect().intersect(rect.expand(RING)));
@@ -379,7 +377,7 @@ fn map<'a>(ui: &Ui, ink: &Ink, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &
     let rect = plot(area, ink, widest.max(2.0 * ink.row) + 8.0, 2.0);
     let axes = Axes::new(rect, limits[0], limits[1]);
     axes.canvas(&painter, ink);
-    let title = capitalised(&plotted.quantity.label());
+    let title = capitalised(&plotted.quantity.label(plotted.sweep.problem()));
     let title = if log { format!("{title}, logarithmic colours") } else { title };
     if plotted.rows.iter().any(|row| plotted.sound(row).is_some()) {
         let nothing = if log { 0.0 } else { NOTHING * (extent[1] - extent[0]) };
@@ -447,9 +445,9 @@ fn map<'a>(ui: &Ui, ink: &Ink, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &
 
 /// Values that get a line: none so near to an end that it would follow what the error is of.
 fn levels(ticks: Ticks, range: [f64; 2], log: bool) -> impl Iterator<Item = f64> {
-    let near = NEAR_END * (range[1] - range[0]);
+    let fraction = move |level: f64| (level - range[0]) / (range[1] - range[0]);
     let whole = move |level: &f64| !log || (level - level.round()).abs() < 1e-6;
-    ticks.values().filter(move |level| (range[0] + near..=range[1] - near).contains(level)).filter(whole)
+    ticks.values().filter(move |level| is_contour(fraction(*level))).filter(whole)
 }
 
 /// Lines of equal value where all neighbours are known, each with its value once.

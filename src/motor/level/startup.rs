@@ -15,6 +15,7 @@ use crate::solution::Stats;
 
 const DEPTH: usize = 6;
 const LONGEST_STEP: f64 = 1.0;
+/// Rounds of a step. One that needs more is taken as it is, and counted.
 const ROUND_LIMIT: usize = 60;
 
 impl Level {
@@ -50,7 +51,8 @@ impl Level {
     }
 
     /// One cycle on from the present instant, t = 0 of the cycle, each step solved to `tolerance` in ln ζ. Returns what `told`
-    /// makes of the cycle whose first frame is the present, and the largest change of ln Z over the cycle.
+    /// makes of the cycle whose first frame is the present, and the largest change of ln Z over the cycle. The residual of the
+    /// level is then the largest of a step.
     pub(in crate::motor) fn transient_cycle(
         &mut self,
         tolerance: f64,
@@ -62,17 +64,25 @@ impl Level {
         self.films.iter_mut().for_each(|film| film.accept(exact));
         self.contact.accept(CONTACT_SHARE * tolerance);
         let before: Vec<FilmState> = self.states.clone();
+        let mut worst = 0.0_f64;
         for step in 1..self.steps {
             if cancel.is_cancelled() {
                 return Err(Stop::Cancelled);
             }
             self.transient_step(step, tolerance, stats)?;
+            worst = worst.max(self.residual);
         }
         let recording = told(self);
         self.transient_step(0, tolerance, stats)?;
+        self.residual = worst.max(self.residual);
         self.films.iter_mut().for_each(|film| film.remember(true));
         let change = self.states.iter().zip(&before).map(|(now, then)| now.change_since(then)).fold(0.0, f64::max);
         Ok((recording, change))
+    }
+
+    /// Largest residual of a step of the last cycle, in ln ζ.
+    pub(in crate::motor) fn residual(&self) -> f64 {
+        self.residual
     }
 
     /// One step, to instant `m` of the cycle.
@@ -133,6 +143,7 @@ impl Level {
             }
             anderson.advance(&mut x, &image);
         }
+        stats.unsettled_steps += u64::from(self.residual >= tolerance);
         for tooth in 0..teeth {
             let here = line(tooth, m)..line(tooth, m) + nx;
             self.trapped[here].copy_from_slice(&present[tooth * nx..(tooth + 1) * nx]);
