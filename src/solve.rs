@@ -3,6 +3,7 @@
 use crate::control::{Cancel, Observer};
 use crate::fidelity::Fidelity;
 use crate::film::cycle::Interrupted;
+use crate::memory::{self, Excess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::Plan;
@@ -64,6 +65,41 @@ pub enum SolveError {
     /// The paper has no plate.
     #[error("method = paper is for motors: it has no plate scene; allowed here: auto")]
     PaperPlate,
+    /// It needs more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] Excess),
+}
+
+impl SolveError {
+    /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]).
+    pub fn is_bad_input(&self) -> bool {
+        matches!(self, Self::PaperPlate | Self::Memory(_))
+    }
+}
+
+/// Whether `problem` may be solved so: whether the method has such a scene, and the memory is allowed.
+///
+/// # Errors
+/// [`SolveError::PaperPlate`] or [`SolveError::Memory`].
+pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
+    Ok(memory::check(need(problem, settings)?)?)
+}
+
+fn need(problem: &Problem, settings: &Settings) -> Result<memory::Need, SolveError> {
+    let plan = |plan| Plan { maps: settings.record == Record::Everything, ..plan };
+    Ok(match (&problem.scenario, settings.method) {
+        (Scenario::Motor(motor), Method::Auto) => {
+            memory::motor(motor, &plan(Plan::motor(motor, settings.fidelity, &problem.numerics)))
+        }
+        (Scenario::Plate(plate), Method::Auto) => {
+            memory::plate(plate, &plan(Plan::plate(plate, settings.fidelity, &problem.numerics)))
+        }
+        (Scenario::Motor(motor), Method::Paper) => {
+            let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
+            memory::paper(motor, (nx, ny, n, steps))
+        }
+        (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
+    })
 }
 
 /// Solves `problem` for its periodic steady state.
@@ -71,7 +107,8 @@ pub enum SolveError {
 /// Reaching a limit or being cancelled is a [`Status`], not an error.
 ///
 /// # Errors
-/// [`SolveError`] when a step has no solution to working precision, or the method does not apply.
+/// [`SolveError`] when a step has no solution to working precision, the method does not apply, or it would need more memory
+/// than is allowed ([`memory::allow`]).
 pub fn solve(
     problem: &Problem,
     settings: &Settings,
@@ -93,6 +130,7 @@ pub fn solve_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
+    let taken = memory::take(need(problem, settings)?, cancel)?;
     let maps = settings.record == Record::Everything;
     let cancel = &cancel.started();
     let spec = settings.fidelity.spec();
@@ -130,6 +168,9 @@ pub fn solve_from(
         (Scenario::Motor(motor), Method::Paper) => paper::solve(motor, &problem.numerics, observer, cancel),
         (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
     };
+    if taken.bytes() > memory::KEPT {
+        *warm = Warm::default();
+    }
     if settings.record == Record::Numbers {
         solution.recording = Recording::default();
     }
