@@ -19,9 +19,9 @@ use std::time::Duration;
 const SHARE: u64 = 4;
 /// … or, where nothing is known of the machine, so many bytes.
 const UNKNOWN: u64 = 1_000_000_000;
-/// Bytes up to which the state that a solve ends with is kept to start the next from: a constant, since a start from it changes
-/// the last digits, which are not to depend on the machine.
-pub const KEPT: u64 = 128_000_000;
+/// Bytes up to which grids are refined beyond those of the plan, and up to which the states that a solve ends with are kept to start
+/// the next from. A constant, since either changes results, which are not to depend on the machine.
+pub const REFINED: u64 = 256_000_000;
 /// How often whoever waits looks whether it is cancelled.
 const LOOK: Duration = Duration::from_millis(50);
 
@@ -106,19 +106,19 @@ impl Film {
         self.rows * self.columns
     }
 
-    /// Inverses of the diagonal blocks of one linear solver (`numerics::five_point`).
+    /// Inverses of the diagonal blocks of one linear solver, with its matrix across (`numerics::rows`).
     fn blocks(&self) -> u64 {
-        (self.rows + 1) * self.columns * self.columns.next_multiple_of(4)
+        (self.rows + 2) * self.columns * self.columns.next_multiple_of(4)
     }
 
     /// A step of the film (`film::stepper`): fields, right-hand side, Jacobian, blocks.
     fn step(&self) -> u64 {
-        2 * self.nodes + 9 * self.unknowns() + self.blocks()
+        2 * self.nodes + 8 * self.unknowns() + self.blocks() + self.columns * self.columns
     }
 
     /// A cycle of the film (`film::cycle`): pressure of every step, averaged operator, its blocks; and the state.
     fn cycle(&self, steps: u64) -> u64 {
-        steps * self.unknowns() + self.step() + self.blocks() + 9 * self.unknowns()
+        steps * self.unknowns() + self.step() + self.blocks() + 8 * self.unknowns()
     }
 }
 
@@ -128,13 +128,28 @@ fn accelerated(depth: u64) -> u64 {
     2 * depth + 4
 }
 
-/// Fields that are kept of a cycle, of all grids, over those of the finest.
-const GRIDS_KEPT: f64 = 1.0;
+/// The fields of a cycle (`recording`), in lines of the finest grid and in pressure maps: those that are kept, with what their
+/// errors come from, and all of them while they are extrapolated.
+const KEPT_LINES: u64 = 10;
+const EXTRAPOLATED_LINES: u64 = 16;
+const EXTRAPOLATED_MAPS: u64 = 2;
 
-/// The fields of a cycle, the finest grid being this, with pressure maps of so many teeth (`recording`).
-fn recorded(film: &Film, stored: u64, steps: u64, maps: u64) -> u64 {
-    let finest = 4 * stored * steps * film.along + maps * steps * film.nodes;
-    (GRIDS_KEPT * finest as f64) as u64
+/// All grids of a plan, those included to which it may be refined.
+fn grids(plan: &Plan) -> Vec<Grid> {
+    let mut grids = plan.grids.clone();
+    while let Some(finest) = grids.last().filter(|_| grids.len() < plan.most_grids) {
+        grids.push(finest.finer(plan.spectral));
+    }
+    grids
+}
+
+/// `plan`, refined no further than [`REFINED`] and the budget allow, whatever that leaves of its accuracy: of the grids that were
+/// asked for there is none less.
+pub fn within(mut plan: Plan, need: impl Fn(&Plan) -> Need) -> Plan {
+    while plan.most_grids > plan.grids.len() && need(&plan).bytes > REFINED.min(allowed()) {
+        plan.most_grids -= 1;
+    }
+    plan
 }
 
 /// One grid of a motor (`motor::level`).
@@ -170,49 +185,58 @@ fn of_plate(plate: &Plate, plan: &Plan, numbers: u64) -> Need {
 }
 
 /// Of a motor's periodic state: all grids are kept to the end; beside them there is the acceleration of the finest, and then the
-/// recording.
+/// fields.
 pub fn motor(motor: &Motor, plan: &Plan) -> Need {
-    let levels: u64 = plan.grids.iter().map(|grid| level(motor, plan, grid)).sum();
+    let grids = grids(plan);
+    let levels: u64 = grids.iter().map(|grid| level(motor, plan, grid)).sum();
     let stored = if plan.every_tooth { motor.teeth as u64 } else { 1 };
-    let beside = plan.grids.last().map_or(0, |grid| {
+    let beside = grids.last().map_or(0, |grid| {
         let (film, steps) = (Film::of_motor(plan, grid), grid.steps as u64);
         let unknowns = stored * (steps * film.rows + 2 * film.unknowns());
-        // What was recorded of the coarser grids included.
-        let recording = recorded(&film, stored, steps, u64::from(plan.maps)) + stored * steps * film.along;
-        (accelerated(16) * unknowns).max(recording)
+        let maps = if plan.maps { EXTRAPOLATED_MAPS * stored * steps * film.nodes } else { 0 };
+        (accelerated(16) * unknowns).max(EXTRAPOLATED_LINES * stored * steps * film.along + maps)
     });
     of_motor(motor, plan, levels + beside)
 }
 
-/// Of a plate's periodic state: one grid after the other, with its acceleration, and then its recording.
-pub fn plate(plate: &Plate, plan: &Plan) -> Need {
-    let numbers = plan.grids.last().map_or(0, |grid| {
-        let (film, steps) = (Film::of_plate(plate, grid), grid.steps as u64);
-        let beside = (accelerated(8) * 2 * film.unknowns()).max(recorded(&film, 1, steps, u64::from(plan.maps)));
-        film.cycle(steps) + 2 * steps * film.along + beside
-    });
-    of_plate(plate, plan, numbers)
+/// One grid of a plate (`plate`).
+fn plate_level(plate: &Plate, grid: &Grid) -> u64 {
+    let (film, steps) = (Film::of_plate(plate, grid), grid.steps as u64);
+    film.cycle(steps) + 2 * steps * film.along
 }
 
-/// Of a motor's transient from rest (`startup`): every tooth on all grids, and recordings with all maps: the present one, and so
-/// many that whoever asked for it keeps.
+/// Of a plate's periodic state, likewise.
+pub fn plate(plate: &Plate, plan: &Plan) -> Need {
+    let grids = grids(plan);
+    let levels: u64 = grids.iter().map(|grid| plate_level(plate, grid)).sum();
+    let beside = grids.last().map_or(0, |grid| {
+        let (film, steps) = (Film::of_plate(plate, grid), grid.steps as u64);
+        let maps = if plan.maps { EXTRAPOLATED_MAPS * steps * film.nodes } else { 0 };
+        (accelerated(8) * 2 * film.unknowns()).max(EXTRAPOLATED_LINES * steps * film.along + maps)
+    });
+    of_plate(plate, plan, levels + beside)
+}
+
+/// Fields of a transient's cycle: those that are being made, and so many cycles that whoever asked for them keeps.
+fn transient(film: &Film, stored: u64, steps: u64, maps: bool, kept: usize) -> u64 {
+    let (lines, maps) = (stored * steps * film.along, if maps { stored * steps * film.nodes } else { 0 });
+    EXTRAPOLATED_LINES * lines + EXTRAPOLATED_MAPS * maps + kept as u64 * (KEPT_LINES * lines + maps)
+}
+
+/// Of a motor's transient from rest (`startup`), every tooth on all grids of the plan, of whose cycles so many are kept.
 pub fn motor_startup(motor: &Motor, plan: &Plan, kept: usize) -> Need {
     let plan = Plan { every_tooth: true, trapped: false, ..plan.clone() };
     let levels: u64 = plan.grids.iter().map(|grid| level(motor, &plan, grid)).sum();
-    let teeth = motor.teeth as u64;
-    let maps = if plan.maps { teeth } else { 0 };
-    let recording =
-        plan.grids.last().map_or(0, |grid| recorded(&Film::of_motor(&plan, grid), teeth, grid.steps as u64, maps));
-    of_motor(motor, &plan, levels + (1 + kept as u64) * recording)
+    let fields =
+        |grid: &Grid| transient(&Film::of_motor(&plan, grid), motor.teeth as u64, grid.steps as u64, plan.maps, kept);
+    of_motor(motor, &plan, levels + plan.grids.last().map_or(0, fields))
 }
 
 /// Of a plate's transient from rest, likewise.
 pub fn plate_startup(plate: &Plate, plan: &Plan, kept: usize) -> Need {
-    let film = |grid: &Grid| Film::of_plate(plate, grid);
-    let levels = |grid: &Grid| film(grid).cycle(grid.steps as u64) + 2 * grid.steps as u64 * film(grid).along;
-    let recording = |grid: &Grid| recorded(&film(grid), 1, grid.steps as u64, u64::from(plan.maps));
-    let levels: u64 = plan.grids.iter().map(levels).sum();
-    of_plate(plate, plan, levels + (1 + kept as u64) * plan.grids.last().map_or(0, recording))
+    let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, grid)).sum();
+    let fields = |grid: &Grid| transient(&Film::of_plate(plate, grid), 1, grid.steps as u64, plan.maps, kept);
+    of_plate(plate, plan, levels + plan.grids.last().map_or(0, fields))
 }
 
 /// Of the paper's method, on so many film nodes along and across, contact spacings and steps: a recording of every tooth, films

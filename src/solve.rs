@@ -1,14 +1,14 @@
 //! One call for either scene: problem and settings in, solution out.
 
 use crate::control::{Cancel, Observer};
-use crate::fidelity::Fidelity;
+use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
 use crate::memory::{self, Excess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::Plan;
 use crate::plate;
-use crate::problem::{Problem, Scenario};
+use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
 use crate::solution::{Accuracy, Model, Outcome, Solution, Status, StoppedBy};
 
@@ -86,20 +86,28 @@ pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
 }
 
 fn need(problem: &Problem, settings: &Settings) -> Result<memory::Need, SolveError> {
-    let plan = |plan| Plan { maps: settings.record == Record::Everything, ..plan };
+    let spec = settings.fidelity.spec();
     Ok(match (&problem.scenario, settings.method) {
-        (Scenario::Motor(motor), Method::Auto) => {
-            memory::motor(motor, &plan(Plan::motor(motor, settings.fidelity, &problem.numerics)))
-        }
-        (Scenario::Plate(plate), Method::Auto) => {
-            memory::plate(plate, &plan(Plan::plate(plate, settings.fidelity, &problem.numerics)))
-        }
+        (Scenario::Motor(motor), Method::Auto) => memory::motor(motor, &motor_plan(motor, problem, settings, &spec)),
+        (Scenario::Plate(plate), Method::Auto) => memory::plate(plate, &plate_plan(plate, problem, settings, &spec)),
         (Scenario::Motor(motor), Method::Paper) => {
             let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
             memory::paper(motor, (nx, ny, n, steps))
         }
         (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
     })
+}
+
+fn motor_plan(motor: &Motor, problem: &Problem, settings: &Settings, spec: &Spec) -> Plan {
+    let maps = settings.record == Record::Everything;
+    let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, spec, &problem.numerics) };
+    memory::within(plan, |plan| memory::motor(motor, plan))
+}
+
+fn plate_plan(plate: &Plate, problem: &Problem, settings: &Settings, spec: &Spec) -> Plan {
+    let maps = settings.record == Record::Everything;
+    let plan = Plan { maps, ..Plan::plate_to(plate, settings.fidelity, spec, &problem.numerics) };
+    memory::within(plan, |plan| memory::plate(plate, plan))
 }
 
 /// Solves `problem` for its periodic steady state.
@@ -131,13 +139,12 @@ pub fn solve_from(
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
     let taken = memory::take(need(problem, settings)?, cancel)?;
-    let maps = settings.record == Record::Everything;
     let cancel = &cancel.started();
     let spec = settings.fidelity.spec();
     let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
     let mut solution = match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
-            let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, &spec, &problem.numerics) };
+            let plan = motor_plan(motor, problem, settings, &spec);
             let found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
             let result = &found.result;
@@ -152,7 +159,7 @@ pub fn solve_from(
             }
         }
         (Scenario::Plate(plate), Method::Auto) => {
-            let plan = Plan { maps, ..Plan::plate_to(plate, settings.fidelity, &spec, &problem.numerics) };
+            let plan = plate_plan(plate, problem, settings, &spec);
             let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
             let result = &found.result;
             Solution {
@@ -168,7 +175,7 @@ pub fn solve_from(
         (Scenario::Motor(motor), Method::Paper) => paper::solve(motor, &problem.numerics, observer, cancel),
         (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
     };
-    if taken.bytes() > memory::KEPT {
+    if taken.bytes() > memory::REFINED {
         *warm = Warm::default();
     }
     if settings.record == Record::Numbers {
