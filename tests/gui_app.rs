@@ -421,7 +421,7 @@ fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
     let steps = window.state().document().scene().get("numerics.steps_per_cycle");
     assert_eq!(steps, Some(Value::Number(100_000.0)));
     window.step();
-    window.get_by_label_contains("2001 × 505 film nodes on 9 teeth and 100008 steps a cycle need");
+    window.get_by_label_contains("2001 × 501 film nodes on 9 teeth and 100008 steps a cycle need");
     window.get_by_label_contains("allow more with --memory");
 }
 

@@ -147,10 +147,10 @@ fn what_needs_too_much_is_refused_before_it_is_allocated() {
     assert!(allocated.bytes_max < 1_000_000, "{allocated:?}");
     let Some(SolveError::Memory(excess)) = told else { panic!("{told:?}") };
     assert_eq!(check(&problem, &settings), Err(SolveError::Memory(excess)));
-    assert_eq!((excess.need.along, excess.need.across, excess.need.teeth), (2001, 505, 64));
+    assert_eq!((excess.need.along, excess.need.across, excess.need.teeth), (2001, 501, 64));
     assert!(excess.need.bytes > excess.allowed && excess.allowed == memory::allowed(), "{excess:?}");
     let message = excess.to_string();
-    for words in ["2001 × 505 film nodes on 64 teeth", "numerics.steps_per_cycle", "--memory", "allowed"] {
+    for words in ["2001 × 501 film nodes on 64 teeth", "numerics.steps_per_cycle", "--memory", "allowed"] {
         assert!(message.contains(words), "{message}");
     }
     let refused = startup(&problem, &startup::Settings::default(), &mut |_| (), &Cancel::new()).unwrap_err();
