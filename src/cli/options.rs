@@ -2,8 +2,8 @@
 
 use super::exit::CliError;
 use super::terminal;
-use crate::export::figure::Format;
 use crate::control::Cancel;
+use crate::export::figure::Format;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::memory;
 use crate::scene::{Scene, presets};
@@ -199,7 +199,9 @@ fn duration(text: &str) -> Result<Duration, String> {
         .ok_or_else(|| format!("{text} has no unit: expected a time such as 20ms, 1.5s or 2min"))?;
     match number.trim().parse::<f64>() {
         Ok(number) if number > 0.0 && number * unit <= 86_400.0 => Ok(Duration::from_secs_f64(number * unit)),
-        _ => Err(format!("{text} is not a time: expected more than nothing and at most a day, such as 20ms, 1.5s or 2min")),
+        _ => Err(format!(
+            "{text} is not a time: expected more than nothing and at most a day, such as 20ms, 1.5s or 2min"
+        )),
     }
 }
 
