@@ -54,6 +54,7 @@
 //! | [`rotor`], [`contact`] | the compliance; contact and load balance at one instant |
 //! | [`fidelity`], [`plan`], [`estimate`] | how much accuracy; what this scene needs; the error that is left |
 //! | [`recording`], [`solution`] | what a solve returns: plain data |
+//! | [`memory`] | what a solve needs of it, and what all solves may take |
 //! | [`motor`], [`plate`] | the periodic state of either scene |
 //! | [`mod@startup`], [`hold`] | the transient from rest; a plate held by hand |
 //! | [`mod@paper`] | the algorithm of Maeno and Bogy (1992), literally |
@@ -79,6 +80,7 @@ pub mod hold;
 pub mod job;
 pub mod ladder;
 pub mod lessons;
+pub mod memory;
 pub mod motor;
 pub mod numerics;
 pub mod paper;

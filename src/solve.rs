@@ -1,13 +1,14 @@
 //! One call for either scene: problem and settings in, solution out.
 
 use crate::control::{Cancel, Observer};
-use crate::fidelity::Fidelity;
+use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
+use crate::memory::{self, Excess};
 use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::Plan;
 use crate::plate;
-use crate::problem::{Problem, Scenario};
+use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
 use crate::solution::{Accuracy, Model, Outcome, Solution, Status, StoppedBy};
 
@@ -64,6 +65,49 @@ pub enum SolveError {
     /// The paper has no plate.
     #[error("method = paper is for motors: it has no plate scene; allowed here: auto")]
     PaperPlate,
+    /// It needs more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] Excess),
+}
+
+impl SolveError {
+    /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]).
+    pub fn is_bad_input(&self) -> bool {
+        matches!(self, Self::PaperPlate | Self::Memory(_))
+    }
+}
+
+/// Whether `problem` may be solved so: whether the method has such a scene, and the memory is allowed.
+///
+/// # Errors
+/// [`SolveError::PaperPlate`] or [`SolveError::Memory`].
+pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
+    Ok(memory::check(need(problem, settings)?)?)
+}
+
+fn need(problem: &Problem, settings: &Settings) -> Result<memory::Need, SolveError> {
+    let spec = settings.fidelity.spec();
+    Ok(match (&problem.scenario, settings.method) {
+        (Scenario::Motor(motor), Method::Auto) => memory::motor(motor, &motor_plan(motor, problem, settings, &spec)),
+        (Scenario::Plate(plate), Method::Auto) => memory::plate(plate, &plate_plan(plate, problem, settings, &spec)),
+        (Scenario::Motor(motor), Method::Paper) => {
+            let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
+            memory::paper(motor, (nx, ny, n, steps))
+        }
+        (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
+    })
+}
+
+fn motor_plan(motor: &Motor, problem: &Problem, settings: &Settings, spec: &Spec) -> Plan {
+    let maps = settings.record == Record::Everything;
+    let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, spec, &problem.numerics) };
+    memory::within(plan, |plan| memory::motor(motor, plan))
+}
+
+fn plate_plan(plate: &Plate, problem: &Problem, settings: &Settings, spec: &Spec) -> Plan {
+    let maps = settings.record == Record::Everything;
+    let plan = Plan { maps, ..Plan::plate_to(plate, settings.fidelity, spec, &problem.numerics) };
+    memory::within(plan, |plan| memory::plate(plate, plan))
 }
 
 /// Solves `problem` for its periodic steady state.
@@ -71,7 +115,8 @@ pub enum SolveError {
 /// Reaching a limit or being cancelled is a [`Status`], not an error.
 ///
 /// # Errors
-/// [`SolveError`] when a step has no solution to working precision, or the method does not apply.
+/// [`SolveError`] when a step has no solution to working precision, the method does not apply, or it would need more memory
+/// than is allowed ([`memory::allow`]).
 pub fn solve(
     problem: &Problem,
     settings: &Settings,
@@ -93,13 +138,13 @@ pub fn solve_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
-    let maps = settings.record == Record::Everything;
+    let taken = memory::take(need(problem, settings)?, cancel)?;
     let cancel = &cancel.started();
     let spec = settings.fidelity.spec();
     let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
     let mut solution = match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
-            let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, &spec, &problem.numerics) };
+            let plan = motor_plan(motor, problem, settings, &spec);
             let found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
             let result = &found.result;
@@ -114,7 +159,7 @@ pub fn solve_from(
             }
         }
         (Scenario::Plate(plate), Method::Auto) => {
-            let plan = Plan { maps, ..Plan::plate_to(plate, settings.fidelity, &spec, &problem.numerics) };
+            let plan = plate_plan(plate, problem, settings, &spec);
             let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
             let result = &found.result;
             Solution {
@@ -132,6 +177,9 @@ pub fn solve_from(
     };
     if let Scenario::Motor(motor) = &problem.scenario {
         solution.warnings.extend(motor.compliance_not_covered());
+    }
+    if taken.bytes() > memory::REFINED {
+        *warm = Warm::default();
     }
     if settings.record == Record::Numbers {
         solution.recording = Recording::default();

@@ -6,6 +6,7 @@
 
 use crate::control::Cancel;
 use crate::fidelity::Fidelity;
+use crate::memory::{self, Taken};
 use crate::motor;
 use crate::plan::Plan;
 use crate::plate;
@@ -38,11 +39,13 @@ pub struct Settings {
     pub cycles: usize,
     /// What [`Cycle::remaining`] has to fall below.
     pub tolerance: f64,
+    /// Cycles that whoever they are handed to keeps at a time, for the memory that they take.
+    pub kept: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { fidelity: Fidelity::Standard, cycles: 300, tolerance: 1e-3 }
+        Self { fidelity: Fidelity::Standard, cycles: 300, tolerance: 1e-3, kept: 1 }
     }
 }
 
@@ -64,7 +67,7 @@ pub struct Startup {
 /// Starts `problem` from rest and hands over each cycle as it is completed.
 ///
 /// # Errors
-/// [`SolveError`] if a step has no solution to working precision.
+/// [`SolveError`] if a step has no solution to working precision, or it would need more memory than is allowed.
 pub fn startup(
     problem: &Problem,
     settings: &Settings,
@@ -81,7 +84,7 @@ pub fn startup(
         remaining: f64::INFINITY,
         stats: Stats::default(),
     };
-    let mut transient = Transient::at_rest(problem, settings.fidelity)?;
+    let (mut transient, _taken) = Transient::at_rest(problem, settings, cancel)?;
     let mut last = f64::INFINITY;
     for number in 1..=settings.cycles {
         let Some((outcome, recording, change)) = transient.cycle(cancel)? else {
@@ -124,16 +127,24 @@ enum Transient<'a> {
 }
 
 impl<'a> Transient<'a> {
-    fn at_rest(problem: &'a Problem, fidelity: Fidelity) -> Result<Self, SolveError> {
+    /// With the memory that it takes.
+    fn at_rest(
+        problem: &'a Problem,
+        settings: &Settings,
+        cancel: &Cancel,
+    ) -> Result<(Self, Taken<'static>), SolveError> {
         // A transient leaks: there is no limit to take.
         let numerics = Numerics { time: Time::March, ..problem.numerics };
         Ok(match &problem.scenario {
             Scenario::Motor(motor) => {
-                let plan = Plan::motor(motor, fidelity, &numerics);
-                Self::Motor(Box::new(motor::Transient::at_rest(motor, &plan)?))
+                let plan = Plan::motor(motor, settings.fidelity, &numerics);
+                let taken = memory::take(memory::motor_startup(motor, &plan, settings.kept), cancel)?;
+                (Self::Motor(Box::new(motor::Transient::at_rest(motor, &plan)?)), taken)
             }
             Scenario::Plate(plate) => {
-                Self::Plate(Box::new(plate::Transient::at_rest(plate, &Plan::plate(plate, fidelity, &numerics))))
+                let plan = Plan::plate(plate, settings.fidelity, &numerics);
+                let taken = memory::take(memory::plate_startup(plate, &plan, settings.kept), cancel)?;
+                (Self::Plate(Box::new(plate::Transient::at_rest(plate, &plan))), taken)
             }
         })
     }

@@ -368,6 +368,19 @@ fn files_of_a_strip_are_per_metre() {
     assert!(folder.path().join("exact.svg").exists());
     let exact = |key: &str| summary["exact"][key].as_f64().unwrap();
     assert!(exact("invariant_deviation") < 1e-3 && exact("spring") > 0.0 && exact("damping") > 0.0);
+    // The amplitude of the load over that of the gap, in either unit.
+    let unit = 101.325e3 * 1e-3 / 1e-6;
+    let omega = std::f64::consts::TAU * 1e3;
+    for (same, key, unit) in [
+        ("spring", "stiffness_n_per_m", unit),
+        ("spring_error", "stiffness_error_n_per_m", unit),
+        ("linear_spring", "linear_stiffness_n_per_m", unit),
+        ("damping", "damping_n_s_per_m", unit / omega),
+        ("damping_error", "damping_error_n_s_per_m", unit / omega),
+        ("linear_damping", "linear_damping_n_s_per_m", unit / omega),
+    ] {
+        assert!(close(exact(key), exact(same) * unit), "{key}");
+    }
     assert!(close(exact("mean_pressure_ratio"), 1.0 + summary["mean_load_ratio"].as_f64().unwrap()));
     assert!(solved(&["fundamental"])["exact"].is_null());
 }

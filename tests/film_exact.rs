@@ -3,7 +3,9 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used)]
 
+use squeezefilm::analysis::exact::Comparison;
 use squeezefilm::control::Cancel;
+use squeezefilm::estimate::Estimate;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::cycle::FilmCycle;
 use squeezefilm::film::exact;
@@ -11,7 +13,8 @@ use squeezefilm::film::grid::{Axis, FilmGrid, Start};
 use squeezefilm::film::stepper::FilmState;
 use squeezefilm::plan::Plan;
 use squeezefilm::plate::{self, Periodic};
-use squeezefilm::problem::{Gas, Numerics, Plate, Slip};
+use squeezefilm::problem::{Gas, Numerics, Plate, Problem, Scenario, Slip};
+use squeezefilm::scene::presets;
 use squeezefilm::solution::Status;
 
 const GAP: f64 = 1e-6;
@@ -228,6 +231,28 @@ fn the_plate_of_two_other_codes() {
             "{load:.6e} ± {:.1e}, expected {expected}",
             found.result.film_load_error
         );
+    }
+}
+
+#[test]
+fn the_published_stiffness_and_damping_of_a_plate() {
+    // The benchmark of a commercial code prints 28.65e3 N/m and 15.29e-3 N s/m. One unit of the last digit is allowed, as
+    // the last digit of the damping is cut, not rounded: the linear film, which the benchmark is about, has 15.298e-3.
+    let problem = Problem::new(&presets::find("plate-mems").unwrap()).unwrap();
+    let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
+    let found = solve(plate, Fidelity::Standard);
+    let film_load = Estimate { value: found.result.film_load, error: found.result.film_load_error };
+    let compared = Comparison::of(plate, film_load, &found.recording);
+    let solved = compared.stiffness_and_damping().unwrap();
+    for (what, solved, published, digit, exact) in [
+        ("stiffness", solved.spring, 28.65e3, 0.01e3, compared.linear.spring * compared.unit.spring),
+        ("damping", solved.damping, 15.29e-3, 0.01e-3, compared.linear.damping * compared.unit.damping),
+    ] {
+        println!("{what}: {:.6e} ± {:.1e}, linear film {exact:.6e}", solved.value, solved.error);
+        assert!((exact - published).abs() < digit, "{what}: {exact}");
+        assert!((solved.value - published).abs() < digit, "{what}: {solved:?}");
+        assert!((solved.value - exact).abs() < solved.error, "{what}: {solved:?}, linear film {exact}");
+        assert!(solved.error < 2e-3 * exact, "{what}: {solved:?}");
     }
 }
 

@@ -398,6 +398,34 @@ fn unsaved_work_survives_a_crash() {
 }
 
 #[test]
+fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
+    let large = [
+        ("numerics.film_nodes_along", "2001"),
+        ("numerics.film_nodes_across", "501"),
+        ("numerics.steps_per_cycle", "100000"),
+        ("numerics.teeth", "all"),
+    ];
+    let mut scene = presets::find("fundamental").unwrap();
+    scene.set_all(large).unwrap();
+    let mut first = Harness::builder().build_eframe(move |context| App::new(context, Some((scene, None))).unwrap());
+    until(&mut first, "the refusal", |app| app.activity().failure.is_some());
+    let mut memory = Memory::default();
+    eframe::App::save(first.state_mut(), &mut memory);
+    drop(first);
+    let memory: &'static Memory = Box::leak(Box::new(memory));
+    let mut window = Harness::builder().with_size(Vec2::new(1400.0, 900.0)).build_eframe(move |context| {
+        context.storage = Some(memory);
+        App::new(context, None).unwrap()
+    });
+    until(&mut window, "the refusal", |app| app.activity().failure.is_some() && app.activity().running.is_none());
+    let steps = window.state().document().scene().get("numerics.steps_per_cycle");
+    assert_eq!(steps, Some(Value::Number(100_000.0)));
+    window.step();
+    window.get_by_label_contains("2001 × 501 film nodes on 9 teeth and 100008 steps a cycle need");
+    window.get_by_label_contains("allow more with --memory");
+}
+
+#[test]
 fn the_sheet_of_shortcuts_opens_and_closes() {
     let mut window = window("plate-crossover");
     solved(&mut window);
@@ -663,7 +691,7 @@ fn a_plate_has_exact_results_in_place_of_torque() {
         for name in ["Spring and damping against the squeeze number", "Load over the cycle and its limits"] {
             window.get_by_role_and_label(Role::Image, name);
         }
-        for name in ["Spring S", "Damping D", "Invariant, off by"] {
+        for name in ["Spring S", "Damping D", "Stiffness, N/m²", "Damping, N·s/m²", "Invariant, off by"] {
             window.get_by_label(name);
         }
         // Formulae that are set, in plain text.

@@ -635,6 +635,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     ctrl(&mut window, Key::Num4);
     let exact = ["Squeeze number", "Spring", "Damping", "σ/Q", "Spring and damping", "Boyle", "t/T", "Film load"];
     explains(faults, &window, "Exact", &exact);
+    explains(faults, &window, "Exact, in units", &["Stiffness of the film", "Damping coefficient"]);
     explains(faults, &window, "Exact, table", &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible (σ → 0)"]);
     hovers(faults, &mut window, "Mean pressure", "comes to a limit");
     ctrl(&mut window, Key::Num7);

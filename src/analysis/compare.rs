@@ -10,7 +10,7 @@ use crate::control::Cancel;
 use crate::problem::Problem;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value};
 use crate::solution::{Solution, Status};
-use crate::solve::{Settings, SolveError};
+use crate::solve::{Settings, SolveError, check};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -62,10 +62,7 @@ pub fn runs(
     finished: &(dyn Fn(&Run) + Sync),
 ) -> Result<Vec<Run>, CompareError> {
     let problems = scenes.iter().map(Problem::new).collect::<Result<Vec<_>, _>>()?;
-    let plate = |problem: &Problem| matches!(problem.scenario, crate::problem::Scenario::Plate(_));
-    if settings.method == crate::solve::Method::Paper && problems.iter().any(plate) {
-        return Err(SolveError::PaperPlate.into());
-    }
+    problems.iter().try_for_each(|problem| check(problem, settings))?;
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
     let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
         let solved = attempt(&problem, settings, &mut (), cancel).map(Arc::new);

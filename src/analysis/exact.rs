@@ -21,13 +21,22 @@ use std::f64::consts::TAU;
 /// Samples of a cycle for exact means: spectrally accurate.
 const SAMPLES: usize = 1024;
 
-/// Spring and damping: parts of the load amplitude over p_a · area · ε, both positive if they resist.
+/// Spring and damping: parts of the load amplitude over p_a · area · ε, both positive if they resist. Or the same over the
+/// amplitude and over the greatest speed: stiffness \[N/m\] and damping \[N s/m\], of a strip per metre of width.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harmonic<T> {
     /// In phase with the approach: 1 for gas that cannot leave.
     pub spring: T,
     /// In phase with the speed of the approach.
     pub damping: T,
+}
+
+impl Harmonic<f64> {
+    /// What a spring and a damping of 1 are in N/m and N s/m, of a strip per metre of width: p_a A/h₀, and that over ω.
+    pub fn unit(plate: &Plate) -> Self {
+        let spring = plate.gas.ambient_pressure * plate.area() / plate.mean_gap;
+        Self { spring, damping: spring / (TAU * plate.frequency) }
+    }
 }
 
 /// Loads of the limits over the cycle \[N, of a strip N/m\], at the frames of a recording.
@@ -48,6 +57,8 @@ pub struct Comparison {
     pub solved: Option<Harmonic<Estimate>>,
     /// Exact for ε → 0.
     pub linear: Harmonic<f64>,
+    /// What a spring and a damping of 1 are in N/m and N s/m, of a strip per metre of width.
+    pub unit: Harmonic<f64>,
     /// Cycle mean of P over the plate, solved, with its error …
     pub mean_pressure: Estimate,
     /// … and in the limit σ → ∞ (Langlois 1962, Salbu 1964).
@@ -59,6 +70,15 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// Stiffness \[N/m\] and damping \[N s/m\] of the solved load, of a strip per metre of width; `None` if nothing vibrates.
+    pub fn stiffness_and_damping(&self) -> Option<Harmonic<Estimate>> {
+        let times = |number: Estimate, unit: f64| Estimate { value: number.value * unit, error: number.error * unit };
+        self.solved.map(|solved| Harmonic {
+            spring: times(solved.spring, self.unit.spring),
+            damping: times(solved.damping, self.unit.damping),
+        })
+    }
+
     /// Of a solve of `plate`; `film_load` is its mean \[N\] with its error.
     pub fn of(plate: &Plate, film_load: Estimate, recording: &Recording) -> Self {
         let force = plate.gas.ambient_pressure * plate.area();
@@ -70,6 +90,7 @@ impl Comparison {
             effective_squeeze_number: effective,
             solved: solved(plate, recording),
             linear: linear(effective, aspect(plate)),
+            unit: Harmonic::unit(plate),
             mean_pressure: Estimate { value: 1.0 + film_load.value / force, error: film_load.error / force },
             trapped_mean_pressure: trapped * mean_inverse,
             invariant_deviation: invariant_deviation(plate, recording),

@@ -12,10 +12,10 @@ use super::quantity::{Numbers, Quantity};
 use super::table1::{Published, published_at};
 use crate::control::Cancel;
 use crate::motor::Warm;
-use crate::problem::{Problem, Scenario};
+use crate::problem::Problem;
 use crate::scene::{Fault, Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use crate::solution::Status;
-use crate::solve::{Method, Record, Settings, SolveError};
+use crate::solve::{Method, Record, Settings, SolveError, check};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::str::FromStr;
@@ -180,7 +180,7 @@ pub enum SweepError {
     /// A value outside its range, or a key that does not exist.
     #[error("{0}")]
     Scene(#[from] SceneError),
-    /// A method that does not apply.
+    /// A method that does not apply, or more memory than is allowed.
     #[error(transparent)]
     Solve(#[from] SolveError),
 }
@@ -239,9 +239,7 @@ impl Sweep {
         for point in 0..count {
             let values = values_at(&axes, point);
             let problem = Problem::new(&varied(scene, &axes, &values)?)?;
-            if matches!(problem.scenario, Scenario::Plate(_)) && settings.method == Method::Paper {
-                return Err(SolveError::PaperPlate.into());
-            }
+            check(&problem, &Settings { record: Record::Numbers, ..*settings })?;
             points.push((values, problem));
         }
         Ok(Self { scene: scene.clone(), settings: *settings, axes, points })

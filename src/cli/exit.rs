@@ -109,12 +109,12 @@ impl CliError {
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
+            Self::Solve(error) if error.is_bad_input() => Exit::BadInput,
             Self::Scene(_)
             | Self::Sweep(_)
             | Self::Compare(_)
             | Self::Resume { .. }
             | Self::Usage(_)
-            | Self::Solve(SolveError::PaperPlate)
             | Self::Figure(FigureError::Extension { .. })
             | Self::Animation(AnimationError::Extension { .. }) => Exit::BadInput,
             #[cfg(feature = "gui")]

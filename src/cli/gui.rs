@@ -1,7 +1,7 @@
 //! `squeezefilm gui`, and the program without a command: the window.
 
 use super::exit::{CliError, Exit};
-use super::options::SceneOptions;
+use super::options::{MemoryOptions, SceneOptions};
 use crate::gui;
 use crate::scene::presets::BUILT_IN;
 use clap::Args;
@@ -24,6 +24,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     scene: SceneOptions,
+
+    #[command(flatten)]
+    memory: MemoryOptions,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
@@ -37,6 +40,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         }
         None => None,
     };
+    arguments.memory.apply();
     if no_display() {
         return Err(CliError::Window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
     }

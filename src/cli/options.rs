@@ -5,6 +5,7 @@ use super::terminal;
 use crate::control::Cancel;
 use crate::export::figure::Format;
 use crate::fidelity::{Fidelity, parse_accuracy};
+use crate::memory;
 use crate::scene::{Scene, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
@@ -84,10 +85,13 @@ pub(super) struct SolveOptions {
     /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
+
+    #[command(flatten)]
+    memory: MemoryOptions,
 }
 
 impl SolveOptions {
-    /// The settings, with defaults for what was not chosen; starts the threads.
+    /// The settings, with defaults for what was not chosen; starts the threads and allows the memory.
     pub(super) fn prepare(&self, fidelity: Fidelity, method: Method) -> Result<Settings, CliError> {
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new()
@@ -95,6 +99,7 @@ impl SolveOptions {
                 .build_global()
                 .map_err(|error| CliError::Threads { threads, reason: error.to_string() })?;
         }
+        self.memory.apply();
         let method = self.method.unwrap_or(method);
         let chosen = self.accuracy.or(self.fidelity);
         if let (Method::Paper, Some(time)) = (method, self.budget) {
@@ -116,6 +121,38 @@ impl SolveOptions {
             move || started.elapsed() >= budget
         })
     }
+}
+
+/// How much memory solving may take.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct MemoryOptions {
+    /// Most memory that solving may take, as in 4GB or 500MB [default: a quarter of this machine's]
+    ///
+    /// What a scene needs follows from its grid and steps, and is compared with this before anything is solved. Solves that run
+    /// at the same time share it.
+    #[arg(long, value_name = "SIZE", value_parser = memory_size)]
+    memory: Option<u64>,
+}
+
+impl MemoryOptions {
+    /// From now on.
+    pub(super) fn apply(&self) {
+        if let Some(bytes) = self.memory {
+            memory::allow(bytes);
+        }
+    }
+}
+
+fn memory_size(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let units = [("KB", 1e3), ("MB", 1e6), ("GB", 1e9), ("TB", 1e12)];
+    let upper = text.to_ascii_uppercase();
+    let split = units.iter().find_map(|(name, unit)| Some((upper.strip_suffix(name)?, *unit)));
+    split
+        .and_then(|(number, unit)| Some(number.trim().parse::<f64>().ok()? * unit))
+        .filter(|bytes| (1.0..1e18).contains(bytes))
+        .map(|bytes| bytes as u64)
+        .ok_or_else(|| "expected a size above 0 with its unit, as in 4GB or 500MB".to_owned())
 }
 
 /// What to print, and where to write.

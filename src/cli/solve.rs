@@ -10,6 +10,7 @@ use crate::analysis::torque::Merit;
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::{Summary, force_unit};
 use crate::fidelity::Fidelity;
+use crate::memory;
 use crate::problem::Problem;
 use crate::solution::Status;
 use crate::solve::{Method, solve};
@@ -94,6 +95,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(folder) = &arguments.output.out {
         let solved =
             Solved { scene: &scene, problem: &problem, solution: &solution, history: &history, merit: merit.as_ref() };
+        if let Some(text) = announced(folder, files::expected_size(&problem, &solution.recording)) {
+            terminal::note(&text);
+        }
         let control = Control { cancel: &cancel, drawn: &|_, _| () };
         match files::solve(folder, &solved, &result, &arguments.figures.formats(), &control) {
             Err(ExportError::Cancelled) => {
@@ -106,8 +110,28 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     Ok(Exit::of(&solution.status))
 }
 
+/// Bytes above which it is told beforehand how much will be written.
+const MUCH: u64 = 500_000_000;
+
+/// `writing about 1.2 GB to results …`, if that is much.
+fn announced(folder: &Path, bytes: u64) -> Option<String> {
+    (bytes > MUCH).then(|| format!("writing about {} to {} …", memory::size(bytes), folder.display()))
+}
+
 /// `wrote results: summary.json, scene.toml, …`
 pub(super) fn written(folder: &Path, paths: &[PathBuf]) -> String {
     let names: Vec<_> = paths.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy()).collect();
     format!("wrote to {}: {}", folder.display(), names.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn much_is_announced() {
+        let folder = Path::new("results");
+        assert_eq!(announced(folder, MUCH), None);
+        assert_eq!(announced(folder, 1_240_000_000).as_deref(), Some("writing about 1.2 GB to results …"));
+    }
 }

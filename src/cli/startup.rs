@@ -91,6 +91,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         fidelity: chosen.fidelity,
         cycles: arguments.cycles as usize,
         tolerance: arguments.tolerance,
+        ..startup::Settings::default()
     };
 
     let bar = Bar::share();

@@ -4,7 +4,7 @@ use super::columns::{Columns, paragraph};
 use crate::analysis::regime;
 use crate::dimensionless::Dimensionless;
 use crate::export::digits::{significant, with_error};
-use crate::export::exact::ExactObject;
+use crate::export::exact::{ExactObject, units};
 use crate::export::json::Summary;
 use crate::export::merit::{MeritObject, PerformanceObject};
 use crate::problem::{Motor, Plate, Problem, Scenario};
@@ -152,14 +152,14 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
         "least and greatest in the cycle",
     ]);
     if let Some(exact) = &summary.exact {
-        exact_rows(columns, exact);
+        exact_rows(columns, exact, units(plate));
     }
     let mean = format!("the mean gap is {} nm", plain(plate.mean_gap * 1e9));
     extremes(columns, summary, &mean, plate.gas.ambient_pressure);
 }
 
 /// What is known exactly beside what was computed.
-fn exact_rows(columns: &mut Columns, exact: &ExactObject) {
+fn exact_rows(columns: &mut Columns, exact: &ExactObject, [stiffness, damping]: [&str; 2]) {
     let limit = |value: Option<f64>, when: &str| format!("exact {} {when}", shown(or_nan(value)));
     if exact.spring.is_some() {
         columns.row([
@@ -171,6 +171,22 @@ fn exact_rows(columns: &mut Columns, exact: &ExactObject) {
             "damping of the film",
             &with_error(or_nan(exact.damping), or_nan(exact.damping_error)),
             &limit(exact.linear_damping, "for a small amplitude"),
+        ]);
+        columns.row([
+            "stiffness of the film",
+            &format!(
+                "{} {stiffness}",
+                with_error(or_nan(exact.stiffness_n_per_m), or_nan(exact.stiffness_error_n_per_m))
+            ),
+            &limit(exact.linear_stiffness_n_per_m, "for a small amplitude"),
+        ]);
+        columns.row([
+            "damping",
+            &format!(
+                "{} {damping}",
+                with_error(or_nan(exact.damping_n_s_per_m), or_nan(exact.damping_error_n_s_per_m))
+            ),
+            &limit(exact.linear_damping_n_s_per_m, "for a small amplitude"),
         ]);
     }
     columns.row([

@@ -16,7 +16,7 @@ use crate::export::table1::{Object, write_csv};
 use crate::fidelity::Fidelity;
 use crate::scene::table1::published;
 use crate::solution::Status;
-use crate::solve::{Method, Settings, SolveError};
+use crate::solve::{Method, Settings};
 use clap::Args;
 use std::time::Instant;
 
@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 /// The worst of the rows decides.
 fn exit(rows: &[Row]) -> Exit {
     let worst = |row: &Row| match &row.computed {
-        Err(SolveError::PaperPlate) => Exit::BadInput,
+        Err(error) if error.is_bad_input() => Exit::BadInput,
         Err(_) => Exit::Other,
         Ok(computed) => Exit::of(&computed.status),
     };

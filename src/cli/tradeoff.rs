@@ -4,7 +4,7 @@ use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions};
+use super::options::{MemoryOptions, OutputOptions, SceneOptions};
 use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
@@ -16,6 +16,7 @@ use crate::export::folder::Staged;
 use crate::export::json;
 use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
 use crate::problem::Problem;
+use crate::solve::{Settings, check};
 use clap::Args;
 use std::time::Instant;
 
@@ -53,6 +54,9 @@ pub(super) struct Arguments {
     scene: SceneOptions,
 
     #[command(flatten)]
+    memory: MemoryOptions,
+
+    #[command(flatten)]
     output: OutputOptions,
 
     #[command(flatten)]
@@ -84,6 +88,8 @@ fn positive(number: &str, unit: f64) -> Option<f64> {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
+    arguments.memory.apply();
+    check(&problem, &Settings::default())?;
     if let Some(folder) = &arguments.output.out {
         // Finds out whether it can be written before a minute is spent.
         Staged::new(folder)?.add("tradeoff.csv", |_| Ok(()))?;

@@ -2,6 +2,7 @@
 
 use crate::analysis::exact::Comparison;
 use crate::estimate::Estimate;
+use crate::problem::Plate;
 use serde::Serialize;
 
 /// The object. Numbers that are not known are null.
@@ -21,6 +22,18 @@ pub struct ExactObject {
     pub damping_error: Option<f64>,
     /// Exact for ε → 0.
     pub linear_damping: Option<f64>,
+    /// First harmonic of the load over the amplitude \[N/m, of a strip per metre of width\]: its part that pushes back, …
+    pub stiffness_n_per_m: Option<f64>,
+    /// Its estimated numerical error, absolute.
+    pub stiffness_error_n_per_m: Option<f64>,
+    /// Exact for ε → 0.
+    pub linear_stiffness_n_per_m: Option<f64>,
+    /// … and its part in phase with the speed, over ω \[N s/m, of a strip per metre of width\].
+    pub damping_n_s_per_m: Option<f64>,
+    /// Its estimated numerical error, absolute.
+    pub damping_error_n_s_per_m: Option<f64>,
+    /// Exact for ε → 0.
+    pub linear_damping_n_s_per_m: Option<f64>,
     /// Cycle mean of P over the plate.
     pub mean_pressure_ratio: Option<f64>,
     /// Its estimated numerical error, absolute.
@@ -37,6 +50,11 @@ pub struct ExactObject {
     pub incompressible_load_max_n: Option<f64>,
 }
 
+/// What stiffness and damping of a plate are in; those of a strip are per metre of width.
+pub fn units(plate: &Plate) -> [&'static str; 2] {
+    if plate.width.is_some() { ["N/m", "N·s/m"] } else { ["N/m²", "N·s/m²"] }
+}
+
 impl ExactObject {
     /// Of what was found.
     pub fn new(found: &Comparison) -> Self {
@@ -46,6 +64,9 @@ impl ExactObject {
         };
         let [spring, spring_error] = pair(found.solved.map(|solved| solved.spring));
         let [damping, damping_error] = pair(found.solved.map(|solved| solved.damping));
+        let solved = found.stiffness_and_damping();
+        let [stiffness_n_per_m, stiffness_error_n_per_m] = pair(solved.map(|solved| solved.spring));
+        let [damping_n_s_per_m, damping_error_n_s_per_m] = pair(solved.map(|solved| solved.damping));
         let [mean_pressure_ratio, mean_pressure_ratio_error] = pair(Some(found.mean_pressure));
         let least = |series: &[f64]| finite(series.iter().copied().fold(f64::INFINITY, f64::min));
         let most = |series: &[f64]| finite(series.iter().copied().fold(f64::NEG_INFINITY, f64::max));
@@ -57,6 +78,12 @@ impl ExactObject {
             damping,
             damping_error,
             linear_damping: finite(found.linear.damping),
+            stiffness_n_per_m,
+            stiffness_error_n_per_m,
+            linear_stiffness_n_per_m: finite(found.linear.spring * found.unit.spring),
+            damping_n_s_per_m,
+            damping_error_n_s_per_m,
+            linear_damping_n_s_per_m: finite(found.linear.damping * found.unit.damping),
             mean_pressure_ratio,
             mean_pressure_ratio_error,
             trapped_mean_pressure_ratio: finite(found.trapped_mean_pressure),

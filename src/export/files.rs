@@ -11,7 +11,8 @@ use crate::analysis::compare::Run;
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::Merit;
 use crate::control::{Cancel, Progress};
-use crate::problem::Problem;
+use crate::problem::{Problem, Scenario};
+use crate::recording::Recording;
 use crate::scene::Scene;
 use crate::solution::Solution;
 use crate::solve::Settings;
@@ -101,6 +102,17 @@ fn each(formats: &[Format]) -> Vec<Format> {
     formats.sort_unstable();
     formats.dedup();
     formats
+}
+
+/// Bytes of a number in a CSV file, its comma included: `1.23456789e-6,`.
+const WRITTEN: u64 = 14;
+
+/// About how many bytes [`solve`] will write: fields as text and as an archive; the rest is small beside large ones.
+pub fn expected_size(problem: &Problem, recording: &Recording) -> u64 {
+    let lines = (recording.frames * recording.teeth * recording.x.len()) as u64;
+    let map = recording.pressure.len() as u64;
+    let (columns, arrays) = if matches!(problem.scenario, Scenario::Motor(_)) { (10, 5) } else { (6, 2) };
+    lines * (columns * WRITTEN + arrays * 8) + map * (4 * WRITTEN + 8)
 }
 
 /// What `squeezefilm solve --out` writes into a folder.

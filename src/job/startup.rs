@@ -34,6 +34,8 @@ impl Transient {
     /// If the thread cannot be started.
     pub fn start(problem: Problem, settings: Settings, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let (sender, told) = sync_channel(AHEAD);
+        // Those that wait, and the one that waits to wait.
+        let settings = Settings { kept: settings.kept + AHEAD + 1, ..settings };
         let worker = Worker::start("startup", move |cancel| {
             // Nobody may be left to listen: then the owner has cancelled it too.
             let tell = |what: Told| {

@@ -67,13 +67,35 @@ const LIMIT_CYCLE: f64 = 1e-2;
 /// Error of α on the paper's mesh, relative: see [`discretisation_error`].
 const PAPER_MESH_ERROR: f64 = 0.045;
 
+/// Sizes of the meshes: the paper's, unless numerics say otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mesh {
+    /// Film nodes along a tooth.
+    pub nx: usize,
+    /// Film nodes across the width.
+    pub ny: usize,
+    /// Contact spacings in a wavelength.
+    pub n: usize,
+    /// Time steps in a cycle.
+    pub steps: usize,
+}
+
+impl Mesh {
+    /// As `numerics` say.
+    pub fn of(numerics: &Numerics) -> Self {
+        Self {
+            nx: numerics.film_nodes_along.unwrap_or(PAPER_MESH.0).max(3),
+            ny: numerics.film_nodes_across.unwrap_or(PAPER_MESH.1).max(3),
+            n: numerics.contact_nodes.unwrap_or(PAPER_MESH.2).max(5) - 1,
+            steps: numerics.steps_per_cycle.unwrap_or(STEPS_PER_CYCLE).max(4),
+        }
+    }
+}
+
 /// Solves for the periodic state of `motor` by the paper's algorithm, on the paper's meshes unless `numerics` says
 /// otherwise. The observer hears of every cycle; `cancel` is looked at in every time step.
 pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, cancel: &Cancel) -> Solution {
-    let nx = numerics.film_nodes_along.unwrap_or(PAPER_MESH.0).max(3);
-    let ny = numerics.film_nodes_across.unwrap_or(PAPER_MESH.1).max(3);
-    let n = numerics.contact_nodes.unwrap_or(PAPER_MESH.2).max(5) - 1;
-    let steps = numerics.steps_per_cycle.unwrap_or(STEPS_PER_CYCLE).max(4);
+    let Mesh { nx, ny, n, steps } = Mesh::of(numerics);
 
     let mut warnings = Vec::new();
     let knudsen = match motor.gas.slip {

@@ -52,6 +52,7 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     "plate-viscous",
     "plate-crossover",
     "plate-trapped",
+    "plate-mems",
 ];
 
 /// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.

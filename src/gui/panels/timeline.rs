@@ -105,7 +105,8 @@ pub fn status(
             ui.label("Nothing solved yet");
         }
         if let Some(message) = &activity.failure {
-            ui.label(RichText::new(message).color(palette.alarm)).hint(message);
+            // All of a long one is said on hover.
+            ui.add(egui::Label::new(RichText::new(message).color(palette.alarm)).truncate()).hint(message);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if let Some(running) = &activity.running {

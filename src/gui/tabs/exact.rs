@@ -5,6 +5,7 @@ use super::chart::{SOLID, axes, chart, legend, place, powers, title};
 use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
 use crate::estimate::Estimate;
 use crate::export::digits::significant;
+use crate::export::exact::units;
 use crate::export::json::force_unit;
 use crate::fidelity::Fidelity;
 use crate::gui::lessons::glossary;
@@ -211,7 +212,7 @@ pub fn show(ui: &mut Ui, run: &Run, colours: &Palette) {
         title(ui, &format!("Load over the cycle, {}", known.unit.0), "Film load");
         cycle(ui, &known, tall(1), colours);
         ui.add_space(4.0);
-        table(ui, &known, colours);
+        table(ui, &known, units(plate), colours);
         ui.add_space(12.0);
         let look = Look::usual(ui);
         rich::blocks(ui, notes::of(plate.width.is_none()), look);
@@ -298,17 +299,22 @@ fn cycle(ui: &mut Ui, known: &Known, height: f32, colours: &Palette) {
 }
 
 /// Computed beside exact.
-fn table(ui: &mut Ui, known: &Known, colours: &Palette) {
+fn table(ui: &mut Ui, known: &Known, units: [&str; 2], colours: &Palette) {
     let found = &known.comparison;
-    let [spring, damping] = match found.solved {
+    let both = |solved: Option<Harmonic<Estimate>>| match solved {
         Some(solved) => [solved.spring, solved.damping].map(stated),
         None => ["nothing vibrates"; 2].map(str::to_owned),
     };
+    let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
+    let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
+    let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping].map(number);
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
     // What it is called, computed, exact, and when that holds.
     let rows = [
         ["Spring S", &spring, &number(found.linear.spring), "for ε → 0"],
         ["Damping D", &damping, &number(found.linear.damping), "for ε → 0"],
+        [&names[0], &stiffness, &linear[0], "for ε → 0"],
+        [&names[1], &loss, &linear[1], "for ε → 0"],
         ["Mean pressure", &stated(found.mean_pressure), &number(found.trapped_mean_pressure), "for σ → ∞"],
         ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
     ];
