@@ -2,8 +2,10 @@
 
 use crate::analysis::exact::Comparison;
 use crate::analysis::torque::Merit;
+use crate::analysis::validity::{self, Excess};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
+use crate::export::digits::significant;
 use crate::export::exact::ExactObject;
 use crate::export::merit::MeritObject;
 use crate::motor::MotorError;
@@ -98,6 +100,8 @@ pub struct Summary {
     pub stats: StatsObject,
     /// What was modelled.
     pub model: ModelObject,
+    /// Limits of the model that the scene exceeds; empty within them.
+    pub validity: Vec<Excess>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Version of this program.
@@ -200,6 +204,7 @@ impl Summary {
             stopped_by: solution.accuracy.stopped_by.name(),
             stats: StatsObject::new(&solution.stats, numbers.take("stats.wall_s", wall_s)),
             model: ModelObject::new(&solution.model),
+            validity: validity::outside(problem, Some(solution)),
             version: env!("CARGO_PKG_VERSION"),
             command: command.to_vec(),
             ..Self::default()
@@ -289,6 +294,19 @@ pub fn force_unit(problem: &Problem) -> &'static str {
         Scenario::Plate(plate) if plate.width.is_none() => "N/m",
         Scenario::Plate(_) | Scenario::Motor(_) => "N",
     }
+}
+
+/// `348, limit 0.1`
+pub fn beside_limit(excess: &Excess) -> String {
+    let unit = if excess.unit.is_empty() { String::new() } else { format!(" {}", excess.unit) };
+    let limit = significant(excess.limit, 3);
+    // A limit of two digits has no third.
+    let limit = if limit.contains('.') && !limit.contains('e') {
+        limit.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &limit
+    };
+    format!("{}{unit}, limit {limit}{unit}", significant(excess.value, 3))
 }
 
 /// How a solve ended, in a word.
