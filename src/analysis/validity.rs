@@ -509,11 +509,12 @@ mod tests {
             let (name, problem) = (preset.name, Problem::new(&preset.scene().unwrap()).unwrap());
             let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
             let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
-            let motor = matches!(problem.scenario, Scenario::Motor(_));
-            let expected: &[&str] = if motor { &["slip-law"] } else { &[] };
+            let closed: &[&str] = if matches!(problem.scenario, Scenario::Motor(_)) { &["slip-law"] } else { &[] };
+            assert_eq!(names(&outside(&problem, None)), closed, "{name}, unsolved");
+            // A rotor that floats 0.74 µm high never closes the film.
+            let expected = if name == "levitating" { &[] } else { closed };
             let found = outside(&problem, Some(&solution));
             assert_eq!(names(&found), expected, "{name}: {found:?}");
-            assert_eq!(names(&outside(&problem, None)), expected, "{name}, unsolved");
         }
     }
 }
