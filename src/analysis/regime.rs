@@ -45,7 +45,7 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
             };
             format!("here it sucks: its mean pressure is below ambient{fast}, and it pulls with {percent} of {of}")
         }
-        _ if share.abs() <= error => format!("here it carries less than can be told from nothing, of {of}"),
+        _ if share.abs() <= error => "here it carries nothing that can be told from zero".to_owned(),
         _ if share < HARDLY => format!("here it hardly matters: it carries {percent} of {of}{rest}"),
         _ => format!("here it carries {percent} of {of}{rest}"),
     }
@@ -99,8 +99,8 @@ mod tests {
         for (alpha, error, said) in [
             (0.246, 1e-3, "here it carries 25 % of the load: contact carries the rest"),
             (4e-7, 1e-8, "here it hardly matters: it carries 0.00004 % of the load: contact carries the rest"),
-            (4e-7, 1e-6, "here it carries less than can be told from nothing, of the load"),
-            (-0.002, 0.0021, "here it carries less than can be told from nothing, of the load"),
+            (4e-7, 1e-6, "here it carries nothing that can be told from zero"),
+            (-0.002, 0.0021, "here it carries nothing that can be told from zero"),
             (-0.02, 0.002, "here it sucks: its mean pressure is below ambient, and it pulls with 2 % of the load"),
             (f64::NAN, 0.0, "what it carries here is not known"),
         ] {
