@@ -303,7 +303,7 @@ mod tests {
     use crate::fidelity::Fidelity;
     use crate::recording::Recording;
     use crate::scene::{Scene, presets};
-    use crate::solution::{Model, MotorResult, Stats, Status};
+    use crate::solution::MotorResult;
     use crate::solve::{Settings, solve};
 
     fn of(mut scene: Scene, changes: &[(&str, &str)]) -> Vec<Excess> {
@@ -331,6 +331,19 @@ mod tests {
         assert!((excess.limit / limit - 1.0).abs() < 2e-3, "{excess:?}");
         // One sentence.
         assert!(excess.text.ends_with('.') && !excess.text.contains(". "), "{excess:?}");
+    }
+
+    fn solve_draft(problem: &Problem) -> Solution {
+        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+        solve(problem, &settings, &mut (), &Cancel::new()).unwrap()
+    }
+
+    /// Of a motor whose film is `min_gap` thin, without contact.
+    fn solution(min_gap: f64) -> Solution {
+        let mut solution = solve_draft(&Problem::new(&Scene::plate()).unwrap());
+        solution.outcome = Outcome::Motor(MotorResult { min_gap, ..MotorResult::default() });
+        solution.recording = Recording::default();
+        solution
     }
 
     #[test]
@@ -444,14 +457,8 @@ mod tests {
         let problem = Problem::new(&Scene::motor()).unwrap();
         // On 0.3 mm 82.8 kN/m are 276 MPa.
         let with = |contact: f64| {
-            let solution = Solution {
-                status: Status::Converged,
-                outcome: Outcome::Motor(MotorResult { min_gap: 2e-7, ..MotorResult::default() }),
-                stats: Stats::default(),
-                model: Model::default(),
-                warnings: Vec::new(),
-                recording: Recording { contact: vec![0.0, contact, 1.0], ..Recording::default() },
-            };
+            let mut solution = solution(2e-7);
+            solution.recording.contact = vec![0.0, contact, 1.0];
             outside(&problem, Some(&solution))
         };
         assert!(!names(&with(82.7e3)).contains(&"contact-stress"));
@@ -486,14 +493,6 @@ mod tests {
     #[test]
     fn a_floating_rotor_is_judged_where_it_floats() {
         let problem = Problem::new(&Scene::motor()).unwrap();
-        let solution = |min_gap: f64| Solution {
-            status: Status::Converged,
-            outcome: Outcome::Motor(MotorResult { min_gap, levitated: true, ..MotorResult::default() }),
-            stats: Stats::default(),
-            model: Model::default(),
-            warnings: Vec::new(),
-            recording: Recording::default(),
-        };
         assert_eq!(names(&outside(&problem, Some(&solution(2e-7)))), ["slip-law"]);
         assert_eq!(names(&outside(&problem, Some(&solution(2e-6)))), Vec::<&str>::new());
         // Re = 1.2041 · 188 496 · (21.3 µm)²/2.172e-4.
@@ -507,13 +506,11 @@ mod tests {
     fn built_in_presets_show_what_they_should() {
         for preset in presets::BUILT_IN {
             let (name, problem) = (preset.name, Problem::new(&preset.scene().unwrap()).unwrap());
-            let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
-            let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
             let closed: &[&str] = if matches!(problem.scenario, Scenario::Motor(_)) { &["slip-law"] } else { &[] };
             assert_eq!(names(&outside(&problem, None)), closed, "{name}, unsolved");
             // A rotor that floats 0.74 µm high never closes the film.
             let expected = if name == "levitating" { &[] } else { closed };
-            let found = outside(&problem, Some(&solution));
+            let found = outside(&problem, Some(&solve_draft(&problem)));
             assert_eq!(names(&found), expected, "{name}: {found:?}");
         }
     }
