@@ -480,7 +480,7 @@ mod tests {
 
     #[test]
     fn an_amplitude_near_the_gap() {
-        assert!(plate(&[("plate.amplitude_um", "0.9")]).is_empty());
+        assert!(plate(&[("plate.amplitude_um", "0.899")]).is_empty());
         let found = plate(&[("plate.amplitude_um", "0.99")]);
         assert_eq!(names(&found), ["amplitude"]);
         check(&found, "amplitude", 0.99, 0.9);
