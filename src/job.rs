@@ -11,6 +11,7 @@ pub mod startup;
 pub mod task;
 mod worker;
 
+use crate::analysis::validity::{Excess, outside};
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
@@ -38,6 +39,8 @@ pub struct Run {
     pub fidelity: Fidelity,
     /// The result.
     pub solution: Solution,
+    /// Limits of the model that it exceeds.
+    pub validity: Vec<Excess>,
     /// Wall time of this fidelity's solve \[s\].
     pub wall_s: f64,
     /// Residual of each round, all grids, in order: the convergence history.
@@ -246,6 +249,7 @@ fn refine(
                     scene: request.scene.clone(),
                     problem: request.problem.clone(),
                     fidelity,
+                    validity: outside(&request.problem, Some(&solution)),
                     solution,
                     wall_s,
                     history,

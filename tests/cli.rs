@@ -121,6 +121,24 @@ fn summary_names_the_numbers_with_units() {
 }
 
 #[test]
+fn a_scene_outside_the_limits_of_the_model_says_so() {
+    assert_eq!(solved(&["plate-crossover"])["validity"], Value::Array(Vec::new()));
+    let far = ["plate-crossover", "--set", "plate.mean_gap_um=500", "--set", "plate.frequency_khz=40"];
+    let result = solved(&far);
+    let names: Vec<&str> =
+        result["validity"].as_array().unwrap().iter().map(|entry| entry["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["gas-inertia", "isothermal", "thinness"]);
+    let first = &result["validity"][0];
+    assert!((first["value"].as_f64().unwrap() - 348.3).abs() < 0.1 && first["limit"] == 0.1);
+    assert!(first["text"].as_str().unwrap().starts_with("The gas has inertia"));
+    let output = run(&[&["solve", "--fidelity", "draft"], &far[..]].concat());
+    for words in ["Outside the limits of the model", "gas-inertia: 348, limit 0.1.", "isothermal: 38.5, limit 1."] {
+        assert!(out(&output).contains(words), "{words:?} is not in\n{}", out(&output));
+    }
+    assert!(!out(&run(&["solve", "plate-crossover", "--fidelity", "draft"])).contains("Outside the limits"));
+}
+
+#[test]
 fn changes_reach_the_scene() {
     let smoother = solved(&["fundamental", "--set", "film.min_spacing_nm=100"]);
     assert!((smoother["alpha"].as_f64().unwrap() - 0.499).abs() < 0.01);

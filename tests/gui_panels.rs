@@ -6,6 +6,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use squeezefilm::analysis::validity::outside;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::command::Command;
@@ -326,7 +327,8 @@ fn run(preset: &str) -> Run {
     let mut history = Vec::new();
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
-    Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, wall_s: 0.0123, history }
+    let validity = outside(&problem, Some(&solution));
+    Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
 }
 
 fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
@@ -383,6 +385,28 @@ fn levitation_missing_convergence_and_warnings_are_said_plainly() {
     harness.get_by_label("Not converged");
     harness.get_by_label_contains("still changed by 2.0e-3, allowed 1e-6");
     harness.get_by_label("the film is thinner than a mean free path");
+}
+
+#[test]
+fn what_the_model_leaves_out_is_shown_only_where_it_matters() {
+    // First-order slip at Kn = 0.32; inside all limits.
+    for (preset, seen) in [("fundamental", true), ("plate-crossover", false)] {
+        let harness = shown(run(preset), 300.0, 1.0);
+        assert_eq!(harness.query_by_label("Outside the limits of the model").is_some(), seen, "{preset}");
+        assert_eq!(harness.query_by_label("0.320, limit 0.1").is_some(), seen, "{preset}");
+        assert_eq!(harness.query_by_label_contains("At Kn = 0.32 first-order slip lets 20 % less").is_some(), seen);
+    }
+}
+
+#[test]
+fn the_words_of_the_regime_say_what_the_film_carries_here() {
+    let mut run = run("fundamental");
+    let Outcome::Motor(result) = &mut run.solution.outcome else { panic!("a motor") };
+    result.alpha = -0.05;
+    let harness = shown(run, 300.0, 1.0);
+    harness.get_by_label_contains("is a spring");
+    harness.get_by_label("here it sucks: its mean pressure is below ambient, and it pulls with 5 % of the load");
+    harness.get_by_label("the air sucks: contact carries more than the load");
 }
 
 #[test]

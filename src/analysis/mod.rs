@@ -14,3 +14,4 @@ pub mod sweep;
 pub mod table1;
 pub mod torque;
 pub mod tradeoff;
+pub mod validity;

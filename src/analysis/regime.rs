@@ -1,14 +1,64 @@
-//! What the dimensionless numbers of a scene say about its film, in words.
+//! What the dimensionless numbers of a scene say about its film, and whether the film matters, in words.
 
+use super::validity::mach;
 use crate::dimensionless::Dimensionless;
+use crate::problem::{Problem, Scenario};
+use crate::solution::{Outcome, PlateResult};
 
-/// What the squeeze number σ says.
+/// A share of the load, or of p_a × area, below which a film hardly matters.
+const HARDLY: f64 = 1e-3;
+/// No film has an effect as small as this.
+const NOTHING: f64 = 1e-6;
+
+/// What the squeeze number σ says: what the film is.
 pub fn squeeze(numbers: &Dimensionless) -> &'static str {
     match numbers.squeeze_number {
-        sigma if sigma < 1.0 => "≪ 1: viscous; the gas flows out and back in, damps and carries little",
-        sigma if sigma < 100.0 => "in between: part of the gas escapes in each cycle; it damps and carries",
-        _ => "≫ 1: trapped; the gas has no time to leave, is a spring and carries",
+        sigma if sigma < 1.0 => "≪ 1: viscous; the gas flows out and back in, and damps",
+        sigma if sigma < 100.0 => "in between: part of the gas escapes in each cycle; it damps and is a spring",
+        _ => "≫ 1: trapped; the gas has no time to leave, and is a spring",
     }
+}
+
+/// Whether the film matters here: what it carries.
+pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
+    let (share, error, of, rest) = match (&problem.scenario, outcome) {
+        (Scenario::Motor(_), Outcome::Motor(result)) if result.levitated => {
+            return "here it carries the whole load: the rotor floats".to_owned();
+        }
+        (Scenario::Motor(_), Outcome::Motor(result)) => {
+            (result.alpha, result.alpha_error, "the load", ": contact carries the rest")
+        }
+        (Scenario::Plate(plate), Outcome::Plate(result)) => {
+            let ratio = |load| PlateResult::ratio(load, plate);
+            (ratio(result.film_load), ratio(result.film_load_error), "p_a × area", " in the mean")
+        }
+        // A solver answers in kind.
+        _ => return String::new(),
+    };
+    let percent = format!("{} %", rounded(100.0 * share.abs()));
+    match share {
+        _ if !share.is_finite() => "what it carries here is not known".to_owned(),
+        _ if sucks(share, error) => {
+            let fast = match &problem.scenario {
+                Scenario::Motor(motor) if mach(motor) > 1.0 => ", where the faces slide beyond the speed of sound",
+                _ => "",
+            };
+            format!("here it sucks: its mean pressure is below ambient{fast}, and it pulls with {percent} of {of}")
+        }
+        _ if share.abs() <= error => "here it carries nothing that can be told from zero".to_owned(),
+        _ if share < HARDLY => format!("here it hardly matters: it carries {percent} of {of}{rest}"),
+        _ => format!("here it carries {percent} of {of}{rest}"),
+    }
+}
+
+/// Whether a film load is truly negative: beyond its error, and by more than round-off.
+pub fn sucks(load: f64, error: f64) -> bool {
+    load + error.abs() < -NOTHING
+}
+
+/// To two digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// What the bearing number Λ says, beside the squeeze number.
@@ -28,5 +78,48 @@ pub fn knudsen(numbers: &Dimensionless) -> &'static str {
         kn if kn < 0.1 => "< 0.1: slip at the walls counts a little",
         kn if kn < 1.0 => "slip at the walls counts; the slip laws begin to differ",
         _ => "rarefied: the slip laws differ, fukui-kaneko is made for this",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::solution::MotorResult;
+
+    fn words(alpha: f64, alpha_error: f64, changes: &[(&str, &str)]) -> String {
+        let mut scene = Scene::motor();
+        scene.set_all(changes.iter().copied()).unwrap();
+        let result = MotorResult { alpha, alpha_error, ..MotorResult::default() };
+        weight(&Problem::new(&scene).unwrap(), &Outcome::Motor(result))
+    }
+
+    #[test]
+    fn words_follow_the_result() {
+        for (alpha, error, said) in [
+            (0.246, 1e-3, "here it carries 25 % of the load: contact carries the rest"),
+            (4e-7, 1e-8, "here it hardly matters: it carries 0.00004 % of the load: contact carries the rest"),
+            (4e-7, 1e-6, "here it carries nothing that can be told from zero"),
+            (-0.002, 0.0021, "here it carries nothing that can be told from zero"),
+            (-0.02, 0.002, "here it sucks: its mean pressure is below ambient, and it pulls with 2 % of the load"),
+            (f64::NAN, 0.0, "what it carries here is not known"),
+        ] {
+            assert_eq!(words(alpha, error, &[]), said);
+        }
+        let fast = [("motor.contact_radius_mm", "500"), ("motor.rotor_speed_rpm", "10000")];
+        assert!(words(-0.02, 0.002, &fast).contains("beyond the speed of sound"));
+        assert!(!words(0.02, 0.002, &fast).contains("sucks"));
+    }
+
+    #[test]
+    fn a_plate_is_measured_by_ambient_pressure() {
+        let problem = Problem::new(&Scene::plate()).unwrap();
+        // p_a × 1 mm = 101.325 N/m.
+        let of = |film_load: f64| {
+            let result = PlateResult { film_load, film_load_error: 1e-6, ..PlateResult::default() };
+            weight(&problem, &Outcome::Plate(result))
+        };
+        assert_eq!(of(10.1325), "here it carries 10 % of p_a × area in the mean");
+        assert_eq!(of(0.0101325), "here it hardly matters: it carries 0.01 % of p_a × area in the mean");
     }
 }

@@ -91,7 +91,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     for warning in &result.warnings {
         terminal::warning(warning);
     }
-    terminal::data(&if arguments.output.json { result.to_text() } else { summary::text(&scene, &problem, &result) })?;
+    terminal::data(&if arguments.output.json {
+        result.to_text()
+    } else {
+        summary::text(&scene, &problem, &solution.outcome, &result)
+    })?;
     if let Some(folder) = &arguments.output.out {
         let solved =
             Solved { scene: &scene, problem: &problem, solution: &solution, history: &history, merit: merit.as_ref() };

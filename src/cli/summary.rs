@@ -2,20 +2,22 @@
 
 use super::columns::{Columns, paragraph};
 use crate::analysis::regime;
+use crate::analysis::validity::Excess;
 use crate::dimensionless::Dimensionless;
 use crate::export::digits::{significant, with_error};
 use crate::export::exact::{ExactObject, units};
-use crate::export::json::Summary;
+use crate::export::json::{Summary, beside_limit};
 use crate::export::merit::{MeritObject, PerformanceObject};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::Scene;
+use crate::solution::Outcome;
 use std::fmt::Write as _;
 
 /// Significant digits of numbers without an error of their own.
 const DIGITS: usize = 4;
 
 /// The whole summary.
-pub(super) fn text(scene: &Scene, problem: &Problem, summary: &Summary) -> String {
+pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary: &Summary) -> String {
     let mut text = paragraph(&format!("{}: {}", name(scene), status(summary)), "", "");
     if !scene.about.is_empty() {
         text.push_str(&paragraph(&scene.about, "", ""));
@@ -35,8 +37,9 @@ pub(super) fn text(scene: &Scene, problem: &Problem, summary: &Summary) -> Strin
     }
     text.push('\n');
     let mut columns = Columns::new();
-    number_rows(&mut columns, &Dimensionless::of(problem));
+    number_rows(&mut columns, &Dimensionless::of(problem), &regime::weight(problem, outcome));
     text.push_str(&columns.text("  ", &[]));
+    text.push_str(&limits(&summary.validity));
     let model = &summary.model;
     // Writing to a String cannot fail.
     let _ = writeln!(text, "\nModelled: method {}, fidelity {}", model.method, model.fidelity);
@@ -67,10 +70,15 @@ fn status(summary: &Summary) -> String {
 fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     let error = or_nan(summary.alpha_error);
     let dry = or_nan(summary.dry_torque_nm);
+    let negative = regime::sucks(or_nan(summary.alpha), error);
     columns.row([
         "film share of the load  α",
         &with_error(or_nan(summary.alpha), error),
-        &format!("of the {} N pressed on one wavelength", plain(motor.load)),
+        &format!(
+            "of the {} N pressed on one wavelength{}",
+            plain(motor.load),
+            if negative { "; the film sucks" } else { "" }
+        ),
     ]);
     film_load(columns, summary);
     columns.row([
@@ -230,10 +238,24 @@ fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: 
     ]);
 }
 
-fn number_rows(columns: &mut Columns, numbers: &Dimensionless) {
+fn number_rows(columns: &mut Columns, numbers: &Dimensionless, weight: &str) {
     columns.row(["squeeze number  σ", &shown(numbers.squeeze_number), regime::squeeze(numbers)]);
+    columns.row(["", "", weight]);
     columns.row(["bearing number  Λ", &shown(numbers.bearing_number), regime::bearing(numbers)]);
     columns.row(["Knudsen number  Kn", &shown(numbers.knudsen_number), regime::knudsen(numbers)]);
+}
+
+/// Where the model is out of its depth; nothing if it is not.
+fn limits(validity: &[Excess]) -> String {
+    let mut text = String::new();
+    for (i, excess) in validity.iter().enumerate() {
+        if i == 0 {
+            text.push_str("\nOutside the limits of the model:\n");
+        }
+        let line = format!("{}: {}. {}", excess.name, beside_limit(excess), excess.text);
+        text.push_str(&paragraph(&line, "  - ", "    "));
+    }
+    text
 }
 
 /// `Cost: 42.6 ms for …`
@@ -302,7 +324,7 @@ mod tests {
         let summary = Summary::new(&problem, &solution, 0.0123, &[]);
         assert_eq!((summary.converged, summary.status), (false, "not converged"));
         assert_eq!((summary.residual, summary.tolerance), (Some(2e-3), Some(1e-6)));
-        let shown = text(&scene, &problem, &summary);
+        let shown = text(&scene, &problem, &solution.outcome, &summary);
         assert!(shown.starts_with("Plate, viscous: NOT CONVERGED (the last round still changed by 2.0e-3"), "{shown}");
         assert!(shown.contains("N/m") && shown.contains("12.3 ms"), "{shown}");
     }

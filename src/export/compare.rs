@@ -7,10 +7,12 @@ use super::digits::{significant, with_error};
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
-use super::json::status_name;
+use super::json::{beside_limit, status_name};
 use crate::analysis::compare::{ParameterRow, ResultCell, ResultRow, Run, parameters, results};
 use crate::analysis::quantity::{Quantity, force_unit};
+use crate::analysis::regime;
 use crate::analysis::sweep::Ending;
+use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
 use crate::problem::Scenario;
 use crate::scene::Value;
@@ -105,6 +107,7 @@ impl Serialize for RunObject<'_> {
         map.serialize_entry("difference_percent", &differences)?;
         let solution = self.run.solved.as_ref().ok();
         map.serialize_entry("why", &solution.map(|solution| &solution.model.why))?;
+        map.serialize_entry("validity", &solution.map(|solution| outside(&self.run.problem, Some(solution))))?;
         map.serialize_entry("warnings", &solution.map(|solution| &solution.warnings))?;
         map.serialize_entry("scene_toml", &self.run.scene.to_toml())?;
         map.end()
@@ -442,6 +445,8 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
         match &run.solved {
             Ok(solution) => {
                 page.list(&solution.model.why);
+                page.text(&format!("The film: {}.", regime::weight(&run.problem, &solution.outcome)));
+                limits(&mut page, &outside(&run.problem, Some(solution)));
                 solution.warnings.iter().for_each(|warning| page.warning(warning));
             }
             Err(reason) => page.warning(reason),
@@ -450,6 +455,14 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
     }
     again(&mut page, report.command);
     page.finish(&provenance(runs).line())
+}
+
+/// Where the model is out of its depth; nothing if it is not.
+pub(super) fn limits(page: &mut Page, validity: &[Excess]) {
+    if !validity.is_empty() {
+        page.warning("Outside the limits of the model:");
+        page.list(validity.iter().map(|excess| format!("{}: {}. {}", excess.name, beside_limit(excess), excess.text)));
+    }
 }
 
 /// The section that says how the report is made again.

@@ -3,8 +3,10 @@
 use crate::analysis::exact::Comparison;
 pub use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::Merit;
+use crate::analysis::validity::{self, Excess};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
+use crate::export::digits::significant;
 use crate::export::exact::ExactObject;
 use crate::export::merit::MeritObject;
 use crate::motor::MotorError;
@@ -99,6 +101,8 @@ pub struct Summary {
     pub stats: StatsObject,
     /// What was modelled.
     pub model: ModelObject,
+    /// Limits of the model that the scene exceeds; empty within them.
+    pub validity: Vec<Excess>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Version of this program.
@@ -201,6 +205,7 @@ impl Summary {
             stopped_by: solution.accuracy.stopped_by.name(),
             stats: StatsObject::new(&solution.stats, numbers.take("stats.wall_s", wall_s)),
             model: ModelObject::new(&solution.model),
+            validity: validity::outside(problem, Some(solution)),
             version: env!("CARGO_PKG_VERSION"),
             command: command.to_vec(),
             ..Self::default()
@@ -282,6 +287,19 @@ impl Summary {
 pub fn text(object: &impl Serialize) -> String {
     // Fails only for maps whose keys are not text, and for types that refuse: ours are plain structs.
     serde_json::to_string_pretty(object).map_or_else(|_| String::new(), |text| text + "\n")
+}
+
+/// `348, limit 0.1`
+pub fn beside_limit(excess: &Excess) -> String {
+    let unit = if excess.unit.is_empty() { String::new() } else { format!(" {}", excess.unit) };
+    let limit = significant(excess.limit, 3);
+    // A limit of two digits has no third.
+    let limit = if limit.contains('.') && !limit.contains('e') {
+        limit.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &limit
+    };
+    format!("{}{unit}, limit {limit}{unit}", significant(excess.value, 3))
 }
 
 /// How a solve ended, in a word.

@@ -1,6 +1,6 @@
 //! The paper's tables and figures as one report: published numbers beside those of its own algorithm and the converged ones.
 
-use super::compare::again;
+use super::compare::{again, limits};
 use super::digits::{significant, with_error};
 use super::figure::{
     Axis, Band, Colour, Dash, Figure, Legend, Line, Marker, Panel, Points, Provenance, Shape, Style, Width,
@@ -9,6 +9,7 @@ use super::figures::compare::{MotorRun, contact_pressures, film_pressures};
 use super::figures::motor::{crest_in_the_middle, surfaces};
 use super::html::{Kind, Page, Table};
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
+use crate::analysis::validity::outside;
 use crate::problem::{Motor, RotorCompliance, Scenario};
 use crate::recording::Recording;
 use crate::solution::{MotorResult, Solution, Status};
@@ -499,6 +500,9 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
                 page.heading(name);
                 page.list(&solution.model.why);
             }
+        }
+        if let Ok(solution) = &row.both.ours {
+            limits(&mut page, &outside(&row.both.problem, Some(solution)));
         }
         page.folded("the fundamental case as a preset", &row.both.scene.to_toml());
     }

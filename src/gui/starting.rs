@@ -143,6 +143,7 @@ impl Starting {
                 warnings: Vec::new(),
                 recording,
             },
+            validity: Vec::new(),
             wall_s: 0.0,
             history: Vec::new(),
         };
@@ -277,6 +278,7 @@ mod tests {
                     warnings: Vec::new(),
                     recording: Recording { pressure: vec![0.0; values], ..Recording::default() },
                 },
+                validity: Vec::new(),
                 wall_s: 0.0,
                 history: Vec::new(),
             })

@@ -4,6 +4,7 @@
 use super::convergence::power_of_ten;
 use super::hint::{Hint, beside};
 use super::labels;
+use super::parameters::capitalised;
 use crate::export::digits::significant;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
@@ -319,11 +320,6 @@ fn cell<R>(ui: &mut egui::Ui, width: f32, height: f32, align: Align, add: impl F
 fn text_width(ui: &egui::Ui, text: &str) -> f32 {
     let font = TextStyle::Body.resolve(ui.style());
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
-}
-
-fn capitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
 #[cfg(test)]

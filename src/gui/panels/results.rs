@@ -2,10 +2,12 @@
 
 use super::convergence;
 use super::model::{self, Model};
+use super::parameters::capitalised;
 use crate::analysis::regime;
+use crate::analysis::validity::Excess;
 use crate::dimensionless::Dimensionless;
 use crate::export::digits::{significant, with_error};
-use crate::export::json::{dry_torque, force_unit};
+use crate::export::json::{beside_limit, dry_torque, force_unit};
 use crate::gui::command::Command;
 use crate::gui::lessons::glossary;
 use crate::gui::spot;
@@ -42,8 +44,9 @@ pub fn show(ui: &mut egui::Ui, run: &Run, model: &Model<'_>, dark: bool, command
         for warning in &run.solution.warnings {
             ui.add(egui::Label::new(RichText::new(warning).color(colours.alarm)).wrap());
         }
+        limits(ui, &run.validity, &colours);
         section(ui, "Regime");
-        regime_numbers(ui, &Dimensionless::of(&run.problem), &colours);
+        regime_numbers(ui, run, &colours);
         ui.add_space(8.0);
         ui.separator();
         if !run.solution.model.decisions.is_empty() {
@@ -66,7 +69,15 @@ fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours
     }
     let top = ui.next_widget_position();
     headline(ui, "α", &uncertain(result.alpha, result.alpha_error), "");
-    quiet(ui, colours, "share of the load carried by air");
+    quiet(
+        ui,
+        colours,
+        if regime::sucks(result.alpha, result.alpha_error) {
+            "the air sucks: contact carries more than the load"
+        } else {
+            "share of the load carried by air"
+        },
+    );
     shares(ui, result.alpha, colours);
     let headline = egui::Rect::from_min_max(top, ui.max_rect().right_bottom()).with_max_y(ui.min_rect().bottom());
     spot::mark(ui, "headline", headline);
@@ -111,15 +122,30 @@ fn extremes(ui: &mut egui::Ui, colours: &Palette, gap: f64, pressure: f64, ambie
     number(ui, colours, "Relative to ambient", &format!("{} ×", significant(pressure / ambient, 3)), "");
 }
 
-fn regime_numbers(ui: &mut egui::Ui, numbers: &Dimensionless, colours: &Palette) {
+/// Where the model is out of its depth; nothing if it is not.
+fn limits(ui: &mut egui::Ui, validity: &[Excess], colours: &Palette) {
+    if validity.is_empty() {
+        return;
+    }
+    section(ui, "Outside the limits of the model");
+    for excess in validity {
+        number(ui, colours, &capitalised(&excess.name.replace('-', " ")), &beside_limit(excess), "");
+        ui.add(egui::Label::new(&excess.text).wrap());
+        ui.add_space(2.0);
+    }
+}
+
+fn regime_numbers(ui: &mut egui::Ui, run: &Run, colours: &Palette) {
+    let numbers = &Dimensionless::of(&run.problem);
+    let weight = regime::weight(&run.problem, &run.solution.outcome);
     let rows = [
-        ("Squeeze number σ", numbers.squeeze_number, regime::squeeze(numbers)),
-        ("Bearing number Λ", numbers.bearing_number, regime::bearing(numbers)),
-        ("Knudsen number Kn", numbers.knudsen_number, regime::knudsen(numbers)),
+        ("Squeeze number σ", numbers.squeeze_number, vec![regime::squeeze(numbers), &weight]),
+        ("Bearing number Λ", numbers.bearing_number, vec![regime::bearing(numbers)]),
+        ("Knudsen number Kn", numbers.knudsen_number, vec![regime::knudsen(numbers)]),
     ];
-    for (name, value, phrase) in rows {
+    for (name, value, phrases) in rows {
         number(ui, colours, name, &shown(value), "");
-        quiet(ui, colours, phrase);
+        phrases.iter().for_each(|phrase| quiet(ui, colours, phrase));
         ui.add_space(2.0);
     }
 }

@@ -74,7 +74,8 @@ mod tests {
         let problem = Problem::new(&scene).unwrap();
         let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
-        Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, wall_s: 0.0, history: Vec::new() }
+        let (validity, history) = (Vec::new(), Vec::new());
+        Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0, history }
     }
 
     /// Draws a few frames at several phases and cursors; returns the state of the view and what was asked.
