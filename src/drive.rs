@@ -21,7 +21,7 @@
 //! s₀ ≤ 1, so that the torque has a bound, the paper's maximum operating torque μ_d N waves r. A motor that is pressed so
 //! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
 
-use crate::estimate::{Estimate, judged};
+use crate::estimate::Estimate;
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Performance, Point};
@@ -266,7 +266,10 @@ impl<'a> Scaled<'a> {
             drive: Drive::new(&loads),
             others: recording.yardsticks.iter().map(Drive::new).collect(),
             judge: |found, others| match *others {
-                [before, finest] => judged(found, before, finest),
+                // Contact edges are irregular: all of the larger difference, not the share of it that is calibrated for α.
+                [before, finest] => {
+                    Estimate { value: found, error: (found - before).abs().max((found - finest).abs()) }
+                }
                 _ => Estimate { value: found, error: f64::INFINITY },
             },
             load: Estimate {
