@@ -54,6 +54,7 @@
 //! | [`rotor`], [`contact`] | the compliance; contact and load balance at one instant |
 //! | [`fidelity`], [`plan`], [`estimate`] | how much accuracy; what this scene needs; the error that is left |
 //! | [`recording`], [`solution`] | what a solve returns: plain data |
+//! | [`drive`] | torque, power and efficiency over speed, from where the contact load is |
 //! | [`memory`] | what a solve needs of it, and what all solves may take |
 //! | [`motor`], [`plate`] | the periodic state of either scene |
 //! | [`mod@startup`], [`hold`] | the transient from rest; a plate held by hand |
@@ -70,6 +71,7 @@ pub mod cli;
 pub mod contact;
 pub mod control;
 pub mod dimensionless;
+pub mod drive;
 pub mod estimate;
 pub mod export;
 pub mod fidelity;

@@ -1,5 +1,6 @@
 //! What a solve returns: plain data, in SI units, that the command line, the window and the exports read.
 
+use crate::estimate::Estimate;
 use crate::plan::Decision;
 use crate::recording::Recording;
 
@@ -75,7 +76,8 @@ pub struct MotorResult {
     pub film_load_range_error: [f64; 2],
     /// Cycle mean of the contact force \[N\].
     pub contact_load: f64,
-    /// Greatest torque of the whole ring, μ_d (1−α) waves L r \[N m\].
+    /// The paper's maximum operating torque of the whole ring, μ_d (1−α) waves L r \[N m\]: a bound, see
+    /// [`Performance::stall_torque`].
     pub max_torque: f64,
     /// Cycle mean of the number of teeth that touch the rotor.
     pub teeth_in_contact: f64,
@@ -91,6 +93,44 @@ pub struct MotorResult {
     pub min_gap_error: f64,
     /// See `teeth_in_contact_error`.
     pub max_pressure_error: f64,
+}
+
+/// The motor at one speed of its rotor; the whole ring.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Surface speed of the rotor \[m/s\].
+    pub speed: f64,
+    /// Torque on the rotor \[N m\].
+    pub torque: Estimate,
+    /// Power given to the rotor \[W\].
+    pub output: f64,
+    /// Heat of friction \[W\].
+    pub friction: f64,
+    /// Output over what the stator gives to friction, rotor and film; `None` where the rotor is not driven.
+    pub efficiency: Option<f64>,
+}
+
+/// Torque, power and efficiency with the film, or without it; the whole ring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Performance {
+    /// Torque at rest \[N m\].
+    pub stall_torque: Estimate,
+    /// The paper's maximum operating torque μ_d N waves r \[N m\]: the bound at which all of the contact pulls one way.
+    pub max_torque: Estimate,
+    /// Speed at which the torque vanishes \[m/s\]; `None` without contact.
+    pub no_load_speed: Option<Estimate>,
+    /// Greatest output \[W\].
+    pub max_power: Estimate,
+    /// Speed of the greatest output \[m/s\]; `None` without contact.
+    pub max_power_speed: Option<Estimate>,
+    /// Greatest efficiency; `None` without contact.
+    pub max_efficiency: Option<Estimate>,
+    /// Its speed \[m/s\].
+    pub max_efficiency_speed: Option<Estimate>,
+    /// At the rotor speed of the scene.
+    pub present: Point,
+    /// From rest to the stator's greatest speed, ascending; empty where only the numbers were asked for.
+    pub curve: Vec<Point>,
 }
 
 /// Results of a plate scene. Forces of a strip are per metre of width.
@@ -176,6 +216,9 @@ pub struct Solution {
     pub status: Status,
     /// The numbers.
     pub outcome: Outcome,
+    /// Torque, power and efficiency of a motor with its film, without the curve; `None` of a plate, and where no cycle was
+    /// reached.
+    pub performance: Option<Performance>,
     /// What it cost.
     pub stats: Stats,
     /// What was modelled.

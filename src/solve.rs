@@ -1,6 +1,7 @@
 //! One call for either scene: problem and settings in, solution out.
 
 use crate::control::{Cancel, Observer};
+use crate::drive::{Scaled, braking};
 use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
 use crate::memory::{self, Excess};
@@ -153,6 +154,7 @@ pub fn solve_from(
                 warnings: warnings(&found.status),
                 status: found.status,
                 outcome: Outcome::Motor(found.result),
+                performance: None,
                 stats: found.stats,
                 model: model(&plan, teeth),
                 recording: found.recording,
@@ -167,6 +169,7 @@ pub fn solve_from(
                 warnings: warnings(&found.status),
                 status: found.status,
                 outcome: Outcome::Plate(found.result),
+                performance: None,
                 stats: found.stats,
                 model: model(&plan, 1),
                 recording: found.recording,
@@ -180,6 +183,13 @@ pub fn solve_from(
     }
     if taken.bytes() > memory::REFINED {
         *warm = Warm::default();
+    }
+    if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome)
+        && solution.recording.frames > 0
+    {
+        let found = Scaled::with_film(motor, result, &solution.recording).performance(&[]);
+        solution.warnings.extend(braking(motor, result, &found));
+        solution.performance = Some(found);
     }
     if settings.record == Record::Numbers {
         solution.recording = Recording::default();

@@ -56,7 +56,15 @@ const NUMBERS: [&str; 9] = [
     "knudsen_number",
     "film_load_error_n",
 ];
-const MOTOR_NUMBERS: [&str; 5] = ["alpha", "alpha_error", "contact_load_n", "max_torque_nm", "teeth_in_contact"];
+const MOTOR_NUMBERS: [&str; 7] = [
+    "alpha",
+    "alpha_error",
+    "contact_load_n",
+    "stall_torque_nm",
+    "stall_torque_error_nm",
+    "max_torque_nm",
+    "teeth_in_contact",
+];
 const PLATE_NUMBERS: [&str; 3] = ["mean_load_ratio", "load_ratio_min", "load_ratio_max"];
 const STATS: [&str; 8] = [
     "wall_s",
@@ -115,7 +123,19 @@ fn json_of_a_plate_has_every_name_and_null_where_there_is_no_motor() {
 fn summary_names_the_numbers_with_units() {
     let output = run(&["solve", "fundamental", "--fidelity", "draft"]);
     assert_eq!((output.status.code(), err(&output)), (Some(0), ""));
-    for words in ["film share of the load  α", " ± ", " N·m", "levitated", " nm", " kPa", "σ", "Λ", "Kn", " ms"] {
+    for words in [
+        "film share of the load  α",
+        "\n  stall torque ",
+        " ± ",
+        " N·m",
+        "levitated",
+        " nm",
+        " kPa",
+        "σ",
+        "Λ",
+        "Kn",
+        " ms",
+    ] {
         assert!(out(&output).contains(words), "{words:?} is not in\n{}", out(&output));
     }
 }
@@ -136,6 +156,29 @@ fn a_scene_outside_the_limits_of_the_model_says_so() {
         assert!(out(&output).contains(words), "{words:?} is not in\n{}", out(&output));
     }
     assert!(!out(&run(&["solve", "plate-crossover", "--fidelity", "draft"])).contains("Outside the limits"));
+}
+
+#[test]
+fn a_motor_pressed_all_round_the_wave_leads_with_its_stall_torque_and_warns() {
+    let set = ["stator.frequency_khz=40", "motor.contact_radius_mm=60", "motor.waves=9", "motor.load_per_wave_n=16.67"];
+    let arguments: Vec<&str> = ["solve", "fundamental", "--fidelity", "draft"]
+        .into_iter()
+        .chain(set.into_iter().flat_map(|set| ["--set", set]))
+        .collect();
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(0));
+    let lines: Vec<&str> = out(&output).lines().collect();
+    let place = |name: &str| lines.iter().position(|line| line.starts_with(name)).unwrap();
+    let (stall, bound) = (place("  stall torque "), place("  maximum operating torque "));
+    let words: Vec<&str> = lines[stall].split_whitespace().collect();
+    let [value, error] = [words[2], words[4]].map(|word| word.parse::<f64>().unwrap());
+    assert!(stall < bound && (value - 2.4845).abs() < error && error < 0.05, "{}", lines[stall]);
+    assert!(lines[bound].contains(" 6.301") && lines[bound].contains("bound"), "{}", lines[bound]);
+    for word in ["all 9 teeth", "at all times", words[2], "6.301"] {
+        assert!(err(&output).contains(word), "{word:?} is not in {}", err(&output));
+    }
+    // The contact of the fundamental case is near the crests: it is not warned of.
+    assert_eq!(solved(&["fundamental"])["warnings"], Value::Array(Vec::new()));
 }
 
 #[test]
@@ -351,6 +394,8 @@ fn files_of_a_motor_agree_with_the_summary() {
     let torque = columns(&folder.join("torque.csv"));
     let merit = |side: &str, key: &str| summary["merit"][side][key].as_f64().unwrap();
     assert!(close(torque["torque_nm"][0], merit("with_film", "stall_torque_nm")));
+    assert_eq!(summary["stall_torque_nm"], summary["merit"]["with_film"]["stall_torque_nm"]);
+    assert_eq!(summary["stall_torque_error_nm"], summary["merit"]["with_film"]["stall_torque_error_nm"]);
     assert!(close(merit("with_film", "max_torque_nm"), number("max_torque_nm")));
     assert!(close(merit("without_film", "max_torque_nm"), number("dry_torque_nm")));
     for (column, side) in [("torque_nm", "with_film"), ("dry_torque_nm", "without_film")] {

@@ -164,8 +164,17 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     let single = |preset: &&str| String::from_utf8(done(&[&["solve", preset], &draft[..]].concat()).stdout).unwrap();
     let singles: Vec<String> = presets.iter().map(single).collect();
     for (single, run) in singles.iter().zip(&ours) {
-        for name in ["alpha", "alpha_error", "film_load_n", "max_torque_nm", "min_gap_nm", "max_pressure_kpa", "preset"]
-        {
+        for name in [
+            "alpha",
+            "alpha_error",
+            "film_load_n",
+            "stall_torque_nm",
+            "stall_torque_error_nm",
+            "max_torque_nm",
+            "min_gap_nm",
+            "max_pressure_kpa",
+            "preset",
+        ] {
             assert_eq!(texts(run, name)[0], texts(single, name)[0], "{name}");
         }
     }

@@ -638,7 +638,7 @@ fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
     for name in ["Torque of the ring, N·m", "Power, W", "Efficiency, %"] {
         window.get_by_role_and_label(Role::Image, name);
     }
-    for name in ["Stall torque", "No-load speed", "Greatest output", "Greatest efficiency", "With film", "Without film"]
+    for name in ["Stall torque", "No-load speed", "Greatest power", "Greatest efficiency", "With film", "Without film"]
     {
         window.get_by_label(name);
     }

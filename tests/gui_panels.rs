@@ -357,7 +357,12 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     let alpha = squeezefilm::export::digits::with_error(result.alpha, result.alpha_error);
     harness.get_by_label_contains(&alpha);
     harness.get_by_label("share of the load carried by air");
-    for name in ["Film load", "Contact load", "Without air", "Least gap", "Highest pressure", "Squeeze number σ"] {
+    for name in
+        ["Film load", "Contact load", "Stall torque", "Maximum operating torque", "The same without air", "Least gap"]
+    {
+        harness.get_by_label(name);
+    }
+    for name in ["Highest pressure", "Squeeze number σ"] {
         harness.get_by_label(name);
     }
     harness.get_by_label("12.3 ms");

@@ -600,7 +600,12 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     let torque =
         ["Torque over speed", "Power", "Efficiency", "With film", "Without film", "Friction heat", "Rotor speed"];
     explains(faults, &window, "Torque", &torque);
-    explains(faults, &window, "Torque, table", &["Stall torque", "Maximum torque", "No-load speed", "Greatest output"]);
+    explains(
+        faults,
+        &window,
+        "Torque, table",
+        &["Stall torque", "Maximum operating torque", "No-load speed", "Greatest power"],
+    );
     hovers(faults, &mut window, "Stall torque", "held at rest");
     hovers(faults, &mut window, "without film", "in a vacuum");
 

@@ -3,7 +3,7 @@
 
 use squeezefilm::analysis::exact as exact_of_runs;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
-use squeezefilm::analysis::torque::{Merit, Performance};
+use squeezefilm::analysis::torque::Merit;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact;
@@ -11,7 +11,7 @@ use squeezefilm::hold::leak_time;
 use squeezefilm::lessons::BUILT_IN;
 use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::presets;
-use squeezefilm::solution::{Outcome, PlateResult};
+use squeezefilm::solution::{Outcome, Performance, PlateResult};
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
 
@@ -107,18 +107,18 @@ const CLAIMS: &[Claim] = &[
     (8, "is 0.246. What torque", "fundamental", &[], "alpha", 0.246, 0.003),
     (8, "answer = 0.2625", "fundamental", &[], "max_torque_nm", 0.2625, 0.002),
     (8, "0.086, a third of 0.246", "fundamental", &["rotor.contact_width_mm=0.15"], "alpha", 0.086, 0.01),
-    (8, "0.318 N·m. The price", "fundamental", &["rotor.contact_width_mm=0.15"], "max_torque_nm", 0.318, 0.003),
-    (8, "0.174 N·m are left", "min-spacing-100nm", &[], "max_torque_nm", 0.174, 0.005),
+    (8, "0.318 N·m. The price", "fundamental", &["rotor.contact_width_mm=0.15"], "stall_torque_nm", 0.318, 0.003),
+    (8, "0.174 N·m are left", "min-spacing-100nm", &[], "stall_torque_nm", 0.174, 0.005),
     (
         8,
         "A third of a micrometre or so does it",
         "fundamental",
         &["film.min_spacing_nm=333"],
-        "max_torque_nm",
+        "stall_torque_nm",
         0.30,
         0.01,
     ),
-    (8, "At 5 kHz you are there", "fundamental", &["stator.frequency_khz=5"], "max_torque_nm", 0.305, 0.005),
+    (8, "At 5 kHz you are there", "fundamental", &["stator.frequency_khz=5"], "stall_torque_nm", 0.305, 0.005),
     (8, "the thinnest film is 330 nm", "fundamental", &["motor.load_per_wave_n=0.3"], "min_gap_nm", 330.0, 0.01),
 ];
 
@@ -253,7 +253,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[1], 0.22, 0.02);
     states(7, "0.15, 0.22, 0.24: after five cycles", motor[2], 0.24, 0.02);
     assert!((motor[4] / motor.last().unwrap() - 1.0).abs() < 0.005 && (5.0 / 30e3 - 1e-3 / 6.0f64).abs() < 1e-9);
-    // Torque: the ends of the lines, and the greatest output.
+    // Torque: the ends of the lines, and the greatest power.
     let merit = |preset: &str, set: &[&str]| {
         let problem = problem(preset, set);
         let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };

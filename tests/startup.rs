@@ -134,7 +134,7 @@ fn a_step_that_does_not_settle_is_counted_and_told() {
     let settles = problem("fundamental", &[]);
     let mut problem = settles.clone();
     problem.numerics.tolerance = Some(1e-17);
-    let settings = Settings { fidelity: Fidelity::Draft, cycles: 40, tolerance: 1e-2 };
+    let settings = Settings { fidelity: Fidelity::Draft, cycles: 40, tolerance: 1e-2, kept: 1 };
     let (_, ended) = run(&problem, &settings);
     assert!(ended.remaining < settings.tolerance && ended.stats.unsettled_steps > 0, "{ended:?}");
     let Status::NotConverged { residual, tolerance } = ended.status else { panic!("{ended:?}") };

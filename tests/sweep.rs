@@ -65,6 +65,25 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
 }
 
 #[test]
+fn a_sweep_of_the_load_finds_the_motor_that_is_pressed_too_hard() {
+    // From a contact on the crests alone to one all round the wave: the bound goes on rising, and the stall torque falls behind.
+    let mut scene = presets::find("fundamental").unwrap();
+    let set = [("stator.frequency_khz", "40"), ("motor.contact_radius_mm", "60"), ("motor.waves", "9")];
+    scene.set_all(set).unwrap();
+    let sweep = Sweep::new(&scene, &["motor.load_per_wave_n=1.67:16.67:4".parse().unwrap()], &DRAFT).unwrap();
+    let rows = with_threads(2, &sweep);
+    let column = |quantity| rows.iter().map(|row| row.numbers.get(quantity).unwrap()).collect::<Vec<_>>();
+    let (stall, bound) = (column(Quantity::StallTorque), column(Quantity::MaxTorque));
+    let share: Vec<f64> = stall.iter().zip(&bound).map(|(stall, bound)| stall / bound).collect();
+    assert!(bound.windows(2).all(|pair| pair[0] < pair[1]), "{bound:?}");
+    assert!((share[0] - 1.0).abs() < 1e-12 && share.windows(2).all(|pair| pair[1] < pair[0]), "{share:?}");
+    assert!((stall[3] - 2.4845).abs() < column(Quantity::StallTorqueError)[3] && bound[3] > 6.29, "{stall:?}");
+    for error in [Quantity::NoLoadSpeedError, Quantity::MaxPowerError, Quantity::MaxEfficiencyError] {
+        assert!(column(error).iter().all(|error| *error > 0.0), "{error:?}");
+    }
+}
+
+#[test]
 fn a_cancelled_sweep_gone_on_with_equals_an_unbroken_one() {
     let sweep = sweep("fundamental", &["stator.normal_amplitude_um=0.5:2:10"]);
     let whole = with_threads(2, &sweep);
@@ -124,7 +143,22 @@ fn files_and_json_agree_and_are_gone_on_with() {
     let mut count = 0;
     for (record, row) in reader.records().zip(rows) {
         let record = record.unwrap();
-        for name in ["stator.frequency_khz", "alpha", "alpha_error", "film_load_n", "max_torque_nm", "film_steps"] {
+        for name in [
+            "stator.frequency_khz",
+            "alpha",
+            "alpha_error",
+            "film_load_n",
+            "stall_torque_nm",
+            "stall_torque_error_nm",
+            "no_load_speed_rpm",
+            "no_load_speed_error_rpm",
+            "max_power_w",
+            "max_power_error_w",
+            "max_efficiency",
+            "max_efficiency_error",
+            "max_torque_nm",
+            "film_steps",
+        ] {
             // The reader of JSON is not exact in the last bit.
             let (csv, json) = (record[column(name)].parse::<f64>().unwrap(), row[name].as_f64().unwrap());
             assert!((csv - json).abs() <= 1e-15 * csv.abs(), "{name}: {csv} {json}");
@@ -139,7 +173,12 @@ fn files_and_json_agree_and_are_gone_on_with() {
     let alone: Value =
         serde_json::from_slice(&run(&["solve", "fundamental", "--fidelity=draft", "--json", &first], None).stdout)
             .unwrap();
-    assert_eq!((&rows[0]["alpha"], &rows[0]["alpha_error"]), (&alone["alpha"], &alone["alpha_error"]));
+    for name in ["alpha", "alpha_error", "stall_torque_nm", "stall_torque_error_nm", "max_torque_nm"] {
+        assert_eq!(rows[0][name], alone[name], "{name}");
+    }
+    for name in ["no_load_speed_rpm", "max_power_w", "max_power_error_w", "max_efficiency", "max_efficiency_error"] {
+        assert_eq!(rows[0][name], alone["merit"]["with_film"][name], "{name}");
+    }
 
     // Two of the five points, as a cancelled run leaves them; the rest is solved, with the same files in the end.
     let again = parent.path().join("again");

@@ -1,16 +1,17 @@
 //! Torque, power and efficiency of solved motors: balances that hold whatever the contact is, limits, honest errors.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use squeezefilm::analysis::torque::{Drive, Merit, film_power, surface_speed};
+use squeezefilm::analysis::torque::Merit;
 use squeezefilm::control::Cancel;
+use squeezefilm::drive::{Drive, film_power, surface_speed};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::without_film;
 use squeezefilm::plan::Plan;
 use squeezefilm::problem::{Motor, Numerics, Problem, Scenario};
 use squeezefilm::recording::Recording;
 use squeezefilm::scene::presets;
-use squeezefilm::solution::{MotorResult, Outcome};
-use squeezefilm::solve::{Method, Settings, solve};
+use squeezefilm::solution::{MotorResult, Outcome, Performance};
+use squeezefilm::solve::{Method, Record, Settings, solve};
 use std::f64::consts::TAU;
 
 struct Solved {
@@ -102,6 +103,58 @@ fn the_figures_are_those_of_the_curve() {
     }
 }
 
+/// A motor pressed so heavily that all teeth touch at all times.
+const HEAVY: [(&str, &str); 4] = [
+    ("stator.frequency_khz", "40"),
+    ("motor.contact_radius_mm", "60"),
+    ("motor.waves", "9"),
+    ("motor.load_per_wave_n", "16.67"),
+];
+
+#[test]
+fn a_heavily_pressed_motor_gives_far_less_than_the_bound() {
+    let reference = solved("fundamental", &HEAVY, Fidelity::Reference).merit.with_film;
+    for fidelity in [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine] {
+        let solved = solved("fundamental", &HEAVY, fidelity);
+        let found = &solved.merit.with_film;
+        assert!((found.max_torque.value - 6.30).abs() < 0.01 && (found.stall_torque.value - 2.48).abs() < 0.05);
+        let (stall, exact) = (found.stall_torque, reference.stall_torque);
+        assert!((stall.value - exact.value).abs() <= stall.error + exact.error, "{fidelity}: {stall:?} {exact:?}");
+        // At rest what drives, less what brakes, node by node: the change of sign falls between two frames.
+        let mut sum = 0.0;
+        for frame in 0..solved.recording.frames {
+            for tooth in 0..solved.recording.teeth {
+                let line = solved.recording.line_offset(tooth, frame);
+                for (i, (x, length)) in solved.recording.x.iter().zip(&solved.recording.node_length).enumerate() {
+                    let x = tooth as f64 * solved.recording.pitch + x;
+                    let slide = solved.motor.sliding_speed(x, frame as f64 / solved.recording.frames as f64);
+                    sum -= solved.recording.contact[line + i] * length * slide.signum();
+                }
+            }
+        }
+        let torque = 0.7 * 9.0 * 60e-3 * sum / solved.recording.frames as f64;
+        assert!((torque - stall.value).abs() < 0.02 * stall.value, "{fidelity}: {torque} {stall:?}");
+    }
+}
+
+#[test]
+fn a_solve_has_the_numbers_of_the_curve_also_where_it_keeps_no_fields() {
+    for (preset, set) in [("fundamental", &[][..]), ("fundamental", &HEAVY[..]), ("levitating", &[][..])] {
+        let mut scene = presets::find(preset).unwrap();
+        scene.set_all(set.iter().copied()).unwrap();
+        let problem = Problem::new(&scene).unwrap();
+        let settings = Settings { fidelity: Fidelity::Draft, record: Record::Numbers, ..Settings::default() };
+        let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+        assert!(solution.recording.contact.is_empty());
+        let curve = solved(preset, set, Fidelity::Draft).merit.with_film;
+        assert_eq!(solution.performance, Some(Performance { curve: Vec::new(), ..curve }));
+        // What touches all round the wave is warned of, with both torques.
+        let braking = set.len() == HEAVY.len();
+        assert_eq!(solution.warnings.len(), usize::from(braking), "{:?}", solution.warnings);
+        assert!(!braking || ["9 teeth", "2.4", "6.30"].iter().all(|words| solution.warnings[0].contains(words)));
+    }
+}
+
 #[test]
 fn the_film_takes_the_same_power_on_every_grid() {
     let exact = solved("fundamental", &[], Fidelity::Reference).merit.film_power;
@@ -117,6 +170,8 @@ fn a_rotor_that_floats_is_not_driven() {
     let solved = solved("levitating", &[], Fidelity::Draft);
     let found = &solved.merit.with_film;
     assert_eq!((found.max_torque.value, found.no_load_speed, found.max_efficiency), (0.0, None, None));
+    // The contact that was missed might drive.
+    assert_eq!((found.stall_torque.value, found.stall_torque.error), (0.0, found.max_torque.error));
     assert!(found.curve.iter().all(|point| point.torque.value == 0.0 && point.friction == 0.0));
     // The same motor in a vacuum does drive.
     assert!(solved.merit.without_film.stall_torque.value > 0.0);

@@ -1,9 +1,11 @@
 //! The numbers of one solve under their names in JSON and CSV, so that any of them can be put on an axis.
 
 use crate::dimensionless::Dimensionless;
+use crate::drive::rpm;
+use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::scene::Belongs;
-use crate::solution::{MotorResult, Outcome, PlateResult, Solution, Status};
+use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Solution, Status};
 
 /// One number of a solve. Units are in the names; those of a strip's forces are per metre of width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,7 +24,23 @@ pub enum Quantity {
     FilmLoadMax,
     /// Cycle mean of the contact force.
     ContactLoad,
-    /// Greatest torque of the whole ring.
+    /// Torque of the whole ring at rest.
+    StallTorque,
+    /// Its estimated numerical error, absolute.
+    StallTorqueError,
+    /// Speed at which the torque vanishes.
+    NoLoadSpeed,
+    /// Its estimated numerical error, absolute.
+    NoLoadSpeedError,
+    /// Greatest power given to the rotor.
+    MaxPower,
+    /// Its estimated numerical error, absolute.
+    MaxPowerError,
+    /// Greatest efficiency, 0 to 1.
+    MaxEfficiency,
+    /// Its estimated numerical error, absolute.
+    MaxEfficiencyError,
+    /// The paper's maximum operating torque: the bound of the torque of the whole ring.
     MaxTorque,
     /// Its estimated numerical error, absolute.
     MaxTorqueError,
@@ -62,12 +80,13 @@ pub enum Quantity {
 
 use Quantity::{
     Alpha, AlphaError, BearingNumber, ContactLoad, ContactSolves, Cycles, FilmLoad, FilmLoadError, FilmLoadMax,
-    FilmLoadMin, FilmSteps, KnudsenNumber, LoadRatio, LoadRatioError, LoadRatioMax, LoadRatioMin, MaxPressure,
-    MaxTorque, MaxTorqueError, MinGap, Residual, Rounds, SqueezeNumber, TeethInContact, Tolerance,
+    FilmLoadMin, FilmSteps, KnudsenNumber, LoadRatio, LoadRatioError, LoadRatioMax, LoadRatioMin, MaxEfficiency,
+    MaxEfficiencyError, MaxPower, MaxPowerError, MaxPressure, MaxTorque, MaxTorqueError, MinGap, NoLoadSpeed,
+    NoLoadSpeedError, Residual, Rounds, SqueezeNumber, StallTorque, StallTorqueError, TeethInContact, Tolerance,
 };
 
 /// How many there are.
-pub const COUNT: usize = 25;
+pub const COUNT: usize = 33;
 
 /// In the order of the enum: name, what it is, its unit, scenes that have it.
 const TABLE: [(Quantity, &str, &str, &str, Belongs); COUNT] = [
@@ -78,8 +97,16 @@ const TABLE: [(Quantity, &str, &str, &str, Belongs); COUNT] = [
     (FilmLoadMin, "film_load_min_n", "least film load", "N", Belongs::Any),
     (FilmLoadMax, "film_load_max_n", "greatest film load", "N", Belongs::Any),
     (ContactLoad, "contact_load_n", "contact load", "N", Belongs::Motor),
-    (MaxTorque, "max_torque_nm", "torque of the ring", "N·m", Belongs::Motor),
-    (MaxTorqueError, "max_torque_error_nm", "error of the torque", "N·m", Belongs::Motor),
+    (StallTorque, "stall_torque_nm", "stall torque", "N·m", Belongs::Motor),
+    (StallTorqueError, "stall_torque_error_nm", "error of the stall torque", "N·m", Belongs::Motor),
+    (NoLoadSpeed, "no_load_speed_rpm", "no-load speed", "rpm", Belongs::Motor),
+    (NoLoadSpeedError, "no_load_speed_error_rpm", "error of the no-load speed", "rpm", Belongs::Motor),
+    (MaxPower, "max_power_w", "greatest power", "W", Belongs::Motor),
+    (MaxPowerError, "max_power_error_w", "error of the greatest power", "W", Belongs::Motor),
+    (MaxEfficiency, "max_efficiency", "greatest efficiency", "", Belongs::Motor),
+    (MaxEfficiencyError, "max_efficiency_error", "error of the greatest efficiency", "", Belongs::Motor),
+    (MaxTorque, "max_torque_nm", "maximum operating torque (bound)", "N·m", Belongs::Motor),
+    (MaxTorqueError, "max_torque_error_nm", "error of the bound of the torque", "N·m", Belongs::Motor),
     (TeethInContact, "teeth_in_contact", "teeth in contact", "", Belongs::Motor),
     (LoadRatio, "mean_load_ratio", "mean load ratio", "", Belongs::Plate),
     (LoadRatioError, "mean_load_ratio_error", "error of the load ratio", "", Belongs::Plate),
@@ -155,6 +182,10 @@ impl Quantity {
             Alpha => Some(AlphaError),
             // The load is shared: what one has too much the other has too little.
             FilmLoad | ContactLoad => Some(FilmLoadError),
+            StallTorque => Some(StallTorqueError),
+            NoLoadSpeed => Some(NoLoadSpeedError),
+            MaxPower => Some(MaxPowerError),
+            MaxEfficiency => Some(MaxEfficiencyError),
             MaxTorque => Some(MaxTorqueError),
             LoadRatio => Some(LoadRatioError),
             _ => None,
@@ -176,8 +207,14 @@ pub fn labelled(words: &str, unit: &str) -> String {
 }
 
 /// All numbers of one solve. What a scene does not have, and what is not finite, is not there.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numbers([Option<f64>; COUNT]);
+
+impl Default for Numbers {
+    fn default() -> Self {
+        Self([None; COUNT])
+    }
+}
 
 impl Numbers {
     /// Of a solution of `problem`.
@@ -200,6 +237,9 @@ impl Numbers {
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 let dry = motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius;
                 numbers.motor(result, motor.load, dry);
+                if let Some(found) = &solution.performance {
+                    numbers.performance(found, |speed| rpm(motor, speed));
+                }
             }
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
                 numbers.plate(result, |load| PlateResult::ratio(load, plate));
@@ -223,6 +263,21 @@ impl Numbers {
         self.set(TeethInContact, result.teeth_in_contact);
         self.set(MinGap, result.min_gap * 1e9);
         self.set(MaxPressure, result.max_pressure * 1e-3);
+    }
+
+    fn performance(&mut self, found: &Performance, rpm: impl Fn(f64) -> f64) {
+        let speed = found.no_load_speed.map(|speed| Estimate { value: rpm(speed.value), error: rpm(speed.error) });
+        for (quantity, found) in [
+            (StallTorque, Some(found.stall_torque)),
+            (NoLoadSpeed, speed),
+            (MaxPower, Some(found.max_power)),
+            (MaxEfficiency, found.max_efficiency),
+        ] {
+            if let (Some(found), Some(error)) = (found, quantity.error()) {
+                self.set(quantity, found.value);
+                self.set(error, found.error);
+            }
+        }
     }
 
     fn plate(&mut self, result: &PlateResult, ratio: impl Fn(f64) -> f64) {

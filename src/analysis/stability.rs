@@ -439,6 +439,7 @@ mod tests {
         let mut solution = Solution {
             status: Status::Converged,
             outcome: Outcome::Motor(result),
+            performance: None,
             stats: Stats::default(),
             accuracy: Default::default(),
             model: Model::default(),

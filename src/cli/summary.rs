@@ -71,6 +71,10 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     let error = or_nan(summary.alpha_error);
     let dry = or_nan(summary.dry_torque_nm);
     let negative = regime::sucks(or_nan(summary.alpha), error);
+    let without = summary.merit.as_ref().map_or_else(String::new, |merit| {
+        let dry = &merit.without_film;
+        format!("; {} without film", stated(dry.stall_torque_nm, dry.stall_torque_error_nm, 1.0, "N·m"))
+    });
     columns.row([
         "film share of the load  α",
         &with_error(or_nan(summary.alpha), error),
@@ -87,9 +91,14 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
         "mean over the cycle, the rest of the load",
     ]);
     columns.row([
-        "torque of the whole ring",
+        "stall torque",
+        &stated(summary.stall_torque_nm, summary.stall_torque_error_nm, 1.0, "N·m"),
+        &format!("of the whole ring, the rotor held at rest{without}"),
+    ]);
+    columns.row([
+        "maximum operating torque",
         &format!("{} N·m", with_error(or_nan(summary.max_torque_nm), dry * error)),
-        &format!("greatest; {} N·m if there were no air", shown(dry)),
+        &format!("the paper's bound μ_d (1 − α) waves L r; {} N·m if there were no air", shown(dry)),
     ]);
     columns.row([
         "teeth in contact",
@@ -112,34 +121,28 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
 /// Torque, power and efficiency over speed; the last column is the same motor in a vacuum.
 fn merit_rows(columns: &mut Columns, motor: &Motor, merit: &MeritObject) {
     let (wet, dry) = (&merit.with_film, &merit.without_film);
-    let number = |value: Option<f64>, error: Option<f64>, factor: f64, unit: &str| match value {
-        Some(value) if error == Some(0.0) => format!("{} {unit}", shown(value * factor)),
-        Some(value) => format!("{} {unit}", with_error(value * factor, error.map_or(f64::INFINITY, |e| e * factor))),
-        None => "none".to_owned(),
-    };
     let without = |text: String| format!("{text} without film");
     let mut row = |name: &str, value: &dyn Fn(&PerformanceObject) -> String| {
         columns.row([name, &value(wet), &without(value(dry))]);
     };
-    row("stall torque", &|of| number(of.stall_torque_nm, of.stall_torque_error_nm, 1.0, "N·m"));
-    row("no-load speed", &|of| number(of.no_load_speed_rpm, of.no_load_speed_error_rpm, 1.0, "rpm"));
-    row("greatest output", &|of| number(of.max_power_w, of.max_power_error_w, 1.0, "W"));
-    row("  at", &|of| number(of.max_power_speed_rpm, of.max_power_speed_error_rpm, 1.0, "rpm"));
-    row("greatest efficiency", &|of| number(of.max_efficiency, of.max_efficiency_error, 100.0, "%"));
-    row("  at", &|of| number(of.max_efficiency_speed_rpm, of.max_efficiency_speed_error_rpm, 1.0, "rpm"));
+    row("no-load speed", &|of| stated(of.no_load_speed_rpm, of.no_load_speed_error_rpm, 1.0, "rpm"));
+    row("greatest power", &|of| stated(of.max_power_w, of.max_power_error_w, 1.0, "W"));
+    row("  at", &|of| stated(of.max_power_speed_rpm, of.max_power_speed_error_rpm, 1.0, "rpm"));
+    row("greatest efficiency", &|of| stated(of.max_efficiency, of.max_efficiency_error, 100.0, "%"));
+    row("  at", &|of| stated(of.max_efficiency_speed_rpm, of.max_efficiency_speed_error_rpm, 1.0, "rpm"));
     if motor.rotor_speed != 0.0 {
         let speed = format!("torque at {} rpm", plain(or_nan(wet.present.speed_rpm)));
-        row(&speed, &|of| number(of.present.torque_nm, of.present.torque_error_nm, 1.0, "N·m"));
+        row(&speed, &|of| stated(of.present.torque_nm, of.present.torque_error_nm, 1.0, "N·m"));
     }
     columns.row([
         "power lost in the film",
-        &number(merit.film_power_w, merit.film_power_error_w, 1.0, "W"),
+        &stated(merit.film_power_w, merit.film_power_error_w, 1.0, "W"),
         "squeezed by the stator, mean over the cycle",
     ]);
     columns.row([
         "friction of a dry model",
-        number(merit.dry_equivalent_friction, merit.dry_equivalent_friction_error, 1.0, "").trim_end(),
-        &format!("explains the same torque as {} with the film", plain(motor.dry_friction)),
+        stated(merit.dry_equivalent_friction, merit.dry_equivalent_friction_error, 1.0, "").trim_end(),
+        &format!("has the same maximum operating torque as {} with the film", plain(motor.dry_friction)),
     ]);
 }
 
@@ -208,6 +211,15 @@ fn exact_rows(columns: &mut Columns, exact: &ExactObject, [stiffness, damping]: 
             &format!("{} %", significant(100.0 * deviation, 2)),
             "greatest deviation at any point, exactly 0 for every σ",
         ]);
+    }
+}
+
+/// A number with its error, which is none at all where it is exact; "none" if there is no number.
+fn stated(value: Option<f64>, error: Option<f64>, factor: f64, unit: &str) -> String {
+    match value {
+        Some(value) if error == Some(0.0) => format!("{} {unit}", shown(value * factor)),
+        Some(value) => format!("{} {unit}", with_error(value * factor, error.map_or(f64::INFINITY, |e| e * factor))),
+        None => "none".to_owned(),
     }
 }
 

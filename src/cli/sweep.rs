@@ -246,7 +246,7 @@ const SHOWN: [Quantity; 7] = [
     Quantity::Alpha,
     Quantity::FilmLoad,
     Quantity::LoadRatio,
-    Quantity::MaxTorque,
+    Quantity::StallTorque,
     Quantity::TeethInContact,
     Quantity::MinGap,
     Quantity::FilmSteps,
@@ -256,7 +256,7 @@ fn number(row: &Row, quantity: Quantity) -> String {
     let Some(value) = row.numbers.get(quantity) else { return String::new() };
     match quantity.error() {
         // Of two numbers that say the same only the first shows its error.
-        Some(error) if matches!(quantity, Quantity::Alpha | Quantity::LoadRatio) => {
+        Some(error) if matches!(quantity, Quantity::Alpha | Quantity::LoadRatio | Quantity::StallTorque) => {
             with_error(value, row.numbers.get(error).unwrap_or(f64::INFINITY))
         }
         _ if quantity == Quantity::FilmSteps => value.to_string(),

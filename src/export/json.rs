@@ -11,7 +11,7 @@ use crate::export::exact::ExactObject;
 use crate::export::merit::MeritObject;
 use crate::motor::MotorError;
 use crate::problem::{Motor, Plate, Problem, Scenario};
-use crate::solution::{Model, MotorResult, Outcome, PlateResult, Solution, Stats, Status};
+use crate::solution::{Model, MotorResult, Outcome, Performance, PlateResult, Solution, Stats, Status};
 use serde::Serialize;
 
 /// The version of the object.
@@ -61,9 +61,13 @@ pub struct Summary {
     pub film_load_max_error_n: Option<f64>,
     /// Cycle mean of the contact force on one wavelength.
     pub contact_load_n: Option<f64>,
-    /// Greatest torque of the whole ring.
+    /// Torque of the whole ring, the rotor held at rest.
+    pub stall_torque_nm: Option<f64>,
+    /// Estimated numerical error of `stall_torque_nm`, absolute.
+    pub stall_torque_error_nm: Option<f64>,
+    /// The paper's maximum operating torque of the whole ring, μ_d (1 − α) waves L r: a bound.
     pub max_torque_nm: Option<f64>,
-    /// The same without the air film.
+    /// The same bound without the air film.
     pub dry_torque_nm: Option<f64>,
     /// Cycle mean of the number of teeth that touch.
     pub teeth_in_contact: Option<f64>,
@@ -223,6 +227,10 @@ impl Summary {
             }
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 summary.fill_motor(motor, result, &mut numbers);
+                if let Some(Performance { stall_torque, .. }) = &solution.performance {
+                    summary.stall_torque_nm = numbers.take("stall_torque_nm", stall_torque.value);
+                    summary.stall_torque_error_nm = numbers.take("stall_torque_error_nm", stall_torque.error);
+                }
             }
             // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
             (Scenario::Plate(_), Outcome::Motor(_)) => summary.scene = "plate",
@@ -343,7 +351,7 @@ impl ModelObject {
     }
 }
 
-/// Greatest torque of the whole ring if there were no air film, μ_d waves L r \[N m\].
+/// The paper's maximum operating torque of the whole ring if there were no air film, μ_d waves L r \[N m\].
 pub fn dry_torque(motor: &Motor) -> f64 {
     motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius
 }

@@ -1,8 +1,9 @@
 //! Torque, power and efficiency as the `merit` object of `solve --json`, and its curves as CSV. Speeds in rotations a
 //! minute, for the whole ring.
 
-use crate::analysis::torque::{Merit, Performance, Point};
+use crate::analysis::torque::Merit;
 use crate::estimate::Estimate;
+use crate::solution::{Performance, Point};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -13,7 +14,7 @@ pub struct MeritObject {
     pub with_film: PerformanceObject,
     /// The same motor in a vacuum.
     pub without_film: PerformanceObject,
-    /// The friction coefficient that a model without film needs for the same greatest torque.
+    /// The friction coefficient that a model without film needs for the same maximum operating torque.
     pub dry_equivalent_friction: Option<f64>,
     /// Its estimated numerical error, absolute.
     pub dry_equivalent_friction_error: Option<f64>,
@@ -36,7 +37,7 @@ pub struct PerformanceObject {
     pub stall_torque_nm: Option<f64>,
     /// Its estimated numerical error, absolute.
     pub stall_torque_error_nm: Option<f64>,
-    /// Torque if all of the contact pulls one way.
+    /// The paper's maximum operating torque, a bound: all of the contact pulls one way.
     pub max_torque_nm: Option<f64>,
     /// Its estimated numerical error, absolute.
     pub max_torque_error_nm: Option<f64>,
@@ -44,7 +45,7 @@ pub struct PerformanceObject {
     pub no_load_speed_rpm: Option<f64>,
     /// Its estimated numerical error, absolute.
     pub no_load_speed_error_rpm: Option<f64>,
-    /// Greatest output.
+    /// Greatest power given to the rotor.
     pub max_power_w: Option<f64>,
     /// Its estimated numerical error, absolute.
     pub max_power_error_w: Option<f64>,

@@ -289,8 +289,8 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
         [x, ..] if quantity != primary(sweep) => figure.panels.push(curve_panel(sweep, rows, x, quantity)),
         [x, ..] => {
             figure.panels.push(curve_panel(sweep, rows, x, quantity));
-            let below = if sweep.quantities().contains(&Quantity::MaxTorque) {
-                Quantity::MaxTorque
+            let below = if sweep.quantities().contains(&Quantity::StallTorque) {
+                Quantity::StallTorque
             } else {
                 Quantity::MaxPressure
             };

@@ -137,6 +137,7 @@ impl Starting {
             solution: Solution {
                 status: Status::Converged,
                 outcome,
+                performance: None,
                 stats: Stats::default(),
                 accuracy: Default::default(),
                 model: Model::default(),
@@ -272,6 +273,7 @@ mod tests {
                 solution: Solution {
                     status: Status::Converged,
                     outcome: Outcome::Plate(Default::default()),
+                    performance: None,
                     stats: Stats::default(),
                     accuracy: Default::default(),
                     model: Model::default(),

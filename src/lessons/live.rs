@@ -54,8 +54,8 @@ const TABLE: [(Live, &str, &str, &str, Belongs, &str); COUNT] = [
     (Stall, "torque.stall_nm", "stall torque", "N·m", Belongs::Motor, "Torque"),
     (DryStall, "torque.dry_stall_nm", "stall torque, no film", "N·m", Belongs::Motor, "Torque"),
     (NoLoad, "torque.no_load_rpm", "no-load speed", "rpm", Belongs::Motor, "Torque"),
-    (Output, "torque.output_w", "greatest output", "W", Belongs::Motor, "Torque"),
-    (DryOutput, "torque.dry_output_w", "greatest output, no film", "W", Belongs::Motor, "Torque"),
+    (Output, "torque.output_w", "greatest power", "W", Belongs::Motor, "Torque"),
+    (DryOutput, "torque.dry_output_w", "greatest power, no film", "W", Belongs::Motor, "Torque"),
     (Spring, "exact.spring", "spring S", "", Belongs::Plate, "Exact"),
     (Damping, "exact.damping", "damping D", "", Belongs::Plate, "Exact"),
 ];

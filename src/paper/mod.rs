@@ -165,6 +165,7 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         accuracy: Accuracy { asked: 0.0, stated, stopped_by: StoppedBy::Limit },
         status,
         outcome: Outcome::Motor(outcome),
+        performance: None,
         stats,
         model: describe(motor, (nx, ny, n + 1), &march),
         warnings,

@@ -2,8 +2,9 @@
 
 use super::rest;
 use super::unit::prefixed;
-use crate::analysis::torque::{Merit, Performance, Point};
+use crate::analysis::torque::Merit;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Style};
+use crate::solution::{Performance, Point};
 
 /// Torque–speed curves with the film and without, power and heat, efficiency; the rotor speed of the scene is marked.
 pub fn torque(merit: &Merit) -> Figure {

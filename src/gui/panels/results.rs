@@ -14,7 +14,7 @@ use crate::gui::spot;
 use crate::gui::theme::{Palette, palette};
 use crate::job::Run;
 use crate::problem::{Motor, Plate, Scenario};
-use crate::solution::{MotorResult, Outcome, PlateResult, Status};
+use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Status};
 use eframe::egui::{self, Color32, RichText, TextStyle};
 
 /// Significant digits of numbers without an error of their own.
@@ -36,7 +36,9 @@ pub fn show(ui: &mut egui::Ui, run: &Run, model: &Model<'_>, dark: bool, command
         ui.add_space(8.0);
         convergence_banner(ui, run, &colours);
         match (&run.problem.scenario, &run.solution.outcome) {
-            (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, motor, result, &colours),
+            (Scenario::Motor(motor), Outcome::Motor(result)) => {
+                motor_numbers(ui, motor, result, run.solution.performance.as_ref(), &colours);
+            }
             (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, run, plate, result, &colours),
             // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
             _ => {}
@@ -63,7 +65,13 @@ pub fn show(ui: &mut egui::Ui, run: &Run, model: &Model<'_>, dark: bool, command
     });
 }
 
-fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours: &Palette) {
+fn motor_numbers(
+    ui: &mut egui::Ui,
+    motor: &Motor,
+    result: &MotorResult,
+    performance: Option<&Performance>,
+    colours: &Palette,
+) {
     if result.levitated {
         banner(ui, colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
     }
@@ -94,9 +102,12 @@ fn motor_numbers(ui: &mut egui::Ui, motor: &Motor, result: &MotorResult, colours
         &format!("{} of {}", shown(result.teeth_in_contact), motor.teeth),
         "",
     );
-    section(ui, "Maximum torque");
-    number(ui, colours, "With air", &uncertain(result.max_torque, torque_error), "N·m");
-    number(ui, colours, "Without air", &shown(dry_torque(motor)), "N·m");
+    section(ui, "Torque of the ring");
+    if let Some(Performance { stall_torque, .. }) = performance {
+        number(ui, colours, "Stall torque", &uncertain(stall_torque.value, stall_torque.error), "N·m");
+    }
+    number(ui, colours, "Maximum operating torque", &uncertain(result.max_torque, torque_error), "N·m");
+    number(ui, colours, "The same without air", &shown(dry_torque(motor)), "N·m");
     section(ui, "Extremes");
     extremes(ui, colours, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
 }

@@ -2,7 +2,7 @@
 //! reads off them.
 
 use super::chart::{SOLID, axes, chart, legend, place, title};
-use crate::analysis::torque::{Merit, Performance, Point};
+use crate::analysis::torque::Merit;
 use crate::estimate::Estimate;
 use crate::export::digits::significant;
 use crate::gui::lessons::glossary;
@@ -12,6 +12,7 @@ use crate::gui::spot;
 use crate::gui::theme::Palette;
 use crate::job::Run;
 use crate::problem::{Motor, Scenario};
+use crate::solution::{Performance, Point};
 use eframe::egui::{self, Color32, RichText, TextStyle, Vec2b};
 use egui_plot::{Line, LineStyle, PlotPoints, VLine};
 
@@ -196,10 +197,14 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
     // What it is called here, its value, and what the glossary explains it under.
     let rows: Vec<(&str, Cell<'_>, &str)> = vec![
         ("Stall torque", Box::new(|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Stall torque"),
-        ("Greatest torque", Box::new(|of| stated(Some(of.max_torque), 1.0, "N·m")), "Maximum torque"),
+        (
+            "Maximum operating torque",
+            Box::new(|of| stated(Some(of.max_torque), 1.0, "N·m")),
+            "Maximum operating torque",
+        ),
         ("No-load speed", Box::new(move |of| speed(of.no_load_speed)), "No-load speed"),
-        ("Greatest output", Box::new(|of| stated(Some(of.max_power), 1.0, "W")), "Greatest output"),
-        ("    at", Box::new(move |of| speed(of.max_power_speed)), "Greatest output"),
+        ("Greatest power", Box::new(|of| stated(Some(of.max_power), 1.0, "W")), "Greatest power"),
+        ("    at", Box::new(move |of| speed(of.max_power_speed)), "Greatest power"),
         ("Greatest efficiency", Box::new(|of| stated(of.max_efficiency, 100.0, "%")), "Efficiency"),
         ("    at", Box::new(move |of| speed(of.max_efficiency_speed)), "Efficiency"),
         (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
@@ -245,7 +250,7 @@ fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
     }
     let dry = stated(Some(merit.dry_equivalent), 1.0, "");
     let text = format!(
-        "A model without film needs the friction coefficient {} for the same greatest torque, instead of {}.",
+        "A model without film needs the friction coefficient {} for the same maximum operating torque, instead of {}.",
         dry.trim_end(),
         trimmed(motor.dry_friction)
     );

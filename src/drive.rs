@@ -1,0 +1,572 @@
+//! Torque, power and efficiency of a motor over the speed of its rotor, from where in the wave its contact load is.
+//!
+//! Coulomb friction at every point of contact and every instant. The stator's surface moves with
+//! V_St = V₀ cos 2πφ, V₀ = 2πf B_S, φ = t/T + x/λ, and a rotor at V_R = v V₀ is dragged along where cos 2πφ > v and held back
+//! elsewhere, so that all of it follows from where in the wave the contact load is:
+//!
+//! ```text
+//! torque          T = μ_d · waves · r · N s₀(v),          N s₀ = ∫ c sign(cos 2πφ − v)
+//! stator's power      μ_d · waves · V₀ · N s₁(v),         N s₁ = ∫ c sign(cos 2πφ − v) cos 2πφ
+//! output          T V_R / r
+//! friction heat      the difference, μ_d · waves · ∫ c |V_St − V_R| ≥ 0
+//! ```
+//!
+//! ∫ is over one wavelength and averaged over a cycle, and N = ∫ c = (1 − α) L. No sign is smoothed: c is linear in time between
+//! frames, so that the integrals up to the two instants at which a node's sign changes are closed forms; over x the nodes
+//! are summed with their lengths, of second order as everywhere.
+//!
+//! N is the extrapolated contact load of the solve. The shapes s₀ and s₁ are those of the recorded contact, which is extrapolated
+//! too; they are judged by what the same contact gives on the recording's yardsticks ([`Recording::estimate`]).
+//!
+//! s₀ ≤ 1, so that the torque has a bound, the paper's maximum operating torque μ_d N waves r. A motor that is pressed so
+//! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
+
+use crate::estimate::Estimate;
+use crate::problem::Motor;
+use crate::recording::{LineLoads, Recording};
+use crate::solution::{MotorResult, Performance, Point};
+use std::f64::consts::TAU;
+
+/// Speeds from rest to the stator's greatest speed, equally spaced, among which the greatest power is looked for.
+const SPEEDS: usize = 21;
+/// Steps of the golden section that follows; each narrows the place by 0.62.
+const NARROWED: usize = 19;
+
+/// Where in the wave the contact load is: its integrals up to any phase, on one grid.
+#[derive(Clone, Debug, Default)]
+pub struct Drive {
+    lines: Vec<Line>,
+    /// Cycle mean of the contact load on one wavelength \[N\].
+    load: f64,
+    /// The same of c cos 2πφ \[N\].
+    forward: f64,
+}
+
+/// One node of one stored tooth over the cycle.
+#[derive(Clone, Debug)]
+struct Line {
+    /// φ at t = 0.
+    offset: f64,
+    steps: Vec<Step>,
+    /// ∫ c Δx dt/T over the cycle \[N\].
+    sum: f64,
+    /// The same of c cos 2πφ \[N\].
+    forward: f64,
+}
+
+/// From one frame to the next, c Δx being linear in between.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    /// c Δx at the frame, times how many teeth it stands for \[N\].
+    load: f64,
+    /// What it grows by to the next frame \[N\].
+    rise: f64,
+    /// ∫ c Δx dt/T from the first frame to this one \[N\].
+    sum: f64,
+    /// The same of c cos 2πφ, less [`Step::primitive`] at the frame \[N\].
+    forward: f64,
+}
+
+/// What is read off the curves of one grid, without units. Speeds are ratios to V₀.
+struct Marks {
+    /// s₀ at rest.
+    stall: f64,
+    /// Speed ratio at which s₀ vanishes; 0 without contact.
+    no_load: f64,
+    /// Speed ratio at which v s₀ is greatest, and v s₀ there.
+    output: (f64, f64),
+    /// The same of the efficiency.
+    efficiency: (f64, f64),
+}
+
+impl Drive {
+    /// Of the contact of one cycle.
+    pub fn new(cycle: &LineLoads) -> Self {
+        let (nodes, frames) = (cycle.x.len(), cycle.frames);
+        let copies = cycle.teeth as f64 / cycle.stored_teeth.max(1) as f64;
+        let turns: Vec<(f64, f64)> = (0..=frames).map(|m| (TAU * m as f64 / frames as f64).sin_cos()).collect();
+        let mut lines = Vec::new();
+        let mut load = vec![0.0; frames];
+        for tooth in 0..cycle.stored_teeth {
+            for (i, (x, length)) in cycle.x.iter().zip(&cycle.node_length).enumerate() {
+                for (frame, load) in load.iter_mut().enumerate() {
+                    *load = cycle.contact[(tooth * frames + frame) * nodes + i] * length * copies;
+                }
+                if load.iter().any(|load| *load > 0.0) {
+                    lines.push(Line::new((tooth as f64 * cycle.pitch + x) / cycle.length, &load, &turns));
+                }
+            }
+        }
+        let load = lines.iter().map(|line| line.sum).sum();
+        let forward = lines.iter().map(|line| line.forward).sum();
+        Self { lines, load, forward }
+    }
+
+    /// Cycle mean of the contact load on one wavelength \[N\].
+    pub fn load(&self) -> f64 {
+        self.load
+    }
+
+    /// (s₀, s₁) at the speed ratio `v` = V_R/V₀: force on the rotor and power from the stator, as shares of μ_d N and
+    /// μ_d N V₀. Both are 0 without contact.
+    pub fn at(&self, v: f64) -> (f64, f64) {
+        if self.load <= 0.0 {
+            return (0.0, 0.0);
+        }
+        // The rotor is dragged along while |φ| < half.
+        let cos = v.clamp(-1.0, 1.0);
+        let (half, sin) = (cos.acos() / TAU, (1.0 - cos * cos).sqrt());
+        let (mut sum, mut forward) = (0.0, 0.0);
+        for line in &self.lines {
+            let (to, from) = (line.until(half, (sin, cos)), line.until(-half, (-sin, cos)));
+            sum += to.0 - from.0;
+            forward += to.1 - from.1;
+        }
+        ((2.0 * sum - self.load) / self.load, (2.0 * forward - self.forward) / self.load)
+    }
+
+    /// Speed ratio at which the force vanishes, which falls from +1 to −1; `None` without contact.
+    pub fn no_load(&self) -> Option<f64> {
+        if self.load <= 0.0 {
+            return None;
+        }
+        // Regula falsi; the end that stays twice counts half (Illinois).
+        let (mut low, mut high) = ((-1.0, 1.0), (1.0, -1.0));
+        let (mut middle, mut last) = (0.0, 0.0);
+        for _ in 0..60 {
+            middle = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let found = self.at(middle).0;
+            if found.abs() < 1e-14 || high.0 - low.0 < 1e-13 {
+                break;
+            }
+            let again = if last * found > 0.0 { 0.5 } else { 1.0 };
+            if found > 0.0 {
+                low = (middle, found);
+                high.1 *= again;
+            } else {
+                high = (middle, found);
+                low.1 *= again;
+            }
+            last = found;
+        }
+        Some(middle)
+    }
+
+    /// `loss`: the film's share of the stator's power, in μ_d N V₀.
+    fn marks(&self, loss: f64) -> Marks {
+        let step = 1.0 / (SPEEDS - 1) as f64;
+        let curve: Vec<(f64, f64)> = (0..SPEEDS).map(|i| self.at(i as f64 * step)).collect();
+        Marks {
+            stall: curve[0].0,
+            no_load: self.no_load().unwrap_or(0.0),
+            output: self.greatest(&curve, |v, (s0, _)| v * s0),
+            efficiency: self.greatest(&curve, |v, at| efficiency(v, at, loss).unwrap_or(0.0)),
+        }
+    }
+
+    /// The speed ratio between 0 and 1 at which `value` of v and (s₀, s₁) is greatest, and that value. `curve`: (s₀, s₁) at
+    /// equally spaced ratios.
+    fn greatest(&self, curve: &[(f64, f64)], value: impl Fn(f64, (f64, f64)) -> f64) -> (f64, f64) {
+        let at = |v: f64| (v, value(v, self.at(v)));
+        let step = 1.0 / (curve.len() - 1) as f64;
+        let known = curve.iter().enumerate().map(|(i, at)| (i as f64 * step, value(i as f64 * step, *at)));
+        let best = known.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+        // Golden section between its neighbours.
+        let ratio = 0.5 * (5f64.sqrt() - 1.0);
+        let (mut low, mut high) = ((best.0 - step).max(0.0), (best.0 + step).min(1.0));
+        let (mut left, mut right) = (at(high - ratio * (high - low)), at(low + ratio * (high - low)));
+        for _ in 0..NARROWED {
+            if left.1 < right.1 {
+                low = left.0;
+                left = right;
+                right = at(low + ratio * (high - low));
+            } else {
+                high = right.0;
+                right = left;
+                left = at(high - ratio * (high - low));
+            }
+        }
+        [left, right].into_iter().fold(best, |best, found| if found.1 > best.1 { found } else { best })
+    }
+}
+
+/// Output over what the stator gives, at a speed ratio and its (s₀, s₁); `None` where the rotor is not driven.
+fn efficiency(v: f64, (s0, s1): (f64, f64), loss: f64) -> Option<f64> {
+    (v * s0 > 0.0).then(|| v * s0 / (s1 + loss))
+}
+
+impl Line {
+    /// `turns`: sine and cosine of 2πt/T at the frames, one more than there are.
+    fn new(offset: f64, load: &[f64], turns: &[(f64, f64)]) -> Self {
+        let frames = load.len();
+        let step = 1.0 / frames as f64;
+        let (sin, cos) = (TAU * offset).sin_cos();
+        let phase = |(s, c): (f64, f64)| (s * cos + c * sin, c * cos - s * sin);
+        let (mut sum, mut forward) = (0.0, 0.0);
+        let mut steps = Vec::with_capacity(frames);
+        for (frame, (from, to)) in load.iter().zip(load.iter().cycle().skip(1)).enumerate() {
+            let mut next = Step { load: *from, rise: to - from, sum, forward };
+            if *from != 0.0 || *to != 0.0 {
+                next.forward -= next.primitive(frames, 0.0, phase(turns[frame]));
+                forward = next.forward + next.primitive(frames, 1.0, phase(turns[frame + 1]));
+                sum += 0.5 * step * (from + to);
+            }
+            steps.push(next);
+        }
+        Self { offset, steps, sum, forward }
+    }
+
+    /// ∫ c and ∫ c cos 2πφ from t = 0 to the time, before or after it, at which φ is `phase`, of this sine and cosine.
+    fn until(&self, phase: f64, at: (f64, f64)) -> (f64, f64) {
+        let frames = self.steps.len();
+        let mut place = (phase - self.offset) * frames as f64;
+        let (mut sum, mut forward) = (0.0, 0.0);
+        // |φ| ≤ ½ is at most a cycle or two away.
+        while place < 0.0 {
+            place += frames as f64;
+            sum -= self.sum;
+            forward -= self.forward;
+        }
+        let frame = (place as usize).min(frames - 1);
+        let step = self.steps[frame];
+        let share = place - frame as f64;
+        sum += step.sum + share * (step.load + 0.5 * share * step.rise) / frames as f64;
+        (sum, forward + step.forward + step.primitive(frames, share, at))
+    }
+}
+
+impl Step {
+    /// A primitive of c cos 2πφ over t/T, a share of the step past the frame, where 2πφ has this sine and cosine.
+    fn primitive(&self, frames: usize, share: f64, (sin, cos): (f64, f64)) -> f64 {
+        let turn = 1.0 / TAU;
+        turn * ((self.load + share * self.rise) * sin + turn * frames as f64 * self.rise * cos)
+    }
+}
+
+/// The contact with what its numbers are judged by, and what turns shares into newtons and watts.
+#[derive(Debug)]
+pub struct Scaled<'a> {
+    motor: &'a Motor,
+    drive: Drive,
+    others: Vec<Drive>,
+    /// A number of the contact with its error, from the same of the others.
+    judge: fn(f64, &[f64]) -> Estimate,
+    /// N \[N\].
+    load: Estimate,
+    /// Power that the stator of the whole ring spends on the film \[W\].
+    film_power: f64,
+}
+
+impl<'a> Scaled<'a> {
+    /// With the film, from a solve.
+    pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
+        let loads = recording.line_loads();
+        Self {
+            motor,
+            drive: Drive::new(&loads),
+            others: recording.yardsticks.iter().map(Drive::new).collect(),
+            judge: |found, others| match *others {
+                // Contact edges are irregular: all of the larger difference, not the share of it that is calibrated for α.
+                [before, finest] => {
+                    Estimate { value: found, error: (found - before).abs().max((found - finest).abs()) }
+                }
+                _ => Estimate { value: found, error: f64::INFINITY },
+            },
+            load: Estimate {
+                value: (1.0 - result.alpha).max(0.0) * motor.load,
+                error: result.alpha_error * motor.load,
+            },
+            film_power: given(motor, &loads),
+        }
+    }
+
+    /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest, whose error is the
+    /// difference to the next coarser one, three times what an error of second order would be.
+    pub fn without_film(motor: &'a Motor, dry: &[LineLoads]) -> Self {
+        let mut grids = dry.iter().rev().take(2).map(Drive::new);
+        Self {
+            motor,
+            drive: grids.next().unwrap_or_default(),
+            others: grids.collect(),
+            judge: |found, others| Estimate {
+                value: found,
+                error: others.first().map_or(f64::INFINITY, |coarse| (found - coarse).abs()),
+            },
+            load: Estimate { value: motor.load, error: 0.0 },
+            film_power: 0.0,
+        }
+    }
+
+    /// Speed at which the torque vanishes \[m/s\].
+    pub fn no_load_speed(&self) -> Option<f64> {
+        Some(self.drive.no_load()? * surface_speed(self.motor))
+    }
+
+    /// μ_d waves N r \[N m\].
+    fn torque(&self) -> Estimate {
+        let scale = self.motor.dry_friction * f64::from(self.motor.waves) * self.motor.contact_radius;
+        Estimate { value: scale * self.load.value, error: scale * self.load.error }
+    }
+
+    /// The film's share of the stator's power, in μ_d N V₀.
+    fn loss(&self) -> f64 {
+        let spent = self.torque().value * surface_speed(self.motor) / self.motor.contact_radius;
+        if spent > 0.0 { self.film_power.max(0.0) / spent } else { 0.0 }
+    }
+
+    /// A share of `unit` with its error. All shares of this module have theirs from here.
+    fn scaled(&self, unit: Estimate, found: f64, others: &[f64]) -> Estimate {
+        let share = (self.judge)(found, others);
+        let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * share.error };
+        Estimate { value: unit.value * share.value, error: shape + share.value.abs() * unit.error }
+    }
+
+    fn point(&self, speed: f64, loss: f64) -> Point {
+        let v0 = surface_speed(self.motor);
+        if v0 == 0.0 && speed == 0.0 {
+            // Nothing slides.
+            return Point::default();
+        }
+        // A stator that does not move along the ring holds the rotor, whichever way it turns.
+        let v = if v0 > 0.0 { speed / v0 } else { speed.signum() * 2.0 };
+        let unit = self.torque();
+        let at = self.drive.at(v);
+        let others: Vec<f64> = self.others.iter().map(|other| other.at(v).0).collect();
+        let force = unit.value / self.motor.contact_radius;
+        let output = force * at.0 * speed;
+        Point {
+            speed,
+            torque: self.scaled(unit, at.0, &others),
+            output,
+            friction: force * at.1 * v0 - output,
+            efficiency: efficiency(v, at, loss).filter(|_| self.load.value > 0.0),
+        }
+    }
+
+    /// All of it, with a curve at these speeds \[m/s\].
+    pub fn performance(&self, speeds: &[f64]) -> Performance {
+        let exactly = |value: f64| Estimate { value, error: 0.0 };
+        let (speed, loss) = (surface_speed(self.motor), self.loss());
+        let (unit, v0) = (self.torque(), exactly(speed));
+        let per_radius = speed / self.motor.contact_radius;
+        let power = Estimate { value: unit.value * per_radius, error: unit.error * per_radius };
+        // The film's loss is a share of N, whose error moves the efficiency by at most its own relative size.
+        let relative = Estimate { value: 1.0, error: if loss > 0.0 { self.load.error / self.load.value } else { 0.0 } };
+        let driven = self.load.value > 0.0 && self.drive.load > 0.0 && speed > 0.0;
+        let marks = driven.then(|| {
+            let others: Vec<Marks> = self.others.iter().map(|other| other.marks(loss)).collect();
+            (self.drive.marks(loss), others)
+        });
+        let marked = |unit: Estimate, mark: fn(&Marks) -> f64| {
+            let (found, others) = marks.as_ref()?;
+            Some(self.scaled(unit, mark(found), &others.iter().map(mark).collect::<Vec<_>>()))
+        };
+        // What is not driven may be, by as little as the contact that was missed.
+        let nothing = |unit: Estimate| Estimate { value: 0.0, error: if speed > 0.0 { unit.error } else { 0.0 } };
+        Performance {
+            max_torque: unit,
+            stall_torque: marked(unit, |marks| marks.stall).unwrap_or_else(|| nothing(unit)),
+            no_load_speed: marked(v0, |marks| marks.no_load),
+            max_power: marked(power, |marks| marks.output.1).unwrap_or_else(|| nothing(power)),
+            max_power_speed: marked(v0, |marks| marks.output.0),
+            max_efficiency: marked(relative, |marks| marks.efficiency.1),
+            max_efficiency_speed: marked(v0, |marks| marks.efficiency.0),
+            present: self.point(self.motor.rotor_speed, loss),
+            curve: speeds.iter().map(|speed| self.point(*speed, loss)).collect(),
+        }
+    }
+}
+
+/// The warning of a motor whose teeth touch all round the wave, so that it gives less than the bound.
+pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Option<String> {
+    let stated = |Estimate { value, error }: Estimate| {
+        let smallest = if error > 0.0 && error.is_finite() { error } else { value.abs().max(f64::MIN_POSITIVE) };
+        let places = (1.0 - smallest.log10().floor()).clamp(0.0, 9.0) as usize;
+        let error = if error.is_finite() { format!(" ± {error:.places$}") } else { String::new() };
+        format!("{value:.places$}{error} N·m")
+    };
+    (result.teeth_in_contact >= motor.teeth as f64).then(|| {
+        format!(
+            "all {} teeth of each wave touch the rotor at all times, so parts of the contact always brake: held at rest the motor \
+             gives {}, not the maximum operating torque μ_d (1 − α) waves L r = {}, which is a bound",
+            motor.teeth,
+            stated(found.stall_torque),
+            stated(found.max_torque),
+        )
+    })
+}
+
+/// V₀ = 2πf B_S \[m/s\].
+pub fn surface_speed(motor: &Motor) -> f64 {
+    TAU * motor.frequency * motor.tangential_amplitude
+}
+
+/// A surface speed of the rotor \[m/s\] as rotations in a minute.
+pub fn rpm(motor: &Motor, speed: f64) -> f64 {
+    60.0 * speed / (TAU * motor.contact_radius)
+}
+
+/// The stored lines, tooth by tooth and frame by frame: φ of the tooth's middle, and where the line begins.
+pub(crate) fn lines(loads: &LineLoads) -> impl Iterator<Item = (f64, usize)> {
+    let (frames, nodes) = (loads.frames, loads.x.len());
+    let place = loads.pitch / loads.length;
+    (0..loads.stored_teeth * frames)
+        .map(move |line| ((line % frames) as f64 / frames as f64 + (line / frames) as f64 * place, line * nodes))
+}
+
+/// How often the stored teeth are on the ring.
+pub(crate) fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
+    f64::from(motor.waves) * loads.teeth as f64 / loads.stored_teeth.max(1) as f64
+}
+
+/// Mean power that the stator of the whole ring spends on the film \[W\]: ⟨∫ q ∂W_S/∂t⟩, q being film and contact. Rotor and
+/// contact take none of it: the rotor is elastic, and where there is contact the gap does not change. The gas takes
+/// ⟨−∫ film ∂h/∂t⟩. The difference of the two is part of the stated error.
+pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
+    let given = recording.estimate(|loads| given(motor, loads));
+    let loads = &recording.line_loads();
+    let (frames, nodes) = (loads.frames, loads.x.len());
+    let mut taken = 0.0;
+    for (line, (_, at)) in lines(loads).enumerate() {
+        let next = (line / frames * frames + (line + 1) % frames) * nodes;
+        for (i, length) in loads.node_length.iter().enumerate() {
+            let closing = recording.film_thickness[at + i] - recording.film_thickness[next + i];
+            taken += 0.5 * (loads.film[at + i] + loads.film[next + i]) * length * closing;
+        }
+    }
+    let taken = taken * motor.frequency * ring(motor, loads);
+    Estimate { value: given.value, error: (given.value - taken).abs() + given.error }
+}
+
+/// ⟨∫ q ∂W_S/∂t⟩ of the whole ring \[W\].
+fn given(motor: &Motor, loads: &LineLoads) -> f64 {
+    let across: Vec<(f64, f64)> = loads.x.iter().map(|x| (TAU * x / loads.length).sin_cos()).collect();
+    let mut sum = 0.0;
+    for (phase, line) in lines(loads) {
+        let (sin, cos) = (TAU * phase).sin_cos();
+        for (i, (place, length)) in across.iter().zip(&loads.node_length).enumerate() {
+            let rise = -(sin * place.1 + cos * place.0);
+            sum += (loads.film[line + i] + loads.contact[line + i]) * length * rise;
+        }
+    }
+    let fastest = TAU * motor.frequency * motor.normal_amplitude;
+    sum * fastest / loads.frames.max(1) as f64 * ring(motor, loads)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// One tooth as wide as the wave, on uniform nodes; `load(x/λ, t/T)` in N/m.
+    fn cycle(nodes: usize, frames: usize, load: impl Fn(f64, f64) -> f64) -> LineLoads {
+        let x: Vec<f64> = (0..nodes).map(|i| (i as f64 + 0.5) / nodes as f64 - 0.5).collect();
+        let contact =
+            (0..frames).flat_map(|m| x.iter().map(move |x| (*x, m as f64 / frames as f64))).map(|(x, t)| load(x, t));
+        LineLoads {
+            frames,
+            length: 1.0,
+            teeth: 1,
+            stored_teeth: 1,
+            pitch: 1.0,
+            node_length: vec![1.0 / nodes as f64; nodes],
+            film: vec![0.0; nodes * frames],
+            contact: contact.collect(),
+            x,
+            ..LineLoads::default()
+        }
+    }
+
+    /// A load that depends on φ alone.
+    fn travelling(nodes: usize, frames: usize, load: impl Fn(f64) -> f64) -> Drive {
+        let centred = |phase: f64| phase - phase.round();
+        Drive::new(&cycle(nodes, frames, |x, t| load(centred(x + t))))
+    }
+
+    #[test]
+    fn a_uniform_pressure_is_exact_at_every_speed() {
+        let drive = Drive::new(&cycle(7, 12, |_, _| 3.0));
+        assert!((drive.load() - 3.0).abs() < 1e-12);
+        for i in -10..=10 {
+            let v = f64::from(i) / 10.0;
+            let (s0, s1) = drive.at(v);
+            assert!((s0 - (2.0 * v.acos() / PI - 1.0)).abs() < 1e-12, "{v}: {s0}");
+            assert!((s1 - 2.0 / PI * (1.0 - v * v).sqrt()).abs() < 1e-12, "{v}: {s1}");
+        }
+        // As much of it pulls one way as the other.
+        assert!(drive.no_load().unwrap().abs() < 1e-12 && drive.at(0.0).0.abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_point_at_the_crest_runs_with_the_stator() {
+        let narrow = 0.02;
+        let drive = travelling(400, 400, |phase| (1.0 - phase.abs() / narrow).max(0.0));
+        let v = drive.no_load().unwrap();
+        // Half of the load is within 1 − 1/√2 of the width.
+        let exact = (TAU * narrow * (1.0 - 0.5f64.sqrt())).cos();
+        assert!((v - exact).abs() < 2e-5, "{v} {exact}");
+        assert!((drive.at(0.0).0 - 1.0).abs() < 1e-12 && drive.at(1.0).0 == -1.0);
+        assert!((drive.at(0.9).1 - 1.0).abs() < 2e-3);
+    }
+
+    #[test]
+    fn a_parabola_converges_with_the_second_order() {
+        // c = 1 − (φ/a)²: N = 4a/3, and N s₀ = 2 ∫ over |φ| < half − N.
+        let a = 0.15;
+        let v: f64 = 0.8;
+        let half = v.acos() / TAU;
+        let exact = 2.0 * (2.0 * half - 2.0 * half.powi(3) / (3.0 * a * a)) / (4.0 * a / 3.0) - 1.0;
+        let error = |n: usize| (travelling(n, n, |phase| (1.0 - (phase / a).powi(2)).max(0.0)).at(v).0 - exact).abs();
+        let (coarse, fine) = (error(36), error(144));
+        assert!(fine < 1e-3 && fine < 0.15 * coarse, "{coarse} {fine}");
+    }
+
+    #[test]
+    fn the_torque_is_odd_in_the_velocity() {
+        let load = |phase: f64| (0.3 - (phase - 0.02).abs()).max(0.0).powi(2);
+        let drive = travelling(60, 60, load);
+        let opposite = travelling(60, 60, |phase| load(phase + if phase < 0.0 { 0.5 } else { -0.5 }));
+        for i in 0..=20 {
+            let v = 0.1 * f64::from(i) - 1.0;
+            let ((s0, s1), (o0, o1)) = (drive.at(v), opposite.at(-v));
+            assert!((s0 + o0).abs() < 1e-9 && (s1 - o1).abs() < 1e-9, "{v}: {s0} {o0}, {s1} {o1}");
+            // Friction heats, whatever the rotor does.
+            assert!(s1 - v * s0 >= -1e-12);
+        }
+    }
+
+    #[test]
+    fn all_teeth_stored_are_one_and_its_lag() {
+        let load = |phase: f64| (0.2 - phase.abs()).max(0.0);
+        let centred = |phase: f64| phase - phase.round();
+        let (frames, x, pitch) = (24, [-0.1, 0.0, 0.1], 1.0 / 3.0);
+        let store = |teeth: usize| LineLoads {
+            frames,
+            length: 1.0,
+            teeth: 3,
+            stored_teeth: teeth,
+            pitch,
+            x: x.to_vec(),
+            node_length: vec![0.1; 3],
+            film: vec![0.0; teeth * frames * 3],
+            contact: (0..teeth * frames * 3)
+                .map(|i| {
+                    let (tooth, frame, node) = (i / (frames * 3), i / 3 % frames, i % 3);
+                    load(centred(frame as f64 / frames as f64 + tooth as f64 * pitch + x[node]))
+                })
+                .collect(),
+            ..LineLoads::default()
+        };
+        let (one, all) = (Drive::new(&store(1)), Drive::new(&store(3)));
+        for v in [-0.5, 0.0, 0.7, 0.95] {
+            let (a, b) = (one.at(v), all.at(v));
+            assert!((a.0 - b.0).abs() < 1e-12 && (a.1 - b.1).abs() < 1e-12, "{v}: {a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn without_contact_there_is_no_torque() {
+        let drive = Drive::new(&cycle(5, 8, |_, _| 0.0));
+        assert_eq!((drive.at(0.3), drive.no_load(), drive.load()), ((0.0, 0.0), None, 0.0));
+    }
+}
