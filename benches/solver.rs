@@ -39,7 +39,7 @@ fn film_step(bencher: Bencher<'_, '_>) {
     let grid = plan.grids[plan.grids.len() - 1];
     let nodes = FilmGrid {
         x: Axis::clustered(0.5 * motor.tooth_width, Start::Ambient, grid.along, plan.clustering_along),
-        y: Axis::clustered(0.5 * motor.contact_width, Start::Mirror, grid.across, plan.clustering_across),
+        y: Axis::spectral(0.5 * motor.contact_width, Start::Mirror, grid.across, plan.clustering_across),
     };
     let (nx, unknowns) = (nodes.x.len(), nodes.unknowns());
     let mut film = Film::new(nodes, &motor.gas);

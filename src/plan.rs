@@ -171,11 +171,12 @@ impl Plan {
             overruled: custom(numerics),
             effect: 0.0,
             words: format!(
-                "{along} intervals along a tooth and {across} across half the width, the first {} of the film's \
-                 boundary layer of {:.3} µm{}; {steps} steps a cycle; two coarser grids for the error estimate",
+                "{along} intervals along a tooth, the first {} of the film's boundary layer of {:.3} µm{}; a polynomial \
+                 across with {across} nodes or more in half the width; {steps} steps a cycle; two coarser grids for the error \
+                 estimate, and finer ones while it is more than was asked for",
                 spec.edge_fraction,
                 layer * 1e6,
-                if middle { ", those along densest where the crown is highest" } else { "" }
+                if middle { ", all of them densest where the crown is highest" } else { "" }
             ),
         };
         let decisions = vec![time, flow, wedge, teeth(numerics, motor), width(numerics), grid];
@@ -214,6 +215,12 @@ impl Plan {
         let finest = self.grids.last().map(|grid| Grid { across, ..*grid });
         let grids = finest.map_or_else(Vec::new, |finest| nested(finest, false));
         Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
+    }
+
+    /// The same plan on its finest grid alone: fields as they are solved, and no error estimate.
+    pub fn on_one_grid(&self) -> Self {
+        let grids = self.grids.last().copied().into_iter().collect();
+        Self { grids, most_grids: 1, accuracy: 0.0, ..self.clone() }
     }
 
     /// A sentence for each decision.
