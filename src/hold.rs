@@ -65,13 +65,12 @@ pub struct Hold {
 }
 
 impl Hold {
-    /// At rest at the mean gap, gas at ambient pressure, on the two finest grids of `plan`.
+    /// At rest at the mean gap, gas at ambient pressure, on the finest grid of `plan` and on one twice as fine.
     pub fn new(plate: &Plate, plan: &Plan) -> Self {
         let mut grids = plan.grids.iter().rev();
         let none = Grid { along: 8, across: 8, steps: 0, harmonic_fraction: 0.0 };
-        let fine = grids.next().unwrap_or(&none);
-        let half = Grid { along: fine.along / 2, across: fine.across / 2, ..*fine };
-        let coarse = grids.next().unwrap_or(&half);
+        let coarse = grids.next().unwrap_or(&none);
+        let fine = &coarse.finer(plan.spectral);
         Self {
             coarse: Level::new(plate, plan, coarse),
             fine: Level::new(plate, plan, fine),

@@ -336,7 +336,8 @@ mod tests {
     #[test]
     fn cancelling_and_dropping_end_a_long_solve() {
         let mut solver = Solver::start(|| ()).unwrap();
-        let number = solver.submit(request("fundamental", &[Fidelity::Reference]));
+        // Asked for what takes seconds.
+        let number = solver.submit(request("fundamental", &[Fidelity::to(1e-6)]));
         std::thread::sleep(Duration::from_millis(50));
         solver.cancel();
         let events = until_done(&solver, number);

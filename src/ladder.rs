@@ -10,9 +10,8 @@ use crate::plan::{Grid, Plan};
 use crate::solution::Status;
 
 /// Share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
-/// docs/validation.md), and the share of the error asked for that this may be.
+/// docs/validation.md).
 pub const WIDTH_SHARE: f64 = 0.15;
-const WIDTH_AIM: f64 = 0.3;
 
 /// A scene that can be solved on any grid.
 pub trait Scene {
@@ -38,6 +37,9 @@ pub trait Scene {
 
     /// What the accuracy asked for is relative to.
     fn unit(&self, level: &Self::Level) -> f64;
+
+    /// Share of the error asked for that the nodes across may have.
+    fn width_aim(&self) -> f64;
 
     /// Unknown nodes across.
     fn across(&self, level: &Self::Level) -> usize;
@@ -139,7 +141,7 @@ fn settle_across<S: Scene>(
         let level;
         (status, level) = scene.solve(&Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
         let change = (scene.headline(&level).all - scene.headline(&narrower).all).abs();
-        let matters = WIDTH_SHARE * change > WIDTH_AIM * plan.accuracy * scene.unit(&level);
+        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.aim * scene.unit(&level);
         if status == Status::Converged && matters && across < plan.most_across {
             narrower = level;
             across += 1;

@@ -132,6 +132,8 @@ fn accelerated(depth: u64) -> u64 {
 /// errors come from, and all of them while they are extrapolated.
 const KEPT_LINES: u64 = 10;
 const EXTRAPOLATED_LINES: u64 = 16;
+/// The same of a motor, whose contact is integrated for its torque, on what its errors come from as well (`drive`).
+const MOTOR_LINES: u64 = 40;
 const EXTRAPOLATED_MAPS: u64 = 2;
 
 /// All grids of a plan, those included to which it may be refined.
@@ -194,7 +196,7 @@ pub fn motor(motor: &Motor, plan: &Plan) -> Need {
         let (film, steps) = (Film::of_motor(plan, grid), grid.steps as u64);
         let unknowns = stored * (steps * film.rows + 2 * film.unknowns());
         let maps = if plan.maps { EXTRAPOLATED_MAPS * stored * steps * film.nodes } else { 0 };
-        (accelerated(16) * unknowns).max(EXTRAPOLATED_LINES * stored * steps * film.along + maps)
+        (accelerated(16) * unknowns).max(MOTOR_LINES * stored * steps * film.along + maps)
     });
     of_motor(motor, plan, levels + beside)
 }
@@ -245,7 +247,7 @@ pub fn paper(motor: &Motor, (along, across, contact, steps): (usize, usize, usiz
     let teeth = motor.teeth as u64;
     let nodes = (along * across) as u64;
     let tops = teeth * ((contact as f64 * motor.tooth_width / motor.wavelength()) as u64 + 1);
-    let recording = steps as u64 * (4 * tops + nodes);
+    let recording = steps as u64 * (12 * tops + nodes);
     let instant = (4 * teeth + 5) * nodes + teeth * along as u64 * 10;
     need(recording + instant + tops * tops + 6 * contact as u64 + 20 * tops, (along, across, steps, motor.teeth))
 }

@@ -84,6 +84,8 @@ pub struct Plan {
     pub most_harmonics: usize,
     /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
     pub accuracy: f64,
+    /// The error of α that the fidelity aims at, relative, whether or not the grids were asked for.
+    pub aim: f64,
     /// Grids at most, those of `grids` included, and unknown nodes of a polynomial across half the width.
     pub most_grids: usize,
     /// See `most_grids`.
@@ -118,6 +120,9 @@ const SHARE: f64 = 0.2;
 /// Intervals along a tooth for each factor of e between those in the middle of a crown and uniform ones, over those of a flat
 /// tooth.
 const MIDDLE: f64 = 1.0;
+/// Boundary layer over half the width down to which a polynomial across is used: a thinner one asks for so strong a stretching that
+/// the nodes in between no longer tell what the last one changes.
+const THINNEST_LAYER: f64 = 0.03;
 /// Grids beyond those of the plan, at most: each costs about four times the one before.
 const MORE_GRIDS: usize = 3;
 /// Steps within the peak of a plate's load as it nearly touches, and the narrowest such peak \[rad\] that is followed.
@@ -154,7 +159,8 @@ impl Plan {
         let half = 0.5 * motor.contact_width;
         let robust = graded(spec.volumes, numerics.film_nodes_across.map(|n| n / 2), half, edge);
         let across = numerics.film_nodes_across.map_or(spec.across, |n| (n / 2).max(1));
-        let clustering_across = spectral_clustering(layer / half);
+        let spectral = layer / half > THINNEST_LAYER;
+        let (across, clustering_across) = if spectral { (across, spectral_clustering(layer / half)) } else { robust };
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;
 
@@ -171,12 +177,16 @@ impl Plan {
             overruled: custom(numerics),
             effect: 0.0,
             words: format!(
-                "{along} intervals along a tooth, the first {} of the film's boundary layer of {:.3} µm{}; a polynomial \
-                 across with {across} nodes or more in half the width; {steps} steps a cycle; two coarser grids for the error \
+                "{along} intervals along a tooth, the first {} of the film's boundary layer of {:.3} µm{}; across half the width {}; {steps} steps a cycle; two coarser grids for the error \
                  estimate, and finer ones while it is more than was asked for",
                 spec.edge_fraction,
                 layer * 1e6,
-                if middle { ", all of them densest where the crown is highest" } else { "" }
+                if middle { ", all of them densest where the crown is highest" } else { "" },
+                if spectral {
+                    format!("a polynomial with {across} nodes or more")
+                } else {
+                    format!("{across} finite volumes, since the layer is thin")
+                }
             ),
         };
         let decisions = vec![time, flow, wedge, teeth(numerics, motor), width(numerics), grid];
@@ -184,10 +194,10 @@ impl Plan {
         let moving = |decision: &&Decision| !trapped || decision.key == Some("numerics.time");
         Self {
             fidelity: name(fidelity, numerics),
-            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, true),
+            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, spectral),
             clustering_along,
             clustering_across,
-            spectral: true,
+            spectral,
             half_width,
             every_tooth,
             shear: !trapped && decisions[2].chosen == Wedge::On.name(),
@@ -199,6 +209,7 @@ impl Plan {
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
+            aim: spec.aim,
             most_grids: if custom(numerics) { GRIDS } else { GRIDS + MORE_GRIDS },
             most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
             robust,
@@ -239,11 +250,17 @@ impl Plan {
         let edge = spec.plate_edge_fraction * layer;
         let (along, clustering_along) =
             graded(spec.plate, numerics.film_nodes_along.map(|n| n / 2), 0.5 * plate.length, edge);
+        let spectral = plate.width.is_some_and(|width| 2.0 * layer / width > THINNEST_LAYER);
         let (across, clustering_across, robust) = match plate.width {
             Some(width) => {
                 let asked = numerics.film_nodes_across.map(|n| n / 2);
                 let across = asked.map_or(spec.across, |asked| asked.max(1));
-                (across, spectral_clustering(2.0 * layer / width), graded(spec.plate, asked, 0.5 * width, edge))
+                let robust = graded(spec.plate, asked, 0.5 * width, edge);
+                if spectral {
+                    (across, spectral_clustering(2.0 * layer / width), robust)
+                } else {
+                    (robust.0, robust.1, robust)
+                }
             }
             None => (0, 0.0, (0, 0.0)),
         };
@@ -273,7 +290,6 @@ impl Plan {
             },
             exact("time", format!("{steps} steps a cycle; two coarser grids for the error estimate")),
         ];
-        let spectral = plate.width.is_some();
         Self {
             fidelity: name(fidelity, numerics),
             grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, spectral),
@@ -288,6 +304,7 @@ impl Plan {
             left_out: 0.0,
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
+            aim: spec.aim,
             most_grids: if custom(numerics) { GRIDS } else { GRIDS + 6 },
             most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
             robust,

@@ -79,9 +79,8 @@ pub fn periodic(
     let mut result = PlateResult::of(&recording);
     let force = result.film_load;
     result.film_load_error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
-    let asked = plan.accuracy * level.unit();
     let status = match found.status {
-        Status::Converged if result.film_load_error > asked.max(force.abs()) => {
+        Status::Converged if result.film_load_error > level.unit().max(force.abs()) => {
             Status::NotResolved { error: result.film_load_error / force.abs() }
         }
         status => status,
@@ -149,6 +148,11 @@ impl Scene for Search<'_> {
 
     fn unit(&self, level: &Level) -> f64 {
         level.unit()
+    }
+
+    /// Little: spring and damping are as exact as the mean then.
+    fn width_aim(&self) -> f64 {
+        0.02
     }
 
     fn across(&self, level: &Level) -> usize {

@@ -634,7 +634,15 @@ fn the_cost_of_a_solve_is_flat() {
         let steps: Vec<u64> = spacings
             .par_iter()
             .map(|spacing| {
-                alpha(Fidelity::Standard, &changes(*spacing), &[("numerics.time", "march")]).stats.film_steps
+                // On the plan's own grids: how many more the accuracy asks for is another matter.
+                let mut scene = scene_with("fundamental", &changes(*spacing));
+                scene.set("numerics.time", "march").unwrap();
+                let problem = Problem::new(&scene).unwrap();
+                let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics);
+                let plan = Plan { most_grids: plan.grids.len(), ..plan };
+                let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
+                assert_eq!(found.status, Status::Converged, "{frequency} kHz, {spacing} nm");
+                found.stats.film_steps
             })
             .collect();
         println!("{frequency:>7} kHz {steps:?}");

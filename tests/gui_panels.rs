@@ -87,7 +87,7 @@ fn scenes() -> Vec<Scene> {
     table.set("rotor.compliance", "[[100, 1e-9], [200, 5e-10]]").unwrap();
     let mut wide = Scene::plate();
     wide.set("plate.width_mm", "2").unwrap();
-    for key in ["film_nodes_along", "film_nodes_across", "contact_nodes", "steps_per_cycle"] {
+    for key in ["film_nodes_along", "film_nodes_across", "steps_per_cycle"] {
         wide.set(&format!("numerics.{key}"), "41").unwrap();
     }
     vec![Scene::motor(), Scene::plate(), crowned, table, wide]

@@ -311,7 +311,8 @@ proptest! {
             prop_assert!(result.alpha <= 1.0 + 1e-5, "{result:?}");
             check_frames(&motor, &found, 1e-4);
         } else {
-            prop_assert!(matches!(found.status, Status::NotConverged { .. }), "{:?}", found.status);
+            let honest = matches!(found.status, Status::NotConverged { .. } | Status::NotResolved { .. });
+            prop_assert!(honest, "{:?}", found.status);
             prop_assert!(result.alpha_error > 1e-5, "{result:?}");
             check_frames(&motor, &found, f64::INFINITY);
         }

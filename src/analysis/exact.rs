@@ -203,7 +203,7 @@ mod tests {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
         let problem = Problem::new(&scene).unwrap();
-        let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
+        let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {
             panic!("a plate")

@@ -133,8 +133,9 @@ impl FlowPotential {
         let (first, last) = (self.nodes[0], self.nodes[Self::INTERVALS]);
         if x <= Self::FIRST {
             // ∫ of end − fall ln(D/D₀).
-            let ((end, fall), ratio) = (flow_rate(Self::FIRST), x / Self::FIRST);
-            let whole = |ratio: f64| Self::FIRST * ratio * (end - fall.abs() * (ratio.ln() - 1.0));
+            let (end, fall) = (piece(RAREFIED, RAREFIED_END).0, std::f64::consts::PI.sqrt().recip());
+            let ratio = x / Self::FIRST;
+            let whole = |ratio: f64| Self::FIRST * ratio * (end - fall * (ratio.ln() - 1.0));
             first.0 + whole(ratio) - whole(1.0)
         } else if x >= Self::LAST {
             let [a, b, c, d] = CONTINUUM;

@@ -202,6 +202,10 @@ impl Scene for Search<'_> {
         unit(level.alpha(self.motor))
     }
 
+    fn width_aim(&self) -> f64 {
+        0.3
+    }
+
     fn across(&self, level: &Level) -> usize {
         level.across()
     }
@@ -241,10 +245,7 @@ impl<'a> Transient<'a> {
     /// [`MotorError::Contact`] if the teeth at rest have no solution to working precision.
     pub fn at_rest(motor: &'a Motor, plan: &Plan) -> Result<Self, MotorError> {
         let plan = Plan { every_tooth: true, trapped: false, ..plan.clone() };
-        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(motor, &plan, grid)).collect();
-        for level in &mut levels {
-            level.rest()?;
-        }
+        let levels = levels_at_rest(motor, &plan)?;
         Ok(Self { motor, plan, levels, stats: Stats::default(), worst: 0.0 })
     }
 
@@ -254,6 +255,25 @@ impl<'a> Transient<'a> {
     /// # Errors
     /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
     pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
+        let done = self.stats.cycles;
+        match self.next_cycle(cancel) {
+            // A polynomial across may swing below no pressure at all: once more from rest, with finite volumes.
+            Err(_) if self.plan.spectral => {
+                self.plan = self.plan.volumes();
+                self.levels = levels_at_rest(self.motor, &self.plan)?;
+                for _ in 0..done {
+                    if self.next_cycle(cancel)?.is_none() {
+                        return Ok(None);
+                    }
+                }
+                self.stats.cycles = done;
+                self.next_cycle(cancel)
+            }
+            found => found,
+        }
+    }
+
+    fn next_cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
         let tolerance = self.tolerance();
         let finest = self.levels.len() - 1;
         let mut alphas = Vec::with_capacity(self.levels.len());
@@ -307,6 +327,12 @@ impl<'a> Transient<'a> {
     pub fn stats(&self) -> Stats {
         self.stats
     }
+}
+
+fn levels_at_rest(motor: &Motor, plan: &Plan) -> Result<Vec<Level>, MotorError> {
+    let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(motor, plan, grid)).collect();
+    levels.iter_mut().try_for_each(Level::rest)?;
+    Ok(levels)
 }
 
 /// α with its error.
