@@ -132,13 +132,16 @@ fn accelerated(depth: u64) -> u64 {
 /// errors come from, and all of them while they are extrapolated.
 const KEPT_LINES: u64 = 10;
 const EXTRAPOLATED_LINES: u64 = 16;
-/// The same of a motor, whose contact is integrated for its torque, on what its errors come from as well (`drive`).
+/// What does not grow with the grid, and nodes across that are found wanting on the coarsest one.
+const FIXED: u64 = 8192;
+/// The same as `EXTRAPOLATED_LINES` of a motor, whose contact is integrated for its torque, on what its errors come from as well (`drive`).
 const MOTOR_LINES: u64 = 40;
 const EXTRAPOLATED_MAPS: u64 = 2;
 
 /// All grids of a plan, those included to which it may be refined.
 fn grids(plan: &Plan) -> Vec<Grid> {
-    let mut grids = plan.grids.clone();
+    let grown = |grid: &Grid| if plan.spectral { (grid.across + 1).min(plan.most_across) } else { grid.across };
+    let mut grids: Vec<Grid> = plan.grids.iter().map(|grid| Grid { across: grown(grid), ..*grid }).collect();
     while let Some(finest) = grids.last().filter(|_| grids.len() < plan.most_grids) {
         grids.push(finest.finer(plan.spectral));
     }
@@ -161,7 +164,7 @@ fn level(motor: &Motor, plan: &Plan, grid: &Grid) -> u64 {
     let (stored, instants) = if plan.every_tooth { (teeth, steps) } else { (1, steps / teeth) };
     let harmonics = cutoff(&motor.rotor, motor.wavelength(), grid.harmonic_fraction, plan.most_harmonics) as u64;
     let nodes = teeth * film.along;
-    let films = stored * film.cycle(steps) + if plan.trapped { film.step() } else { 0 };
+    let films = stored * film.cycle(steps) + if plan.trapped { film.step() + steps * film.unknowns() } else { 0 };
     let lines = (5 + u64::from(plan.shear)) * stored * steps * film.along;
     let stator = instants * nodes;
     let modes = 4 * harmonics * nodes + 8 * nodes;
@@ -177,13 +180,13 @@ fn of_motor(motor: &Motor, plan: &Plan, numbers: u64) -> Need {
     let Some(grid) = plan.grids.last() else { return need(0, (0, 0, 0, 0)) };
     let across = if plan.flow == Flow::Along { 1 } else { 2 * grid.across + 1 };
     let teeth = if plan.every_tooth { motor.teeth } else { 1 };
-    need(numbers, (grid.along + 1, across, grid.steps, teeth))
+    need(numbers + FIXED, (grid.along + 1, across, grid.steps, teeth))
 }
 
 fn of_plate(plate: &Plate, plan: &Plan, numbers: u64) -> Need {
     let Some(grid) = plan.grids.last() else { return need(0, (0, 0, 0, 0)) };
     let across = if plate.width.is_some() { 2 * grid.across + 1 } else { 1 };
-    need(numbers, (2 * grid.along + 1, across, grid.steps, 1))
+    need(numbers + FIXED, (2 * grid.along + 1, across, grid.steps, 1))
 }
 
 /// Of a motor's periodic state: all grids are kept to the end; beside them there is the acceleration of the finest, and then the
@@ -222,7 +225,7 @@ pub fn plate(plate: &Plate, plan: &Plan) -> Need {
 /// Fields of a transient's cycle: those that are being made, and so many cycles that whoever asked for them keeps.
 fn transient(film: &Film, stored: u64, steps: u64, maps: bool, kept: usize) -> u64 {
     let (lines, maps) = (stored * steps * film.along, if maps { stored * steps * film.nodes } else { 0 });
-    EXTRAPOLATED_LINES * lines + EXTRAPOLATED_MAPS * maps + kept as u64 * (KEPT_LINES * lines + maps)
+    3 * EXTRAPOLATED_LINES / 2 * lines + EXTRAPOLATED_MAPS * maps + kept as u64 * (KEPT_LINES * lines + maps)
 }
 
 /// Of a motor's transient from rest (`startup`), every tooth on all grids of the plan, of whose cycles so many are kept.
@@ -236,8 +239,10 @@ pub fn motor_startup(motor: &Motor, plan: &Plan, kept: usize) -> Need {
 
 /// Of a plate's transient from rest, likewise.
 pub fn plate_startup(plate: &Plate, plan: &Plan, kept: usize) -> Need {
-    let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, grid)).sum();
-    let fields = |grid: &Grid| transient(&Film::of_plate(plate, grid), 1, grid.steps as u64, plan.maps, kept);
+    let finer = |grid: &Grid| grid.finer(plan.spectral);
+    let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, &finer(grid))).sum();
+    let fields =
+        |grid: &Grid| transient(&Film::of_plate(plate, &finer(grid)), 1, 2 * grid.steps as u64, plan.maps, kept);
     of_plate(plate, plan, levels + plan.grids.last().map_or(0, fields))
 }
 

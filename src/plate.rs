@@ -183,11 +183,12 @@ impl std::fmt::Debug for Transient<'_> {
 impl<'a> Transient<'a> {
     /// At rest at the gap of t = 0, gas at ambient pressure.
     pub fn at_rest(plate: &'a Plate, plan: &Plan) -> Self {
+        // A transient is not refined until it is exact enough: it starts on grids twice as fine.
         let levels = plan
             .grids
             .iter()
             .map(|grid| {
-                let mut level = Level::new(plate, plan, grid);
+                let mut level = Level::new(plate, plan, &grid.finer(plan.spectral));
                 level.rest();
                 level
             })

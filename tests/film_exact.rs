@@ -252,7 +252,7 @@ fn the_published_stiffness_and_damping_of_a_plate() {
     // the last digit of the damping is cut, not rounded: the linear film, which the benchmark is about, has 15.298e-3.
     let problem = Problem::new(&presets::find("plate-mems").unwrap()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
-    let found = solve(plate, Fidelity::Fine);
+    let found = solve(plate, Fidelity::Reference);
     let film_load = Estimate { value: found.result.film_load, error: found.result.film_load_error };
     let compared = Comparison::of(plate, film_load, &found.recording);
     let solved = compared.stiffness_and_damping().unwrap();

@@ -213,10 +213,9 @@ fn quantity(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let present = shown.sweeps.quantity(&all);
     let em = ui.text_style_height(&TextStyle::Body);
     let combo = ComboBox::from_id_salt("quantity")
-        .height(30.0 * em)
         .selected_text(capitalised(present.words()))
         .width(11.0 * em)
-        .height(24.0 * em)
+        .height(36.0 * em)
         .show_ui(ui, |ui| {
             for quantity in all {
                 let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label(&problem)));
