@@ -252,8 +252,8 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     let before = swept(window.state()).rows().to_vec();
     window.get_by_role_and_label(Role::ComboBox, "Result shown").click();
     window.run_steps(3);
-    click(&mut window, "Highest pressure, kPa");
-    assert_eq!(window.state().sweeps().quantity(&sweep_quantities(&window)), Quantity::MaxPressure);
+    click(&mut window, "Film load, N");
+    assert_eq!(window.state().sweeps().quantity(&sweep_quantities(&window)), Quantity::FilmLoad);
     assert!(!swept(window.state()).running() && swept(window.state()).rows() == before);
 }
 

@@ -1,7 +1,7 @@
 //! What a solve is estimated to need of memory, against what it allocates at most.
 
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::export::files::{self, Control, Solved};

@@ -117,7 +117,7 @@ impl Starting {
             match told {
                 Told::Cycle(cycle) => self.take(*cycle),
                 Told::Ended(ended) => {
-                    self.ended = Some(ended);
+                    self.ended = Some(*ended);
                     self.job = None;
                 }
             }

@@ -17,7 +17,7 @@ pub enum Told {
     /// A cycle is completed.
     Cycle(Box<Cycle>),
     /// Nothing more will come: how it ended, or why there is no more.
-    Ended(Result<Startup, String>),
+    Ended(Box<Result<Startup, String>>),
 }
 
 /// A start-up under way, or ended.
@@ -45,10 +45,10 @@ impl Transient {
             };
             let mut each = |cycle: Cycle| tell(Told::Cycle(Box::new(cycle)));
             let run = AssertUnwindSafe(|| startup(&problem, &settings, &mut each, cancel));
-            tell(Told::Ended(match catch_unwind(run) {
+            tell(Told::Ended(Box::new(match catch_unwind(run) {
                 Ok(ended) => ended.map_err(|error| error.to_string()),
                 Err(panic) => Err(format!("the solver failed: {}", panic_text(panic.as_ref()))),
-            }));
+            })));
         })?;
         Ok(Self { told, worker })
     }
@@ -88,7 +88,7 @@ mod tests {
             for told in transient.drain() {
                 match told {
                     Told::Cycle(cycle) => cycles.push(cycle.number),
-                    Told::Ended(ended) => return (cycles, ended),
+                    Told::Ended(ended) => return (cycles, *ended),
                 }
             }
             std::thread::sleep(Duration::from_millis(10));

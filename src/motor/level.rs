@@ -527,7 +527,7 @@ impl Level {
     /// The same over every so many steps.
     fn mean_film_load_of(&self, every: usize) -> f64 {
         let (lengths, size) = (&self.grid().x.lengths, self.nx);
-        let lines = (0..self.stored * self.steps).filter(|line| line % self.steps % every == 0);
+        let lines = (0..self.stored * self.steps).filter(|line| (line % self.steps).is_multiple_of(every));
         let load = |line: usize| (0..size).map(|i| self.film_line_load(line * size + i) * lengths[i]).sum::<f64>();
         let sum: f64 = lines.map(load).sum();
         sum * self.teeth as f64 / (self.stored * self.steps.div_ceil(every)) as f64

@@ -196,7 +196,7 @@ impl<'a> Missing<'a> {
         for values in [&mut self.film, &mut self.contact, &mut self.thickness] {
             values.fill(0.0);
         }
-        if frame % 2 == 0 {
+        if frame.is_multiple_of(2) {
             self.add(tooth, frame / 2, 1.0);
         } else {
             self.add(tooth, frame / 2, 0.5);

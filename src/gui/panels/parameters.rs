@@ -494,7 +494,7 @@ mod tests {
         let scenes = [Scene::motor(), Scene::plate()];
         for scene in &scenes {
             let heeded = |parameter: &&Parameter| parameter.range().is_some() && scene.heeds(parameter.key);
-            for parameter in scene.parameters().filter(|parameter| heeded(&parameter)) {
+            for parameter in scene.parameters().filter(|parameter| heeded(parameter)) {
                 let (range, logarithmic) = slider_range(scene, parameter);
                 assert!(range.min < range.max, "{}", parameter.key);
                 assert!(!logarithmic || range.min > 0.0, "{}", parameter.key);
