@@ -224,7 +224,9 @@ impl Plan {
     pub fn volumes(&self) -> Self {
         let (across, clustering_across) = self.robust;
         let finest = self.grids.last().map(|grid| Grid { across, ..*grid });
-        let grids = finest.map_or_else(Vec::new, |finest| nested(finest, false));
+        let mut grids = finest.map_or_else(Vec::new, |finest| nested(finest, false));
+        // As many grids as there were.
+        grids.drain(..grids.len().saturating_sub(self.grids.len()));
         Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
     }
 

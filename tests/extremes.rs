@@ -17,6 +17,7 @@ use squeezefilm::problem::{Flow, Motor, Problem, RotorCompliance, Scenario};
 use squeezefilm::scene::{PARAMETERS, ParameterKind, Scene, Value, presets};
 use squeezefilm::solution::{Outcome, Status};
 use squeezefilm::solve::{Settings, solve};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn scene_with(preset: &str, changes: &[(&str, f64)]) -> Scene {
     let mut scene = presets::find(preset).unwrap();
@@ -197,7 +198,15 @@ fn mass_balance(motor: &Motor, plan: &Plan, found: &Periodic) -> Option<f64> {
     Some((net.abs() - noise).max(0.0) / mass)
 }
 
-/// Solves a scene and checks what came out; whether it converged.
+/// Scenes whose headline is not told by the grids of draft, and says so: their cycle does repeat.
+static NOT_RESOLVED: AtomicUsize = AtomicUsize::new(0);
+
+fn resolved(status: Status) -> bool {
+    NOT_RESOLVED.fetch_add(usize::from(matches!(status, Status::NotResolved { .. })), Ordering::Relaxed);
+    matches!(status, Status::Converged | Status::NotResolved { .. })
+}
+
+/// Solves a scene and checks what came out; whether its cycle repeats.
 fn survives(scene: &Scene, fidelity: Fidelity) -> Result<bool, String> {
     let problem = Problem::new(scene).map_err(|error| error.to_string())?;
     match &problem.scenario {
@@ -206,7 +215,7 @@ fn survives(scene: &Scene, fidelity: Fidelity) -> Result<bool, String> {
             let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).map_err(|error| error.to_string())?;
             check(motor, &plan, &found)?;
             check_mass(motor, &plan)?;
-            Ok(found.status == Status::Converged)
+            Ok(resolved(found.status))
         }
         Scenario::Plate(_) => {
             let settings = Settings { fidelity, ..Settings::default() };
@@ -217,7 +226,7 @@ fn survives(scene: &Scene, fidelity: Fidelity) -> Result<bool, String> {
             if !positive || numbers.iter().any(|number| !number.is_finite()) {
                 return Err(format!("{result:?}"));
             }
-            Ok(solution.status == Status::Converged)
+            Ok(resolved(solution.status))
         }
     }
 }
@@ -422,6 +431,7 @@ fn thousands_of_scenes() {
         .collect();
     let (astray, faults) = survey(scenes, Fidelity::Draft);
     println!("{}", faults.join("\n"));
+    println!("{} not resolved", NOT_RESOLVED.load(Ordering::Relaxed));
     // 19 and none when this was written.
     assert!(faults.is_empty() && astray < 40, "{astray} not converged, {} faults", faults.len());
 }
