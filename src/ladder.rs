@@ -20,12 +20,14 @@ pub trait Scene {
     /// Why it cannot be solved.
     type Error;
 
-    /// Solves on `grid`, started from `start`, which is the state of another scene if `similar`. `number` counts the grids from 0.
+    /// Solves on `grid` of `plan`, started from `start`, which is the state of another scene if `similar`. `number` counts the grids
+    /// from 0.
     ///
     /// # Errors
     /// If a step has no solution to working precision.
     fn solve(
         &mut self,
+        plan: &Plan,
         grid: &Grid,
         start: Option<&Self::Level>,
         similar: bool,
@@ -69,11 +71,26 @@ impl<L> Found<L> {
 }
 
 /// Climbs the grids of `plan`, and further, started from what was found for a similar scene, until `cancel`'s budget is spent: then
-/// the best so far is what there is.
+/// the best so far is what there is. A polynomial across may swing below no pressure at all; a scene that it fails is solved with
+/// finite volumes, which cannot.
 ///
 /// # Errors
 /// Those of the scene.
 pub fn climb<S: Scene>(
+    scene: &mut S,
+    plan: &Plan,
+    last: Option<&Found<S::Level>>,
+    cancel: &Cancel,
+) -> Result<Found<S::Level>, S::Error> {
+    let found = climb_once(scene, plan, last, cancel);
+    if !plan.spectral || matches!(&found, Ok(found) if !matches!(found.status, Status::NotConverged { .. })) {
+        return found;
+    }
+    drop(found);
+    climb_once(scene, &plan.volumes(), None, cancel)
+}
+
+fn climb_once<S: Scene>(
     scene: &mut S,
     plan: &Plan,
     last: Option<&Found<S::Level>>,
@@ -94,7 +111,7 @@ pub fn climb<S: Scene>(
         let grid = if plan.spectral { Grid { across, ..grid } } else { grid };
         let similar = last.and_then(|last| last.levels.get(number));
         let start = similar.or(found.levels.last());
-        let (status, level) = scene.solve(&grid, start, similar.is_some(), number)?;
+        let (status, level) = scene.solve(plan, &grid, start, similar.is_some(), number)?;
         number += 1;
         if number > plan.grids.len() && status != Status::Converged {
             // What the coarser grids gave stands.
@@ -134,12 +151,12 @@ fn settle_across<S: Scene>(
     let coarsest = plan.grids[0];
     let start = last.and_then(|last| last.narrower.as_ref()).map(|(level, _)| level);
     let grid = Grid { across: across - 1, ..coarsest };
-    let (mut status, mut narrower) = scene.solve(&grid, start, start.is_some(), 0)?;
+    let (mut status, mut narrower) = scene.solve(plan, &grid, start, start.is_some(), 0)?;
     while status == Status::Converged {
         let similar = last.map(|last| &last.levels[0]).filter(|level| scene.across(level) == across);
         let start = similar.unwrap_or(&narrower);
         let level;
-        (status, level) = scene.solve(&Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
+        (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
         let change = (scene.headline(&level).all - scene.headline(&narrower).all).abs();
         let matters = WIDTH_SHARE * change > scene.width_aim() * plan.aim * scene.unit(&level);
         if status == Status::Converged && matters && across < plan.most_across {

@@ -49,20 +49,8 @@ pub fn periodic(
     cancel: &Cancel,
 ) -> Result<Periodic, Interrupted> {
     let mut stats = Stats::default();
-    let mut search = Search { plate, plan, observer: &mut *observer, cancel, stats: &mut stats };
-    let found = climb(&mut search, plan, None, cancel);
-    let broken = match &found {
-        Ok(found) => matches!(found.status, Status::NotConverged { .. }),
-        Err(_) => true,
-    };
-    let (found, plan) = if broken && plan.spectral {
-        // A polynomial across may swing below no pressure at all; finite volumes cannot.
-        let volumes = plan.volumes();
-        let mut search = Search { plate, plan: &volumes, observer, cancel, stats: &mut stats };
-        (climb(&mut search, &volumes, None, cancel)?, volumes)
-    } else {
-        (found?, plan.clone())
-    };
+    let mut search = Search { plate, plan, observer, cancel, stats: &mut stats };
+    let found = climb(&mut search, plan, None, cancel)?;
     let loads = found.headlines.iter().map(|mean| mean.all).collect();
     let Some((level, coarser)) = found.levels.split_last() else {
         let (result, recording) = (PlateResult::default(), Recording::default());
@@ -122,12 +110,12 @@ impl Scene for Search<'_> {
 
     fn solve(
         &mut self,
+        plan: &Plan,
         grid: &Grid,
         start: Option<&Level>,
         _: bool,
         number: usize,
     ) -> Result<(Status, Level), Interrupted> {
-        let plan = self.plan;
         let mut level = Level::new(self.plate, plan, grid);
         if let Some(coarse) = start {
             level.start_from(coarse);

@@ -127,21 +127,9 @@ pub fn periodic_from(
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search = Search { motor, plan, observer: &mut *observer, cancel, stats: &mut stats };
-    let found = climb(&mut search, plan, last.as_ref(), cancel);
-    let broken = match &found {
-        Ok(found) => matches!(found.status, Status::NotConverged { .. }),
-        Err(_) => true,
-    };
-    let (found, plan) = if broken && plan.spectral {
-        // Polynomials across may swing below no pressure at all; finite volumes cannot.
-        let volumes = plan.volumes();
-        let mut search = Search { motor, plan: &volumes, observer, cancel, stats: &mut stats };
-        (climb(&mut search, &volumes, None, cancel)?, volumes)
-    } else {
-        (found?, plan.clone())
-    };
-    let result = finish(motor, &plan, &found, stats);
+    let mut search = Search { motor, plan, observer, cancel, stats: &mut stats };
+    let found = climb(&mut search, plan, last.as_ref(), cancel)?;
+    let result = finish(motor, plan, &found, stats);
     if found.status == Status::Converged {
         warm.found = Some(found);
     }
@@ -163,12 +151,13 @@ impl Scene for Search<'_> {
 
     fn solve(
         &mut self,
+        plan: &Plan,
         grid: &Grid,
         start: Option<&Level>,
         similar: bool,
         number: usize,
     ) -> Result<(Status, Level), MotorError> {
-        let (motor, plan) = (self.motor, self.plan);
+        let motor = self.motor;
         let limit = if number + 1 < plan.grids.len() { plan.round_limit.min(COARSE_ROUNDS) } else { plan.round_limit };
         let grids = plan.grids.len().max(number + 1);
         let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
