@@ -43,6 +43,9 @@ pub trait Scene {
     /// Share of the error asked for that the nodes across may have.
     fn width_aim(&self) -> f64;
 
+    /// Work of one round, `Grid::work`, on grids beyond those of the plan: at most this over the square root of the error asked for.
+    fn most_work(&self) -> f64;
+
     /// Unknown nodes across.
     fn across(&self, level: &Self::Level) -> usize;
 
@@ -129,9 +132,11 @@ fn climb_once<S: Scene>(
             found.headlines.push(scene.headline(&level));
             found.levels.push(level);
         }
-        finer = Some(grid.finer(plan.spectral));
+        let next = grid.finer(plan.spectral);
+        let worthwhile = || next.work() * plan.aim.sqrt() <= scene.most_work() && !scene.settled(&found);
         let more = number < plan.grids.len()
-            || number < plan.most_grids && status == Status::Converged && !scene.settled(&found) && !cancel.is_spent();
+            || number < plan.most_grids && status == Status::Converged && !cancel.is_spent() && worthwhile();
+        finer = Some(next);
         if status == Status::Cancelled || !more {
             break;
         }

@@ -20,6 +20,11 @@ pub struct Grid {
 }
 
 impl Grid {
+    /// Work of one cycle, in multiplications of the elimination: its blocks are full across the width.
+    pub fn work(&self) -> f64 {
+        (self.along * self.across.max(1).pow(2) * self.steps) as f64
+    }
+
     /// Twice as fine. A polynomial across stays what it is.
     pub fn finer(&self, spectral: bool) -> Self {
         Self {
@@ -211,7 +216,7 @@ impl Plan {
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
             aim: spec.aim,
             most_grids: if custom(numerics) { GRIDS } else { GRIDS + MORE_GRIDS },
-            most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
+            most_across: if numerics.film_nodes_across.is_some() { across } else { 12 },
             robust,
             tolerance: numerics.tolerance.unwrap_or(spec.tolerance),
             round_limit: ROUND_LIMIT,

@@ -143,6 +143,11 @@ impl Scene for Search<'_> {
         0.02
     }
 
+    /// Much: without contact a few rounds are enough.
+    fn most_work(&self) -> f64 {
+        1.5e6
+    }
+
     fn across(&self, level: &Level) -> usize {
         level.cycle.grid().y.unknown().len()
     }

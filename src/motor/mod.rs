@@ -195,6 +195,10 @@ impl Scene for Search<'_> {
         0.3
     }
 
+    fn most_work(&self) -> f64 {
+        1.5e5
+    }
+
     fn across(&self, level: &Level) -> usize {
         level.across()
     }
