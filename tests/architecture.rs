@@ -256,7 +256,10 @@ fn references(sources: &[Source]) -> Vec<BTreeSet<usize>> {
         heads.extend(modules.files.keys().filter(inside).filter_map(|module| module.last().cloned()));
         // A re-export alone is a sign on a door: it counts if the file needs the name itself.
         let needed = |(exports, path): &&(bool, Vec<String>)| {
-            !exports || path.last().is_some_and(|name| rest.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name))
+            !exports
+                || path
+                    .last()
+                    .is_some_and(|name| rest.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name))
         };
         let paths = uses.iter().filter(needed).map(|(_, path)| path.clone()).chain(inline(rest, &heads));
         let found = paths.filter_map(|path| modules.file(&modules.absolute(&source.module, &path)?));
@@ -334,7 +337,8 @@ fn no_files_refer_to_each_other_in_a_circle() {
         circles.extend(back.map(|other| (sources[i].name.as_str(), sources[*other].name.as_str())));
     }
     let known = |(a, b): &&(&str, &str)| KNOWN_CIRCLES.iter().any(|known| known.contains(a) && known.contains(b));
-    let unknown: Vec<String> = circles.iter().filter(|pair| !known(pair)).map(|(a, b)| format!("{a} uses {b}")).collect();
+    let unknown: Vec<String> =
+        circles.iter().filter(|pair| !known(pair)).map(|(a, b)| format!("{a} uses {b}")).collect();
     assert!(unknown.is_empty(), "these close circles:\n{}", unknown.join("\n"));
     for file in KNOWN_CIRCLES.iter().copied().flatten() {
         let there = circles.iter().any(|(from, _)| from == file);

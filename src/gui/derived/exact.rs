@@ -21,10 +21,6 @@ pub struct ExactCurves {
     pub comparison: Comparison,
     /// Range of the squeeze number: log₁₀ σ/Q from, to.
     pub window: [f64; 2],
-    /// Of a film of small amplitude: (log₁₀ σ/Q, S).
-    pub spring: Vec<[f64; 2]>,
-    /// The same, D.
-    pub damping: Vec<[f64; 2]>,
     /// Load over the cycle, as (t/T, load) in the unit.
     pub load: Vec<[f64; 2]>,
     /// The same of gas that has no time to leave.
@@ -47,7 +43,6 @@ impl ExactCurves {
         };
         let comparison = Comparison::of(plate, film_load, recording);
         let window = window(comparison.effective_squeeze_number, aspect(plate));
-        let (spring, damping) = curves(aspect(plate), window);
         let frames = recording.frames.max(1);
         let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max(load.abs()));
         let (prefix, size) = if greatest < 0.5 { ("m", 1e-3) } else { ("", 1.0) };
@@ -72,8 +67,6 @@ impl ExactCurves {
         Self {
             comparison,
             window,
-            spring,
-            damping,
             load,
             boyle,
             viscous,
@@ -90,8 +83,8 @@ fn window(present: f64, aspect: Option<f64>) -> [f64; 2] {
     [(crossover - AROUND).min(present - BEYOND), (crossover + AROUND).max(present + BEYOND)]
 }
 
-/// Spring and damping of small amplitudes over the window.
-fn curves(aspect: Option<f64>, window: [f64; 2]) -> (Vec<[f64; 2]>, Vec<[f64; 2]>) {
+/// Spring and damping of a film of small amplitude over log₁₀ σ/Q, as (log₁₀ σ/Q, S) and (log₁₀ σ/Q, D).
+pub fn small_amplitude(aspect: Option<f64>, window: [f64; 2]) -> (Vec<[f64; 2]>, Vec<[f64; 2]>) {
     let at = |i: usize| {
         let x = window[0] + (window[1] - window[0]) * i as f64 / (SAMPLES - 1) as f64;
         let Harmonic { spring, damping } = linear(10f64.powf(x), aspect);

@@ -1,6 +1,6 @@
 //! Numbers and words as the window writes them.
 
-use crate::export::digits::with_error;
+use crate::export::digits::{significant, with_error};
 
 /// Share of its error below which a value is shown as 0.
 const NOTHING: f64 = 0.05;
@@ -25,8 +25,7 @@ pub fn signed(text: String) -> String {
 
 /// `value` as it is, without trailing zeros.
 pub fn plain(value: f64) -> String {
-    let text = number(value);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    trimmed(&number(value)).to_owned()
 }
 
 /// "×9000", to two digits.
@@ -84,6 +83,20 @@ pub fn uncertain(value: f64, error: f64) -> String {
     match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
         Some((before, Ok(exponent))) => format!("{before}{}", power_of_ten(exponent)),
         _ => text,
+    }
+}
+
+/// `value` with this many significant digits and a true minus sign.
+pub fn digits(value: f64, digits: usize) -> String {
+    significant(value, digits).replace('-', "−")
+}
+
+/// Without zeros after the decimal point that say nothing.
+pub fn trimmed(number: &str) -> &str {
+    if number.contains('.') && !number.contains('e') {
+        number.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        number
     }
 }
 

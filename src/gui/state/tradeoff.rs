@@ -108,21 +108,21 @@ impl TradeoffState {
     }
 }
 
-/// Whether the window solves with just this setting: `aim`, and a scene's `numerics`.
-pub fn is_present(candidate: &Candidate, aim: Fidelity, numerics: Numerics) -> bool {
+/// Whether the window solves with just this setting: `target`, and a scene's `numerics`.
+pub fn is_present(candidate: &Candidate, target: Fidelity, numerics: Numerics) -> bool {
     // The window never uses the nodes of the paper's contact.
     let ours = |numerics: Numerics| Numerics { contact_nodes: None, ..numerics };
     let settings = candidate.settings;
-    settings.method == Method::Auto && settings.fidelity == aim && ours(candidate.numerics) == ours(numerics)
+    settings.method == Method::Auto && settings.fidelity == target && ours(candidate.numerics) == ours(numerics)
 }
 
 /// Adds the present setting to what is measured, if it is not there.
-pub fn with_present(candidates: &mut Vec<Candidate>, aim: Fidelity, numerics: Numerics) {
-    if !candidates.iter().any(|candidate| is_present(candidate, aim, numerics)) {
+pub fn with_present(candidates: &mut Vec<Candidate>, target: Fidelity, numerics: Numerics) {
+    if !candidates.iter().any(|candidate| is_present(candidate, target, numerics)) {
         candidates.push(Candidate {
             name: PRESENT.to_owned(),
             family: Family::Grid,
-            settings: Settings { fidelity: aim, ..Settings::default() },
+            settings: Settings { fidelity: target, ..Settings::default() },
             numerics,
         });
     }

@@ -1,6 +1,7 @@
 //! Explanations on hover, which screen readers get too. In a panel they stand beside it and do not cover the rows around.
+//! And how wide a text is.
 
-use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui};
+use eframe::egui::{Color32, Rect, RectAlign, Response, TextStyle, Tooltip, Ui};
 
 /// Between the panel and the explanation.
 const GAP: f32 = 12.0;
@@ -47,4 +48,10 @@ pub fn beside_with(panel: Rect, response: Response, add: impl FnOnce(&mut Ui)) -
         .gap(GAP);
     tooltip.show(add);
     response
+}
+
+/// Width of a line of usual text \[points\].
+pub fn text_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }

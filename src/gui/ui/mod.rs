@@ -1,6 +1,7 @@
 //! What is drawn: it reads the state and pushes commands, and changes nothing.
 
 pub mod cache;
+pub mod chart;
 pub mod context;
 pub mod formula;
 pub mod glossary;

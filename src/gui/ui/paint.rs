@@ -246,11 +246,16 @@ fn widened([low, high]: [f64; 2]) -> [f64; 2] {
 
 /// Fills between two lines, given as columns (x, one y, other y).
 pub(in crate::gui::ui) fn band(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
+    shaded(painter, columns.map(|(x, one, other)| (x, one, other, colour)));
+}
+
+/// The same with a colour for each column: (x, one y, other y, colour).
+pub(in crate::gui::ui) fn shaded(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32, Color32)>) {
     let mut mesh = Mesh::default();
     let (least, _) = columns.size_hint();
     mesh.reserve_vertices(2 * least);
     mesh.reserve_triangles(2 * least);
-    for (x, one, other) in columns {
+    for (x, one, other, colour) in columns {
         let next = mesh.vertices.len() as u32;
         mesh.colored_vertex(pos2(x, one), colour);
         mesh.colored_vertex(pos2(x, other), colour);
@@ -305,19 +310,10 @@ pub(in crate::gui::ui) fn title_with_ends(
         pos2(right - 4.0 - length, bottom - 0.8 * style.row),
         pos2(right - 4.0, bottom - 0.2 * style.row),
     );
-    let mut mesh = Mesh::default();
     let colours = field_colours();
-    for i in (0..=255u8).step_by(5) {
-        let x = bar.left() + bar.width() * f32::from(i) / 255.0;
-        let next = mesh.vertices.len() as u32;
-        mesh.colored_vertex(pos2(x, bar.top()), colours[usize::from(i)]);
-        mesh.colored_vertex(pos2(x, bar.bottom()), colours[usize::from(i)]);
-        if next > 0 {
-            mesh.add_triangle(next - 2, next - 1, next);
-            mesh.add_triangle(next - 1, next, next + 1);
-        }
-    }
-    painter.add(Shape::Mesh(Arc::new(mesh)));
+    let column =
+        |i: u8| (bar.left() + bar.width() * f32::from(i) / 255.0, bar.top(), bar.bottom(), colours[usize::from(i)]);
+    shaded(painter, (0..=255u8).step_by(5).map(column));
     style.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], style.palette.quiet);
 }
 

@@ -2,9 +2,10 @@
 
 use crate::control::Progress;
 use crate::gui::derived::format::power_of_ten;
+use crate::gui::ui::chart::{line, still};
 use crate::gui::ui::context::DrawContext;
 use eframe::egui;
-use egui_plot::{GridMark, HLine, Line, LineStyle, Plot, PlotPoints, Points};
+use egui_plot::{GridMark, HLine, LineStyle, PlotPoints, Points};
 
 /// Height of the plot, in lines of text.
 const HEIGHT: f32 = 9.0;
@@ -15,14 +16,7 @@ const TICKS: f64 = 5.0;
 pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
     let grids = history.iter().map(|progress| progress.level).max().map_or(0, |level| level + 1);
     let height = HEIGHT * ui.text_style_height(&egui::TextStyle::Body);
-    let plot = Plot::new("convergence")
-        .height(height)
-        .allow_zoom(false)
-        .allow_drag(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .show_crosshair(false)
+    let plot = still("convergence", height)
         .x_axis_label("round")
         .y_axis_label("relative change")
         .y_grid_spacer(|input| decades(input.bounds))
@@ -57,9 +51,7 @@ pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
             let share = (grid + 1) as f32 / grids as f32;
             let colour = cx.colours.film.gamma_multiply(0.35 + 0.65 * share);
             let name = format!("grid {} of {grids}", grid + 1);
-            plot.line(
-                Line::new(String::new(), PlotPoints::from(points.clone())).color(colour).width(1.5).allow_hover(false),
-            );
+            plot.line(line(&points, colour, 1.5, LineStyle::Solid));
             plot.points(Points::new(name, PlotPoints::from(points)).color(colour).radius(2.5));
         }
     });

@@ -1,8 +1,7 @@
 //! The panel of a lesson, in place of the results: the step's text, its question, its task, the numbers it is about.
 
-use crate::export::digits::significant;
 use crate::gui::command::{Command, LessonCommand};
-use crate::gui::derived::format::capitalised;
+use crate::gui::derived::format::{capitalised, digits};
 use crate::gui::state::lessons::StepWork;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
@@ -260,7 +259,7 @@ fn numbers(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
         // A parameter as it was typed, a result with its digits.
         (Name::Key(_), Some(value)) => Value::Number(value).to_string().replace('-', "−"),
         (Name::Live(Live::Cycles), Some(value)) => format!("{value}"),
-        (Name::Quantity(_) | Name::Live(_), Some(value)) => significant(value, DIGITS).replace('-', "−"),
+        (Name::Quantity(_) | Name::Live(_), Some(value)) => digits(value, DIGITS),
     };
     // Three columns of numbers; the names have what is left.
     let em = ui.text_style_height(&TextStyle::Body);
@@ -290,7 +289,7 @@ fn numbers(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
             let (first, now) = (value(shown_name, true), value(shown_name, false));
             let ratio = match (first, now) {
                 (Some(first), Some(now)) if first.abs() > 0.0 && (now / first - 1.0).abs() > UNCHANGED => {
-                    format!("× {}", significant(now / first, 3).replace('-', "−"))
+                    format!("× {}", digits(now / first, 3))
                 }
                 _ => String::new(),
             };

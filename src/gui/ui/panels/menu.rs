@@ -50,7 +50,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let place = document.path().map_or_else(
             || {
                 if document.is_practice() {
-                    "lent by the lesson, to try things on".to_owned()
+                    "set up by the lesson, to try things on".to_owned()
                 } else {
                     "built-in preset, not saved".to_owned()
                 }

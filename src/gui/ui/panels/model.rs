@@ -4,19 +4,19 @@
 use crate::export::digits::significant;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
-use crate::gui::derived::format::capitalised;
 use crate::gui::derived::format::power_of_ten;
+use crate::gui::derived::format::{capitalised, digits};
 use crate::gui::derived::words;
 use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::hint::{Hint, beside};
+use crate::gui::ui::hint::{Hint, beside, text_width};
 use crate::job::Run;
 use crate::plan::Decision;
 use crate::problem::Numerics;
 use crate::scene::{Parameter, ParameterKind, Scene, Value};
-use eframe::egui::{self, Align, Color32, Layout, RichText, TextStyle, vec2};
+use eframe::egui::{self, Align, Layout, RichText, TextStyle, vec2};
 
 /// The value of a switch that leaves it to the plan.
 const AUTO: &str = "auto";
@@ -60,7 +60,7 @@ fn changed(ui: &mut egui::Ui, change: &SwitchEffect, cx: &DrawContext<'_>) {
 
 /// `α 0.24583 → 0.25401 (+3.3 %), stated bound 5.0 %`.
 pub fn sentence(change: &SwitchEffect) -> String {
-    let [before, after] = [change.before, change.after].map(|alpha| significant(alpha, 5).replace('-', "−"));
+    let [before, after] = [change.before, change.after].map(|alpha| digits(alpha, 5));
     let relative = change.relative();
     let sign = if relative > 0.0 {
         "+"
@@ -166,7 +166,7 @@ impl Row<'_> {
         let (target, numerics) = (self.document().target(), self.document().scene().numerics);
         ui.horizontal(|ui| {
             let label = ui.label(RichText::new("Solved up to").color(self.cx.colours.quiet));
-            let combo = egui::ComboBox::from_id_salt("aim")
+            let combo = egui::ComboBox::from_id_salt("target")
                 .selected_text(target.name())
                 .width(ui.available_width())
                 .truncate()
@@ -306,11 +306,6 @@ fn cell<R>(ui: &mut egui::Ui, width: f32, height: f32, align: Align, add: impl F
         add(ui)
     })
     .inner
-}
-
-fn text_width(ui: &egui::Ui, text: &str) -> f32 {
-    let font = TextStyle::Body.resolve(ui.style());
-    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }
 
 #[cfg(test)]

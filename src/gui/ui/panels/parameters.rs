@@ -7,7 +7,7 @@ use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, choice, field_name, label, switch};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::highlight;
-use crate::gui::ui::hint::{Hint, beside};
+use crate::gui::ui::hint::{Hint, beside, text_width};
 use crate::plan::Decision;
 use crate::scene::{Kind, Parameter, ParameterKind, Scene, Value};
 use eframe::egui::{self, RichText, TextStyle};
@@ -116,11 +116,7 @@ impl Panel<'_> {
 
     /// Makes the column of units as wide as the widest of `parameters`.
     fn measure_units(&mut self, ui: &egui::Ui, parameters: &[&'static Parameter]) {
-        let font = TextStyle::Body.resolve(ui.style());
-        let width = |unit: &str| {
-            ui.painter().layout_no_wrap(unit.to_owned(), font.clone(), egui::Color32::PLACEHOLDER).size().x
-        };
-        self.units = parameters.iter().map(|parameter| width(parameter.unit)).fold(0.0, f32::max);
+        self.units = parameters.iter().map(|parameter| text_width(ui, parameter.unit)).fold(0.0, f32::max);
     }
 
     fn in_group(&self, table: &str) -> Vec<&'static Parameter> {

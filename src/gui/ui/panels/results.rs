@@ -10,6 +10,7 @@ use crate::export::json::{beside_limit, dry_torque, force_unit};
 use crate::gui::derived::format::{capitalised, uncertain, with_minus};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
+use crate::gui::ui::hint::text_width;
 use crate::job::Run;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Status};
@@ -323,11 +324,6 @@ fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value: &str, unit
         glossary::hover(ui, label, term);
         ui.horizontal(|ui| ui.with_layout(right, |ui| ui.add(value.wrap())));
     }
-}
-
-fn text_width(ui: &egui::Ui, text: &str) -> f32 {
-    let font = TextStyle::Body.resolve(ui.style());
-    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }
 
 fn text_height(ui: &egui::Ui) -> f32 {

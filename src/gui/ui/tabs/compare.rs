@@ -9,7 +9,7 @@ use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::pins::{Note, Page, fidelity};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::hint::Hint;
+use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::keys;
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, presets_menu};
 use crate::gui::ui::theme::run_colour;
@@ -141,12 +141,10 @@ fn frame(ui: &Ui, colour: Color32) -> egui::Frame {
 
 fn chip(ui: &mut Ui, id: u64, run: &Run, colour: Color32, present: bool, cx: &DrawContext<'_>) {
     let em = ui.text_style_height(&TextStyle::Body);
-    let font = TextStyle::Body.resolve(ui.style());
-    let wide = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
-    let button = |text: &str| wide(text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
+    let button = |text: &str| text_width(ui, text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
     // All but the label.
     let rest = 2.0 * f32::from(CHIP_MARGIN) + em + CHIP_GAP + button("✕") + if present { 0.0 } else { button("Open") };
-    let label = wide(&run.label) + 4.0;
+    let label = text_width(ui, &run.label) + 4.0;
     let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
     // In one piece, so that it is a whole that goes to the next line.
     let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));

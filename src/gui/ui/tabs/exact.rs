@@ -1,22 +1,21 @@
 //! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
 //! invariant.
 
-use super::chart::{SOLID, axes, chart, legend, place, powers, title};
-use crate::analysis::exact::Harmonic;
+use crate::analysis::exact::{Harmonic, aspect};
 use crate::estimate::Estimate;
-use crate::export::digits::significant;
 use crate::export::exact::units;
-use crate::gui::derived::exact::ExactCurves;
-use crate::gui::derived::format::power_of_ten;
+use crate::gui::derived::exact::{ExactCurves, small_amplitude};
 use crate::gui::derived::format::uncertain;
+use crate::gui::derived::format::{digits, power_of_ten};
 use crate::gui::ui::cache::once;
+use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, powers, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::rich::{self, Look};
 use crate::job::Run;
 use crate::problem::Scenario;
 use eframe::egui::{self, Color32, RichText, TextStyle, Ui};
-use egui_plot::{HLine, Line, LineStyle, PlotPoints, Points, VLine};
+use egui_plot::{HLine, LineStyle, Points, VLine};
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 2] = [0.33, 0.27];
@@ -24,6 +23,8 @@ const LEAST_LINES: [f32; 2] = [10.0, 9.0];
 /// A tab wider than this, in heights of the text, has room for a column of remarks.
 const WIDE: f32 = 28.0;
 const WIDTH: f32 = 2.0;
+/// Significant digits of numbers without an error.
+const DIGITS: usize = 4;
 const RADIUS: f32 = 5.0;
 
 /// All that this tab explains below its table, as in lessons: text, and formulae that are set.
@@ -94,7 +95,7 @@ pub fn show(ui: &mut Ui, run: &Run, cx: &DrawContext<'_>) {
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         title(ui, "Spring and damping against the squeeze number", "Squeeze number");
-        coefficients(ui, &known, tall(0), cx);
+        coefficients(ui, &known, aspect(plate), tall(0), cx);
         ui.add_space(4.0);
         title(ui, &format!("Load over the cycle, {}", known.unit.0), "Film load");
         cycle(ui, &known, tall(1), cx);
@@ -112,8 +113,11 @@ fn pair(cx: &DrawContext<'_>) -> [(&'static str, Color32); 2] {
     [("spring S", cx.colours.film), ("damping D", cx.colours.contact)]
 }
 
-fn coefficients(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
+fn coefficients(ui: &mut Ui, known: &ExactCurves, aspect: Option<f64>, height: f32, cx: &DrawContext<'_>) {
     let [spring, damping] = pair(cx);
+    // They stay as long as width over length and the window do.
+    let key = [aspect.unwrap_or(f64::INFINITY), known.window[0], known.window[1]];
+    let curves = once(ui, "small amplitude", key, || small_amplitude(aspect, known.window));
     legend(
         ui,
         &[
@@ -137,14 +141,8 @@ fn coefficients(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<
         plot.set_plot_bounds_y(0.0..=1.12 * top);
         let present = known.comparison.effective_squeeze_number.log10();
         plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
-        for (points, (_, colour)) in [(&known.spring, spring), (&known.damping, damping)] {
-            plot.line(
-                Line::new("", PlotPoints::from(points.clone()))
-                    .color(colour)
-                    .width(WIDTH)
-                    .style(SOLID)
-                    .allow_hover(false),
-            );
+        for (points, (_, colour)) in [(&curves.0, spring), (&curves.1, damping)] {
+            plot.line(line(points, colour, WIDTH, SOLID));
         }
         for (value, (_, colour)) in computed.into_iter().flatten().zip([spring, damping]) {
             plot.points(Points::new("", vec![[present, value]]).color(colour).radius(RADIUS).allow_hover(false));
@@ -177,8 +175,7 @@ fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
             (&known.load, cx.colours.film, SOLID),
         ];
         for (points, colour, style) in lines {
-            let line = Line::new("", PlotPoints::from(points.clone())).color(colour).width(WIDTH);
-            plot.line(line.style(style).allow_hover(false));
+            plot.line(line(points, colour, WIDTH, style));
         }
     });
     shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
@@ -194,15 +191,16 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
     };
     let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
     let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
-    let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping].map(number);
+    let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping]
+        .map(|value| digits(value, DIGITS));
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
     // What it is called, computed, exact, and when that holds.
     let rows = [
-        ["Spring S", &spring, &number(found.linear.spring), "for ε → 0"],
-        ["Damping D", &damping, &number(found.linear.damping), "for ε → 0"],
+        ["Spring S", &spring, &digits(found.linear.spring, DIGITS), "for ε → 0"],
+        ["Damping D", &damping, &digits(found.linear.damping, DIGITS), "for ε → 0"],
         [&names[0], &stiffness, &linear[0], "for ε → 0"],
         [&names[1], &loss, &linear[1], "for ε → 0"],
-        ["Mean pressure", &stated(found.mean_pressure), &number(found.trapped_mean_pressure), "for σ → ∞"],
+        ["Mean pressure", &stated(found.mean_pressure), &digits(found.trapped_mean_pressure, DIGITS), "for σ → ∞"],
         ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
     ];
     // In a narrow tab when the exact value holds is said on hover, and below, alone.
@@ -235,10 +233,6 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
 
 fn stated(found: Estimate) -> String {
     uncertain(found.value, found.error)
-}
-
-fn number(value: f64) -> String {
-    significant(value, 4).replace('-', "−")
 }
 
 /// A share in per cent, two digits, written out.

@@ -1,6 +1,5 @@
 //! What can be in the middle of the window, one of them at a time: the motion is in `views`, the others are here.
 
-mod chart;
 pub mod compare;
 pub mod exact;
 pub mod hold;

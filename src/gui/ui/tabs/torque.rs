@@ -1,18 +1,18 @@
 //! Torque, power and efficiency of a motor over the speed of its rotor, with the film and without it, and what a designer
 //! reads off them.
 
-use super::chart::{SOLID, axes, chart, legend, place, title};
 use crate::analysis::torque::Merit;
 use crate::estimate::Estimate;
 use crate::export::digits::significant;
-use crate::gui::derived::format::uncertain;
+use crate::gui::derived::format::{digits, uncertain};
+use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::job::Run;
 use crate::problem::{Motor, Scenario};
 use crate::solution::{Performance, Point};
 use eframe::egui::{self, Color32, RichText, TextStyle, Vec2b};
-use egui_plot::{Line, LineStyle, PlotPoints, VLine};
+use egui_plot::{LineStyle, VLine};
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 3] = [0.29, 0.2, 0.2];
@@ -23,6 +23,8 @@ const BESIDE: f32 = 36.0;
 const ALL: f64 = 104.0;
 /// Room above the highest curve.
 const HEADROOM: f64 = 1.08;
+/// Significant digits of numbers without an error.
+const DIGITS: usize = 4;
 /// Width of the lines.
 const WIDTH: f32 = 2.0;
 /// Titles of the charts, and what the glossary explains them under.
@@ -141,13 +143,7 @@ fn panel(
             plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
         }
         for (points, colour, style) in lines {
-            plot.line(
-                Line::new("", PlotPoints::from(points.clone()))
-                    .color(*colour)
-                    .width(WIDTH)
-                    .style(*style)
-                    .allow_hover(false),
-            );
+            plot.line(line(points, *colour, WIDTH, *style));
         }
         plot.pointer_coordinate().map(|at| at.x)
     });
@@ -170,12 +166,12 @@ fn readout(ui: &mut egui::Ui, merit: &Merit, pointed: Option<f64>, cx: &DrawCont
         let part = if high > low { (speed - low) / (high - low) } else { 0.0 };
         let mix = |a: f64, b: f64| a + part * (b - a);
         let percent = a.efficiency.zip(b.efficiency).map(|(a, b)| 100.0 * mix(a, b));
-        let percent = percent.map_or_else(String::new, |share| format!(", {} %", short(share)));
+        let percent = percent.map_or_else(String::new, |share| format!(", {} %", digits(share, DIGITS)));
         let (torque, output) = (mix(a.torque.value, b.torque.value), mix(a.output, b.output));
-        Some(format!("{} N·m, {} W{percent}", short(torque), short(output)))
+        Some(format!("{} N·m, {} W{percent}", digits(torque, DIGITS), digits(output, DIGITS)))
     };
     let (Some(with), Some(without)) = (at(&merit.with_film), at(&merit.without_film)) else { return };
-    let text = format!("{} rpm: with film {with}; without {without}", short(speed));
+    let text = format!("{} rpm: with film {with}; without {without}", digits(speed, DIGITS));
     ui.add(egui::Label::new(text).wrap());
 }
 
@@ -202,7 +198,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, cx: &DrawContext<'_>) 
         ("Greatest efficiency", Box::new(|of| stated(of.max_efficiency, 100.0, "%")), "Efficiency"),
         ("    at", Box::new(move |of| speed(of.max_efficiency_speed)), "Efficiency"),
         (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
-        ("Friction heat there", Box::new(|of| format!("{} W", short(of.present.friction))), "Friction heat"),
+        ("Friction heat there", Box::new(|of| format!("{} W", digits(of.present.friction, DIGITS))), "Friction heat"),
     ];
     let grid = egui::Grid::new("figures of merit").num_columns(3).striped(true).spacing([10.0, 4.0]);
     // Wider than the tab only in a small window with large text.
@@ -259,15 +255,10 @@ fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
         || "none".to_owned(),
         |found| {
             let [value, error] = [found.value, found.error].map(|number| number * factor);
-            let text = if error == 0.0 { short(value) } else { uncertain(value, error) };
+            let text = if error == 0.0 { digits(value, DIGITS) } else { uncertain(value, error) };
             format!("{text} {unit}")
         },
     )
-}
-
-/// Four digits, with a true minus sign.
-fn short(value: f64) -> String {
-    significant(value, 4).replace('-', "−")
 }
 
 /// A number of the scene as it was given: conversions leave a last bit that nobody wrote.

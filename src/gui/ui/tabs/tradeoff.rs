@@ -1,23 +1,21 @@
 //! Error against solve time of the present scene, measured on this machine when asked for: each setting a point, the front
 //! of those that no other beats, the present setting ringed, and the cheapest that serves a wish.
 
-use super::chart::{axes, place as chart_place};
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Candidate, Ended, Family, Point, Tradeoff, Wish};
 use crate::export::digits::significant;
 use crate::export::tradeoff::status;
 use crate::gui::command::Command;
-use crate::gui::derived::format::rough;
+use crate::gui::derived::format::{rough, trimmed};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
+use crate::gui::ui::chart::{axes, line, place as chart_place, still};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::solve::Method;
 use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
-use egui_plot::{
-    GridMark, HLine, HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine,
-};
+use egui_plot::{GridMark, HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, Points, VLine};
 
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
@@ -213,14 +211,7 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
     let whole = chart_place(ui, height);
     // For screen readers the table below says it all.
-    let plot = Plot::new("trade-off plot")
-        .height(height)
-        .allow_zoom(false)
-        .allow_drag(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .show_crosshair(false)
+    let plot = still("trade-off plot", height)
         .grid_color(grid)
         .x_axis_label("solve time")
         .y_axis_label(judged)
@@ -267,21 +258,15 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
         }
         let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|p| p.best).filter_map(place).collect();
         front.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        plot.line(
-            Line::new("", PlotPoints::from(front))
-                .color(quiet)
-                .width(1.5)
-                .style(LineStyle::dashed_dense())
-                .allow_hover(false),
-        );
+        plot.line(line(&front, quiet, 1.5, LineStyle::dashed_dense()));
         for point in &tradeoff.points {
             let Some([time, error]) = place(point) else { continue };
             let candidate = &point.run.candidate;
             let (_, colour, shape) = style(candidate.family, cx);
             let (low, high) = point.quartiles;
             if low > 0.0 && high > low {
-                let bar = vec![[low.log10(), error], [high.log10(), error]];
-                plot.line(Line::new("", PlotPoints::from(bar)).color(colour).width(1.0).allow_hover(false));
+                let bar = [[low.log10(), error], [high.log10(), error]];
+                plot.line(line(&bar, colour, 1.0, LineStyle::Solid));
             }
             plot.points(
                 Points::new(candidate.name.clone(), vec![[time, error]]).color(colour).shape(shape).radius(RADIUS),
@@ -426,15 +411,6 @@ fn percent(share: f64) -> String {
     let value = 100.0 * share;
     let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
     format!("{}{NO_BREAK}%", trimmed(&format!("{value:.decimals$}")))
-}
-
-/// Without zeros after the decimal point that say nothing.
-fn trimmed(number: &str) -> &str {
-    if number.contains('.') && !number.contains('e') {
-        number.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        number
-    }
 }
 
 #[cfg(test)]

@@ -10,12 +10,11 @@ use crate::gui::derived::format::{number, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, scale_bar, shaded, title_with_bar};
 use crate::hold::Reading;
 use crate::recording::Recording;
-use eframe::egui::epaint::{Mesh, Shape};
+use eframe::egui::epaint::Shape;
 use eframe::egui::{self, Align2, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
-use std::sync::Arc;
 
 /// Parts of the drawing below the stator's face, and above the highest underside of the plate.
 const BELOW: f32 = 0.10;
@@ -169,18 +168,7 @@ fn film(painter: &Painter, axes: &Axes, [top, bottom]: [f32; 2], shown: &HoldFra
     let [low, high] = shown.hold.pressure_range();
     let colours = field_colours();
     let colour = |pressure: f64| colours[(255.0 * (pressure - low) / (high - low)).clamp(0.0, 255.0) as usize];
-    let mut mesh = Mesh::default();
-    for (x, pressure) in profile_points(shown) {
-        let next = mesh.vertices.len() as u32;
-        let x = axes.px(x);
-        mesh.colored_vertex(pos2(x, top), colour(pressure));
-        mesh.colored_vertex(pos2(x, bottom), colour(pressure));
-        if next > 0 {
-            mesh.add_triangle(next - 2, next - 1, next);
-            mesh.add_triangle(next - 1, next, next + 1);
-        }
-    }
-    painter.add(Shape::Mesh(Arc::new(mesh)));
+    shaded(painter, profile_points(shown).map(|(x, pressure)| (axes.px(x), top, bottom, colour(pressure))));
 }
 
 /// (x, absolute pressure) at mid-width, from end to end.

@@ -8,7 +8,7 @@ use crate::analysis::table1::Published;
 use crate::export::digits::{significant, with_error};
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
-use crate::gui::derived::format::capitalised;
+use crate::gui::derived::format::{capitalised, digits, trimmed};
 use crate::gui::derived::scales::span;
 use crate::gui::derived::ticks::Ticks;
 use crate::gui::derived::words::label;
@@ -156,12 +156,7 @@ fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<(f64, String)> {
 
 /// At most six digits, none for nothing.
 fn short(value: f64) -> String {
-    let text = significant(value, 6);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    trimmed(&significant(value, 6)).to_owned()
 }
 
 /// The name of an axis.
@@ -382,8 +377,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let title = if log { format!("{title}, logarithmic colours") } else { title };
     if plotted.rows.iter().any(|row| plotted.sound(row).is_some()) {
         let nothing = if log { 0.0 } else { NOTHING * (extent[1] - extent[0]) };
-        let written =
-            |end: f64| if end.abs() < nothing { "0".to_owned() } else { significant(end, 3).replace('-', "−") };
+        let written = |end: f64| if end.abs() < nothing { "0".to_owned() } else { digits(end, 3) };
         let ends = extent.map(written);
         let above = rect.translate(vec2(0.0, -style.row - 6.0));
         let ends = ends.each_ref().map(String::as_str);

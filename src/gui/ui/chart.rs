@@ -1,8 +1,8 @@
-//! What the charts of the tabs have in common.
+//! What charts have in common.
 
 use crate::gui::ui::glossary;
 use eframe::egui::{self, Color32, Rect, RichText, TextStyle};
-use egui_plot::{AxisHints, GridInput, GridMark, LineStyle, Plot};
+use egui_plot::{AxisHints, GridInput, GridMark, Line, LineStyle, Plot, PlotPoints};
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
 const NUMBERS: f32 = 3.6;
@@ -11,21 +11,14 @@ const NUMBER_EVERY: f32 = 2.6;
 /// A number below at most every so many.
 const COLUMN_EVERY: f32 = 4.5;
 /// A line without gaps. As one long path it would be drawn thinner where it is steep; this is a chain of segments.
-pub(super) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
+pub(in crate::gui::ui) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 };
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
-/// A chart that is looked at, not moved: values are read below it.
-pub(super) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
-    let em = ui.text_style_height(&TextStyle::Body);
-    let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
-    let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
-    // The spacers leave room for every number: none is to fade because others are near.
-    let near = egui::Rangef::new(0.0, 1.0);
+/// A plot that is looked at, not moved.
+pub(in crate::gui::ui) fn still<'a>(id: &str, height: f32) -> Plot<'a> {
     Plot::new(id.to_owned())
         .height(height)
-        .custom_x_axes(vec![AxisHints::new_x().label_spacing(near)])
-        .custom_y_axes(vec![AxisHints::new_y().label_spacing(near)])
         .allow_zoom(false)
         .allow_drag(false)
         .allow_scroll(false)
@@ -33,6 +26,23 @@ pub(super) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
         .allow_double_click_reset(false)
         .allow_axis_zoom_drag(false)
         .show_crosshair(false)
+}
+
+/// A line that does not answer to the pointer.
+pub(in crate::gui::ui) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: f32, style: LineStyle) -> Line<'a> {
+    Line::new("", PlotPoints::from(points.to_vec())).color(colour).width(width).style(style).allow_hover(false)
+}
+
+/// A chart that is looked at, not moved: values are read below it.
+pub(in crate::gui::ui) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
+    let em = ui.text_style_height(&TextStyle::Body);
+    let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
+    let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
+    // The spacers leave room for every number: none is to fade because others are near.
+    let near = egui::Rangef::new(0.0, 1.0);
+    still(id, height)
+        .custom_x_axes(vec![AxisHints::new_x().label_spacing(near)])
+        .custom_y_axes(vec![AxisHints::new_y().label_spacing(near)])
         .show_x(false)
         .show_y(false)
         .grid_color(ui.visuals().widgets.noninteractive.bg_stroke.color)
@@ -46,12 +56,12 @@ pub(super) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
 }
 
 /// The place of the next chart of this height, with its axes.
-pub(super) fn place(ui: &egui::Ui, height: f32) -> Rect {
+pub(in crate::gui::ui) fn place(ui: &egui::Ui, height: f32) -> Rect {
     Rect::from_min_size(ui.cursor().min, egui::vec2(ui.available_width(), height))
 }
 
 /// Explains the axes of a chart at `place` on hover, whose curves are within `frame`: that along x, and that along y.
-pub(super) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
+pub(in crate::gui::ui) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: &str) {
     let below = Rect::from_x_y_ranges(frame.x_range(), frame.bottom()..=place.bottom());
     let left = Rect::from_x_y_ranges(place.left()..=frame.left(), frame.y_range());
     for (number, (rect, word)) in [(below, x), (left, Some(y))].into_iter().enumerate() {
@@ -65,13 +75,13 @@ pub(super) fn axes(ui: &egui::Ui, place: Rect, frame: Rect, x: Option<&str>, y: 
 }
 
 /// A title above a chart, with its unit, which the glossary explains under `word`.
-pub(super) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
+pub(in crate::gui::ui) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
     let label = ui.add(egui::Label::new(RichText::new(text).strong()).wrap());
     glossary::here(ui, label, word);
 }
 
 /// Entries of a legend, which the glossary knows: name, colour, how the line is drawn.
-pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) {
+pub(in crate::gui::ui) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) {
     ui.horizontal_wrapped(|ui| {
         for (text, colour, style) in entries {
             let font = TextStyle::Body.resolve(ui.style());
@@ -101,7 +111,7 @@ pub(super) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) 
 }
 
 /// Ticks of an axis of log₁₀: powers of ten, thinned to at most `most`.
-pub(super) fn powers(input: &GridInput, most: f64) -> Vec<GridMark> {
+pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     let count = to - from;
     if !count.is_finite() || count <= 0.0 {
