@@ -24,9 +24,9 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-/// One finished solve: immutable, shared.
+/// A scene and what came of solving it at one fidelity: immutable, shared.
 #[derive(Debug)]
-pub struct Run {
+pub struct SolvedScene {
     /// The request's number, ascending.
     pub number: u64,
     /// What was solved.
@@ -58,7 +58,7 @@ pub enum Event {
         progress: Progress,
     },
     /// A fidelity is solved; more may follow.
-    Solved(Arc<Run>),
+    Solved(Arc<SolvedScene>),
     /// There is no result: an error, or a panic of the solver.
     Failed {
         /// The request's number.
@@ -241,7 +241,7 @@ fn refine(
         let message = match solved {
             Ok(Ok(solution)) if solution.status == Status::Cancelled => return false,
             Ok(Ok(solution)) => {
-                tell(Event::Solved(Arc::new(Run {
+                tell(Event::Solved(Arc::new(SolvedScene {
                     number,
                     scene: request.scene.clone(),
                     problem: request.problem.clone(),

@@ -15,7 +15,7 @@ use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
-use squeezefilm::job::Run;
+use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::Outcome;
@@ -58,7 +58,7 @@ fn solved(window: &mut Harness<'static, App>) {
     });
 }
 
-fn alpha(run: Option<&Run>) -> f64 {
+fn alpha(run: Option<&SolvedScene>) -> f64 {
     match run.unwrap().solution.outcome {
         Outcome::Motor(result) => result.alpha,
         Outcome::Plate(_) => panic!("a motor"),

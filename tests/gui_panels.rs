@@ -17,7 +17,7 @@ use squeezefilm::gui::state::window::State;
 use squeezefilm::gui::ui::context::DrawContext;
 use squeezefilm::gui::ui::panels::{parameters, results};
 use squeezefilm::gui::ui::theme;
-use squeezefilm::job::Run;
+use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{ParameterKind, Scene, Value, presets};
 use squeezefilm::solution::{Outcome, Status};
@@ -329,7 +329,7 @@ fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
     }
 }
 
-fn run(preset: &str) -> Run {
+fn run(preset: &str) -> SolvedScene {
     let scene = presets::find(preset).unwrap();
     let problem = Problem::new(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
@@ -337,10 +337,10 @@ fn run(preset: &str) -> Run {
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
     let validity = outside(&problem, Some(&solution));
-    Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
+    SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
 }
 
-fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
+fn shown(run: SolvedScene, width: f32, size: f32) -> Harness<'static, SolvedScene> {
     let state = State::new(Document::opened(run.scene.clone(), None));
     let mut harness = Harness::builder()
         .with_size(egui::vec2(width, 3000.0))
@@ -349,7 +349,7 @@ fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
             ctx.all_styles_mut(|style| style.text_styles.values_mut().for_each(|font| font.size *= size));
         })
         .build_ui_state(
-            move |ui, run: &mut Run| results::show(ui, run, &DrawContext::new(&state, Instant::now())),
+            move |ui, run: &mut SolvedScene| results::show(ui, run, &DrawContext::new(&state, Instant::now())),
             run,
         );
     harness.run();

@@ -20,7 +20,7 @@ use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
-use squeezefilm::job::Run;
+use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::presets;
 use squeezefilm::solve::Method;
@@ -206,7 +206,7 @@ fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> 
 }
 
 /// Whether torque over speed is still to come.
-fn needs_torque(app: &App, run: &Run) -> bool {
+fn needs_torque(app: &App, run: &SolvedScene) -> bool {
     matches!(run.problem.scenario, Scenario::Motor(_)) && !app.state().torque.is_of(run)
 }
 
@@ -330,8 +330,9 @@ fn solved(window: &mut Harness<'static, App>) {
     for _ in 0..6000 {
         window.step();
         let app = window.state();
-        let done =
-            |run: &squeezefilm::job::Run| run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine;
+        let done = |run: &squeezefilm::job::SolvedScene| {
+            run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine
+        };
         if app.state().activity.running.is_none() && app.state().run.as_deref().is_some_and(done) {
             break;
         }

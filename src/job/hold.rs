@@ -57,7 +57,7 @@ struct Target {
 struct Shared {
     target: Mutex<Target>,
     changed: Condvar,
-    told: Mutex<(Arc<Snapshot>, VecDeque<Reading>)>,
+    published: Mutex<(Arc<Snapshot>, VecDeque<Reading>)>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -91,7 +91,7 @@ impl HeldPlate {
         let shared = Arc::new(Shared {
             target: Mutex::new(target),
             changed: Condvar::new(),
-            told: Mutex::new((Arc::new(snapshot(&hold, 0, 1.0, None)), VecDeque::new())),
+            published: Mutex::new((Arc::new(snapshot(&hold, 0, 1.0, None)), VecDeque::new())),
         });
         let theirs = Arc::clone(&shared);
         let spawn = std::thread::Builder::new().name("squeezefilm-hold".to_owned());
@@ -123,8 +123,8 @@ impl HeldPlate {
 
     /// The newest snapshot, and what was read off since the last time.
     pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Reading>) {
-        let mut told = lock(&self.shared.told);
-        (Arc::clone(&told.0), std::mem::take(&mut told.1))
+        let mut published = lock(&self.shared.published);
+        (Arc::clone(&published.0), std::mem::take(&mut published.1))
     }
 }
 
@@ -205,16 +205,16 @@ fn follow(shared: &Shared, mut hold: Hold, now: fn() -> Instant, wake: &dyn Fn()
         }
         number += 1;
         {
-            let mut told = lock(&shared.told);
-            told.0 = Arc::new(snapshot(&hold, number, pace, failure));
+            let mut published = lock(&shared.published);
+            published.0 = Arc::new(snapshot(&hold, number, pace, failure));
             if target.reset {
-                told.1.clear();
+                published.1.clear();
             }
-            if told.1.len() == SAMPLES {
-                told.1.pop_front();
+            if published.1.len() == SAMPLES {
+                published.1.pop_front();
             }
-            let reading = told.0.reading;
-            told.1.push_back(reading);
+            let reading = published.0.reading;
+            published.1.push_back(reading);
         }
         wake();
         // Until the next tick, or the end.

@@ -3,7 +3,7 @@
 use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
 use crate::estimate::Estimate;
 use crate::export::json::force_unit;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::Plate;
 use crate::solution::Outcome;
 
@@ -35,7 +35,7 @@ pub struct ExactCurves {
 
 impl ExactCurves {
     /// Reads the recording of `run`, a solved `plate`.
-    pub fn new(run: &Run, plate: &Plate) -> Self {
+    pub fn new(run: &SolvedScene, plate: &Plate) -> Self {
         let recording = &run.solution.recording;
         let film_load = match run.solution.outcome {
             Outcome::Plate(result) => Estimate { value: result.film_load, error: result.film_load_error },

@@ -2,7 +2,7 @@
 
 use crate::control::Progress;
 use crate::fidelity::Fidelity;
-use crate::job::Run;
+use crate::job::SolvedScene;
 
 /// What the solver is doing.
 #[derive(Clone, Debug, Default)]
@@ -53,7 +53,7 @@ impl Activity {
     }
 
     /// Whether `run` is of an earlier scene.
-    pub fn stale(&self, run: &Run) -> bool {
+    pub fn stale(&self, run: &SolvedScene) -> bool {
         run.number < self.number
     }
 }

@@ -11,7 +11,7 @@ use super::view::{Tab, View};
 use crate::analysis::exact;
 use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::lessons::check::{Ran, Verdict};
 use crate::lessons::live::{Live, Readings};
 use crate::lessons::{self, Act, Known, Lesson, LessonError, Prediction, Step};
@@ -110,7 +110,7 @@ impl StartingPoint {
 #[derive(Clone, Copy, Debug)]
 pub struct OnScreen<'a> {
     /// The run on screen.
-    pub run: Option<&'a Run>,
+    pub run: Option<&'a SolvedScene>,
     /// Torque over speed.
     pub torque: &'a TorqueState,
     /// The start-up.
@@ -408,7 +408,7 @@ impl LessonState {
 
 impl RunningLesson {
     /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
-    fn read_tabs(&mut self, run: &Run, seen: OnScreen<'_>) {
+    fn read_tabs(&mut self, run: &SolvedScene, seen: OnScreen<'_>) {
         let live = &mut self.live;
         if let Some(hold) = seen.hold.filter(|hold| !hold.stale(&run.scene)) {
             let (plate, now) = (hold.plate(), hold.now().reading);
@@ -455,7 +455,7 @@ fn read_cycle(readings: &mut Readings, point: &Point, scenario: &Scenario) {
     }
 }
 
-fn read_exact(readings: &mut Readings, run: &Run, plate: &Plate) {
+fn read_exact(readings: &mut Readings, run: &SolvedScene, plate: &Plate) {
     if let Some(found) = exact::solved(plate, &run.solution.recording) {
         readings.set(Live::Spring, found.spring.value);
         readings.set(Live::Damping, found.damping.value);

@@ -314,7 +314,7 @@ pub fn fidelity(run: &Run) -> &str {
 }
 
 /// A run of the window as one to be compared.
-pub fn to_compare(run: &crate::job::Run) -> Run {
+pub fn to_compare(run: &crate::job::SolvedScene) -> Run {
     Run {
         label: run.scene.name.clone(),
         scene: run.scene.clone(),

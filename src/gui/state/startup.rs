@@ -2,7 +2,7 @@
 
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::Ranges;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::job::task::{News, Task};
 use crate::problem::Problem;
 use crate::recording::Recording;
@@ -31,12 +31,12 @@ pub struct Point {
 /// Recordings that are kept, by the number of their cycle: the first, the newest, and those between that show most of the way.
 #[derive(Debug, Default)]
 struct KeptCycles {
-    runs: BTreeMap<usize, Arc<Run>>,
+    runs: BTreeMap<usize, Arc<SolvedScene>>,
     bytes: usize,
 }
 
 impl KeptCycles {
-    fn insert(&mut self, number: usize, run: Arc<Run>, most: usize) {
+    fn insert(&mut self, number: usize, run: Arc<SolvedScene>, most: usize) {
         self.bytes += bytes(&run.solution.recording);
         self.runs.insert(number, run);
         while self.bytes > most && self.runs.len() > 1 {
@@ -113,7 +113,7 @@ impl StartupState {
         self.points.push(Point { number, outcome, remaining });
         let ranges = Ranges::of(&recording);
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
-        let run = Run {
+        let run = SolvedScene {
             number: FIRST_NUMBER * (1 + self.count) + number as u64,
             scene: self.scene.clone(),
             problem: self.problem.clone(),
@@ -201,7 +201,7 @@ impl StartupState {
     }
 
     /// The cycle looked at.
-    pub fn run(&self) -> Option<&Arc<Run>> {
+    pub fn run(&self) -> Option<&Arc<SolvedScene>> {
         self.kept.runs.get(&self.chosen)
     }
 
@@ -249,7 +249,7 @@ mod tests {
     fn what_is_kept_is_bounded_and_holds_first_newest_and_the_early_way() {
         let problem = Problem::new(&Scene::plate()).unwrap();
         let run = |values: usize| {
-            Arc::new(Run {
+            Arc::new(SolvedScene {
                 number: 0,
                 scene: Scene::plate(),
                 problem: problem.clone(),

@@ -2,7 +2,7 @@
 //! had stated.
 
 use crate::fidelity::Fidelity;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::plan::Decision;
 use crate::solution::Outcome;
 
@@ -73,7 +73,7 @@ impl SwitchHistory {
     }
 
     /// There is a result of the present scene.
-    pub fn solved(&mut self, run: &Run) {
+    pub fn solved(&mut self, run: &SolvedScene) {
         let Outcome::Motor(result) = run.solution.outcome else { return };
         self.present.retain(|sample| sample.fidelity != run.fidelity);
         self.present.push(Sample {

@@ -2,7 +2,7 @@
 
 use crate::analysis::torque::Merit;
 use crate::fidelity::Fidelity;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::job::task::Task;
 use crate::problem::Scenario;
 
@@ -22,12 +22,12 @@ pub struct TorqueState {
 
 impl TorqueState {
     /// Whether the curves of `run` are still to be computed.
-    pub fn lacks(&self, run: &Run) -> bool {
+    pub fn lacks(&self, run: &SolvedScene) -> bool {
         self.asked != Some((run.number, run.fidelity)) && matches!(run.problem.scenario, Scenario::Motor(_))
     }
 
     /// `task` computes those of `run`. Those before stay until then.
-    pub fn begin(&mut self, run: &Run, task: std::io::Result<TorqueTask>) {
+    pub fn begin(&mut self, run: &SolvedScene, task: std::io::Result<TorqueTask>) {
         let key = (run.number, run.fidelity);
         self.asked = Some(key);
         match task {
@@ -54,14 +54,14 @@ impl TorqueState {
     }
 
     /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
-    pub fn of(&self, run: &Run) -> Option<&Merit> {
+    pub fn of(&self, run: &SolvedScene) -> Option<&Merit> {
         let good = run.fidelity.min(Fidelity::Standard);
         let (_, found) = self.found.as_ref().filter(|((number, found), _)| *number == run.number && *found >= good)?;
         found.as_ref().ok()
     }
 
     /// Whether what is known is of `run`.
-    pub fn is_of(&self, run: &Run) -> bool {
+    pub fn is_of(&self, run: &SolvedScene) -> bool {
         self.found.as_ref().is_some_and(|(key, _)| *key == (run.number, run.fidelity))
     }
 }

@@ -15,7 +15,7 @@ use super::switch_effect::SwitchHistory;
 use super::torque::TorqueState;
 use super::tradeoff::TradeoffState;
 use super::view::{Tab, View};
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::recording::Recording;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub struct State {
     /// Edits that the scene did not take.
     pub rejected: RejectedEdits,
     /// The run on screen.
-    pub run: Option<Arc<Run>>,
+    pub run: Option<Arc<SolvedScene>>,
     /// What the solver is doing.
     pub activity: Activity,
     /// How results are looked at.

@@ -13,7 +13,7 @@ use crate::export::sweep::{figure_of, write_csv};
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::pins::{fidelity, to_compare};
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::job::task::Task;
 use crate::motor::MotorError;
 use crate::problem::Problem;
@@ -56,7 +56,7 @@ impl Updater {
     }
 
     /// The run on screen, and its scene with a name and a description that claim no more than is true of it.
-    fn named(&self) -> Option<(Arc<Run>, (Scene, Problem))> {
+    fn named(&self) -> Option<(Arc<SolvedScene>, (Scene, Problem))> {
         let run = self.state.run.clone()?;
         let mut scene = run.scene.clone();
         scene.retitle(self.state.document.saved());
@@ -134,12 +134,12 @@ impl Updater {
     }
 }
 
-fn solved<'a>(run: &'a Run, (scene, problem): &'a (Scene, Problem)) -> Solved<'a> {
-    let Run { solution, history, .. } = run;
+fn solved<'a>(run: &'a SolvedScene, (scene, problem): &'a (Scene, Problem)) -> Solved<'a> {
+    let SolvedScene { solution, history, .. } = run;
     Solved { scene, problem, solution, history, merit: None }
 }
 
-fn merit(run: &Run, cancel: &Cancel) -> Result<Option<Merit>, MotorError> {
+fn merit(run: &SolvedScene, cancel: &Cancel) -> Result<Option<Merit>, MotorError> {
     Merit::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
 }
 

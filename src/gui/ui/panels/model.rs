@@ -12,7 +12,7 @@ use crate::gui::state::switch_effect::SwitchEffect;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, beside, text_width};
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::plan::Decision;
 use crate::problem::Numerics;
 use crate::scene::{Parameter, ParameterKind, Scene, Value};
@@ -24,7 +24,7 @@ const AUTO: &str = "auto";
 const COMBO_ICON: f32 = 2.2;
 
 /// Shows the decisions of `run` and their switches.
-pub fn show(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
+pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     if let Some(effect) = cx.state.switches.effect() {
         changed(ui, &effect, cx);
     }
@@ -151,7 +151,7 @@ fn options(parameter: &Parameter) -> &'static [&'static str] {
 }
 
 struct Row<'a> {
-    run: &'a Run,
+    run: &'a SolvedScene,
     columns: Columns,
     cx: &'a DrawContext<'a>,
 }

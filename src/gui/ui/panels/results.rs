@@ -11,7 +11,7 @@ use crate::gui::derived::format::{capitalised, uncertain, with_minus};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Status};
 use eframe::egui::{self, Color32, RichText, TextStyle};
@@ -24,7 +24,7 @@ const HEADLINE: f32 = 2.1;
 const HEADLINE_ERROR: f32 = 1.35;
 
 /// Shows the results of `run`, and the switches of its model.
-pub fn show(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
+pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     egui::ScrollArea::vertical().id_salt("results").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
         // Room for the scroll bar, which floats.
@@ -101,7 +101,7 @@ fn motor_numbers(
     extremes(ui, cx, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
 }
 
-fn plate_numbers(ui: &mut egui::Ui, run: &Run, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
+fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
     let unit = force_unit(&run.problem);
     let ratio = |load| PlateResult::ratio(load, plate);
     headline(ui, "", &uncertain(result.film_load, result.film_load_error), unit);
@@ -135,7 +135,7 @@ fn limits(ui: &mut egui::Ui, validity: &[Excess], cx: &DrawContext<'_>) {
     }
 }
 
-fn regime_numbers(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
+fn regime_numbers(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let numbers = &Dimensionless::of(&run.problem);
     let weight = regime::weight(&run.problem, &run.solution.outcome);
     let rows = [
@@ -150,7 +150,7 @@ fn regime_numbers(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
     }
 }
 
-fn how(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
+fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let stats = &run.solution.stats;
     number(ui, cx, "Fidelity", run.fidelity.name(), "");
     match &run.solution.outcome {
@@ -178,7 +178,7 @@ fn how(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
     ui.add_space(4.0);
 }
 
-fn convergence_banner(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
+fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     match &run.solution.status {
         Status::Converged => {
             let last = run.history.last();

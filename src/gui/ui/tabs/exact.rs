@@ -12,7 +12,7 @@ use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, powers, tit
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::rich::{self, Look};
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use eframe::egui::{self, Color32, RichText, TextStyle, Ui};
 use egui_plot::{HLine, LineStyle, Points, VLine};
@@ -85,7 +85,7 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
 }
 
 /// Shows the tab.
-pub fn show(ui: &mut Ui, run: &Run, cx: &DrawContext<'_>) {
+pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let height = ui.available_height();
     let known = once(ui, "exact", (run.number, run.fidelity), || ExactCurves::new(run, plate));

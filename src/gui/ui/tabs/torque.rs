@@ -8,7 +8,7 @@ use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::{Motor, Scenario};
 use crate::solution::{Performance, Point};
 use eframe::egui::{self, Color32, RichText, TextStyle, Vec2b};
@@ -32,7 +32,7 @@ const CHARTS: [(&str, &str); 3] =
     [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];
 
 /// Shows the tab.
-pub fn show(ui: &mut egui::Ui, run: &Run, cx: &DrawContext<'_>) {
+pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let height = ui.available_height();
     egui::ScrollArea::vertical().id_salt("torque").auto_shrink(false).show(ui, |ui| {

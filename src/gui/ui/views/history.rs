@@ -6,7 +6,7 @@ use crate::gui::derived::scales::span;
 use crate::gui::state::startup::{Point, StartupState};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, band};
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use crate::solution::{Outcome, PlateResult};
 use eframe::egui::{self, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -75,7 +75,7 @@ const OF_PLATE: &[(Quantity, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
 
 /// Draws the start-up's numbers into the next `height` of `ui`; a click looks at the cycle there. `periodic`: the periodic
 /// solve of the same scene.
-pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&Run>, height: f32, cx: &DrawContext<'_>) {
+pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let painter = ui.painter_at(area);
@@ -108,7 +108,7 @@ fn plot(
     rect: Rect,
     quantity: &Quantity,
     startup: &StartupState,
-    periodic: Option<&Run>,
+    periodic: Option<&SolvedScene>,
 ) -> Axes {
     let scenario = &startup.problem().scenario;
     let points = startup.points();

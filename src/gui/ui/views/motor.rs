@@ -10,7 +10,7 @@ use crate::gui::derived::sample::{self, Lines, Touching};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{PlotStyle, area};
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use eframe::egui::{self, CursorIcon, Rect, pos2};
 
@@ -50,7 +50,7 @@ impl Layout {
 }
 
 /// Draws `run` at the view's phase.
-pub(super) fn show(ui: &mut egui::Ui, run: &Run, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
     let recording = &run.solution.recording;
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let Some(area) = area(ui, recording) else { return };

@@ -10,7 +10,7 @@ use crate::gui::derived::sample::{self, Lines, Touching};
 use crate::gui::derived::scales::{Curve, Ranges, Scales};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, area, scale_bar, title_with_bar};
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::{Plate, Scenario};
 use crate::recording::Recording;
 use eframe::egui::{self, CursorIcon, Painter, Pos2, Rect, Stroke, pos2};
@@ -38,7 +38,7 @@ impl PlateFrame<'_> {
 }
 
 /// Draws `run` at the view's phase.
-pub(super) fn show(ui: &mut egui::Ui, run: &Run, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
     let recording = &run.solution.recording;
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let Some(area) = area(ui, recording) else { return };

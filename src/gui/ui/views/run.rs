@@ -3,12 +3,12 @@
 use super::{motor, plate};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
-use crate::job::Run;
+use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use eframe::egui::Ui;
 
 /// Draws `run` at the view's phase; the axes have the ranges `within`, if it is one cycle of several.
-pub fn show(ui: &mut Ui, run: &Run, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
     match run.problem.scenario {
         Scenario::Motor(_) => motor::show(ui, run, within, cx),
         Scenario::Plate(_) => plate::show(ui, run, within, cx),
@@ -33,18 +33,18 @@ mod tests {
     use egui_kittest::Harness;
     use std::time::Instant;
 
-    fn run(preset: &str, set: &[(&str, &str)], method: Method) -> Run {
+    fn run(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
         let problem = Problem::new(&scene).unwrap();
         let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
         let (validity, history) = (Vec::new(), Vec::new());
-        Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0, history }
+        SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0, history }
     }
 
     /// Draws a few frames at several phases and cursors; returns the state of the view and what was asked.
-    fn look(run: &Run, size: Vec2, click: bool) -> (View, Vec<Command>) {
+    fn look(run: &SolvedScene, size: Vec2, click: bool) -> (View, Vec<Command>) {
         let state = State::new(Document::fundamental().unwrap());
         let mut harness = Harness::builder().with_size(size).build_ui_state(
             |ui, (state, commands): &mut (State, Vec<Command>)| {
