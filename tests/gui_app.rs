@@ -31,11 +31,11 @@ fn window_asking(preset: &str, ask: fn(Purpose, &str) -> Answer) -> Harness<'sta
     window_in(preset, 900.0, Platform { ask, ..Platform::default() })
 }
 
-fn window_in(preset: &str, height: f32, world: Platform) -> Harness<'static, App> {
+fn window_in(preset: &str, height: f32, platform: Platform) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
     Harness::builder()
         .with_size(Vec2::new(1400.0, height))
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), world).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap())
 }
 
 /// Steps until `ready`, at most a minute of waiting in all: the solver works on its own thread.
@@ -458,8 +458,8 @@ fn every_built_in_preset_can_be_shown() {
 
 /// A window tall enough for all results.
 fn tall_window(measure: fn(&Problem) -> (Vec<Candidate>, Effort)) -> Harness<'static, App> {
-    let world = Platform { ask: |_, _| Answer::NoDialog, measure, ..Platform::default() };
-    window_in("fundamental", 1600.0, world)
+    let platform = Platform { ask: |_, _| Answer::NoDialog, measure, ..Platform::default() };
+    window_in("fundamental", 1600.0, platform)
 }
 
 /// Draft and standard, twice each.

@@ -24,7 +24,7 @@ use std::time::Duration;
 
 type Window = Harness<'static, App>;
 
-fn world() -> Platform {
+fn platform() -> Platform {
     Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() }
 }
 
@@ -33,7 +33,7 @@ fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
     Harness::builder()
         .with_size(Vec2::new(1400.0, 1700.0))
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), world()).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform()).unwrap())
 }
 
 /// A window that was there before, or never, and opens no file.
@@ -41,7 +41,7 @@ fn window_with(memory: Memory) -> Window {
     let memory: &'static Memory = Box::leak(Box::new(memory));
     Harness::builder().with_size(Vec2::new(1400.0, 1700.0)).build_eframe(move |context| {
         context.storage = Some(memory);
-        App::on_platform(context, None, world()).unwrap()
+        App::on_platform(context, None, platform()).unwrap()
     })
 }
 

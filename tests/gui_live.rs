@@ -22,10 +22,10 @@ const HOLD: Key = Key::Num7;
 
 fn window(preset: &str, tab: Key) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let world = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
+    let platform = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
     let mut window = Harness::builder()
         .with_size(Vec2::new(1400.0, 900.0))
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), world).unwrap());
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap());
     window.key_press_modifiers(Modifiers::COMMAND, tab);
     window.run_steps(3);
     window

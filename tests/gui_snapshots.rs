@@ -100,12 +100,12 @@ fn pollster_wait<T>(future: impl std::future::Future<Output = T>) -> T {
 /// The window on a preset, solved, standing at a phase in which several teeth touch.
 fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let world = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few };
+    let platform = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few };
     let mut window = Harness::builder()
         .with_size(Vec2::from(size))
         .with_pixels_per_point(1.0)
         .renderer(WgpuTestRenderer::new())
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), world).unwrap());
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap());
     // How long the solver takes decides how long a cursor has been blinking.
     window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
     window.key_press(Key::Space);

@@ -46,10 +46,10 @@ fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
 /// A window whose paths are typed.
 fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
-    let world = Platform { ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
+    let platform = Platform { ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
     Harness::builder()
         .with_size(Vec2::new(1400.0, 1000.0))
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), world).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap())
 }
 
 /// Steps until `ready`, at most a minute of waiting in all: solvers work on their own threads.
@@ -683,10 +683,10 @@ fn left(window: &mut Window) -> Memory {
 /// The window after that.
 fn next(memory: Memory) -> Window {
     let memory: &'static Memory = Box::leak(Box::new(memory));
-    let world = Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() };
+    let platform = Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() };
     Harness::builder().with_size(Vec2::new(1400.0, 1000.0)).build_eframe(move |context| {
         context.storage = Some(memory);
-        App::on_platform(context, None, world).unwrap()
+        App::on_platform(context, None, platform).unwrap()
     })
 }
 

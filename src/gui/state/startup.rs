@@ -113,25 +113,9 @@ impl StartupState {
         self.points.push(Point { number, outcome, remaining });
         let ranges = Ranges::of(&recording);
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
-        let run = SolvedScene {
-            number: FIRST_NUMBER * (1 + self.count) + number as u64,
-            scene: self.scene.clone(),
-            problem: self.problem.clone(),
-            fidelity: self.fidelity,
-            solution: Solution {
-                status: Status::Converged,
-                outcome,
-                performance: None,
-                stats: Stats::default(),
-                accuracy: Default::default(),
-                model: Model::default(),
-                warnings: Vec::new(),
-                recording,
-            },
-            validity: Vec::new(),
-            wall_s: 0.0,
-            history: Vec::new(),
-        };
+        let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
+        let (scene, problem) = (self.scene.clone(), self.problem.clone());
+        let run = as_solved(number_of_run, scene, problem, self.fidelity, outcome, recording);
         self.kept.insert(number, Arc::new(run), MOST_BYTES);
         if self.follow || self.chosen == 0 {
             self.chosen = number;
@@ -241,6 +225,29 @@ impl StartupState {
     }
 }
 
+/// A cycle as the views want it: as a solve of its own.
+fn as_solved(
+    number: u64,
+    scene: Scene,
+    problem: Problem,
+    fidelity: Fidelity,
+    outcome: Outcome,
+    recording: Recording,
+) -> SolvedScene {
+    let solution = Solution {
+        status: Status::Converged,
+        outcome,
+        performance: None,
+        stats: Stats::default(),
+        accuracy: Default::default(),
+        model: Model::default(),
+        warnings: Vec::new(),
+        recording,
+    };
+    let (validity, history) = (Vec::new(), Vec::new());
+    SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, history }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -249,25 +256,9 @@ mod tests {
     fn what_is_kept_is_bounded_and_holds_first_newest_and_the_early_way() {
         let problem = Problem::new(&Scene::plate()).unwrap();
         let run = |values: usize| {
-            Arc::new(SolvedScene {
-                number: 0,
-                scene: Scene::plate(),
-                problem: problem.clone(),
-                fidelity: Fidelity::Draft,
-                solution: Solution {
-                    status: Status::Converged,
-                    outcome: Outcome::Plate(Default::default()),
-                    performance: None,
-                    stats: Stats::default(),
-                    accuracy: Default::default(),
-                    model: Model::default(),
-                    warnings: Vec::new(),
-                    recording: Recording { pressure: vec![0.0; values], ..Recording::default() },
-                },
-                validity: Vec::new(),
-                wall_s: 0.0,
-                history: Vec::new(),
-            })
+            let recording = Recording { pressure: vec![0.0; values], ..Recording::default() };
+            let outcome = Outcome::Plate(Default::default());
+            Arc::new(as_solved(0, Scene::plate(), problem.clone(), Fidelity::Draft, outcome, recording))
         };
         let mut kept = KeptCycles::default();
         for number in 1..=100 {

@@ -13,42 +13,42 @@ const HEIGHT: f32 = 190.0;
 /// Between it and what it is about.
 const GAP: f32 = 14.0;
 
-/// The place for a callout of `size` beside `spot`: inside `room`, covering as little of it as can be.
-pub fn beside(spot: Rect, size: Vec2, room: Rect) -> Rect {
+/// The place for a callout of `size` beside `part`: inside `room`, covering as little of it as can be.
+pub fn beside(part: Rect, size: Vec2, room: Rect) -> Rect {
     let room = room.shrink(6.0);
-    let level = spot.center().y - 0.5 * size.y;
-    let middle = spot.center().x - 0.5 * size.x;
+    let level = part.center().y - 0.5 * size.y;
+    let middle = part.center().x - 0.5 * size.x;
     let corners = [
-        pos2(middle, spot.bottom() + GAP),
-        pos2(spot.right() + GAP, level),
-        pos2(spot.left() - GAP - size.x, level),
-        pos2(middle, spot.top() - GAP - size.y),
+        pos2(middle, part.bottom() + GAP),
+        pos2(part.right() + GAP, level),
+        pos2(part.left() - GAP - size.x, level),
+        pos2(middle, part.top() - GAP - size.y),
     ];
     let inside = |corner: egui::Pos2| {
         let most = (room.max - size).max(room.min);
         Rect::from_min_size(corner.clamp(room.min, most), size)
     };
     let covered = |rect: &Rect| {
-        let common = rect.intersect(spot);
+        let common = rect.intersect(part);
         if common.is_positive() { common.area() } else { 0.0 }
     };
     let candidates = corners.map(inside);
     candidates
         .into_iter()
         .reduce(|best, next| if covered(&next) < covered(&best) { next } else { best })
-        .unwrap_or(spot)
+        .unwrap_or(part)
 }
 
 /// Shows a stop of the tour.
 pub fn show(ctx: &egui::Context, stop: usize, cx: &DrawContext<'_>) {
     let Some(shown) = STOPS.get(stop) else { return };
     let room = ctx.content_rect();
-    let spot = highlight::place(ctx, shown.place).unwrap_or(Rect::from_center_size(room.center(), Vec2::ZERO));
+    let part = highlight::place(ctx, shown.place).unwrap_or(Rect::from_center_size(room.center(), Vec2::ZERO));
     let width = WIDTH.min(0.8 * room.width());
     let id = Id::unique("tour");
     // As high as it was drawn, once it has been.
     let last = ctx.data(|data| data.get_temp::<Vec2>(id.with(stop)));
-    let place = beside(spot, last.unwrap_or(vec2(width + 26.0, HEIGHT)), room);
+    let place = beside(part, last.unwrap_or(vec2(width + 26.0, HEIGHT)), room);
     let area = egui::Area::new(id).order(Order::Foreground).fixed_pos(place.min).constrain(true).show(ctx, |ui| {
         let line = egui::Stroke::new(1.5, cx.colours.accent);
         egui::Frame::popup(ui.style()).stroke(line).inner_margin(12).show(ui, |ui| {
@@ -96,15 +96,15 @@ mod tests {
             let room = Rect::from_min_size(egui::Pos2::ZERO, room);
             let (w, h) = (room.width(), room.height());
             // The parameters, the headline, a menu; and the wave, which leaves room below it.
-            for spot in [
+            for part in [
                 Rect::from_min_max(pos2(0.0, 25.0), pos2(0.3 * w, h - 50.0)),
                 Rect::from_min_max(pos2(0.72 * w, 30.0), pos2(w, 160.0)),
                 Rect::from_min_max(pos2(150.0, 0.0), pos2(220.0, 24.0)),
                 Rect::from_min_max(pos2(0.31 * w, 80.0), pos2(0.7 * w, 300.0)),
             ] {
-                let place = beside(spot, size, room);
-                assert!(room.contains_rect(place), "{room:?} {spot:?}");
-                assert!(!place.intersect(spot).is_positive(), "{room:?} {spot:?}: {place:?}");
+                let place = beside(part, size, room);
+                assert!(room.contains_rect(place), "{room:?} {part:?}");
+                assert!(!place.intersect(part).is_positive(), "{room:?} {part:?}: {place:?}");
             }
         }
     }

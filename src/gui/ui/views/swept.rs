@@ -318,23 +318,23 @@ fn line<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, axis:
         match plotted.sound(row) {
             Some((value, _)) if dots || rows.len() < 3 => drop(inner.circle_filled(axes.at(*at, value), DOT, colour)),
             Some(_) => {}
-            None => cross(&inner, spot(plotted, &axes, row, *at), 4.0, Stroke::new(1.8, style.palette.alarm)),
+            None => cross(&inner, on_screen(plotted, &axes, row, *at), 4.0, Stroke::new(1.8, style.palette.alarm)),
         }
     }
     for at in table.iter().filter(inside) {
         square(&inner, axes.at(at[0], at[1]), style.palette.contact);
     }
     let pointer = pointer(ui, rect.expand(NEAR))?;
-    let far = |row: &Row, at: f64| spot(plotted, &axes, row, at) - pointer;
+    let far = |row: &Row, at: f64| on_screen(plotted, &axes, row, at) - pointer;
     let (row, at) = rows.iter().min_by(|a, b| far(a.0, a.1).x.abs().total_cmp(&far(b.0, b.1).x.abs()))?;
     (far(row, *at).x.abs() < NEAR).then(|| {
-        inner.circle_stroke(spot(plotted, &axes, row, *at), RING, Stroke::new(2.0, style.palette.accent));
+        inner.circle_stroke(on_screen(plotted, &axes, row, *at), RING, Stroke::new(2.0, style.palette.accent));
         *row
     })
 }
 
 /// Where a point is on screen; one without a value at the bottom.
-fn spot(plotted: &Plotted<'_>, axes: &Axes, row: &Row, at: f64) -> Pos2 {
+fn on_screen(plotted: &Plotted<'_>, axes: &Axes, row: &Row, at: f64) -> Pos2 {
     let value = row.numbers.get(plotted.quantity);
     value.map_or_else(|| pos2(axes.px(at), axes.rect.bottom() - 6.0), |value| axes.at(at, value))
 }
