@@ -2,15 +2,15 @@
 
 use crate::hold::{Hold, REACH, Reading, leak_time};
 use crate::job::hold::{HeldPlate, Snapshot, slowed};
-use crate::problem::{Plate, Problem, Scenario};
+use crate::problem::Plate;
 use crate::scene::Scene;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use std::time::Instant;
 
-/// Seconds for the leak time that can be chosen, and at first.
+/// Seconds for the leak time that can be chosen.
 pub const SECONDS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
-const FIRST_SECONDS: f64 = 1.0;
+/// Seconds for the leak time at first.
+pub const FIRST_SECONDS: f64 = 1.0;
 /// Seconds of slow motion that the charts hold, and samples at most.
 const WINDOW: f64 = 8.0;
 const SAMPLES: usize = 2000;
@@ -33,30 +33,20 @@ pub struct HoldState {
 }
 
 impl HoldState {
-    /// The plate of `scene` in hand, at rest; `None` for a motor.
-    ///
-    /// # Errors
-    /// If its thread cannot be started.
-    pub fn start(
-        scene: &Scene,
-        problem: &Problem,
-        now: fn() -> Instant,
-        wake: impl Fn() + Send + 'static,
-    ) -> std::io::Result<Option<Self>> {
-        let Scenario::Plate(plate) = &problem.scenario else { return Ok(None) };
-        let job = HeldPlate::start(plate.clone(), slowed(plate, FIRST_SECONDS), now, wake)?;
+    /// The `plate` of `scene` in hand, at rest, whose film `job` marches.
+    pub fn new(job: HeldPlate, scene: Scene, plate: Plate) -> Self {
         let (now, _) = job.take();
-        Ok(Some(Self {
+        Self {
             job,
-            scene: scene.clone(),
-            plate: plate.clone(),
+            scene,
             seconds: FIRST_SECONDS,
             target: plate.mean_gap,
             now,
             trail: VecDeque::new(),
             pressure: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
             force: [0.0; 2],
-        }))
+            plate,
+        }
     }
 
     /// Takes what was read off since the last time.

@@ -1,5 +1,4 @@
-//! All that the window knows: plain data, and how each part of it changes. Nothing is drawn here, and no thread is started
-//! but that of a held plate.
+//! All that the window knows: plain data, and how each part of it changes. Nothing is drawn here, and no work is started.
 
 pub mod activity;
 pub mod dialogs;

@@ -4,12 +4,13 @@ use super::updater::Updater;
 use crate::analysis::torque::Merit;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
-use crate::gui::state::hold::HoldState;
+use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
 use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
 use crate::job;
+use crate::job::hold::{HeldPlate, slowed};
 use crate::job::task::Task;
-use crate::problem::Problem;
+use crate::problem::{Problem, Scenario};
 use crate::startup;
 use std::sync::Arc;
 use std::time::Duration;
@@ -50,10 +51,13 @@ impl Updater {
         if state.hold.as_ref().is_some_and(|hold| hold.stale(scene)) {
             state.hold = None;
         }
-        if let (Tab::Hold, None, Ok(problem)) = (state.view.tab, &state.hold, Problem::new(scene)) {
+        if let (Tab::Hold, None, Ok(Scenario::Plate(plate))) =
+            (state.view.tab, &state.hold, Problem::new(scene).map(|problem| problem.scenario))
+        {
             let wake = self.ctx.clone();
-            match HoldState::start(scene, &problem, self.platform.now, move || wake.request_repaint()) {
-                Ok(hold) => state.hold = hold,
+            let slow = slowed(&plate, FIRST_SECONDS);
+            match HeldPlate::start(plate.clone(), slow, self.platform.now, move || wake.request_repaint()) {
+                Ok(job) => state.hold = Some(HoldState::new(job, scene.clone(), plate)),
                 Err(error) => {
                     state.view.tab = Tab::Motion;
                     state.fail(format!("The plate cannot be held: {error}"));
