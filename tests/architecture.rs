@@ -3,6 +3,8 @@
 //! A reference is a path: `crate::…`, `super::…`, `self::…` or that of a child module, in a `use` or in the middle of code.
 //! One to a name that a module re-exports is one to the file that the name comes from. Tests inside of files do not count.
 
+#![allow(clippy::unwrap_used)] // helpers of tests are not tests to clippy
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
