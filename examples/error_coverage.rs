@@ -9,7 +9,7 @@
 //! way. Every draw is the same on every run. Motors whose error is
 //! not covered, or that do not converge, are printed with the keys to repeat them.
 
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
@@ -19,6 +19,7 @@ use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::presets;
 use squeezefilm::solution::Status;
 use std::error::Error;
+use std::fmt::Write;
 
 /// Key, middle of the range, decades either way in the mild sample, least and greatest value allowed.
 const DRAWN: [(&str, f64, f64, f64, f64); 8] = [
@@ -37,25 +38,35 @@ const NEGLIGIBLE: f64 = 1e-6;
 const WIDER: f64 = 3.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let wide = match arguments.next().as_deref() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (table, uncovered) = report(&arguments)?;
+    eprint!("{uncovered}");
+    print!("{table}");
+    Ok(())
+}
+
+/// The table, and the motors whose error is not covered or that do not converge, with the keys to repeat them.
+pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn Error>> {
+    let wide = match arguments.first().map(String::as_str) {
         None | Some("mild") => false,
         Some("wide") => true,
         Some(other) => return Err(format!("{other}: expected mild or wide").into()),
     };
-    let count: u32 = arguments.next().map_or(Ok(200), |text| text.parse())?;
+    let count: u32 = arguments.get(1).map_or(Ok(200), |text| text.parse())?;
 
     let mut random = Random(12345);
     let judged = [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine];
     let mut tallies = judged.map(|fidelity| Tally::new(fidelity.name()));
+    let mut uncovered = String::new();
     for _ in 0..count {
         let changes = draw(&mut random, wide);
         let words: Vec<String> = changes.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
+        let words = words.join(" ");
         let solve = |fidelity| solve(&changes, fidelity);
         let reference = match solve(Fidelity::Reference)? {
             Ok(reference) => reference,
             Err(error) => {
-                println!("reference: {error}: {}", words.join(" "));
+                writeln!(uncovered, "reference: {error}: {words}")?;
                 continue;
             }
         };
@@ -66,26 +77,29 @@ fn main() -> Result<(), Box<dyn Error>> {
                     let all_converged = [&found, &reference].iter().all(|one| one.status == Status::Converged);
                     if !covered || !all_converged {
                         let mark = if all_converged { "" } else { ", not converged" };
-                        println!(
-                            "{fidelity}{mark}: α = {:.5} ± {:.1e}, reference {:.5} ± {:.1e}: {}",
+                        writeln!(
+                            uncovered,
+                            "{fidelity}{mark}: α = {:.5} ± {:.1e}, reference {:.5} ± {:.1e}: {words}",
                             found.result.alpha,
                             found.result.alpha_error,
                             reference.result.alpha,
                             reference.result.alpha_error,
-                            words.join(" ")
-                        );
+                        )?;
                     }
                 }
-                Err(error) => println!("{fidelity}: {error}: {}", words.join(" ")),
+                Err(error) => writeln!(uncovered, "{fidelity}: {error}: {words}")?,
             }
         }
     }
-    println!(
-        "\n| | motors | not converged | covered | with reference's own | missed by more than 1e-6 | median true | 90 % | worst | median stated/true |"
-    );
-    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
-    tallies.iter_mut().for_each(Tally::print);
-    Ok(())
+    let mut table =
+        "| | motors | not converged | covered | with reference's own | missed by more than 1e-6 | median true \
+                     | 90 % | worst | median stated/true |\n\
+                     | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n"
+            .to_owned();
+    for tally in &mut tallies {
+        tally.print(&mut table)?;
+    }
+    Ok((table, uncovered))
 }
 
 /// A motor with a random set of values.
@@ -153,14 +167,15 @@ impl Tally {
         error <= stated
     }
 
-    fn print(&mut self) {
+    fn print(&mut self, table: &mut String) -> std::fmt::Result {
         let motors = self.true_errors.len();
         if motors == 0 {
-            return;
+            return Ok(());
         }
         self.true_errors.sort_by(f64::total_cmp);
         self.ratios.sort_by(f64::total_cmp);
-        println!(
+        writeln!(
+            table,
             "| {} | {motors} | {} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.1} |",
             self.name,
             self.not_converged,
@@ -171,7 +186,7 @@ impl Tally {
             self.true_errors[motors * 9 / 10],
             self.true_errors[motors - 1],
             self.ratios.get(self.ratios.len() / 2).copied().unwrap_or(f64::NAN),
-        );
+        )
     }
 }
 

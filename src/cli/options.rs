@@ -59,10 +59,7 @@ fn quoted(word: &str) -> String {
 #[derive(Clone, Debug, Args)]
 pub(super) struct SolveOptions {
     /// How exact the result is to be: a name for an accuracy
-    ///
-    /// The stated error of α, or of a plate's mean load, is at most 2 % (draft), 0.5 % (standard), 0.1 % (fine) or 0.02 % (reference)
-    /// of itself. Where the film carries less than a hundredth of the load, it is that share of a hundredth of the load.
-    #[arg(long, value_name = "LEVEL", value_parser = fidelity(), conflicts_with = "accuracy")]
+    #[arg(long, value_name = "LEVEL", value_parser = fidelity(), conflicts_with = "accuracy", long_help = fidelity_help())]
     pub(super) fidelity: Option<Fidelity>,
 
     /// How exact the result is to be, as a number: 0.1% or 0.001
@@ -210,6 +207,16 @@ fn duration(text: &str) -> Result<Duration, String> {
 
 fn fidelity() -> ValueParser {
     PossibleValuesParser::new(Fidelity::ALL.map(Fidelity::name)).try_map(|name| name.parse::<Fidelity>()).into()
+}
+
+fn fidelity_help() -> String {
+    let named = Fidelity::ALL.map(|level| format!("{} % ({level})", 100.0 * level.accuracy()));
+    format!(
+        "How exact the result is to be: a name for an accuracy\n\n\
+         Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value. Where the film carries \
+         less than a hundredth of the load, it is that share of a hundredth of the load.",
+        named.join(", ")
+    )
 }
 
 fn method() -> ValueParser {

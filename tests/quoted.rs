@@ -1,0 +1,183 @@
+//! What README.md and docs/*.md quote is what the program prints today.
+//!
+//! Two kinds of text are quotations. In a fence ```` ```console ```` the lines after `$ COMMAND` are what the command prints, errors
+//! included. Markdown between `<!-- output of: COMMAND -->` and `<!-- end -->` is the command's output. A command is for a shell, in
+//! an empty folder, where `squeezefilm` is the program just built, or the one that the variable `SQUEEZEFILM` names;
+//! `cargo run --release --example NAME …` is called in this process. Quotations that take longer, ```` ```console slow ```` and
+//! `<!-- slow output of: … -->`, are left to `cargo test --test quoted -- --ignored`. Times depend on the machine and are not compared.
+//!
+//! `docs/renew` writes what is printed today into the documents.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+#[allow(dead_code, reason = "its main is not called")]
+#[path = "../examples/error_coverage.rs"]
+mod error_coverage;
+#[allow(dead_code, reason = "its main is not called")]
+#[path = "../examples/validation.rs"]
+mod validation;
+
+use squeezefilm::export::folder::write_file;
+use squeezefilm::fidelity::Fidelity;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const EXAMPLE: &str = "cargo run --release --example ";
+
+/// A command, and the lines of a document that are its output.
+#[derive(Debug, PartialEq)]
+struct Quotation {
+    command: String,
+    slow: bool,
+    lines: Range<usize>,
+}
+
+fn quotations(lines: &[&str]) -> Vec<Quotation> {
+    let mut found = Vec::new();
+    let until = |from: usize, ends: &dyn Fn(&str) -> bool| {
+        from + lines[from..].iter().position(|line| ends(line)).expect("a quotation has an end")
+    };
+    for (number, line) in lines.iter().enumerate() {
+        let after = number + 1;
+        if matches!(*line, "```console" | "```console slow") {
+            let end = until(after, &|line| line == "```");
+            let mut at = after;
+            while at < end {
+                let command = lines[at].strip_prefix("$ ").expect("a console begins with a command").to_owned();
+                let next = until(at + 1, &|line| line == "```" || line.starts_with("$ "));
+                found.push(Quotation { command, slow: line.ends_with("slow"), lines: at + 1..next });
+                at = next;
+            }
+        } else if let Some((kind, command)) = line.strip_suffix(" -->").and_then(|line| line.split_once("output of: "))
+        {
+            let slow = kind == "<!-- slow ";
+            assert!(slow || kind == "<!-- ", "{line}");
+            let end = until(after, &|line| line == "<!-- end -->");
+            found.push(Quotation { command: command.to_owned(), slow, lines: after..end });
+        }
+    }
+    found
+}
+
+fn program() -> PathBuf {
+    std::env::var_os("SQUEEZEFILM").map_or_else(|| env!("CARGO_BIN_EXE_squeezefilm").into(), PathBuf::from)
+}
+
+/// What a command prints.
+fn output(command: &str) -> String {
+    if let Some(example) = command.strip_prefix(EXAMPLE) {
+        let words: Vec<String> = example.split_whitespace().map(str::to_owned).collect();
+        return match words[0].as_str() {
+            "error_coverage" => error_coverage::report(&words[1..]).unwrap().0,
+            "validation" => validation::report(&words[1..]).unwrap(),
+            other => panic!("{other} is no example that can be quoted"),
+        };
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let program = fs::canonicalize(program()).unwrap();
+    let shell = Command::new("sh")
+        .args(["-c", &format!("squeezefilm() {{ \"$SQUEEZEFILM\" \"$@\"; }}\nexec 2>&1\n{command}")])
+        .env("SQUEEZEFILM", program)
+        .current_dir(&folder)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    String::from_utf8(shell.stdout).unwrap()
+}
+
+/// The words of a text without what depends on the machine: times, `12.3 ms`, and which setting is `best` for its time.
+fn compared(text: &[&str]) -> Vec<Vec<String>> {
+    let unit =
+        |word: &str| matches!(word.trim_end_matches([':', ',', ';', '.', '|']), "ns" | "µs" | "ms" | "s" | "min");
+    let line = |line: &&str| {
+        let words: Vec<&str> = line.split_whitespace().filter(|word| *word != "best").collect();
+        let mut kept = Vec::new();
+        for (number, word) in words.iter().enumerate() {
+            let time = words.get(number + 1).is_some_and(|next| unit(next)) && word.parse::<f64>().is_ok();
+            let after = number > 0 && unit(word) && words[number - 1].parse::<f64>().is_ok();
+            kept.push(if time || after { "time".to_owned() } else { (*word).to_owned() });
+        }
+        kept
+    };
+    text.iter().filter(|line| !line.trim().is_empty()).map(line).collect()
+}
+
+/// Compares the quotations of every document, or writes what is printed now if `UPDATE_QUOTED` is set.
+fn check(slow: bool) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let docs = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let mut documents: Vec<PathBuf> = docs.filter(|path| path.extension().is_some_and(|end| end == "md")).collect();
+    documents.push(root.join("README.md"));
+    documents.sort();
+    let update = std::env::var_os("UPDATE_QUOTED").is_some();
+    let (mut count, mut stale) = (0, String::new());
+    for path in documents {
+        let text = fs::read_to_string(&path).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        let mut renewed: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+        for quotation in quotations(&lines).iter().rev().filter(|quotation| quotation.slow == slow) {
+            count += 1;
+            let printed = output(&quotation.command);
+            let now: Vec<&str> = printed.trim_matches('\n').lines().map(str::trim_end).collect();
+            let quoted = &lines[quotation.lines.clone()];
+            let same = compared(quoted) == compared(&now);
+            if !same {
+                stale.push_str(&format!("{}:{}: {}\n", path.display(), quotation.lines.start, quotation.command));
+                stale.push_str(&format!("quoted:\n{}\nprinted:\n{}\n\n", quoted.join("\n"), now.join("\n")));
+            }
+            // Times are renewed together with the slow quotations, which are measured in a release build.
+            if !same || slow {
+                let blank = if lines[quotation.lines.end] == "<!-- end -->" { &[""][..] } else { &[] };
+                let content = [blank, &now, blank].concat();
+                renewed.splice(quotation.lines.clone(), content.iter().map(|line| (*line).to_owned()));
+            }
+        }
+        let renewed = renewed.join("\n") + "\n";
+        if update && renewed != text {
+            write_file(&path, |out| out.write_all(renewed.as_bytes())).unwrap();
+        }
+    }
+    assert!(count > 0, "nothing is quoted");
+    assert!(update || stale.is_empty(), "{stale}docs/renew writes what is printed today");
+}
+
+#[test]
+fn what_the_documents_quote_is_what_is_printed() {
+    check(false);
+}
+
+/// `cargo test --test quoted -- --ignored`
+#[test]
+#[ignore = "minutes, most of them for the paper's method"]
+fn what_the_documents_quote_is_what_is_printed_slow() {
+    check(true);
+}
+
+#[test]
+fn accuracies_are_those_of_the_fidelities() {
+    let readme = include_str!("../README.md");
+    let percent = Fidelity::ALL.map(|level| (100.0 * level.accuracy()).to_string()).join(", ");
+    let names = Fidelity::ALL.map(Fidelity::name).join(", ");
+    assert!(readme.contains(&format!("{names}: {percent} %")), "{names}: {percent} %");
+}
+
+#[test]
+fn a_quotation_is_found_and_only_its_times_are_free() {
+    let text = "a\n```console\n$ one\n1\n2\n$ two\n```\n<!-- slow output of: cargo run -->\n\n| 3 |\n\n<!-- end -->";
+    let found = quotations(&text.lines().collect::<Vec<_>>());
+    let quotation = |command: &str, slow, lines| Quotation { command: command.to_owned(), slow, lines };
+    assert_eq!(
+        found,
+        [quotation("one", false, 3..5), quotation("two", false, 6..6), quotation("cargo run", true, 8..11)]
+    );
+
+    let words = "Cost:   2.69 ms: 306 steps of 36 s each, α 0.2461";
+    assert_eq!(compared(&["", words]), compared(&["Cost: 1.1 s: 306 steps of 5 min each, α 0.2461  best"]));
+    for other in [words.replace("0.2461", "0.2462"), words.replace("306", "307"), words.replace("2.69 ms", "2.69 mm")] {
+        assert_ne!(compared(&[words]), compared(&[&other]), "{other}");
+    }
+    assert_eq!(output("squeezefilm --version | tr a-z A-Z").trim(), concat!("SQUEEZEFILM ", env!("CARGO_PKG_VERSION")));
+    assert_eq!(output("squeezefilm solve nowhere --json | head -n 1").matches("error: ").count(), 1);
+}
