@@ -49,9 +49,9 @@ fn run(changes: &[(&str, &str)], method: Method, fidelity: Fidelity) -> Result<M
     }
 }
 
-/// α on each of the nested grids, and what is made of them.
+/// α on each of the nested grids, and the result that is extrapolated from them.
 fn grids() -> Result<String, Box<dyn Error>> {
-    let mut text = "| fidelity | film nodes along × across half the width, steps | α on the grid | extrapolated |\n\
+    let mut text = "| fidelity | film nodes along × across half the width, steps | α on the grid | result |\n\
                     | --- | --- | ---: | ---: |\n"
         .to_owned();
     let problem = Problem::new(&presets::find("fundamental")?)?;
@@ -65,9 +65,9 @@ fn grids() -> Result<String, Box<dyn Error>> {
         let across = found.stats.film_nodes / (finest + 1);
         for (number, alpha) in found.alphas.iter().enumerate() {
             let name = if number == 0 { fidelity.name() } else { "" };
-            let last = number.checked_sub(1).map(|before| found.alphas[before]);
-            let value = last.map_or_else(String::new, |last| format!("{:.6}", alpha + (alpha - last) / 3.0));
-            writeln!(text, "| {name} | {} × {across}, {} | {alpha:.6} | {value} |", grid.along + 1, grid.steps)?;
+            let last = number + 1 == found.alphas.len();
+            let result = if last { with_error(found.result.alpha, found.result.alpha_error) } else { String::new() };
+            writeln!(text, "| {name} | {} × {across}, {} | {alpha:.6} | {result} |", grid.along + 1, grid.steps)?;
             grid = grid.finer(true);
         }
         let (result, load) = (found.result, motor.load);

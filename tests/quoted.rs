@@ -8,7 +8,7 @@
 //!
 //! `docs/renew` writes what is printed today into the documents.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on fails")]
 
 #[allow(dead_code, reason = "its main is not called")]
 #[path = "../examples/error_coverage.rs"]
