@@ -120,7 +120,6 @@ fn mesh() -> Result<String, Box<dyn Error>> {
         (51, 81, 181, 180),
         (101, 21, 361, 180),
         (201, 41, 721, 180),
-        (201, 81, 721, 360),
     ] {
         let changes = [
             ("numerics.film_nodes_along", along),
