@@ -1,7 +1,7 @@
-//! Measures, in Markdown, what docs/validation.md and docs/theory.md show and no command of the program prints.
+//! Measures, in Markdown, what docs/validation.md shows and no command of the program prints.
 //!
 //! ```text
-//! cargo run --release --example validation across|grids|mesh|slip
+//! cargo run --release --example validation grids|mesh|slip
 //! ```
 
 #![allow(clippy::print_stdout)]
@@ -30,11 +30,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// The table that the arguments name.
 pub(crate) fn report(arguments: &[String]) -> Result<String, Box<dyn Error>> {
     match &arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["across"] => across(),
         ["grids"] => grids(),
         ["mesh"] => mesh(),
         ["slip"] => slip_laws(),
-        other => Err(format!("{other:?}: expected across, grids, mesh or slip").into()),
+        other => Err(format!("{other:?}: expected grids, mesh or slip").into()),
     }
 }
 
@@ -80,27 +79,6 @@ fn grids() -> Result<String, Box<dyn Error>> {
         );
     }
     Ok(text + &sentence)
-}
-
-/// What nodes across the width bring: a polynomial on few, finite volumes on as many.
-fn across() -> Result<String, Box<dyn Error>> {
-    let problem = Problem::new(&presets::find("fundamental")?)?;
-    let Scenario::Motor(motor) = &problem.scenario else { return Err("the fundamental case is a motor".into()) };
-    let alpha = |spectral: bool, across: usize| -> Result<f64, Box<dyn Error>> {
-        let plan = Plan::motor(motor, Fidelity::Reference, &problem.numerics);
-        let mut plan = if spectral { plan } else { plan.volumes() };
-        plan.grids.iter_mut().for_each(|grid| grid.across = across);
-        Ok(motor::periodic(motor, &plan.on_one_grid(), &mut (), &Cancel::new())?.result.alpha)
-    };
-    let exact = alpha(true, 8)?;
-    let mut text = "| unknown nodes across half the width | polynomial off by | finite volumes off by |\n\
-                    | ---: | ---: | ---: |\n"
-        .to_owned();
-    for nodes in [2, 3, 4, 5] {
-        let off = |spectral| Ok::<_, Box<dyn Error>>(100.0 * (alpha(spectral, nodes)? / exact - 1.0));
-        writeln!(text, "| {nodes} | {:+.4} % | {:+.4} % |", off(true)?, off(false)?)?;
-    }
-    Ok(text)
 }
 
 /// The paper's method on finer meshes, one direction at a time, and all together.
