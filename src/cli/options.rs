@@ -64,7 +64,7 @@ pub(super) struct SolveOptions {
 
     /// How exact the result is to be, as a number: 0.1% or 0.001
     ///
-    /// Grids are refined until the stated error is that small.
+    /// Grids are refined until the stated error is that small, or a limit of the work is reached; the result states the error that it has.
     #[arg(long, value_name = "ERROR", value_parser = accuracy)]
     pub(super) accuracy: Option<Fidelity>,
 
@@ -213,8 +213,9 @@ fn fidelity_help() -> String {
     let named = Fidelity::ALL.map(|level| format!("{} % ({level})", 100.0 * level.accuracy()));
     format!(
         "How exact the result is to be: a name for an accuracy\n\n\
-         Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value. Where the film carries \
-         less than a hundredth of the load, it is that share of a hundredth of the load.",
+         Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value, or \
+         a limit of the work is reached; the result states the error that it has. Where the film carries less than a hundredth of the \
+         load, the accuracy is a share of that hundredth.",
         named.join(", ")
     )
 }
