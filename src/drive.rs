@@ -21,6 +21,7 @@
 //! s₀ ≤ 1, so that the torque has a bound, the paper's maximum operating torque μ_d N waves r. A motor that is pressed so
 //! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
 
+use crate::digits::with_error;
 use crate::estimate::Estimate;
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
@@ -379,19 +380,13 @@ impl<'a> Scaled<'a> {
 
 /// The warning of a motor whose teeth touch all round the wave, so that it gives less than the bound.
 pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Option<String> {
-    let stated = |Estimate { value, error }: Estimate| {
-        let smallest = if error > 0.0 && error.is_finite() { error } else { value.abs().max(f64::MIN_POSITIVE) };
-        let places = (1.0 - smallest.log10().floor()).clamp(0.0, 9.0) as usize;
-        let error = if error.is_finite() { format!(" ± {error:.places$}") } else { String::new() };
-        format!("{value:.places$}{error} N·m")
-    };
     (result.teeth_in_contact >= motor.teeth as f64).then(|| {
         format!(
             "all {} teeth of each wave touch the rotor at all times, so parts of the contact always brake: held at rest the motor \
-             gives {}, not the maximum operating torque μ_d (1 − α) waves L r = {}, which is a bound",
+             gives {} N·m, not the maximum operating torque μ_d (1 − α) waves L r = {} N·m, which is a bound",
             motor.teeth,
-            stated(found.stall_torque),
-            stated(found.max_torque),
+            with_error(found.stall_torque.value, found.stall_torque.error),
+            with_error(found.max_torque.value, found.max_torque.error),
         )
     })
 }

@@ -203,9 +203,9 @@ pub struct Model {
     pub half_width: bool,
     /// Whether the wedge term was solved.
     pub shear: bool,
-    /// A sentence for each decision.
-    pub why: Vec<String>,
-    /// The decisions of our own method.
+    /// What the paper's method has to say of itself, in sentences.
+    pub remarks: Vec<String>,
+    /// The decisions of our own method; `analysis::decision` says them in words.
     pub decisions: Vec<Decision>,
 }
 

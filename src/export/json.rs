@@ -1,12 +1,13 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
+use crate::analysis::decision::sentences;
 use crate::analysis::exact::Comparison;
 pub use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::Merit;
 use crate::analysis::validity::{self, Excess};
+use crate::digits::{short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::export::digits::significant;
 use crate::export::exact::ExactObject;
 use crate::export::merit::MeritObject;
 use crate::motor::MotorError;
@@ -300,14 +301,7 @@ pub fn text(object: &impl Serialize) -> String {
 /// `348, limit 0.1`
 pub fn beside_limit(excess: &Excess) -> String {
     let unit = if excess.unit.is_empty() { String::new() } else { format!(" {}", excess.unit) };
-    let limit = significant(excess.limit, 3);
-    // A limit of two digits has no third.
-    let limit = if limit.contains('.') && !limit.contains('e') {
-        limit.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &limit
-    };
-    format!("{}{unit}, limit {limit}{unit}", significant(excess.value, 3))
+    format!("{}{unit}, limit {}{unit}", significant(excess.value, 3), short(excess.limit, 3))
 }
 
 /// How a solve ended, in a word.
@@ -346,7 +340,7 @@ impl ModelObject {
             teeth_solved: model.teeth_solved,
             half_width: model.half_width,
             shear: model.shear,
-            why: model.why.clone(),
+            why: sentences(model),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports, and how
 //! files get into a folder.
 
+pub use crate::digits;
+
 pub mod animation;
 pub mod compare;
 pub mod csv;
-pub mod digits;
 pub mod exact;
 pub mod figure;
 pub mod figures;

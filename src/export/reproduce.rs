@@ -1,15 +1,16 @@
 //! The paper's tables and figures as one report: published numbers beside those of its own algorithm and the converged ones.
 
 use super::compare::{again, limits};
-use super::digits::{significant, with_error};
 use super::figure::{
     Axis, Band, Colour, Dash, Figure, Legend, Line, Marker, Panel, Points, Provenance, Shape, Style, Width,
 };
 use super::figures::compare::{MotorRun, contact_pressures, film_pressures};
 use super::figures::motor::{crest_in_the_middle, surfaces};
 use super::html::{Kind, Page, Table};
+use crate::analysis::decision::sentences;
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
 use crate::analysis::validity::outside;
+use crate::digits::{significant, with_error};
 use crate::problem::{Motor, RotorCompliance, Scenario};
 use crate::recording::Recording;
 use crate::solution::{MotorResult, Solution, Status};
@@ -498,7 +499,7 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
         for (name, solved) in [("The paper's algorithm", &row.both.paper), ("Converged", &row.both.ours)] {
             if let Ok(solution) = solved {
                 page.heading(name);
-                page.list(&solution.model.why);
+                page.list(&sentences(&solution.model));
             }
         }
         if let Ok(solution) = &row.both.ours {

@@ -10,7 +10,7 @@
 
 use super::live::{Live, Readings};
 use crate::analysis::quantity::{Numbers, Quantity};
-use crate::export::digits::significant;
+use crate::digits::short;
 use crate::scene::{PARAMETERS, Parameter, ParameterKind, Scene, Value};
 
 /// How near `about` is, relative.
@@ -286,11 +286,7 @@ impl Comparison {
             Expression::Name { name, .. } => format!(" {}", name.unit(now.scene)).trim_end().to_owned(),
             _ => String::new(),
         };
-        let shown = |value: f64| {
-            let text = significant(value, DIGITS).replace('-', "−");
-            let decimal = text.contains('.') && !text.contains('e');
-            if decimal { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-        };
+        let shown = |value: f64| short(value, DIGITS).replace('-', "−");
         let words = match self.operator {
             Operator::Less => "below",
             Operator::AtMost => "at most",

@@ -186,7 +186,7 @@ fn discretisation_error(nx: usize, ny: usize, n: usize) -> f64 {
 }
 
 fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March<'_>) -> Model {
-    let mut why = vec![
+    let mut remarks = vec![
         format!(
             "The paper's literal algorithm: every tooth, full width, {nx} × {ny} uniform film nodes, {nodes} contact \
              nodes, marched from ambient pressure with contact and film in turn."
@@ -198,12 +198,12 @@ fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March
         ),
     ];
     if motor.shear {
-        why.push("The wedge term is solved, with the sliding speed of each point of a tooth.".to_owned());
+        remarks.push("The wedge term is solved, with the sliding speed of each point of a tooth.".to_owned());
     } else {
-        why.push("The wedge term is left out, as the scene asks.".to_owned());
+        remarks.push("The wedge term is left out, as the scene asks.".to_owned());
     }
     if !march.meshes.alike {
-        why.push(
+        remarks.push(
             "The pitch is not a whole number of contact spacings, so the teeth carry different nodes; the recorded \
              lines are interpolated to those of tooth 0."
                 .to_owned(),
@@ -215,7 +215,7 @@ fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March
         teeth_solved: motor.teeth,
         half_width: false,
         shear: motor.shear,
-        why,
+        remarks,
         decisions: Vec::new(),
     }
 }

@@ -89,7 +89,7 @@ pub struct Provenance {
 impl Provenance {
     /// Of one solve.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
-        use crate::export::digits::with_error;
+        use crate::digits::with_error;
         let error = match &solution.outcome {
             Outcome::Motor(result) => format!("α = {}", with_error(result.alpha, result.alpha_error)),
             Outcome::Plate(result) => {

@@ -64,9 +64,9 @@ pub fn torque(merit: &Merit) -> Figure {
          rotor, with the air film and without it, for Coulomb friction at every point of contact. The stator's surface reaches \
          {} rpm. The pressures are those of the scene's rotor speed, {} rpm, marked by the thin line; what another speed changes \
          of the torque is below {} %.",
-        crate::export::digits::significant(fastest, 4),
-        crate::export::digits::significant(present, 4),
-        crate::export::digits::significant(100.0 * merit.speed_effect, 2)
+        crate::digits::significant(fastest, 4),
+        crate::digits::significant(present, 4),
+        crate::digits::significant(100.0 * merit.speed_effect, 2)
     );
     figure
 }

@@ -5,6 +5,7 @@ use super::convergence::power_of_ten;
 use super::hint::{Hint, beside};
 use super::labels;
 use super::parameters::capitalised;
+use crate::analysis::decision::{term, words};
 use crate::export::digits::significant;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
@@ -43,7 +44,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, model: &Model<'_>, colours: &Palette, 
     let mut row = Row { run, model, colours, columns, commands };
     row.aim(ui);
     for decision in decisions {
-        ui.push_id(decision.term, |ui| match decision.key.and_then(Parameter::find) {
+        ui.push_id(term(decision), |ui| match decision.key().and_then(Parameter::find) {
             Some(parameter) => row.switch(ui, decision, parameter),
             None => row.fixed(ui, decision),
         });
@@ -112,7 +113,7 @@ fn at_most(share: f64) -> String {
 
 /// What a decision leaves out at most; nothing of a grid, whose error is stated elsewhere.
 fn bound(decision: &Decision) -> String {
-    if decision.key.is_none() && decision.effect == 0.0 {
+    if decision.key().is_none() && decision.effect == 0.0 {
         return String::new();
     }
     if decision.effect > 0.0 { format!("≤ {}", at_most(decision.effect)) } else { "exact".to_owned() }
@@ -139,8 +140,8 @@ impl Columns {
     fn of(ui: &egui::Ui, decisions: &[Decision]) -> Self {
         let widest =
             |texts: &mut dyn Iterator<Item = String>| texts.map(|text| text_width(ui, &text)).fold(0.0, f32::max);
-        let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key?)?)));
-        let term = widest(&mut switches().map(|(decision, _)| capitalised(decision.term)));
+        let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key()?)?)));
+        let term = widest(&mut switches().map(|(decision, _)| capitalised(term(decision))));
         // As if anything were decided: rows must not jump when something is.
         let bound = widest(&mut [0.06, 6e-4].into_iter().map(|share| format!("≤ {}", at_most(share))));
         let words = widest(&mut switches().flat_map(|(_, parameter)| {
@@ -194,7 +195,7 @@ impl Row<'_, '_> {
 
     /// A decision that can be overruled.
     fn switch(&mut self, ui: &mut egui::Ui, decision: &Decision, parameter: &'static Parameter) {
-        let explanation = capitalised(&decision.words);
+        let explanation = capitalised(&words(decision));
         let height = ui.spacing().interact_size.y;
         if self.columns.one_line {
             ui.horizontal(|ui| {
@@ -220,7 +221,7 @@ impl Row<'_, '_> {
     fn fixed(&mut self, ui: &mut egui::Ui, decision: &Decision) {
         ui.add_space(2.0);
         self.heading(ui, decision);
-        let words = RichText::new(capitalised(&decision.words)).color(self.colours.quiet);
+        let words = RichText::new(capitalised(&words(decision))).color(self.colours.quiet);
         ui.add(egui::Label::new(words).wrap());
         if decision.overruled {
             let numerics = Numerics {
@@ -244,7 +245,7 @@ impl Row<'_, '_> {
     }
 
     fn term(&self, ui: &mut egui::Ui, decision: &Decision) -> egui::Response {
-        ui.add(egui::Label::new(capitalised(decision.term)).extend())
+        ui.add(egui::Label::new(capitalised(term(decision))).extend())
     }
 
     fn bound(&self, ui: &mut egui::Ui, decision: &Decision) {
@@ -298,7 +299,7 @@ impl Row<'_, '_> {
             };
             ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
             let button = ui.small_button("Back to auto").hint("Leaves this to the program again");
-            if button.accessible_name(format!("{} back to auto", capitalised(decision.term))).clicked() {
+            if button.accessible_name(format!("{} back to auto", capitalised(term(decision)))).clicked() {
                 self.commands.push(back);
             }
         });
