@@ -1,7 +1,7 @@
 //! An SVG as it grows: lines, areas, text and pictures, in points from the upper left corner.
 
 use super::colour::Colour;
-use super::description::{Dash, Marker, Shape};
+use super::style::{Dash, Marker, Shape};
 use super::text::{Level, SMALL, pieces, plain};
 use std::fmt::Write as _;
 
