@@ -261,10 +261,10 @@ pub struct Scaled<'a> {
 impl<'a> Scaled<'a> {
     /// With the film, from a solve.
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
-        let loads = recording.line_loads();
+        let loads = &recording.lines;
         Self {
             motor,
-            drive: Drive::new(&loads),
+            drive: Drive::new(loads),
             others: recording.yardsticks.iter().map(Drive::new).collect(),
             judge: |found, others| match *others {
                 // Contact edges are irregular: all of the larger difference, not the share of it that is calibrated for α.
@@ -277,7 +277,7 @@ impl<'a> Scaled<'a> {
                 value: (1.0 - result.alpha).max(0.0) * motor.load,
                 error: result.alpha_error * motor.load,
             },
-            film_power: given(motor, &loads),
+            film_power: given(motor, loads),
         }
     }
 
@@ -419,7 +419,7 @@ pub(crate) fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
 /// ⟨−∫ film ∂h/∂t⟩. The difference of the two is part of the stated error.
 pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
     let given = recording.estimate(|loads| given(motor, loads));
-    let loads = &recording.line_loads();
+    let loads = &recording.lines;
     let (frames, nodes) = (loads.frames, loads.x.len());
     let mut taken = 0.0;
     for (line, (_, at)) in lines(loads).enumerate() {

@@ -278,7 +278,7 @@ fn one_tooth_stands_for_all() {
 #[test]
 fn the_shapes_are_those_of_the_recorded_contact() {
     let solved = solved("fundamental", &[], Fidelity::Draft);
-    let drive = Drive::new(&solved.recording.line_loads());
+    let drive = Drive::new(&solved.recording.lines);
     let mean = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
     assert!((drive.load() / mean - 1.0).abs() < 1e-12);
     assert_eq!(film_power(&solved.motor, &solved.recording), solved.merit.film_power);

@@ -408,7 +408,7 @@ fn most_cycles(problem: &Problem) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::Recording;
+    use crate::recording::{LineLoads, Recording};
     use crate::solution::{Model, MotorResult, Stats};
 
     fn motor() -> Motor {
@@ -429,9 +429,8 @@ mod tests {
             ..MotorResult::default()
         };
         let recording = Recording {
+            lines: LineLoads { film_thickness: vec![2e-7, 1e-6], contact: vec![0.0, 100.0], ..LineLoads::default() },
             pressure: vec![1e5, 5e5],
-            film_thickness: vec![2e-7, 1e-6],
-            contact: vec![0.0, 100.0],
             film_load: vec![0.6, 0.625],
             contact_load: vec![1.85, 1.825],
             ..Recording::default()

@@ -116,17 +116,17 @@ impl Merit {
 /// Torque of the shear in the film, μU/h on the teeth, of the whole ring \[N m\]: the greatest from rest to the stator's
 /// greatest speed. Slip lowers it; it is left out here.
 fn viscous_drag(motor: &Motor, recording: &Recording) -> f64 {
-    let loads = recording.line_loads();
+    let loads = &recording.lines;
     let v0 = surface_speed(motor);
     let (mut still, mut slope) = (0.0, 0.0);
-    for (phase, line) in lines(&loads) {
+    for (phase, line) in lines(loads) {
         for (i, (x, length)) in loads.x.iter().zip(&loads.node_length).enumerate() {
             let per_speed = motor.gas.viscosity * motor.contact_width * length / recording.film_thickness[line + i];
             still += per_speed * v0 * (TAU * (phase + x / loads.length)).cos();
             slope += per_speed;
         }
     }
-    let scale = ring(motor, &loads) * motor.contact_radius / loads.frames.max(1) as f64;
+    let scale = ring(motor, loads) * motor.contact_radius / loads.frames.max(1) as f64;
     let [at_rest, at_speed] = [scale * still, scale * (still - slope * v0)];
     if at_rest.abs() > at_speed.abs() { at_rest } else { at_speed }
 }
