@@ -300,18 +300,18 @@ impl<'a> Scaled<'a> {
 
     /// Speed at which the torque vanishes \[m/s\].
     pub fn no_load_speed(&self) -> Option<f64> {
-        Some(self.drive.no_load()? * surface_speed(self.motor))
+        Some(self.drive.no_load()? * self.motor.surface_speed())
     }
 
     /// μ_d waves N r \[N m\].
     fn torque(&self) -> Estimate {
-        let scale = self.motor.dry_friction * f64::from(self.motor.waves) * self.motor.contact_radius;
-        Estimate { value: scale * self.load.value, error: scale * self.load.error }
+        let [value, error] = [self.load.value, self.load.error].map(|load| self.motor.friction_torque(load));
+        Estimate { value, error }
     }
 
     /// The film's share of the stator's power, in μ_d N V₀.
     fn loss(&self) -> f64 {
-        let spent = self.torque().value * surface_speed(self.motor) / self.motor.contact_radius;
+        let spent = self.torque().value * self.motor.surface_speed() / self.motor.contact_radius;
         if spent > 0.0 { self.film_power.max(0.0) / spent } else { 0.0 }
     }
 
@@ -323,7 +323,7 @@ impl<'a> Scaled<'a> {
     }
 
     fn point(&self, speed: f64, loss: f64) -> Point {
-        let v0 = surface_speed(self.motor);
+        let v0 = self.motor.surface_speed();
         if v0 == 0.0 && speed == 0.0 {
             // Nothing slides.
             return Point::default();
@@ -347,7 +347,7 @@ impl<'a> Scaled<'a> {
     /// All of it, with a curve at these speeds \[m/s\].
     pub fn performance(&self, speeds: &[f64]) -> Performance {
         let exactly = |value: f64| Estimate { value, error: 0.0 };
-        let (speed, loss) = (surface_speed(self.motor), self.loss());
+        let (speed, loss) = (self.motor.surface_speed(), self.loss());
         let (unit, v0) = (self.torque(), exactly(speed));
         let per_radius = speed / self.motor.contact_radius;
         let power = Estimate { value: unit.value * per_radius, error: unit.error * per_radius };
@@ -389,16 +389,6 @@ pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Opti
             with_error(found.max_torque.value, found.max_torque.error),
         )
     })
-}
-
-/// V₀ = 2πf B_S \[m/s\].
-pub fn surface_speed(motor: &Motor) -> f64 {
-    TAU * motor.frequency * motor.tangential_amplitude
-}
-
-/// A surface speed of the rotor \[m/s\] as rotations in a minute.
-pub fn rpm(motor: &Motor, speed: f64) -> f64 {
-    60.0 * speed / (TAU * motor.contact_radius)
 }
 
 /// The stored lines, tooth by tooth and frame by frame: φ of the tooth's middle, and where the line begins.

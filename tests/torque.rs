@@ -3,7 +3,7 @@
 
 use squeezefilm::analysis::torque::Merit;
 use squeezefilm::control::Cancel;
-use squeezefilm::drive::{Drive, film_power, surface_speed};
+use squeezefilm::drive::{Drive, film_power};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::without_film;
 use squeezefilm::plan::Plan;
@@ -60,7 +60,7 @@ fn heat_node_by_node(solved: &Solved, speed: f64) -> f64 {
 fn what_the_stator_gives_is_what_the_rotor_and_the_heat_take() {
     let solved = solved("fundamental", &[], Fidelity::Fine);
     let merit = &solved.merit;
-    let v0 = surface_speed(&solved.motor);
+    let v0 = solved.motor.surface_speed();
     assert!((v0 - TAU * 30e3 * 1e-6).abs() < 1e-12);
     // The curve is scaled to the extrapolated contact load, the sums are of the finest grid.
     let share = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
@@ -237,7 +237,7 @@ fn stated_errors_hold_against_the_reference() {
 #[test]
 fn another_rotor_speed_changes_the_torque_by_less_than_is_said() {
     let still = solved("fundamental", &[("numerics.wedge", "on")], Fidelity::Fine);
-    let top = still.merit.rpm(surface_speed(&still.motor)).to_string();
+    let top = still.merit.rpm(still.motor.surface_speed()).to_string();
     let turning = solved("fundamental", &[("numerics.wedge", "on"), ("motor.rotor_speed_rpm", &top)], Fidelity::Fine);
     let change = (turning.result.max_torque / still.result.max_torque - 1.0).abs();
     assert!(change <= still.merit.speed_effect, "{change} {}", still.merit.speed_effect);

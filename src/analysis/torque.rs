@@ -4,12 +4,12 @@
 //! The pressures are those of the scene's rotor speed; what another speed changes is bounded ([`Merit::speed_effect`]).
 
 use crate::control::Cancel;
-use crate::drive::{Scaled, film_power, lines, ring, surface_speed};
+use crate::drive::{Scaled, film_power, lines, ring};
 use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
 use crate::motor::{MotorError, without_film};
 use crate::plan::{Plan, wedge_bound};
-use crate::problem::{Motor, Numerics, Problem, Scenario};
+use crate::problem::{Motor, Numerics, Problem, Scenario, rpm};
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Outcome, Performance, Solution};
 use std::f64::consts::TAU;
@@ -81,7 +81,7 @@ impl Merit {
         let with_film = Scaled::with_film(motor, result, recording);
         let without_film = Scaled::without_film(motor, dry);
         let share = (1.0 - result.alpha).max(0.0);
-        let v0 = surface_speed(motor);
+        let v0 = motor.surface_speed();
         let mut speeds: Vec<f64> = if v0 > 0.0 {
             let marked = [with_film.no_load_speed(), without_film.no_load_speed(), Some(motor.rotor_speed)];
             let even = (0..SPEEDS).map(|i| v0 * i as f64 / (SPEEDS - 1) as f64);
@@ -109,7 +109,7 @@ impl Merit {
 
     /// A surface speed \[m/s\] as rotations in a minute.
     pub fn rpm(&self, speed: f64) -> f64 {
-        60.0 * speed / (TAU * self.radius)
+        rpm(speed, self.radius)
     }
 }
 
@@ -117,7 +117,7 @@ impl Merit {
 /// greatest speed. Slip lowers it; it is left out here.
 fn viscous_drag(motor: &Motor, recording: &Recording) -> f64 {
     let loads = &recording.lines;
-    let v0 = surface_speed(motor);
+    let v0 = motor.surface_speed();
     let (mut still, mut slope) = (0.0, 0.0);
     for (phase, line) in lines(loads) {
         for (i, (x, length)) in loads.x.iter().zip(&loads.node_length).enumerate() {

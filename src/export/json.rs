@@ -257,7 +257,7 @@ impl Summary {
         self.min_gap_error_nm = numbers.take("min_gap_error_nm", result.min_gap_error * 1e9);
         self.contact_load_n = numbers.take("contact_load_n", result.contact_load);
         self.max_torque_nm = numbers.take("max_torque_nm", result.max_torque);
-        self.dry_torque_nm = numbers.take("dry_torque_nm", dry_torque(motor));
+        self.dry_torque_nm = numbers.take("dry_torque_nm", motor.friction_torque(motor.load));
         self.teeth_in_contact = numbers.take("teeth_in_contact", result.teeth_in_contact);
         self.levitated = Some(result.levitated);
         self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
@@ -343,11 +343,6 @@ impl ModelObject {
             why: sentences(model),
         }
     }
-}
-
-/// The paper's maximum operating torque of the whole ring if there were no air film, μ_d waves L r \[N m\].
-pub fn dry_torque(motor: &Motor) -> f64 {
-    motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius
 }
 
 #[cfg(test)]

@@ -136,11 +136,7 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         film_load_max,
         contact_load,
         // A film that carries more than the load leaves nothing to rub.
-        max_torque: motor.dry_friction
-            * (1.0 - alpha).max(0.0)
-            * f64::from(motor.waves)
-            * motor.load
-            * motor.contact_radius,
+        max_torque: motor.friction_torque((1.0 - alpha).max(0.0) * motor.load),
         teeth_in_contact: touching as f64 / steps as f64,
         levitated: touching == 0,
         min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),

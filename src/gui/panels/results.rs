@@ -7,7 +7,7 @@ use crate::analysis::regime;
 use crate::analysis::validity::Excess;
 use crate::dimensionless::Dimensionless;
 use crate::export::digits::{significant, with_error};
-use crate::export::json::{beside_limit, dry_torque, force_unit};
+use crate::export::json::{beside_limit, force_unit};
 use crate::gui::command::Command;
 use crate::gui::lessons::glossary;
 use crate::gui::spot;
@@ -91,7 +91,7 @@ fn motor_numbers(
     spot::mark(ui, "headline", headline);
     ui.add_space(4.0);
     let force_error = result.alpha_error * motor.load;
-    let torque_error = result.alpha_error * dry_torque(motor);
+    let torque_error = result.alpha_error * motor.friction_torque(motor.load);
     number(ui, colours, "Film load", &uncertain(result.film_load, force_error), "N");
     number(ui, colours, "Over the cycle", &span(result.film_load_min, result.film_load_max), "N");
     number(ui, colours, "Contact load", &uncertain(result.contact_load, force_error), "N");
@@ -107,7 +107,7 @@ fn motor_numbers(
         number(ui, colours, "Stall torque", &uncertain(stall_torque.value, stall_torque.error), "N·m");
     }
     number(ui, colours, "Maximum operating torque", &uncertain(result.max_torque, torque_error), "N·m");
-    number(ui, colours, "The same without air", &shown(dry_torque(motor)), "N·m");
+    number(ui, colours, "The same without air", &shown(motor.friction_torque(motor.load)), "N·m");
     section(ui, "Extremes");
     extremes(ui, colours, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
 }
