@@ -1,7 +1,7 @@
 //! Torque, power and efficiency of solved motors: balances that hold whatever the contact is, limits, honest errors.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use squeezefilm::analysis::torque::Merit;
+use squeezefilm::analysis::torque::TorqueCurves;
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::{Drive, film_power};
 use squeezefilm::fidelity::Fidelity;
@@ -18,7 +18,7 @@ struct Solved {
     motor: Motor,
     result: MotorResult,
     recording: Recording,
-    merit: Merit,
+    merit: TorqueCurves,
 }
 
 fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Method) -> Solved {
@@ -31,7 +31,8 @@ fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Met
         panic!("a motor")
     };
     let recording = solution.recording;
-    let merit = Merit::of(&motor, &problem.numerics, fidelity, &result, &recording, &Cancel::new()).unwrap().unwrap();
+    let merit =
+        TorqueCurves::of(&motor, &problem.numerics, fidelity, &result, &recording, &Cancel::new()).unwrap().unwrap();
     Solved { motor, result, recording, merit }
 }
 

@@ -1,7 +1,7 @@
 //! What a designer wants of a motor: torque, power and efficiency over the rotor's speed ([`crate::drive`]), with the film and
 //! without it.
 //!
-//! The pressures are those of the scene's rotor speed; what another speed changes is bounded ([`Merit::speed_effect`]).
+//! The pressures are those of the scene's rotor speed; what another speed changes is bounded ([`TorqueCurves::speed_effect`]).
 
 use crate::control::Cancel;
 use crate::drive::{Scaled, film_power, lines, ring};
@@ -19,7 +19,7 @@ const SPEEDS: usize = 121;
 
 /// What a designer wants of a motor; the whole ring.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Merit {
+pub struct TorqueCurves {
     /// With the film.
     pub with_film: Performance,
     /// The same motor in a vacuum: contact solved without gas.
@@ -39,7 +39,7 @@ pub struct Merit {
     pub speed_effect: f64,
 }
 
-impl Merit {
+impl TorqueCurves {
     /// From a solve of `motor`, and the contact without film, which is solved here on the grids that `fidelity` and
     /// `numerics` ask for. `None` if cancelled.
     ///

@@ -7,7 +7,7 @@ use crate::digits::{as_given, duration, percent, significant, with_error};
 use crate::dimensionless::Dimensionless;
 use crate::export::exact::{ExactObject, units};
 use crate::export::json::{Summary, beside_limit};
-use crate::export::merit::{MeritObject, PerformanceObject};
+use crate::export::torque::{PerformanceObject, TorqueObject};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::Scene;
 use crate::solution::Outcome;
@@ -29,10 +29,10 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
         Scenario::Plate(plate) => plate_rows(&mut columns, plate, summary),
     }
     text.push_str(&columns.text("  ", &[]));
-    if let (Some(merit), Scenario::Motor(motor)) = (&summary.merit, &problem.scenario) {
+    if let (Some(torque), Scenario::Motor(motor)) = (&summary.torque, &problem.scenario) {
         text.push('\n');
         let mut columns = Columns::new();
-        merit_rows(&mut columns, motor, merit);
+        torque_rows(&mut columns, motor, torque);
         text.push_str(&columns.text("  ", &[]));
     }
     text.push('\n');
@@ -71,8 +71,8 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     let error = or_nan(summary.alpha_error);
     let dry = or_nan(summary.dry_torque_nm);
     let negative = regime::sucks(or_nan(summary.alpha), error);
-    let without = summary.merit.as_ref().map_or_else(String::new, |merit| {
-        let dry = &merit.without_film;
+    let without = summary.torque.as_ref().map_or_else(String::new, |torque| {
+        let dry = &torque.without_film;
         format!("; {} without film", stated(dry.stall_torque_nm, dry.stall_torque_error_nm, 1.0, "N·m"))
     });
     columns.row([
@@ -119,8 +119,8 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
 }
 
 /// Torque, power and efficiency over speed; the last column is the same motor in a vacuum.
-fn merit_rows(columns: &mut Columns, motor: &Motor, merit: &MeritObject) {
-    let (wet, dry) = (&merit.with_film, &merit.without_film);
+fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueObject) {
+    let (wet, dry) = (&torque.with_film, &torque.without_film);
     let without = |text: String| format!("{text} without film");
     let mut row = |name: &str, value: &dyn Fn(&PerformanceObject) -> String| {
         columns.row([name, &value(wet), &without(value(dry))]);
@@ -136,12 +136,12 @@ fn merit_rows(columns: &mut Columns, motor: &Motor, merit: &MeritObject) {
     }
     columns.row([
         "power lost in the film",
-        &stated(merit.film_power_w, merit.film_power_error_w, 1.0, "W"),
+        &stated(torque.film_power_w, torque.film_power_error_w, 1.0, "W"),
         "squeezed by the stator, mean over the cycle",
     ]);
     columns.row([
         "friction of a dry model",
-        stated(merit.dry_equivalent_friction, merit.dry_equivalent_friction_error, 1.0, "").trim_end(),
+        stated(torque.dry_equivalent_friction, torque.dry_equivalent_friction_error, 1.0, "").trim_end(),
         &format!("has the same maximum operating torque as {} with the film", as_given(motor.dry_friction)),
     ]);
 }

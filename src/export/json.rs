@@ -3,13 +3,13 @@
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::Comparison;
 pub use crate::analysis::quantity::force_unit;
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
 use crate::digits::{short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::export::exact::ExactObject;
-use crate::export::merit::MeritObject;
+use crate::export::torque::TorqueObject;
 use crate::motor::MotorError;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Model, MotorResult, Outcome, Performance, PlateResult, Solution, Stats, Status};
@@ -99,7 +99,8 @@ pub struct Summary {
     /// Kn.
     pub knudsen_number: Option<f64>,
     /// Torque, power and efficiency (motor), if they were asked for.
-    pub merit: Option<MeritObject>,
+    #[serde(rename = "merit")]
+    pub torque: Option<TorqueObject>,
     /// What is known exactly beside what was computed (plate).
     pub exact: Option<ExactObject>,
     /// Cost.
@@ -178,11 +179,11 @@ impl Numbers {
 
 impl Summary {
     /// Adds torque over speed, or the warning that it is not known, and returns it.
-    pub fn add_merit(&mut self, found: Result<Option<Merit>, MotorError>) -> Option<Merit> {
+    pub fn add_torque(&mut self, found: Result<Option<TorqueCurves>, MotorError>) -> Option<TorqueCurves> {
         match found {
-            Ok(merit) => {
-                self.merit = merit.as_ref().map(MeritObject::new);
-                merit
+            Ok(curves) => {
+                self.torque = curves.as_ref().map(TorqueObject::new);
+                curves
             }
             Err(error) => {
                 self.warnings.push(format!("torque over speed is not known: without film, {error}"));

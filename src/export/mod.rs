@@ -13,7 +13,7 @@ pub mod files;
 pub mod folder;
 pub mod html;
 pub mod json;
-pub mod merit;
+
 mod mp4;
 pub mod npz;
 pub mod reproduce;
@@ -21,5 +21,6 @@ pub mod stability;
 pub mod startup;
 pub mod sweep;
 pub mod table1;
+pub mod torque;
 pub mod tradeoff;
 mod video;

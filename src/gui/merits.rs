@@ -1,6 +1,6 @@
 //! Torque over speed of the run on screen: computed in the background while its tab is shown, and kept.
 
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::job::Run;
 use crate::job::merit::MeritJob;
@@ -16,7 +16,7 @@ type Key = (u64, Fidelity);
 pub struct Merits {
     asked: Option<Key>,
     job: Option<MeritJob>,
-    found: Option<(Key, Result<Merit, String>)>,
+    found: Option<(Key, Result<TorqueCurves, String>)>,
 }
 
 impl Merits {
@@ -43,12 +43,12 @@ impl Merits {
     }
 
     /// The newest that is known.
-    pub fn found(&self) -> Option<&Result<Merit, String>> {
+    pub fn found(&self) -> Option<&Result<TorqueCurves, String>> {
         self.found.as_ref().map(|(_, found)| found)
     }
 
     /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
-    pub fn of(&self, run: &Run) -> Option<&Merit> {
+    pub fn of(&self, run: &Run) -> Option<&TorqueCurves> {
         let good = run.fidelity.min(Fidelity::Standard);
         let (_, found) = self.found.as_ref().filter(|((number, found), _)| *number == run.number && *found >= good)?;
         found.as_ref().ok()

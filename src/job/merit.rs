@@ -3,14 +3,14 @@
 
 use super::worker::Worker;
 use super::{Run, panic_text};
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
 /// What came of it: the numbers, or why there are none, in words.
-pub type Told = Result<Merit, String>;
+pub type Told = Result<TorqueCurves, String>;
 
 /// A computation under way, or ended.
 #[derive(Debug)]
@@ -47,7 +47,7 @@ impl MeritJob {
 
 /// `None` if it was cancelled, or there is no motor.
 fn found(run: &Run, cancel: &Cancel) -> Option<Told> {
-    Merit::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
+    TorqueCurves::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
         .map_err(|error| format!("without film, {error}"))
         .transpose()
 }

@@ -2,7 +2,7 @@
 //! reads off them.
 
 use super::chart::{SOLID, axes, chart, legend, place, title};
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::estimate::Estimate;
 use crate::export::digits::significant;
 use crate::gui::lessons::glossary;
@@ -49,7 +49,7 @@ pub fn show(ui: &mut egui::Ui, run: &Run, merits: &Merits, colours: &Palette) {
     });
 }
 
-fn found(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, height: f32, colours: &Palette) {
+fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, colours: &Palette) {
     if merit.surface_speed <= 0.0 {
         quiet(
             ui,
@@ -127,7 +127,7 @@ fn panel(
     lines: &[(Vec<[f64; 2]>, Color32, LineStyle)],
     top: Option<f64>,
     bottom: bool,
-    merit: &Merit,
+    merit: &TorqueCurves,
     colours: &Palette,
 ) -> Option<f64> {
     let fastest = merit.rpm(merit.surface_speed);
@@ -164,7 +164,7 @@ fn panel(
 }
 
 /// The values at the speed under the pointer.
-fn readout(ui: &mut egui::Ui, merit: &Merit, pointed: Option<f64>, colours: &Palette) {
+fn readout(ui: &mut egui::Ui, merit: &TorqueCurves, pointed: Option<f64>, colours: &Palette) {
     let Some(speed) = pointed else {
         quiet(ui, colours, "Point at a chart to read its values");
         return;
@@ -186,7 +186,7 @@ fn readout(ui: &mut egui::Ui, merit: &Merit, pointed: Option<f64>, colours: &Pal
 }
 
 /// The numbers, with the film and without it.
-fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
+fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, colours: &Palette) {
     let (with, without) = (&merit.with_film, &merit.without_film);
     let speed = |found: Option<Estimate>| {
         let rpm = |found: Estimate| Estimate { value: merit.rpm(found.value), error: merit.rpm(found.error) };
@@ -236,7 +236,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
 }
 
 /// What else follows, in sentences.
-fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, colours: &Palette) {
+fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, colours: &Palette) {
     let drag = significant(1e6 * merit.viscous_drag.abs(), 2);
     quiet(
         ui,
