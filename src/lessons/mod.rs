@@ -24,7 +24,7 @@ pub(crate) const LARGEST_FILE: u64 = 1 << 20;
 
 /// What a lesson may name in the window.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Known<'a> {
+pub struct WindowNames<'a> {
     /// Names of the tabs in the middle that a motor has, and that a plate has.
     pub tabs: [&'a [&'a str]; 2],
     /// Names of what can be lit.
@@ -205,13 +205,13 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
 ///
 /// # Errors
 /// A fault in one of them; a test reads them all.
-pub fn built_in(known: Known<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
+pub fn built_in(names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
     collect(BUILT_IN.iter().map(|lesson| {
         let preset = |name: &str| {
             let found = lesson.presets.iter().find(|(file, _)| *file == name)?;
             Some(Scene::from_toml(found.1, name))
         };
-        read::lesson(lesson.id, lesson.text, &Path::new(lesson.id).join(FILE), known, &preset)
+        read::lesson(lesson.id, lesson.text, &Path::new(lesson.id).join(FILE), names, &preset)
     }))
 }
 
@@ -219,10 +219,10 @@ pub fn built_in(known: Known<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
 pub const FILE: &str = "lesson.md";
 
 /// The lessons of a folder: of each folder in it, in the order of their names, or of itself.
-pub fn load(folder: &Path, known: Known<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
+pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
     let fault = |what| (Vec::new(), vec![LessonError { origin: folder.to_owned(), line: None, what }]);
     if folder.join(FILE).is_file() {
-        return collect([load_one(folder, known)]);
+        return collect([load_one(folder, names)]);
     }
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
@@ -234,10 +234,10 @@ pub fn load(folder: &Path, known: Known<'_>) -> (Vec<Lesson>, Vec<LessonError>) 
     if folders.is_empty() {
         return fault(What::NoLessons);
     }
-    collect(folders.iter().map(|folder| load_one(folder, known)))
+    collect(folders.iter().map(|folder| load_one(folder, names)))
 }
 
-fn load_one(folder: &Path, known: Known<'_>) -> Result<Lesson, Vec<LessonError>> {
+fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonError>> {
     let path = folder.join(FILE);
     let fault = |what| vec![LessonError { origin: path.clone(), line: None, what }];
     let length = std::fs::metadata(&path).map_err(|error| fault(What::Unreadable(error.to_string())))?.len();
@@ -253,7 +253,7 @@ fn load_one(folder: &Path, known: Known<'_>) -> Result<Lesson, Vec<LessonError>>
         let inside = Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)));
         (inside && path.is_file()).then(|| Scene::load(&path))
     };
-    read::lesson(&id, &text, &path, known, &preset)
+    read::lesson(&id, &text, &path, names, &preset)
 }
 
 fn collect(results: impl IntoIterator<Item = Result<Lesson, Vec<LessonError>>>) -> (Vec<Lesson>, Vec<LessonError>) {

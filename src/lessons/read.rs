@@ -4,7 +4,7 @@ use super::check::{Check, Name, name};
 use super::error::{LessonError, What};
 use super::live::Live;
 use super::text::{self, Block, Inline};
-use super::{Act, Answer, Changes, Doing, Known, Lesson, Question, Step, Task};
+use super::{Act, Answer, Changes, Doing, Lesson, Question, Step, Task, WindowNames};
 use crate::analysis::quantity::Quantity;
 use crate::scene::{Parameter, Scene, SceneError, presets};
 use std::path::Path;
@@ -33,10 +33,10 @@ pub(super) fn lesson(
     id: &str,
     source: &str,
     origin: &Path,
-    known: Known<'_>,
+    names: WindowNames<'_>,
     beside: Beside<'_>,
 ) -> Result<Lesson, Vec<LessonError>> {
-    let mut reader = Reader { origin, known, beside, faults: Vec::new(), scene: None };
+    let mut reader = Reader { origin, names, beside, faults: Vec::new(), scene: None };
     let lesson = reader.lesson(id, source);
     match lesson {
         Some(lesson) if reader.faults.is_empty() => Ok(lesson),
@@ -63,7 +63,7 @@ struct Raw {
 
 struct Reader<'a> {
     origin: &'a Path,
-    known: Known<'a>,
+    names: WindowNames<'a>,
     beside: Beside<'a>,
     faults: Vec<LessonError>,
     /// The scene of a student who has come this far.
@@ -239,16 +239,16 @@ impl Reader<'_> {
             }
         }
         for (place, line) in self.strings(table, "look") {
-            if self.known.places.contains(&place.as_str()) {
+            if self.names.places.contains(&place.as_str()) {
                 setup.look.push(place);
             } else {
-                let allowed = self.known.places.join(", ");
+                let allowed = self.names.places.join(", ");
                 self.fault(line, What::NotOneOf { block: SETUP, key: "look", found: place, allowed });
             }
         }
         if let Some((tab, line)) = self.string(table, "tab") {
             let plate = self.scene.as_ref().is_some_and(|scene| scene.scene() == "plate");
-            let tabs = self.known.tabs[usize::from(plate)];
+            let tabs = self.names.tabs[usize::from(plate)];
             if tabs.iter().any(|known| known.eq_ignore_ascii_case(&tab)) {
                 setup.tab = Some(tab);
             } else {

@@ -22,7 +22,7 @@ use crate::fidelity::Fidelity;
 use crate::job::Run;
 use crate::lessons::check::{Ran, Verdict};
 use crate::lessons::live::{Live, Readings};
-use crate::lessons::{self, Act, Known, Lesson, LessonError, Prediction, Step};
+use crate::lessons::{self, Act, Lesson, LessonError, Prediction, Step, WindowNames};
 use crate::problem::{Plate, Scenario};
 use crate::scene::Scene;
 use crate::solution::{Outcome, PlateResult, Status};
@@ -510,12 +510,12 @@ fn tab(name: &str) -> Option<Tab> {
 }
 
 /// Calls `read` with what the window has.
-fn with_known<R>(read: impl FnOnce(Known<'_>) -> R) -> R {
+fn with_known<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
     let labels = |plate| -> Vec<&str> {
         Tab::ALL.iter().filter(|(tab, _)| tab.is_of(plate)).map(|(tab, _)| tab.label(plate)).collect()
     };
     let (motor, plate) = (labels(false), labels(true));
-    read(Known { tabs: [&motor, &plate], places: spot::PLACES })
+    read(WindowNames { tabs: [&motor, &plate], places: spot::PLACES })
 }
 
 fn read_progress(text: &str) -> BTreeMap<String, Progress> {
