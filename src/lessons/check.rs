@@ -29,15 +29,6 @@ pub struct Check {
     comparisons: Vec<Comparison>,
 }
 
-/// What a check says of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// Everything holds.
-    Holds,
-    /// The first that does not, in words.
-    Not(String),
-}
-
 impl Check {
     /// Reads a check for steps on `scene`.
     ///
@@ -57,9 +48,9 @@ impl Check {
         found.into_iter()
     }
 
-    /// Whether it holds for `now`, when the step began with `start`.
-    pub fn verdict(&self, now: Ran<'_>, start: Ran<'_>) -> Verdict {
-        self.comparisons.iter().find_map(|comparison| comparison.unmet(now, start)).map_or(Verdict::Holds, Verdict::Not)
+    /// What first does not hold for `now`, when the step began with `start`, in words; `None` if everything holds.
+    pub fn unmet(&self, now: Ran<'_>, start: Ran<'_>) -> Option<String> {
+        self.comparisons.iter().find_map(|comparison| comparison.unmet(now, start))
     }
 }
 
@@ -69,7 +60,7 @@ mod tests {
     use crate::analysis::quantity::{Numbers, Quantity};
     use crate::lessons::live::Readings;
 
-    fn verdict(source: &str, set: &[(&str, &str)], alpha: f64) -> Verdict {
+    fn unmet(source: &str, set: &[(&str, &str)], alpha: f64) -> Option<String> {
         let start = Scene::motor();
         let mut now = start.clone();
         now.set_all(set.iter().copied()).unwrap();
@@ -83,50 +74,47 @@ mod tests {
         let (rest, mut live) = (Readings::default(), Readings::default());
         live.set(Live::Cycles, 5.0);
         let now = Ran { scene: &now, numbers: &after, live: &live };
-        check.verdict(now, Ran { scene: &start, numbers: &before, live: &rest })
+        check.unmet(now, Ran { scene: &start, numbers: &before, live: &rest })
     }
 
     #[test]
     fn comparisons_hold_or_say_why_not() {
         let halved = [("film.min_spacing_nm", "100")];
         let source = "alpha > 1.5 * start.alpha and film.min_spacing_nm <= start.film.min_spacing_nm / 2";
-        assert_eq!(verdict(source, &halved, 0.5), Verdict::Holds);
+        assert_eq!(unmet(source, &halved, 0.5), None);
         assert_eq!(
-            verdict(source, &halved, 0.3),
-            Verdict::Not("Film share of the load α is 0.3, and should be above 0.375".to_owned())
+            unmet(source, &halved, 0.3),
+            Some("Film share of the load α is 0.3, and should be above 0.375".to_owned())
         );
         assert_eq!(
-            verdict(source, &[("film.min_spacing_nm", "150")], 0.5),
-            Verdict::Not("Min spacing is 150 nm, and should be at most 100 nm".to_owned())
+            unmet(source, &[("film.min_spacing_nm", "150")], 0.5),
+            Some("Min spacing is 150 nm, and should be at most 100 nm".to_owned())
         );
-        assert_eq!(verdict("alpha about 0.5", &[], 0.51), Verdict::Holds);
-        assert_ne!(verdict("alpha about 0.5", &[], 0.53), Verdict::Holds);
-        assert_eq!(verdict("abs(alpha - 1) < 0.1 and -(alpha) < 0", &[], 1.05), Verdict::Holds);
-        assert_ne!(verdict("film_load_n > 1", &[], 0.5), Verdict::Holds, "what is not there holds nothing");
-        assert_ne!(verdict("alpha / (motor.waves - 7) > 0", &[], 0.5), Verdict::Holds);
-        assert_eq!(verdict("startup.cycles >= 5", &[], 0.5), Verdict::Holds);
+        assert_eq!(unmet("alpha about 0.5", &[], 0.51), None);
+        assert_ne!(unmet("alpha about 0.5", &[], 0.53), None);
+        assert_eq!(unmet("abs(alpha - 1) < 0.1 and -(alpha) < 0", &[], 1.05), None);
+        assert_ne!(unmet("film_load_n > 1", &[], 0.5), None, "what is not there holds nothing");
+        assert_ne!(unmet("alpha / (motor.waves - 7) > 0", &[], 0.5), None);
+        assert_eq!(unmet("startup.cycles >= 5", &[], 0.5), None);
         assert_eq!(
-            verdict("startup.cycles > 5", &[], 0.5),
-            Verdict::Not("Cycles since rest is 5, and should be above 5".to_owned())
-        );
-        assert_eq!(
-            verdict("torque.stall_nm > 0", &[], 0.5),
-            Verdict::Not("Stall torque is not known yet: see the tab Torque".to_owned())
+            unmet("startup.cycles > 5", &[], 0.5),
+            Some("Cycles since rest is 5, and should be above 5".to_owned())
         );
         assert_eq!(
-            verdict(
+            unmet("torque.stall_nm > 0", &[], 0.5),
+            Some("Stall torque is not known yet: see the tab Torque".to_owned())
+        );
+        assert_eq!(
+            unmet(
                 "film.slip = \"none\" and film.shear = false",
                 &[("film.slip", "none"), ("film.shear", "false")],
                 0.5
             ),
-            Verdict::Holds
+            None
         );
-        assert_eq!(
-            verdict("film.slip = \"none\"", &[], 0.5),
-            Verdict::Not("Slip is first-order, and should be none".to_owned())
-        );
-        assert_eq!(verdict("stator.tooth_radius_m = \"none\"", &[], 0.5), Verdict::Holds);
-        assert_ne!(verdict("stator.tooth_radius_m = \"none\"", &[("stator.tooth_radius_m", "3")], 0.5), Verdict::Holds);
+        assert_eq!(unmet("film.slip = \"none\"", &[], 0.5), Some("Slip is first-order, and should be none".to_owned()));
+        assert_eq!(unmet("stator.tooth_radius_m = \"none\"", &[], 0.5), None);
+        assert_ne!(unmet("stator.tooth_radius_m = \"none\"", &[("stator.tooth_radius_m", "3")], 0.5), None);
     }
 
     #[test]

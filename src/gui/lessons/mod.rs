@@ -20,7 +20,7 @@ use crate::analysis::exact;
 use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::Run;
-use crate::lessons::check::{Ran, Verdict};
+use crate::lessons::check::Ran;
 use crate::lessons::live::{Live, Readings};
 use crate::lessons::{self, Act, Lesson, LessonError, Prediction, Step, WindowNames};
 use crate::problem::{Plate, Scenario};
@@ -440,10 +440,9 @@ impl Teaching {
         work.tried = run.scene != start.scene
             || task.check.live().any(|live| live.is_done_by_hand() && now.get(live) != start.live.get(live));
         let now = Ran { scene: &run.scene, numbers: &numbers, live: now };
-        match task.check.verdict(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &start.live }) {
-            Verdict::Holds => (work.fulfilled, work.unmet) = (true, None),
-            Verdict::Not(why) => work.unmet = Some(why),
-        }
+        let start = Ran { scene: &start.scene, numbers: &start.numbers, live: &start.live };
+        work.unmet = task.check.unmet(now, start);
+        work.fulfilled |= work.unmet.is_none();
     }
 }
 
