@@ -12,7 +12,7 @@ pub mod live;
 mod read;
 pub mod text;
 
-pub use error::{LessonError, What};
+pub use error::{LessonError, LessonErrorKind};
 
 use crate::scene::{Parameter, Scene};
 use check::{Check, Name};
@@ -220,31 +220,31 @@ pub const FILE: &str = "lesson.md";
 
 /// The lessons of a folder: of each folder in it, in the order of their names, or of itself.
 pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
-    let fault = |what| (Vec::new(), vec![LessonError { origin: folder.to_owned(), line: None, what }]);
+    let fault = |kind| (Vec::new(), vec![LessonError { origin: folder.to_owned(), line: None, kind }]);
     if folder.join(FILE).is_file() {
         return collect([load_one(folder, names)]);
     }
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
-        Err(error) => return fault(What::Unreadable(error.to_string())),
+        Err(error) => return fault(LessonErrorKind::Unreadable(error.to_string())),
     };
     let mut folders: Vec<PathBuf> =
         entries.flatten().map(|entry| entry.path()).filter(|path| path.join(FILE).is_file()).collect();
     folders.sort();
     if folders.is_empty() {
-        return fault(What::NoLessons);
+        return fault(LessonErrorKind::NoLessons);
     }
     collect(folders.iter().map(|folder| load_one(folder, names)))
 }
 
 fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonError>> {
     let path = folder.join(FILE);
-    let fault = |what| vec![LessonError { origin: path.clone(), line: None, what }];
-    let length = std::fs::metadata(&path).map_err(|error| fault(What::Unreadable(error.to_string())))?.len();
+    let fault = |kind| vec![LessonError { origin: path.clone(), line: None, kind }];
+    let length = std::fs::metadata(&path).map_err(|error| fault(LessonErrorKind::Unreadable(error.to_string())))?.len();
     if length > LARGEST_FILE {
-        return Err(fault(What::TooLarge(LARGEST_FILE)));
+        return Err(fault(LessonErrorKind::TooLarge(LARGEST_FILE)));
     }
-    let text = std::fs::read_to_string(&path).map_err(|error| fault(What::Unreadable(error.to_string())))?;
+    let text = std::fs::read_to_string(&path).map_err(|error| fault(LessonErrorKind::Unreadable(error.to_string())))?;
     let absolute = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let id = absolute.file_name().map_or_else(|| "lesson".to_owned(), |name| name.to_string_lossy().into_owned());
     let preset = |name: &str| {
