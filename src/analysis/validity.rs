@@ -20,7 +20,6 @@
 //! ρ = πμ²/(2 p_a λ_a²), which is air's within 3 % for the preset values; but λ_a may be 0, and stays what it was while pressure
 //! is swept. The thermal diffusivity κ = μ/(ρ Pr) follows the viscosity that is given.
 
-use crate::digits::rounded;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
 use crate::problem::{Gas, Motor, Plate, Problem, Scenario, Slip};
 use crate::solution::{Outcome, Solution};
@@ -159,16 +158,16 @@ impl Film<'_> {
         let (limit, text) = if value > INERTIA {
             let text = format!(
                 "The gas has inertia in a gap of {} µm (ωρh²/12μ = {}, air at 20 °C), which the film equation leaves out.",
-                rounded(self.gap * 1e6, 3),
-                rounded(value, 3)
+                rounded(self.gap * 1e6),
+                rounded(value)
             );
             (INERTIA, text)
         } else {
             let text = format!(
                 "In so viscous a film (gap {} µm) the inertia of the gas, which the film equation leaves out, adds about {} times the \
                  mean load that is computed.",
-                rounded(self.gap * 1e6, 3),
-                rounded(INERTIAL_LOAD * value / sigma, 3)
+                rounded(self.gap * 1e6),
+                rounded(INERTIAL_LOAD * value / sigma)
             );
             (INERTIA_TO_SQUEEZE * sigma, text)
         };
@@ -182,9 +181,9 @@ impl Film<'_> {
         let text = format!(
             "A gap of {} µm is {} times as wide as heat travels in a cycle ({} µm): the gas is warmed and cooled as it is squeezed, and \
              not isothermal.",
-            rounded(self.gap * 1e6, 3),
-            rounded(value, 3),
-            rounded(depth * 1e6, 3)
+            rounded(self.gap * 1e6),
+            rounded(value),
+            rounded(depth * 1e6)
         );
         excess("isothermal", value, THERMAL_DEPTHS, "", text)
     }
@@ -202,14 +201,14 @@ impl Film<'_> {
         let text = if gas.slip == Slip::FukuiKaneko {
             format!(
                 "The fit of Fukui and Kaneko ends before Kn = {}; beyond, the flow is extrapolated.",
-                rounded(value, 3)
+                rounded(value)
             )
         } else {
             let exact = FukuiKaneko { mean_free_path: gas.mean_free_path.max(f64::MIN_POSITIVE) };
             let ratio = SlipLaw::of(gas).at(self.closed).0 / exact.at(self.closed).0;
             format!(
                 "At Kn = {} {law} lets {} % {} gas flow than the Boltzmann equation, which the law of Fukui and Kaneko (film.slip) follows.",
-                rounded(value, 3),
+                rounded(value),
                 (100.0 * (ratio - 1.0)).abs().round(),
                 if ratio < 1.0 { "less" } else { "more" }
             )
@@ -223,8 +222,8 @@ impl Film<'_> {
         let across = format!(
             "The {} is {} wavelengths of sound across ({} mm, air at 20 °C)",
             self.body,
-            rounded(value, 3),
-            rounded(wavelength * 1e3, 3)
+            rounded(value),
+            rounded(wavelength * 1e3)
         );
         let (limit, text) = if self.reynolds() > INERTIA {
             (WAVELENGTHS_IN_THE_FILM, format!("{across}: sound waves can stand in the film, and are left out."))
@@ -232,7 +231,7 @@ impl Film<'_> {
             let pressure = 100.0 * HEAT_RATIO * TAU * self.amplitude / wavelength;
             let text = format!(
                 "{across}: its edges are taken to be at ambient pressure, and the sound around it, up to {} % of that, is left out.",
-                rounded(pressure, 3)
+                rounded(pressure)
             );
             (WAVELENGTHS, text)
         };
@@ -244,10 +243,10 @@ impl Film<'_> {
         let text = format!(
             "A film {} µm thick is not thin under a {} {} mm across: the gas beyond the edges, which is left out, makes it act as if {} % \
              larger.",
-            rounded(self.gap * 1e6, 3),
+            rounded(self.gap * 1e6),
             self.body,
-            rounded(self.side * 1e3, 3),
-            rounded(100.0 * ELONGATION * value, 3)
+            rounded(self.side * 1e3),
+            rounded(100.0 * ELONGATION * value)
         );
         excess("thinness", value, THINNESS, "", text)
     }
@@ -258,9 +257,9 @@ fn sliding(motor: &Motor) -> Option<Excess> {
     let text = format!(
         "The faces slide at up to {} m/s, {} times the speed of sound (air at 20 °C): shear warms the gas by some {} %, and it is not \
          isothermal.",
-        rounded(value * speed_of_sound(), 3),
-        rounded(value, 3),
-        rounded(100.0 * PRANDTL * (HEAT_RATIO - 1.0) * value * value / 8.0, 3)
+        rounded(value * speed_of_sound()),
+        rounded(value),
+        rounded(100.0 * PRANDTL * (HEAT_RATIO - 1.0) * value * value / 8.0)
     );
     excess("sound", value, MACH, "", text)
 }
@@ -270,7 +269,7 @@ fn stress(pressure: f64) -> Option<Excess> {
     let value = pressure * 1e-6;
     let text = format!(
         "Contact presses with up to {} MPa; a rotor of aluminium 6061-T6 yields at {YIELD_MPA} MPa, and the model is elastic.",
-        rounded(value, 3)
+        rounded(value)
     );
     excess("contact-stress", value, YIELD_MPA, "MPa", text)
 }
@@ -279,7 +278,7 @@ fn nearness(plate: &Plate) -> Option<Excess> {
     let text = format!(
         "The plate comes within {} nm of the wall: the load hangs on faces smoother and more parallel than that, and 1 % of gap or \
          amplitude is 7 % of it or more.",
-        rounded((plate.mean_gap - plate.amplitude) * 1e9, 3)
+        rounded((plate.mean_gap - plate.amplitude) * 1e9)
     );
     excess("amplitude", plate.amplitude / plate.mean_gap, AMPLITUDE, "", text)
 }
@@ -290,6 +289,11 @@ fn speed_of_sound() -> f64 {
 
 fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: String) -> Option<Excess> {
     (value > limit).then_some(Excess { name, value, limit, unit, text })
+}
+
+/// To three digits.
+fn rounded(value: f64) -> f64 {
+    crate::digits::rounded(value, 3)
 }
 
 #[cfg(test)]

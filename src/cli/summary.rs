@@ -3,7 +3,7 @@
 use super::columns::{Columns, paragraph};
 use crate::analysis::regime;
 use crate::analysis::validity::Excess;
-use crate::digits::{as_given, duration, percent, significant, with_error};
+use crate::digits::{as_given, percent, significant, with_error};
 use crate::dimensionless::Dimensionless;
 use crate::export::exact::{ExactObject, units};
 use crate::export::json::{Summary, beside_limit};
@@ -12,6 +12,8 @@ use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::Scene;
 use crate::solution::Outcome;
 use std::fmt::Write as _;
+
+pub(super) use crate::digits::duration;
 
 /// Significant digits of numbers without an error of their own.
 const DIGITS: usize = 4;
