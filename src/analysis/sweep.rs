@@ -11,7 +11,6 @@ use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity};
 use super::table1::{Published, published_at};
 use crate::control::Cancel;
-use crate::digits::as_given;
 use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::{Fault, Parameter, ParameterKind, Scale, Scene, SceneError, Value};
@@ -405,11 +404,15 @@ pub fn spaced(from: f64, to: f64, count: usize, scale: Scale) -> Vec<f64> {
         match (i, scale) {
             (0, _) => from,
             (i, _) if i == last => to,
-            (_, Scale::Linear) => as_given(from * (1.0 - share) + to * share),
-            (_, Scale::Log) => as_given((from.ln() * (1.0 - share) + to.ln() * share).exp()),
+            (_, Scale::Linear) => short(from * (1.0 - share) + to * share),
+            (_, Scale::Log) => short((from.ln() * (1.0 - share) + to.ln() * share).exp()),
         }
     };
     (0..count).map(value).collect()
+}
+
+fn short(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {

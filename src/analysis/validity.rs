@@ -293,7 +293,7 @@ fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: 
 
 /// To three digits.
 fn rounded(value: f64) -> f64 {
-    crate::digits::rounded(value, 3)
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::summary::duration;
 use super::terminal;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Tradeoff, Wish, candidates, measure};
-use crate::digits::{percent, significant};
+use crate::export::digits::significant;
 use crate::export::folder::Staged;
 use crate::export::json;
 use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
@@ -171,6 +171,10 @@ fn advice(tradeoff: &Tradeoff, wish: Wish, alone: &str) -> String {
         point.error.map_or_else(String::new, percent),
         point.run.candidate.options()
     )
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", significant(100.0 * share, 2))
 }
 
 /// The table for people.
