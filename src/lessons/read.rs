@@ -2,9 +2,9 @@
 
 use super::check::{Check, Name, name};
 use super::error::{LessonError, LessonErrorKind};
+use super::lesson::{Act, Answer, Changes, Doing, Lesson, Question, Step, Task, WindowNames};
 use super::live::Live;
 use super::text::{self, Block, Inline};
-use super::{Act, Answer, Changes, Doing, Lesson, Question, Step, Task, WindowNames};
 use crate::analysis::quantity::Quantity;
 use crate::scene::{Parameter, Scene, SceneError, presets};
 use std::path::Path;

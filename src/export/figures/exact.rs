@@ -1,8 +1,8 @@
 //! A plate beside what is known exactly.
 
 use super::plate::force;
+use super::series::{over_cycle, rest, span, with_margin};
 use super::unit::prefixed;
-use super::{over_cycle, rest, span, with_margin};
 use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Legend, Line, Mark, Marker, Panel, Points, Shape, Style};
 use crate::problem::Plate;

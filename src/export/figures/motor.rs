@@ -1,7 +1,7 @@
 //! Figures of a motor. Axes cover the whole cycle, so that figures of several instants can be laid side by side.
 
+use super::series::{mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
 use super::unit::prefixed;
-use super::{mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
 };

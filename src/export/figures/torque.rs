@@ -1,6 +1,6 @@
 //! Torque, power and efficiency of a motor over the speed of its rotor.
 
-use super::rest;
+use super::series::rest;
 use super::unit::prefixed;
 use crate::analysis::torque::TorqueCurves;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Style};
