@@ -105,7 +105,7 @@ impl CellObject {
 
 /// Why a cell is not solved, and what about its numbers cannot be.
 pub fn detail(cell: &Cell) -> String {
-    let mut reasons: Vec<String> = cell.faults.iter().map(ToString::to_string).collect();
+    let mut reasons: Vec<String> = cell.violations.iter().map(ToString::to_string).collect();
     match &cell.verdict {
         Verdict::Failed(reason) | Verdict::Refused(reason) => reasons.insert(0, reason.clone()),
         Verdict::NotConverged => reasons.insert(
