@@ -2,7 +2,7 @@
 
 use super::colour::Colour;
 use super::style::{Dash, Marker, Shape};
-use super::text::{Level, SMALL, pieces, plain};
+use super::text::{SMALL, Script, pieces, plain};
 use std::fmt::Write as _;
 
 /// A rectangle \[pt\].
@@ -240,13 +240,13 @@ impl Svg {
         self.body.push('>');
         // dy moves all that follows: every piece is told its distance from the one before.
         let mut at = 0.0;
-        for (level, piece) in pieces {
-            let (shift, size) = match level {
-                Level::Normal => (0.0, style.size),
-                Level::Raised => (-0.36 * style.size, SMALL * style.size),
-                Level::Lowered => (0.18 * style.size, SMALL * style.size),
+        for (script, piece) in pieces {
+            let (shift, size) = match script {
+                Script::Normal => (0.0, style.size),
+                Script::Raised => (-0.36 * style.size, SMALL * style.size),
+                Script::Lowered => (0.18 * style.size, SMALL * style.size),
             };
-            if shift == at && level == Level::Normal {
+            if shift == at && script == Script::Normal {
                 self.body.push_str(&escaped(&piece));
             } else {
                 let (dy, size) = (coordinate(shift - at), coordinate(size));
