@@ -274,7 +274,7 @@ fn limits(validity: &[Excess]) -> String {
 
 /// `Cost: 42.6 ms for …`
 fn cost(summary: &Summary) -> String {
-    let stats = &summary.stats;
+    let stats = &summary.stats.counted;
     let mut parts = vec![format!("{} film steps", stats.film_steps)];
     if stats.coupling_iterations > 0 {
         parts.push(format!("{} rounds of film and contact", stats.coupling_iterations));
@@ -291,7 +291,7 @@ fn cost(summary: &Summary) -> String {
         parts.push(format!("stated error {} of {} asked for{why}", percent(stated), percent(asked)));
     }
     let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
-    paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(stats.wall_s)), parts.join(", ")), "\n", "  ")
+    paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(summary.stats.wall_s)), parts.join(", ")), "\n", "  ")
 }
 
 fn shown(value: f64) -> String {

@@ -122,26 +122,9 @@ pub struct Summary {
 pub struct StatsObject {
     /// Wall time of the solve alone \[s\].
     pub wall_s: Option<f64>,
-    /// Time steps of one tooth's film.
-    pub film_steps: u64,
-    /// Linear solves of those steps.
-    pub film_solves: u64,
-    /// Steps that positivity made locally first-order.
-    pub limited_steps: u64,
-    /// Cycles of the vibration marched.
-    pub cycles: u64,
-    /// Rounds of the film–contact coupling.
-    pub coupling_iterations: u64,
-    /// Contact problems solved.
-    pub contact_solves: u64,
-    /// Newton iterations in them.
-    pub contact_iterations: u64,
-    /// Film nodes of one tooth.
-    pub film_nodes: usize,
-    /// Contact nodes in one wavelength.
-    pub contact_nodes: usize,
-    /// Time steps in a cycle.
-    pub steps_per_cycle: usize,
+    /// What was counted.
+    #[serde(flatten)]
+    pub counted: Stats,
 }
 
 /// What was modelled.
@@ -209,7 +192,7 @@ impl Summary {
             accuracy_asked: (solution.accuracy.asked > 0.0).then_some(solution.accuracy.asked),
             accuracy_stated: numbers.take("accuracy_stated", solution.accuracy.stated),
             stopped_by: solution.accuracy.stopped_by.name(),
-            stats: StatsObject::new(&solution.stats, numbers.take("stats.wall_s", wall_s)),
+            stats: StatsObject { wall_s: numbers.take("stats.wall_s", wall_s), counted: solution.stats },
             model: ModelObject::new(&solution.model),
             validity: validity::outside(problem, Some(solution)),
             version: env!("CARGO_PKG_VERSION"),
@@ -312,24 +295,6 @@ pub fn status_name(status: &Status) -> &'static str {
         Status::NotConverged { .. } => "not converged",
         Status::NotResolved { .. } => "not resolved",
         Status::Cancelled => "cancelled",
-    }
-}
-
-impl StatsObject {
-    fn new(stats: &Stats, wall_s: Option<f64>) -> Self {
-        Self {
-            wall_s,
-            film_steps: stats.film_steps,
-            film_solves: stats.film_solves,
-            limited_steps: stats.limited_steps,
-            cycles: stats.cycles,
-            coupling_iterations: stats.coupling_iterations,
-            contact_solves: stats.contact_solves,
-            contact_iterations: stats.contact_iterations,
-            film_nodes: stats.film_nodes,
-            contact_nodes: stats.contact_nodes,
-            steps_per_cycle: stats.steps_per_cycle,
-        }
     }
 }
 

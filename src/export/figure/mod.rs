@@ -57,6 +57,7 @@ pub use files::{FigureError, Format, PRINT, to_bytes, to_pdf, to_png, to_svg, wr
 pub use layers::{Anchor, Band, Categories, Contours, Direction, Grid, Layer, Line, Map, Mark, Points, Shading, Text};
 pub use provenance::Provenance;
 pub use style::{Dash, Marker, Shape, Style};
+pub use svg::escaped;
 
 #[cfg(feature = "gui")]
 pub(crate) use geometry::{contour, is_contour};
