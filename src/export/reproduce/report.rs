@@ -1,7 +1,7 @@
 //! The report on the paper: its tables and figures as one page.
 
-use super::RowObject;
 use super::figures::figures;
+use super::objects::RowObject;
 use super::statements::statements;
 use crate::analysis::decision::sentences;
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
