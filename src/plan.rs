@@ -91,10 +91,11 @@ pub enum Choice {
 /// What speaks for and against leaving out a part of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighed {
-    /// The number that decides.
-    pub measure: Measure,
-    /// Whether the part is left out.
-    pub left_out: bool,
+    /// How the part is solved if it is left out.
+    pub reduced: Choice,
+    /// The number that decides: Λ/σ of the wedge term; otherwise the film's boundary layer over the side of a tooth that the gas
+    /// would have to leak out along, of the leaking in time the shorter one.
+    pub number: f64,
     /// Whether the scene says so.
     pub asked: bool,
     /// Bound of what leaving it out changes, relative to α.
@@ -105,19 +106,6 @@ pub struct Weighed {
     pub fidelity: Fidelity,
     /// See `fidelity`.
     pub aim: f64,
-}
-
-/// A number by which the plan decides whether a part of the model is left out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Measure {
-    /// Bearing over squeeze number, Λ/σ.
-    BearingToSqueeze(f64),
-    /// The film's boundary layer over the shorter side of a tooth.
-    LayerToShorterSide(f64),
-    /// The film's boundary layer over the contact width.
-    LayerToContactWidth(f64),
-    /// The film's boundary layer over the tooth width.
-    LayerToToothWidth(f64),
 }
 
 impl Decision {
@@ -383,16 +371,17 @@ struct Reduction {
     /// As of [`Weighed`].
     effect: f64,
     unresolved: f64,
-    measure: Measure,
+    number: f64,
 }
 
 impl Reduction {
     fn decide(self, fidelity: Fidelity, spec: &Spec) -> Decision {
-        let Self { choices, asked, effect, unresolved, measure } = self;
+        let Self { choices, asked, effect, unresolved, number } = self;
         let allowed = effect <= SHARE * spec.aim || effect < unresolved;
         let left_out = asked.unwrap_or(allowed);
-        let weighed =
-            Weighed { measure, left_out, asked: asked.is_some(), effect, unresolved, fidelity, aim: spec.aim };
+        let [_, reduced] = choices;
+        let aim = spec.aim;
+        let weighed = Weighed { reduced, number, asked: asked.is_some(), effect, unresolved, fidelity, aim };
         Decision {
             chosen: choices[usize::from(left_out)],
             overruled: asked.is_some_and(|asked| asked != allowed),
@@ -422,7 +411,7 @@ fn wedge(
         },
         effect: wedge_effect(numbers, motor),
         unresolved: upwinding(numbers, motor, along),
-        measure: Measure::BearingToSqueeze(numbers.bearing_to_squeeze),
+        number: numbers.bearing_to_squeeze,
     }
     .decide(fidelity, spec)
 }
@@ -442,7 +431,7 @@ fn time(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
             + yielding(motor, layer)
             + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 },
         unresolved: 0.0,
-        measure: Measure::LayerToShorterSide(layer / motor.tooth_width.min(motor.contact_width)),
+        number: layer / motor.tooth_width.min(motor.contact_width),
     }
     .decide(fidelity, spec)
 }
@@ -473,11 +462,7 @@ fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
         },
         effect: if along { sides } else { ends },
         unresolved: 0.0,
-        measure: if along {
-            Measure::LayerToContactWidth(layer / motor.contact_width)
-        } else {
-            Measure::LayerToToothWidth(layer / motor.tooth_width)
-        },
+        number: layer / if along { motor.contact_width } else { motor.tooth_width },
     }
     .decide(fidelity, spec)
 }

@@ -1,7 +1,7 @@
 //! What a plan decided, in words: what is solved of each part of the model, and why.
 
 use crate::digits::percent;
-use crate::plan::{Choice, Decision, Measure, Weighed};
+use crate::plan::{Choice, Decision, Weighed};
 use crate::problem::{Flow, Teeth, Time, Wedge, Width};
 use crate::solution::Model;
 
@@ -28,7 +28,7 @@ pub fn term(decision: &Decision) -> &'static str {
 
 /// What was decided and why, to be read after [`term`].
 pub fn words(decision: &Decision) -> String {
-    let weighed = decision.weighed.as_ref().map(reason).unwrap_or_default();
+    let weighed = decision.weighed.map_or_else(String::new, |weighed| reason(decision.chosen, &weighed));
     match decision.chosen {
         Choice::Time(Time::Trapped) => format!("none, the gas is trapped (σ → ∞){weighed}"),
         Choice::Time(_) => format!("marched in time{weighed}"),
@@ -49,14 +49,13 @@ pub fn words(decision: &Decision) -> String {
         }
         Choice::MotorGrid { grid, layer, edge_fraction, middle, spectral } => format!(
             "{} intervals along a tooth, the first {edge_fraction} of the film's boundary layer of {:.3} µm{}; across half the \
-             width {} {}; {} steps a cycle; two coarser grids for the error estimate, and finer ones while it is more than was \
+             width {}; {} steps a cycle; two coarser grids for the error estimate, and finer ones while it is more than was \
              asked for",
             grid.along,
             layer * 1e6,
             if middle { ", all of them densest where the crown is highest" } else { "" },
-            if spectral { "a polynomial with" } else { "" },
             if spectral {
-                format!("{} nodes or more", grid.across)
+                format!("a polynomial with {} nodes or more", grid.across)
             } else {
                 format!("{} finite volumes, since the layer is thin", grid.across)
             },
@@ -73,16 +72,16 @@ pub fn words(decision: &Decision) -> String {
 }
 
 /// `: Λ/σ = 1.7e-4, leaving it out changes α by less than 0.16 % of itself, and fine aims at 0.020 %`
-fn reason(weighed: &Weighed) -> String {
-    let layer = |share: f64, of: &str| format!("the boundary layer is {} of the {of}", percent(share));
-    let measure = match weighed.measure {
-        Measure::BearingToSqueeze(ratio) => format!("Λ/σ = {ratio:.1e}"),
-        Measure::LayerToShorterSide(share) => layer(share, "shorter side"),
-        Measure::LayerToContactWidth(share) => layer(share, "contact width"),
-        Measure::LayerToToothWidth(share) => layer(share, "tooth width"),
+fn reason(chosen: Choice, weighed: &Weighed) -> String {
+    let layer = |of: &str| format!("the boundary layer is {} of the {of}", percent(weighed.number));
+    let measure = match weighed.reduced {
+        Choice::Wedge(_) => format!("Λ/σ = {:.1e}", weighed.number),
+        Choice::Flow(Flow::Along) => layer("contact width"),
+        Choice::Flow(_) => layer("tooth width"),
+        _ => layer("shorter side"),
     };
     let asked = if weighed.asked { "as asked; " } else { "" };
-    let may = if weighed.left_out { "changes α by less than" } else { "would change α by up to" };
+    let may = if chosen == weighed.reduced { "changes α by less than" } else { "would change α by up to" };
     let (effect, aim) = (percent(weighed.effect), percent(weighed.aim));
     let coarse = if weighed.unresolved > 0.0 {
         format!("; this grid is too coarse for it, solving it errs by up to {}", percent(weighed.unresolved))
