@@ -5,12 +5,11 @@
 //! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
 
 pub mod hold;
-pub mod measurement;
-pub mod merit;
 pub mod startup;
 pub mod task;
-mod worker;
+pub mod tradeoff;
 
+use crate::analysis::attempt::caught;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
@@ -20,15 +19,14 @@ use crate::scene::Scene;
 use crate::solution::{Solution, Status};
 use crate::solve::{Settings, solve_from};
 use std::collections::HashMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-/// One finished solve: immutable, shared.
+/// A scene and what came of solving it at one fidelity: immutable, shared.
 #[derive(Debug)]
-pub struct Run {
+pub struct SolvedScene {
     /// The request's number, ascending.
     pub number: u64,
     /// What was solved.
@@ -60,7 +58,7 @@ pub enum Event {
         progress: Progress,
     },
     /// A fidelity is solved; more may follow.
-    Solved(Arc<Run>),
+    Solved(Arc<SolvedScene>),
     /// There is no result: an error, or a panic of the solver.
     Failed {
         /// The request's number.
@@ -238,13 +236,12 @@ fn refine(
         };
         let settings = Settings { fidelity, ..Settings::default() };
         let warm = warm.entry(fidelity).or_default();
-        let solved =
-            catch_unwind(AssertUnwindSafe(|| solve_from(warm, &request.problem, &settings, &mut listen, cancel)));
+        let solved = caught(|| solve_from(warm, &request.problem, &settings, &mut listen, cancel));
         let wall_s = now().duration_since(started).as_secs_f64();
         let message = match solved {
             Ok(Ok(solution)) if solution.status == Status::Cancelled => return false,
             Ok(Ok(solution)) => {
-                tell(Event::Solved(Arc::new(Run {
+                tell(Event::Solved(Arc::new(SolvedScene {
                     number,
                     scene: request.scene.clone(),
                     problem: request.problem.clone(),
@@ -257,16 +254,12 @@ fn refine(
                 continue;
             }
             Ok(Err(error)) => error.to_string(),
-            Err(panic) => format!("the solver failed at {fidelity}: {}", panic_text(panic.as_ref())),
+            Err(panic) => format!("the solver failed at {fidelity}: {panic}"),
         };
         tell(Event::Failed { number, message });
         return true;
     }
     true
-}
-
-fn panic_text(panic: &(dyn std::any::Any + Send)) -> &str {
-    panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("?")
 }
 
 #[cfg(test)]

@@ -93,7 +93,11 @@ pub fn climb<S: Scene>(
     climb_once(scene, &plan.volumes(), None, cancel)
 }
 
-fn climb_once<S: Scene>(
+/// As [`climb`], by this plan alone.
+///
+/// # Errors
+/// Those of the scene.
+pub fn climb_once<S: Scene>(
     scene: &mut S,
     plan: &Plan,
     last: Option<&Found<S::Level>>,

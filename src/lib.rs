@@ -57,9 +57,9 @@
 //! | [`drive`] | torque, power and efficiency over speed, from where the contact load is |
 //! | [`memory`] | what a solve needs of it, and what all solves may take |
 //! | [`motor`], [`plate`] | the periodic state of either scene |
-//! | [`mod@startup`], [`hold`] | the transient from rest; a plate held by hand |
 //! | [`mod@paper`] | the algorithm of Maeno and Bogy (1992), literally |
 //! | [`mod@solve`] | one call for all of it |
+//! | [`mod@startup`], [`hold`] | the transient from rest; a plate held by hand |
 //! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
 //! | [`lessons`] | lessons and the glossary: their texts, scenes, questions and checks |
 //! | [`cli`] | the command line |

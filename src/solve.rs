@@ -2,6 +2,7 @@
 
 use crate::control::{Cancel, Observer};
 use crate::drive::{Scaled, braking};
+use crate::estimate::Estimate;
 use crate::fidelity::{Fidelity, Spec};
 use crate::film::cycle::Interrupted;
 use crate::memory::{self, Excess};
@@ -151,7 +152,10 @@ pub fn solve_from(
             let result = &found.result;
             Solution {
                 accuracy: accuracy(&plan, result.alpha_error, motor::unit(result.alpha), cancel),
-                warnings: warnings(&found.status),
+                warnings: warnings(&found.status)
+                    .into_iter()
+                    .chain(found.other.map(|other| bistable(&other)))
+                    .collect(),
                 status: found.status,
                 outcome: Outcome::Motor(found.result),
                 performance: None,
@@ -219,6 +223,13 @@ fn model(plan: &Plan, teeth_solved: usize) -> Model {
         remarks: Vec::new(),
         decisions: plan.decisions.clone(),
     }
+}
+
+fn bistable(other: &Estimate) -> String {
+    format!(
+        "bistable: in this result the rotor floats, or nearly; in another one the teeth carry more of the load, with alpha = {:.4} ± {:.4}; which of the two a motor is in depends on how it got there",
+        other.value, other.error
+    )
 }
 
 fn warnings(status: &Status) -> Vec<String> {

@@ -662,3 +662,22 @@ fn the_cost_of_a_solve_is_flat() {
     println!("{least} to {most}: {:.2}", most as f64 / least as f64);
     assert!(most <= 3 * least, "{least} to {most}");
 }
+
+#[test]
+fn where_a_rotor_may_float_or_not_both_states_are_stated() {
+    // 185 kPa on 10 mm: followed upwards in pressure the rotor floats up to 190 kPa, downwards its teeth touch from 192 to 165 kPa.
+    let both = |pressure: f64| {
+        let scene =
+            scene_with("fundamental", &[("film.ambient_pressure_kpa", pressure), ("rotor.contact_width_mm", 10.0)]);
+        let solution = solve(&Problem::new(&scene).unwrap(), &Settings::default(), &mut (), &Cancel::new()).unwrap();
+        let Outcome::Motor(result) = solution.outcome else { panic!("a motor") };
+        (result, solution.status, solution.warnings.iter().any(|words| words.starts_with("bistable")))
+    };
+    let (floating, _, bistable) = both(185.0);
+    assert!(bistable && floating.alpha > 0.999, "{floating:?}");
+    for pressure in [190.0, 193.0] {
+        let (touching, status, _) = both(pressure);
+        assert!(status == Status::Converged && (touching.alpha - 0.64).abs() < 0.02, "{status:?} {touching:?}");
+    }
+    assert!(!both(220.0).2);
+}

@@ -12,10 +12,10 @@ use memory::Memory;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, Ended, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
-use squeezefilm::gui::dialogs::{Answer, Purpose};
-use squeezefilm::gui::state::Tab;
-use squeezefilm::gui::world::World;
-use squeezefilm::job::Run;
+use squeezefilm::gui::state::dialogs::{Answer, Purpose};
+use squeezefilm::gui::state::view::Tab;
+use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::Outcome;
@@ -28,14 +28,14 @@ fn window(preset: &str) -> Harness<'static, App> {
 
 /// A window whose file dialogs are answered by `ask`: a test never opens a real one.
 fn window_asking(preset: &str, ask: fn(Purpose, &str) -> Answer) -> Harness<'static, App> {
-    window_in(preset, 900.0, World { ask, ..World::default() })
+    window_in(preset, 900.0, Platform { ask, ..Platform::default() })
 }
 
-fn window_in(preset: &str, height: f32, world: World) -> Harness<'static, App> {
+fn window_in(preset: &str, height: f32, platform: Platform) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
     Harness::builder()
         .with_size(Vec2::new(1400.0, height))
-        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap())
 }
 
 /// Steps until `ready`, at most a minute of waiting in all: the solver works on its own thread.
@@ -52,13 +52,13 @@ fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) ->
 
 fn solved(window: &mut Harness<'static, App>) {
     until(window, "the scene on screen is solved", |app| {
-        let number = app.activity().number;
-        app.activity().running.is_none()
-            && app.shown().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
+        let number = app.state().activity.number;
+        app.state().activity.running.is_none()
+            && app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
     });
 }
 
-fn alpha(run: Option<&Run>) -> f64 {
+fn alpha(run: Option<&SolvedScene>) -> f64 {
     match run.unwrap().solution.outcome {
         Outcome::Motor(result) => result.alpha,
         Outcome::Plate(_) => panic!("a motor"),
@@ -66,20 +66,20 @@ fn alpha(run: Option<&Run>) -> f64 {
 }
 
 fn spacing(app: &App) -> Value {
-    app.document().scene().get("film.min_spacing_nm").unwrap()
+    app.state().document.scene().get("film.min_spacing_nm").unwrap()
 }
 
 #[test]
 fn it_opens_solved_and_moving() {
     let mut window = window("fundamental");
     solved(&mut window);
-    assert!((alpha(window.state().shown()) - 0.24586).abs() < 1e-4);
-    let before = window.state().view().phase;
+    assert!((alpha(window.state().state().run.as_deref()) - 0.24586).abs() < 1e-4);
+    let before = window.state().state().view.phase;
     for _ in 0..3 {
         std::thread::sleep(Duration::from_millis(30));
         window.step();
     }
-    assert_ne!(window.state().view().phase, before);
+    assert_ne!(window.state().state().view.phase, before);
 }
 
 #[test]
@@ -89,11 +89,11 @@ fn play_step_and_scrub_by_key_and_button() {
     window.get_by_label("Pause").click();
     window.step();
     window.step();
-    assert!(!window.state().view().playing);
-    let frames = window.state().shown().unwrap().solution.recording.frames;
+    assert!(!window.state().state().view.playing);
+    let frames = window.state().state().run.as_deref().unwrap().solution.recording.frames;
     let place = |window: &Harness<'static, App>| {
         let app = window.state();
-        app.view().place(&app.shown().unwrap().solution.recording)
+        app.state().view.place(&app.state().run.as_deref().unwrap().solution.recording)
     };
     window.key_press(Key::Home);
     window.step();
@@ -107,10 +107,10 @@ fn play_step_and_scrub_by_key_and_button() {
     assert_eq!(place(&window), 1.0);
     window.key_press(Key::CloseBracket);
     window.step();
-    assert_eq!(window.state().view().tooth, 1);
+    assert_eq!(window.state().state().view.tooth, 1);
     window.key_press(Key::Space);
     window.step();
-    assert!(window.state().view().playing);
+    assert!(window.state().state().view.playing);
 }
 
 #[test]
@@ -122,7 +122,8 @@ fn motion_is_smooth_between_recorded_frames() {
         std::thread::sleep(Duration::from_millis(5));
         window.step();
         let app = window.state();
-        between += usize::from(app.view().place(&app.shown().unwrap().solution.recording).fract() > 0.0);
+        between +=
+            usize::from(app.state().view.place(&app.state().run.as_deref().unwrap().solution.recording).fract() > 0.0);
     }
     assert!(between > 5, "{between} of 10 redraws are between two frames");
 }
@@ -154,7 +155,7 @@ fn without_a_file_dialog_the_path_is_typed() {
     type_path(&mut window, path.to_str().unwrap());
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert_eq!(window.state().document().path(), Some(path.as_path()));
+    assert_eq!(window.state().state().document.path(), Some(path.as_path()));
 
     // What is there already is not replaced by Enter, only by the button that says so.
     let other = folder.path().join("other.toml");
@@ -186,7 +187,7 @@ fn without_a_file_dialog_the_path_is_typed() {
         window.key_press(Key::Escape);
         window.run_steps(3);
     }
-    assert_eq!(window.state().document().path(), Some(path.as_path()));
+    assert_eq!(window.state().state().document.path(), Some(path.as_path()));
     assert_eq!(spacing(window.state()), Value::Number(200.0));
 }
 
@@ -197,7 +198,7 @@ fn a_refusal_goes_with_its_cause() {
     window.get_by_label_contains("of the tooth pitch");
     type_into(&mut window, "Tooth width in mm", "0.3");
     assert!(window.query_by_label_contains("of the tooth pitch").is_none());
-    assert_eq!(window.state().document().scene().get("motor.contact_radius_mm"), Some(Value::Number(29.0)));
+    assert_eq!(window.state().state().document.scene().get("motor.contact_radius_mm"), Some(Value::Number(29.0)));
 }
 
 #[test]
@@ -240,9 +241,9 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
     window.get_by_label_contains(&name).click();
     window.step();
     window.step();
-    assert_eq!(window.state().document().scene().name, name);
+    assert_eq!(window.state().state().document.scene().name, name);
     solved(&mut window);
-    assert!((alpha(window.state().shown()) - 1.0).abs() < 1e-5);
+    assert!((alpha(window.state().state().run.as_deref()) - 1.0).abs() < 1e-5);
 }
 
 #[test]
@@ -251,11 +252,11 @@ fn a_bad_file_is_explained_and_changes_nothing() {
     let path = folder.path().join("bad.toml");
     std::fs::write(&path, "schema = 1\n[film]\nmin_spacing_nm = 3\n").unwrap();
     let mut window = window("fundamental");
-    let before = window.state().document().scene().clone();
+    let before = window.state().state().document.scene().clone();
     drop_file(&mut window, path);
     window.get_by_label("This did not work");
     window.get_by_label_contains("film.min_spacing_nm = 3");
-    assert_eq!(window.state().document().scene(), &before);
+    assert_eq!(window.state().state().document.scene(), &before);
     window.get_by_label("Close").click();
     window.step();
     window.step();
@@ -294,13 +295,13 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     let mut window = window("fundamental");
     drop_file(&mut window, path.clone());
     assert_eq!(spacing(window.state()), Value::Number(150.0));
-    assert_eq!(window.state().document().path(), Some(path.as_path()));
-    assert!(!window.state().document().is_dirty());
+    assert_eq!(window.state().state().document.path(), Some(path.as_path()));
+    assert!(!window.state().state().document.is_dirty());
 
     // An edit, undone and redone by the keyboard, then a file over it: the question, and "Cancel" keeps everything.
     edit_spacing(&mut window, "120");
     assert_eq!(spacing(window.state()), Value::Number(120.0));
-    assert!(window.state().document().is_dirty());
+    assert!(window.state().state().document.is_dirty());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     window.step();
     assert_eq!(spacing(window.state()), Value::Number(150.0));
@@ -317,8 +318,8 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     // Saved by the keyboard, the file holds the edit.
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     window.step();
-    assert!(!window.state().document().is_dirty());
-    assert_eq!(&Scene::load(&path).unwrap(), window.state().document().scene());
+    assert!(!window.state().state().document.is_dirty());
+    assert_eq!(&Scene::load(&path).unwrap(), window.state().state().document.scene());
 }
 
 /// Types a minimum spacing.
@@ -352,7 +353,7 @@ fn an_edit_is_solved_again_and_the_headline_follows() {
     window.get_by_label_contains("0.2458");
     edit_spacing(&mut window, "100");
     solved(&mut window);
-    assert!((alpha(window.state().shown()) - 0.4988).abs() < 1e-3);
+    assert!((alpha(window.state().state().run.as_deref()) - 0.4988).abs() < 1e-3);
     window.step();
     window.get_by_label_contains("0.4987");
     // What is out of range is refused in place; nothing changes.
@@ -391,7 +392,7 @@ fn unsaved_work_survives_a_crash() {
         context.storage = Some(memory);
         App::new(context, None).unwrap()
     });
-    let document = window.state().document();
+    let document = &window.state().state().document;
     assert_eq!(spacing(window.state()), Value::Number(123.0));
     assert_eq!(document.scene().get("stator.tooth_radius_m"), Some(Value::Number(3.0)));
     assert!(document.is_dirty());
@@ -408,7 +409,7 @@ fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
     let mut scene = presets::find("fundamental").unwrap();
     scene.set_all(large).unwrap();
     let mut first = Harness::builder().build_eframe(move |context| App::new(context, Some((scene, None))).unwrap());
-    until(&mut first, "the refusal", |app| app.activity().failure.is_some());
+    until(&mut first, "the refusal", |app| app.state().activity.failure.is_some());
     let mut memory = Memory::default();
     eframe::App::save(first.state_mut(), &mut memory);
     drop(first);
@@ -417,8 +418,10 @@ fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
         context.storage = Some(memory);
         App::new(context, None).unwrap()
     });
-    until(&mut window, "the refusal", |app| app.activity().failure.is_some() && app.activity().running.is_none());
-    let steps = window.state().document().scene().get("numerics.steps_per_cycle");
+    until(&mut window, "the refusal", |app| {
+        app.state().activity.failure.is_some() && app.state().activity.running.is_none()
+    });
+    let steps = window.state().state().document.scene().get("numerics.steps_per_cycle");
     assert_eq!(steps, Some(Value::Whole(100_000)));
     window.step();
     window.get_by_label_contains("2001 × 501 film nodes on 9 teeth and 100008 steps a cycle need");
@@ -446,7 +449,7 @@ fn every_built_in_preset_can_be_shown() {
             continue;
         }
         let mut window = window(preset.name);
-        until(&mut window, preset.name, |app| app.shown().is_some());
+        until(&mut window, preset.name, |app| app.state().run.as_deref().is_some());
         for _ in 0..3 {
             window.step();
         }
@@ -455,8 +458,8 @@ fn every_built_in_preset_can_be_shown() {
 
 /// A window tall enough for all results.
 fn tall_window(measure: fn(&Problem) -> (Vec<Candidate>, Effort)) -> Harness<'static, App> {
-    let world = World { ask: |_, _| Answer::NoDialog, measure, ..World::default() };
-    window_in("fundamental", 1600.0, world)
+    let platform = Platform { ask: |_, _| Answer::NoDialog, measure, ..Platform::default() };
+    window_in("fundamental", 1600.0, platform)
 }
 
 /// Draft and standard, twice each.
@@ -479,20 +482,20 @@ fn a_term_is_switched_and_the_window_says_what_it_changed() {
     solved(&mut window);
     window.run_steps(3);
     let decision = |app: &App| {
-        let decisions = &app.shown().unwrap().solution.model.decisions;
+        let decisions = &app.state().run.as_deref().unwrap().solution.model.decisions;
         decisions.iter().find(|decision| decision.key() == Some(key)).unwrap().clone()
     };
     let other = if decision(window.state()).value() == "off" { "Solved" } else { "Left out" };
     window.get_by_role_and_label(Role::ComboBox, "Wedge term").click();
     window.run_steps(3);
-    let before = window.state().activity().number;
+    let before = window.state().state().activity.number;
     window.get_by_label(other).click();
     window.run_steps(2);
-    assert!(window.state().activity().number > before, "it is solved anew at once");
-    assert!(window.state().document().can_undo());
+    assert!(window.state().state().activity.number > before, "it is solved anew at once");
+    assert!(window.state().state().document.can_undo());
     solved(&mut window);
     window.run_steps(3);
-    let change = window.state().comparison().change().unwrap();
+    let change = window.state().state().switches.effect().unwrap();
     assert_eq!((change.key, change.fidelity), (key, Fidelity::Fine));
     assert!(change.before != change.after && change.bound > 0.0 && change.held(), "{change:?}");
     window.get_by_label("Wedge term switched");
@@ -503,7 +506,7 @@ fn a_term_is_switched_and_the_window_says_what_it_changed() {
     // One click and it is the plan's again, bit for bit what it was; an edit of something else ends the comparison.
     window.get_by_label("Wedge term back to auto").click();
     window.run_steps(2);
-    assert_eq!(window.state().document().scene().get(key), Some(Value::Text("auto".to_owned())));
+    assert_eq!(window.state().state().document.scene().get(key), Some(Value::Text("auto".to_owned())));
     solved(&mut window);
     window.run_steps(3);
     assert!(window.query_by_label("Overruled").is_none());
@@ -518,17 +521,17 @@ fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
     window.get_by_label("Pause");
     show(&mut window, Tab::Tradeoff);
     window.run_steps(3);
-    assert_eq!(window.state().view().tab, Tab::Tradeoff);
+    assert_eq!(window.state().state().view.tab, Tab::Tradeoff);
     assert!(window.query_by_label("Pause").is_none() && window.query_by_label("Time in the cycle").is_none());
-    assert!(window.state().measured().is_none(), "nothing is measured before it is asked for");
-    let phase = window.state().view().phase;
+    assert!(window.state().state().tradeoff.as_ref().is_none(), "nothing is measured before it is asked for");
+    let phase = window.state().state().view.phase;
     window.key_press(Key::Space);
     std::thread::sleep(Duration::from_millis(30));
     window.run_steps(3);
-    assert!(window.state().view().playing && window.state().view().phase == phase);
+    assert!(window.state().state().view.playing && window.state().state().view.phase == phase);
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
     window.run_steps(3);
-    assert_eq!(window.state().view().tab, Tab::Motion);
+    assert_eq!(window.state().state().view.tab, Tab::Motion);
     window.get_by_label("Pause");
 }
 
@@ -541,15 +544,17 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     window.run_steps(2);
     window.get_by_label("Measure").click();
     window.run_steps(2);
-    until(&mut window, "the measurement ends", |app| app.measured().is_some_and(|measured| !measured.running()));
+    until(&mut window, "the measurement ends", |app| {
+        app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running())
+    });
     window.run_steps(2);
-    let points = &window.state().measured().unwrap().tradeoff().points;
+    let points = &window.state().state().tradeoff.as_ref().unwrap().tradeoff().points;
     let names: Vec<&str> = points.iter().map(|point| point.run.candidate.name.as_str()).collect();
     assert_eq!(names, ["draft", "standard", "present setting"]);
     assert!(points.iter().all(|point| point.run.ended == Ended::Converged && point.error.is_some()));
 
     // The cheapest that serves is used, which is one edit.
-    let aim = |window: &Harness<'static, App>| window.state().document().aim();
+    let aim = |window: &Harness<'static, App>| window.state().state().document.target();
     assert_eq!(aim(&window), Fidelity::Fine);
     window.get_by_role_and_label(Role::SpinButton, "Accuracy").click();
     window.run_steps(2);
@@ -558,13 +563,16 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     window.step();
     window.key_press(Key::Enter);
     window.run_steps(2);
-    assert!((window.state().view().accuracy - 0.3).abs() < 1e-12);
+    assert!((window.state().state().view.accuracy - 0.3).abs() < 1e-12);
     window.get_by_label("Use it for the accuracy").click();
     window.run_steps(3);
     assert!(aim(&window) < Fidelity::Fine);
     until(&mut window, "solved as asked", |app| {
-        let number = app.activity().number;
-        app.shown().is_some_and(|run| run.number == number && run.fidelity == app.document().aim())
+        let number = app.state().activity.number;
+        app.state()
+            .run
+            .as_deref()
+            .is_some_and(|run| run.number == number && run.fidelity == app.state().document.target())
     });
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     window.run_steps(2);
@@ -604,36 +612,40 @@ fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
     window.get_by_label("Measure").click();
     window.run_steps(2);
     until(&mut window, "points appear", |app| {
-        app.measured().is_some_and(|measured| measured.tradeoff().points.iter().any(|point| point.median.is_finite()))
+        app.state()
+            .tradeoff
+            .as_ref()
+            .is_some_and(|measured| measured.tradeoff().points.iter().any(|point| point.median.is_finite()))
     });
     window.run_steps(2);
     window.get_by_label("Cancel the measurement").click();
     window.run_steps(2);
-    until(&mut window, "it ends", |app| app.measured().is_some_and(|measured| !measured.running()));
+    until(&mut window, "it ends", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
     window.run_steps(2);
     window.get_by_label_contains("Cancelled");
     // What was measured stays, another can begin, and the window does not wait for it.
     window.get_by_label("Measure").click();
     window.run_steps(2);
-    assert!(window.state().measured().unwrap().running());
+    assert!(window.state().state().tradeoff.as_ref().unwrap().running());
     drop(window);
 }
 
 /// Whether torque over speed is known of the run on screen.
 fn has_torque(app: &App) -> bool {
-    app.shown().is_some_and(|run| app.merits().is_of(run))
+    app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
 }
 
 #[test]
 fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
     let mut window = tall_window(little);
     solved(&mut window);
-    assert!(window.state().merits().found().is_none(), "nothing is computed for a tab that is not shown");
+    assert!(window.state().state().torque.found().is_none(), "nothing is computed for a tab that is not shown");
     show(&mut window, Tab::Torque);
     window.run_steps(2);
     until(&mut window, "torque over speed", has_torque);
     window.run_steps(2);
-    let merit = |window: &Harness<'static, App>| window.state().merits().found().unwrap().as_ref().unwrap().clone();
+    let merit =
+        |window: &Harness<'static, App>| window.state().state().torque.found().unwrap().as_ref().unwrap().clone();
     let before = merit(&window);
     for name in ["Torque of the ring, N·m", "Power, W", "Efficiency, %"] {
         window.get_by_role_and_label(Role::Image, name);
@@ -699,6 +711,6 @@ fn a_plate_has_exact_results_in_place_of_torque() {
         for formula in ["κ^2 = (iσ)/Q", "⟨P⟩ = √(", "= ⟨H^3/2 + 6mH^2⟩"] {
             window.get_by_label_contains(formula);
         }
-        assert!(window.state().merits().found().is_none());
+        assert!(window.state().state().torque.found().is_none());
     }
 }

@@ -11,11 +11,12 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use memory::Memory;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
-use squeezefilm::gui::dialogs::Answer;
-use squeezefilm::gui::lessons::{Work, tour};
-use squeezefilm::gui::panels::labels;
-use squeezefilm::gui::state::Tab;
-use squeezefilm::gui::world::World;
+use squeezefilm::gui::derived::words as labels;
+use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::lessons::StepWork;
+use squeezefilm::gui::state::tour;
+use squeezefilm::gui::state::view::Tab;
+use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::lessons::{self, Act, Doing, Prediction, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::path::{Path, PathBuf};
@@ -23,8 +24,8 @@ use std::time::Duration;
 
 type Window = Harness<'static, App>;
 
-fn world() -> World {
-    World { ask: |_, _| Answer::NoDialog, ..World::default() }
+fn platform() -> Platform {
+    Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() }
 }
 
 /// A window tall enough that nothing has to be scrolled.
@@ -32,7 +33,7 @@ fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
     Harness::builder()
         .with_size(Vec2::new(1400.0, 1700.0))
-        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world()).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform()).unwrap())
 }
 
 /// A window that was there before, or never, and opens no file.
@@ -40,7 +41,7 @@ fn window_with(memory: Memory) -> Window {
     let memory: &'static Memory = Box::leak(Box::new(memory));
     Harness::builder().with_size(Vec2::new(1400.0, 1700.0)).build_eframe(move |context| {
         context.storage = Some(memory);
-        App::in_world(context, None, world()).unwrap()
+        App::on_platform(context, None, platform()).unwrap()
     })
 }
 
@@ -60,7 +61,10 @@ fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
 /// Until the scene on the table is solved well enough to judge by.
 fn solved(window: &mut Window) {
     until(window, "the scene on screen is solved", |app| {
-        app.shown().is_some_and(|run| run.scene == *app.document().scene() && run.fidelity >= Fidelity::Standard)
+        app.state()
+            .run
+            .as_deref()
+            .is_some_and(|run| run.scene == *app.state().document.scene() && run.fidelity >= Fidelity::Standard)
     });
 }
 
@@ -96,16 +100,16 @@ fn open(window: &mut Window, title: &str) {
     click(window, "Lessons");
     window.get_by_label_contains(title).click();
     window.run_steps(20);
-    assert!(window.state().teaching().running().is_some(), "{title}");
+    assert!(window.state().state().lessons.running().is_some(), "{title}");
 }
 
 fn step(window: &Window) -> (usize, Step) {
-    let teaching = window.state().teaching();
+    let teaching = &window.state().state().lessons;
     (teaching.running().unwrap().step, teaching.step().unwrap().1.clone())
 }
 
-fn work(window: &Window) -> Work {
-    let running = window.state().teaching().running().unwrap();
+fn work(window: &Window) -> StepWork {
+    let running = window.state().state().lessons.running().unwrap();
     running.work[running.step].clone()
 }
 
@@ -128,20 +132,20 @@ fn change(window: &mut Window, key: &str, value: &str) {
             click(window, labels::choice(key, value));
         }
         _ => {
-            if window.state().document().scene().get(key).is_none() {
+            if window.state().state().document.scene().get(key).is_none() {
                 click(window, labels::switch(parameter));
             }
             type_into(window, &labels::field_name(parameter), value);
         }
     }
-    let set = window.state().document().scene().get(key).unwrap();
+    let set = window.state().state().document.scene().get(key).unwrap();
     assert_eq!(set.to_string().trim_matches('"'), value, "{key}");
 }
 
 /// Drags the held plate to a gap \[µm\], in a few frames.
 fn drag_plate(window: &mut Window, gap: f64) {
     let rect = window.get_by_label("Held plate: drag it up and down").rect();
-    let holding = window.state().holding().unwrap();
+    let holding = window.state().state().hold.as_ref().unwrap();
     let (from, reach) = (holding.now().reading.gap * 1e6, holding.reach()[1] * 1e6);
     // Its reach is seven tenths of the drawing.
     let way = 0.7 * rect.height() * ((from - gap) / reach) as f32;
@@ -156,7 +160,7 @@ fn drag_plate(window: &mut Window, gap: f64) {
     window.drop_at(begin + vec2(0.0, way));
     let target = gap / reach;
     until(window, "the plate is there", |app| {
-        let now = app.holding().unwrap().now().reading.gap * 1e6;
+        let now = app.state().hold.as_ref().unwrap().now().reading.gap * 1e6;
         (now / reach - target).abs() < 0.02
     });
 }
@@ -173,7 +177,7 @@ fn act(window: &mut Window, doing: &Doing) {
             Act::StartUp => {
                 click(window, "Start from rest");
                 until(window, "the start-up ends", |app| {
-                    app.starting().is_some_and(|starting| starting.ended().is_some())
+                    app.state().startup.as_ref().is_some_and(|starting| starting.ended().is_some())
                 });
             }
         }
@@ -184,8 +188,10 @@ fn act(window: &mut Window, doing: &Doing) {
 /// Until the torque over speed of the run is known, if its tab is shown.
 fn read_off(window: &mut Window) {
     until(window, "the curves over speed", |app| {
-        let plate = app.document().scene().scene() == "plate";
-        plate || app.view().tab != Tab::Torque || app.shown().is_some_and(|run| app.merits().of(run).is_some())
+        let plate = app.state().document.scene().scene() == "plate";
+        plate
+            || app.state().view.tab != Tab::Torque
+            || app.state().run.as_deref().is_some_and(|run| app.state().torque.of(run).is_some())
     });
 }
 
@@ -227,15 +233,15 @@ fn predict(window: &mut Window, step: &Step) {
 /// Walks a lesson: at each task first what does not do, then what does.
 fn walk(lesson: usize) {
     let mut window = window("fundamental");
-    let title = window.state().teaching().lessons()[lesson].title.clone();
-    let before = window.state().document().scene().clone();
+    let title = window.state().state().lessons.lessons()[lesson].title.clone();
+    let before = window.state().state().document.scene().clone();
     open(&mut window, &title);
-    let steps = window.state().teaching().lessons()[lesson].steps.len();
+    let steps = window.state().state().lessons.lessons()[lesson].steps.len();
     for number in 0..steps {
         let (at, step) = step(&window);
         assert_eq!(at, number);
         window.get_by_label(&step.title);
-        assert_eq!(window.state().document().scene(), &step.scene, "{}", step.title);
+        assert_eq!(window.state().state().document.scene(), &step.scene, "{}", step.title);
         for block in &step.body {
             let text = text::plain_blocks(std::slice::from_ref(block));
             assert!(window.query_all_by_label(&text).next().is_some(), "{}: {text}", step.title);
@@ -255,19 +261,19 @@ fn walk(lesson: usize) {
             assert!(shows(&window, &text::plain_blocks(&task.hint)), "{name}");
             click(&mut window, "Start over");
             solved(&mut window);
-            assert_eq!(window.state().document().scene(), &step.scene, "{name}");
+            assert_eq!(window.state().state().document.scene(), &step.scene, "{name}");
             if step.tab.as_deref() == Some("Hold") {
                 until(&mut window, "the plate is at rest again", |app| {
-                    app.holding().is_some_and(|holding| holding.now().reading.time == 0.0)
+                    app.state().hold.as_ref().is_some_and(|holding| holding.now().reading.time == 0.0)
                 });
             }
-            let started = step.tab.as_deref() == Some("Start-up") && window.state().starting().is_some();
+            let started = step.tab.as_deref() == Some("Start-up") && window.state().state().startup.as_ref().is_some();
             assert!(!started, "{name}: nothing is started yet");
             // What does it, by hand; gas needs time to leave.
             act(&mut window, &task.example);
             if !task.example.acts.is_empty() {
                 until(&mut window, name, |app| {
-                    let running = app.teaching().running().unwrap();
+                    let running = app.state().lessons.running().unwrap();
                     running.work[running.step].fulfilled
                 });
             }
@@ -283,8 +289,8 @@ fn walk(lesson: usize) {
     }
     solved(&mut window);
     let app = window.state();
-    assert!(app.teaching().running().is_none() && app.document().scene() == &before);
-    assert!(app.teaching().progress(&app.teaching().lessons()[lesson]).done);
+    assert!(app.state().lessons.running().is_none() && app.state().document.scene() == &before);
+    assert!(app.state().lessons.progress(&app.state().lessons.lessons()[lesson]).done);
     window.get_by_label("share of the load carried by air");
 }
 
@@ -308,7 +314,7 @@ walks![
 
 #[test]
 fn every_built_in_lesson_is_read_listed_and_walked() {
-    let places = squeezefilm::gui::spot::PLACES;
+    let places = squeezefilm::gui::state::lessons::PLACES;
     let (read, faults) = lessons::built_in(WindowNames { tabs: TABS, places });
     assert!(faults.is_empty(), "{faults:?}");
     assert_eq!((read.len(), WALKED), (lessons::BUILT_IN.len(), lessons::BUILT_IN.len()));
@@ -356,33 +362,33 @@ fn leaving_brings_the_students_scene_back_with_its_history() {
     let mut window = window("tooth-radius-3m");
     solved(&mut window);
     type_into(&mut window, "Minimum spacing H_m in nm", "123");
-    let own = window.state().document().scene().clone();
+    let own = window.state().state().document.scene().clone();
     open(&mut window, "The squeeze number");
-    assert_ne!(window.state().document().scene(), &own);
+    assert_ne!(window.state().state().document.scene(), &own);
     type_into(&mut window, "Frequency in kHz", "3");
-    assert!(!window.state().document().is_dirty(), "what a lesson lends is never unsaved");
+    assert!(!window.state().state().document.is_dirty(), "what a lesson lends is never unsaved");
     click(&mut window, "Next");
     click(&mut window, "Leave");
-    assert_eq!(window.state().document().scene(), &own);
-    assert!(window.state().document().is_dirty());
+    assert_eq!(window.state().state().document.scene(), &own);
+    assert!(window.state().state().document.is_dirty());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     window.run_steps(2);
-    assert_eq!(window.state().document().scene().get("film.min_spacing_nm"), Some(Value::Number(200.0)));
-    assert!(!window.state().document().is_dirty());
+    assert_eq!(window.state().state().document.scene().get("film.min_spacing_nm"), Some(Value::Number(200.0)));
+    assert!(!window.state().state().document.is_dirty());
 }
 
 #[test]
 fn unsaved_changes_are_asked_about_from_within_a_lesson_too() {
     let mut window = window("fundamental");
     type_into(&mut window, "Minimum spacing H_m in nm", "123");
-    let own = window.state().document().scene().clone();
+    let own = window.state().state().document.scene().clone();
     open(&mut window, "Pushing on trapped air");
     click(&mut window, "Presets");
     window.get_by_label_contains("Levitating").click();
     window.run_steps(3);
     window.get_by_label_contains("Save the changes");
     click(&mut window, "Keep editing");
-    assert_eq!(window.state().document().scene(), &own);
+    assert_eq!(window.state().state().document.scene(), &own);
     // Nothing unsaved: no question, and the preset is opened.
     open(&mut window, "Pushing on trapped air");
     click(&mut window, "Leave");
@@ -392,8 +398,8 @@ fn unsaved_changes_are_asked_about_from_within_a_lesson_too() {
     click(&mut window, "Presets");
     window.get_by_label_contains("Levitating").click();
     window.run_steps(3);
-    assert!(window.state().document().scene().name.starts_with("Levitating"));
-    assert!(window.state().teaching().running().is_none());
+    assert!(window.state().state().document.scene().name.starts_with("Levitating"));
+    assert!(window.state().state().lessons.running().is_none());
 }
 
 #[test]
@@ -411,14 +417,14 @@ fn progress_and_the_own_scene_survive_a_restart() {
     let mut window = window_with(memory);
     window.run_steps(2);
     let app = window.state();
-    assert!(app.teaching().running().is_none());
-    assert_eq!(app.document().scene().get("film.min_spacing_nm"), Some(Value::Number(123.0)));
+    assert!(app.state().lessons.running().is_none());
+    assert_eq!(app.state().document.scene().get("film.min_spacing_nm"), Some(Value::Number(123.0)));
     click(&mut window, "Lessons");
     window.get_by_label_contains("at step 3 of 6");
     window.get_by_label_contains("The squeeze number").click();
     window.run_steps(4);
     assert_eq!(step(&window).0, 2, "it goes on where it was left");
-    assert_eq!(window.state().document().scene(), &step(&window).1.scene);
+    assert_eq!(window.state().state().document.scene(), &step(&window).1.scene);
 }
 
 #[test]
@@ -428,7 +434,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     // Over a file that was asked for: no.
     let mut asked = window("fundamental");
     asked.run_steps(3);
-    assert!(asked.state().teaching().tour.is_none());
+    assert!(asked.state().state().lessons.tour.is_none());
     drop(asked);
 
     let mut window = window_with(Memory::default());
@@ -436,13 +442,13 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     for (i, stop) in tour::STOPS.iter().enumerate() {
         window.run_steps(4);
         window.get_by_label(stop.title);
-        let spot = squeezefilm::gui::spot::place(&window.ctx, stop.place);
+        let spot = squeezefilm::gui::ui::highlight::place(&window.ctx, stop.place);
         assert!(spot.is_some(), "{} is on screen", stop.place);
         let callout = window.get_by_label(stop.title).rect();
         assert!(!spot.unwrap().intersects(callout), "{}: covered", stop.title);
         click(&mut window, if i == 3 { "Done" } else { "Next" });
     }
-    assert!(window.state().teaching().tour.is_none());
+    assert!(window.state().state().lessons.tour.is_none());
     let mut memory = Memory::default();
     eframe::App::save(window.state_mut(), &mut memory);
     drop(window);
@@ -457,7 +463,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     choose(&mut window, "Take the tour");
     window.run_steps(3);
     window.get_by_label(titles[0]);
-    assert!(window.state().view().parameters);
+    assert!(window.state().state().view.parameters);
     click(&mut window, "Next");
     window.run_steps(2);
     click(&mut window, "Back");
@@ -497,14 +503,14 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
         click(window, "Help");
         choose(window, "Glossary");
         window.run_steps(3);
-        assert!(window.state().teaching().glossary.is_some());
+        assert!(window.state().state().lessons.glossary.is_some());
     };
     // While what is looked for is being typed too.
     glossary(&mut window);
     window.get_by_role_and_label(Role::TextInput, "Search").type_text("spring");
     window.run_steps(3);
     escape(&mut window);
-    assert!(window.state().teaching().glossary.is_none());
+    assert!(window.state().state().lessons.glossary.is_none());
 
     // A text that is being typed elsewhere goes first, and so does a menu.
     glossary(&mut window);
@@ -513,7 +519,7 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
     window.get_by_role_and_label(Role::TextInput, "Frequency in kHz").type_text("7");
     window.run_steps(2);
     escape(&mut window);
-    assert!(window.state().teaching().glossary.is_some());
+    assert!(window.state().state().lessons.glossary.is_some());
     for (menu, entry) in [("Lessons", "Open a folder of lessons"), ("Presets", "Plate, viscous")] {
         click(&mut window, menu);
         window.run_steps(5);
@@ -521,7 +527,7 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
         escape(&mut window);
         window.run_steps(10);
         assert!(!shows(&window, entry), "{menu}");
-        assert!(window.state().teaching().glossary.is_some(), "{menu}");
+        assert!(window.state().state().lessons.glossary.is_some(), "{menu}");
     }
 
     // The tour before the glossary, the sheet of shortcuts before both.
@@ -533,11 +539,11 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
     window.get_by_label("Keyboard shortcuts");
     escape(&mut window);
     assert!(window.query_by_label("Keyboard shortcuts").is_none());
-    assert!(window.state().teaching().tour.is_some());
+    assert!(window.state().state().lessons.tour.is_some());
     escape(&mut window);
-    assert!(window.state().teaching().tour.is_none() && window.state().teaching().glossary.is_some());
+    assert!(window.state().state().lessons.tour.is_none() && window.state().state().lessons.glossary.is_some());
     escape(&mut window);
-    assert!(window.state().teaching().glossary.is_none());
+    assert!(window.state().state().lessons.glossary.is_none());
 
     // A question, an error, a path to type.
     click(&mut window, "File");
@@ -554,11 +560,11 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
         let mut window = window(preset);
         solved(&mut window);
         window.run_steps(3);
-        let missing = squeezefilm::gui::lessons::glossary::unexplained(&window.ctx);
+        let missing = squeezefilm::gui::ui::glossary::unexplained(&window.ctx);
         assert!(missing.is_empty(), "{preset}: {missing:?}");
     }
     // The numbers beside a lesson's text too.
-    let places = squeezefilm::gui::spot::PLACES;
+    let places = squeezefilm::gui::state::lessons::PLACES;
     for lesson in lessons::built_in(WindowNames { tabs: TABS, places }).0 {
         for name in lesson.steps.iter().flat_map(|step| &step.show) {
             assert!(lessons::glossary::find(&name.words()).is_some(), "{}", name.words());
@@ -626,10 +632,11 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
     window.get_by_label("This did not work");
     window.get_by_label_contains("task.chek is not known");
     click(&mut window, "Close");
-    let titles: Vec<&str> = window.state().teaching().lessons().iter().map(|lesson| lesson.title.as_str()).collect();
+    let titles: Vec<&str> =
+        window.state().state().lessons.lessons().iter().map(|lesson| lesson.title.as_str()).collect();
     assert_eq!(&titles[8..], ["A lesson of my own", "Another of my own"]);
     open(&mut window, "Another of my own");
-    assert_eq!(window.state().document().scene().scene(), "plate");
+    assert_eq!(window.state().state().document.scene().scene(), "plate");
     click(&mut window, "Lessons");
     choose(&mut window, "What was wrong with lessons…");
     window.get_by_label_contains("task.chek is not known");
@@ -637,7 +644,7 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
 
 #[test]
 fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
-    let known = WindowNames { tabs: TABS, places: squeezefilm::gui::spot::PLACES };
+    let known = WindowNames { tabs: TABS, places: squeezefilm::gui::state::lessons::PLACES };
     let line_of = |part: &str| GOOD.lines().position(|line| line.contains(part)).unwrap() + 1;
     let mutations: &[(&str, &str, usize, &[&str])] = &[
         (
@@ -736,8 +743,8 @@ fn what_the_window_lights_and_lessons_name_is_drawn() {
     let mut plate = window("plate-crossover");
     solved(&mut plate);
     open(&mut motor, "Lost torque");
-    let drawn = |window: &Window, place: &str| squeezefilm::gui::spot::place(&window.ctx, place).is_some();
-    let mut missing: Vec<&str> = squeezefilm::gui::spot::PLACES.to_vec();
+    let drawn = |window: &Window, place: &str| squeezefilm::gui::ui::highlight::place(&window.ctx, place).is_some();
+    let mut missing: Vec<&str> = squeezefilm::gui::state::lessons::PLACES.to_vec();
     missing.retain(|place| !drawn(&motor, place) && !drawn(&plate, place));
     // The rest is in other tabs.
     click(&mut motor, "Torque");
@@ -747,7 +754,9 @@ fn what_the_window_lights_and_lessons_name_is_drawn() {
     click(&mut plate, "Start-up");
     missing.retain(|place| !drawn(&plate, place));
     click(&mut plate, "Start from rest");
-    until(&mut plate, "a cycle", |app| app.starting().is_some_and(|starting| !starting.points().is_empty()));
+    until(&mut plate, "a cycle", |app| {
+        app.state().startup.as_ref().is_some_and(|starting| !starting.points().is_empty())
+    });
     missing.retain(|place| !drawn(&plate, place));
     assert!(missing.is_empty(), "{missing:?} are drawn nowhere");
 }
@@ -764,13 +773,13 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     click(&mut window, "Next");
     solved(&mut window);
     type_into(&mut window, "Frequency in kHz", "0.5");
-    let lent = window.state().document().scene().clone();
+    let lent = window.state().state().document.scene().clone();
     for path in [bad.clone(), folder.path().join("absent.toml")] {
         open_path(&mut window, &path);
         window.get_by_label("This did not work");
         click(&mut window, "Close");
         assert_eq!(step(&window).0, 1);
-        assert_eq!(window.state().document().scene(), &lent);
+        assert_eq!(window.state().state().document.scene(), &lent);
         assert!(shows(&window, "Lesson ·"));
     }
     // So does a folder without lessons; and one with lessons adds them.
@@ -780,19 +789,19 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     write(folder.path(), "mine", GOOD);
     window.state_mut().load_lessons(folder.path());
     window.run_steps(3);
-    assert_eq!((step(&window).0, window.state().document().scene()), (1, &lent));
+    assert_eq!((step(&window).0, window.state().state().document.scene()), (1, &lent));
     // Another text of the lesson that is followed ends it.
     write(folder.path(), "3-squeeze-number", GOOD);
     window.state_mut().load_lessons(folder.path());
     window.run_steps(3);
-    assert!(window.state().teaching().running().is_none());
+    assert!(window.state().state().lessons.running().is_none());
     // A good file ends a lesson; what is unsaved is asked about.
     open(&mut window, "Pushing on trapped air");
     open_path(&mut window, &good);
     window.get_by_label_contains("Save the changes");
     click(&mut window, "Don't save");
-    assert_eq!(window.state().document().scene().name, "Good");
-    assert!(window.state().teaching().running().is_none());
+    assert_eq!(window.state().state().document.scene().name, "Good");
+    assert!(window.state().state().lessons.running().is_none());
 }
 
 /// Drops a file on the window.
@@ -824,32 +833,32 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
         click(&mut window, "Next");
     }
     let (_, step) = step(&window);
-    assert_eq!(window.state().view().tab, Tab::Startup);
+    assert_eq!(window.state().state().view.tab, Tab::Startup);
     solved(&mut window);
     predict(&mut window, &step);
     // In another tab, too.
     click(&mut window, "Motion");
     click(&mut window, "Show me");
-    assert_eq!(window.state().view().tab, Tab::Startup);
+    assert_eq!(window.state().state().view.tab, Tab::Startup);
     until(&mut window, "it comes to its end", |app| {
-        let running = app.teaching().running().unwrap();
+        let running = app.state().lessons.running().unwrap();
         running.work[running.step].fulfilled
     });
     // A start-up of before does not count when the step begins again.
     click(&mut window, "Back");
     click(&mut window, "Next");
-    assert!(window.state().starting().is_none());
+    assert!(window.state().state().startup.as_ref().is_none());
     click(&mut window, "Leave");
-    assert_eq!(window.state().view().tab, Tab::Motion);
+    assert_eq!(window.state().state().view.tab, Tab::Motion);
 
     open(&mut window, "Pushing on trapped air");
     let (_, step) = self::step(&window);
-    assert_eq!(window.state().view().tab, Tab::Hold);
+    assert_eq!(window.state().state().view.tab, Tab::Hold);
     solved(&mut window);
     predict(&mut window, &step);
     click(&mut window, "Motion");
     click(&mut window, "Show me");
-    until(&mut window, "the plate is pushed", |app| app.teaching().running().unwrap().work[0].fulfilled);
+    until(&mut window, "the plate is pushed", |app| app.state().lessons.running().unwrap().work[0].fulfilled);
 }
 
 #[test]
@@ -857,9 +866,9 @@ fn a_preset_that_a_lesson_lends_can_be_saved_as_a_copy() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("copy.toml");
     let mut window = window("fundamental");
-    let own = window.state().document().scene().clone();
+    let own = window.state().state().document.scene().clone();
     open(&mut window, "The squeeze number");
-    let lent = window.state().document().scene().clone();
+    let lent = window.state().state().document.scene().clone();
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     await_path(&mut window);
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
@@ -869,6 +878,6 @@ fn a_preset_that_a_lesson_lends_can_be_saved_as_a_copy() {
     window.run_steps(3);
     assert_eq!(Scene::load(&path).unwrap(), lent);
     click(&mut window, "Leave");
-    assert_eq!(window.state().document().scene(), &own);
-    assert!(window.state().document().path().is_none(), "the own scene has no file by that");
+    assert_eq!(window.state().state().document.scene(), &own);
+    assert!(window.state().state().document.path().is_none(), "the own scene has no file by that");
 }

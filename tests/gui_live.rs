@@ -8,10 +8,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
-use squeezefilm::gui::dialogs::Answer;
-use squeezefilm::gui::starting::Starting;
-use squeezefilm::gui::state::Tab;
-use squeezefilm::gui::world::World;
+use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::startup::StartupState;
+use squeezefilm::gui::state::view::Tab;
+use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::problem::Scenario;
 use squeezefilm::scene::presets;
 use squeezefilm::solution::{Outcome, Status};
@@ -22,10 +22,10 @@ const HOLD: Key = Key::Num7;
 
 fn window(preset: &str, tab: Key) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let world = World { ask: |_, _| Answer::Cancelled, ..World::default() };
+    let platform = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
     let mut window = Harness::builder()
         .with_size(Vec2::new(1400.0, 900.0))
-        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap());
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap());
     window.key_press_modifiers(Modifiers::COMMAND, tab);
     window.run_steps(3);
     window
@@ -48,17 +48,18 @@ fn click(window: &mut Harness<'static, App>, label: &str) {
     window.run_steps(3);
 }
 
-fn starting(app: &App) -> &Starting {
-    app.starting().unwrap()
+fn starting(app: &App) -> &StartupState {
+    app.state().startup.as_ref().unwrap()
 }
 
 fn cycles(app: &App) -> usize {
-    app.starting().map_or(0, |starting| starting.points().len())
+    app.state().startup.as_ref().map_or(0, |starting| starting.points().len())
 }
 
 fn solved(window: &mut Harness<'static, App>) {
     until(window, "the scene on screen is solved", |app| {
-        app.activity().running.is_none() && app.shown().is_some_and(|run| run.fidelity == Fidelity::Fine)
+        app.state().activity.running.is_none()
+            && app.state().run.as_deref().is_some_and(|run| run.fidelity == Fidelity::Fine)
     });
 }
 
@@ -74,7 +75,7 @@ fn share(outcome: &Outcome) -> (f64, f64) {
 fn agrees(app: &App) {
     let last = starting(app).points().last().unwrap();
     let (ours, our_error) = share(&last.outcome);
-    let run = app.shown().unwrap();
+    let run = app.state().run.as_deref().unwrap();
     let (periodic, error) = share(&run.solution.outcome);
     let ambient = match &run.problem.scenario {
         Scenario::Motor(motor) => {
@@ -94,7 +95,7 @@ fn agrees(app: &App) {
 fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     let mut window = window("fundamental", STARTUP);
     solved(&mut window);
-    assert!(window.state().starting().is_none(), "nothing is computed before it is asked for");
+    assert!(window.state().state().startup.as_ref().is_none(), "nothing is computed before it is asked for");
     assert!(window.query_by_label("Pause").is_none());
     click(&mut window, "Start from rest");
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
@@ -167,7 +168,9 @@ fn a_plate_starts_from_rest_too() {
     let mut window = window("plate-crossover", STARTUP);
     solved(&mut window);
     click(&mut window, "Start from rest");
-    until(&mut window, "it repeats", |app| app.starting().is_some_and(|starting| starting.ended().is_some()));
+    until(&mut window, "it repeats", |app| {
+        app.state().startup.as_ref().is_some_and(|starting| starting.ended().is_some())
+    });
     window.run_steps(3);
     window.get_by_label_contains("repeats to");
     window.get_by_label_contains("load ratio");
@@ -178,17 +181,17 @@ fn a_plate_starts_from_rest_too() {
 }
 
 fn ratio(app: &App) -> f64 {
-    app.holding().unwrap().now().reading.ratio
+    app.state().hold.as_ref().unwrap().now().reading.ratio
 }
 
 fn gap(app: &App) -> f64 {
-    let holding = app.holding().unwrap();
+    let holding = app.state().hold.as_ref().unwrap();
     holding.now().reading.gap / holding.plate().mean_gap
 }
 
 fn at_rest(window: &mut Harness<'static, App>) {
     until(window, "the film is at rest", |app| ratio(app).abs() < 2e-4);
-    let number = |window: &Harness<'static, App>| window.state().holding().unwrap().now().number;
+    let number = |window: &Harness<'static, App>| window.state().state().hold.as_ref().unwrap().now().number;
     for _ in 0..200 {
         let before = number(window);
         std::thread::sleep(Duration::from_millis(200));
@@ -203,11 +206,11 @@ fn at_rest(window: &mut Harness<'static, App>) {
 #[test]
 fn a_motor_cannot_be_held_but_a_plate_is_offered() {
     let mut window = window("fundamental", HOLD);
-    assert!(window.state().holding().is_none());
+    assert!(window.state().state().hold.as_ref().is_none());
     window.get_by_label_contains("Only a plate can be held");
     click(&mut window, "Open the plate at its crossover");
-    assert_eq!(window.state().view().tab, Tab::Hold);
-    assert!(window.state().holding().is_some());
+    assert_eq!(window.state().state().view.tab, Tab::Hold);
+    assert!(window.state().state().hold.as_ref().is_some());
     window.get_by_label_contains("slowed 6");
 }
 
@@ -227,7 +230,10 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     }
     until(&mut window, "it pushes back", |app| ratio(app) > 0.2);
     let app = window.state();
-    assert!(gap(app) < 0.9 && app.holding().unwrap().target() < 0.8 * app.holding().unwrap().plate().mean_gap);
+    assert!(
+        gap(app) < 0.9
+            && app.state().hold.as_ref().unwrap().target() < 0.8 * app.state().hold.as_ref().unwrap().plate().mean_gap
+    );
     // Held there, the pressure falls though nothing moves.
     until(&mut window, "it relaxes", |app| ratio(app) < 0.02);
     let held = gap(window.state());
@@ -235,17 +241,17 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     at_rest(&mut window);
     assert!((gap(window.state()) - held).abs() < 1e-3, "it stays where the hand left it");
     // At rest nothing is computed, and nothing is drawn again.
-    let number = window.state().holding().unwrap().now().number;
+    let number = window.state().state().hold.as_ref().unwrap().now().number;
     std::thread::sleep(Duration::from_millis(200));
     window.run();
-    assert_eq!(window.state().holding().unwrap().now().number, number);
+    assert_eq!(window.state().state().hold.as_ref().unwrap().now().number, number);
 
     // Let go, it flies back and sucks.
     click(&mut window, "Let go");
     until(&mut window, "it sucks", |app| ratio(app) < -0.05);
     until(&mut window, "it is back", |app| (gap(app) - 1.0).abs() < 1e-3);
     click(&mut window, "Reset");
-    until(&mut window, "it is at rest", |app| app.holding().unwrap().now().reading.time == 0.0);
+    until(&mut window, "it is at rest", |app| app.state().hold.as_ref().unwrap().now().reading.time == 0.0);
     assert_eq!(ratio(window.state()), 0.0);
 }
 
@@ -274,7 +280,10 @@ fn keys_and_slider_move_it_within_its_reach_only() {
     window.key_press(Key::ArrowDown);
     window.run_steps(2);
     assert!(
-        (window.state().holding().unwrap().target() / window.state().holding().unwrap().plate().mean_gap - 3.0).abs()
+        (window.state().state().hold.as_ref().unwrap().target()
+            / window.state().state().hold.as_ref().unwrap().plate().mean_gap
+            - 3.0)
+            .abs()
             < 1e-9
     );
 }

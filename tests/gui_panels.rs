@@ -11,27 +11,34 @@ use squeezefilm::analysis::validity::outside;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::command::Command;
-use squeezefilm::gui::edit::{Change, Refusals};
-use squeezefilm::gui::panels::model::Model;
-use squeezefilm::gui::panels::{labels, parameters, results};
-use squeezefilm::gui::theme;
-use squeezefilm::job::Run;
+use squeezefilm::gui::derived::words as labels;
+use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::state::edits::Change;
+use squeezefilm::gui::state::window::State;
+use squeezefilm::gui::ui::context::DrawContext;
+use squeezefilm::gui::ui::panels::{parameters, results};
+use squeezefilm::gui::ui::theme;
+use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{ParameterKind, Scene, Value, presets};
 use squeezefilm::solution::{Outcome, Status};
 use squeezefilm::solve::{Settings, solve};
+use std::time::Instant;
 
 /// A scene that is edited in the panel, with the commands that came of it.
 struct Edited {
-    scene: Scene,
-    refusals: Refusals,
+    state: State,
     pushed: Vec<Command>,
     size: f32,
 }
 
 impl Edited {
     fn of(scene: Scene) -> Self {
-        Self { scene, refusals: Refusals::default(), pushed: Vec::new(), size: 1.0 }
+        Self { state: State::new(Document::opened(scene, None)), pushed: Vec::new(), size: 1.0 }
+    }
+
+    fn scene(&self) -> &Scene {
+        self.state.document.scene()
     }
 
     fn apply(&mut self, command: &Command) {
@@ -41,19 +48,21 @@ impl Edited {
             Command::Reset { key } => (key, Change::Unset),
             other => panic!("{other:?} does not come from this panel"),
         };
-        match change.applied(&self.scene, key) {
+        let rejected = &mut self.state.rejected;
+        match change.applied(self.state.document.scene(), key) {
             Ok(next) => {
-                self.refusals.accept(key);
-                self.refusals.review(&next);
-                self.scene = next;
+                rejected.accept(key);
+                rejected.review(&next);
+                self.state.document.edit(next, key, false);
             }
-            Err(error) => self.refusals.refuse(key, change, error.to_string()),
+            Err(error) => rejected.reject(key, change, error.to_string()),
         }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui) {
-        let mut commands = Vec::new();
-        parameters::show(ui, &self.scene, &self.refusals, &[], &mut commands);
+        let cx = DrawContext::new(&self.state, Instant::now());
+        parameters::show(ui, &cx);
+        let commands = cx.into_commands();
         commands.iter().for_each(|command| self.apply(command));
         self.pushed.extend(commands);
     }
@@ -180,7 +189,7 @@ fn a_slider_moves_by_keys_and_by_the_pointer() {
         .collect();
     let (last, before) = flags.split_last().unwrap();
     assert!(!last && !before.is_empty() && before.iter().all(|dragging| *dragging), "{flags:?}");
-    assert!(harness.state().scene.get("stator.frequency_khz").unwrap().as_number().unwrap() > 30.0);
+    assert!(harness.state().scene().get("stator.frequency_khz").unwrap().as_number().unwrap() > 30.0);
 }
 
 #[test]
@@ -200,7 +209,7 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
     harness.run();
     assert_eq!(shown(&harness).as_deref(), Some("200"));
     assert!(harness.query_by_label_contains("out of range").is_none());
-    assert_eq!(harness.state().scene, Scene::motor());
+    assert_eq!(harness.state().scene(), &Scene::motor());
 
     type_into(&mut harness, name, "thick");
     harness.key_press(Key::Tab);
@@ -232,7 +241,7 @@ fn a_refused_slider_says_why_and_escape_takes_the_message_away() {
 fn a_refusal_opens_the_group_it_is_in() {
     let mut edited = Edited::of(Scene::motor());
     let (key, change) = ("film.viscosity_upa_s", Change::Text("0".into()));
-    edited.refusals.refuse(key, change, "film.viscosity_upa_s = 0 is out of range".into());
+    edited.state.rejected.reject(key, change, "film.viscosity_upa_s = 0 is out of range".into());
     panel(edited).get_by_label("0 is out of range");
 }
 
@@ -245,7 +254,7 @@ fn one_click_brings_the_default_back() {
     harness.get_by_label("Reset load on one wave").click();
     harness.run();
     assert_eq!(harness.state().pushed, [Command::Reset { key: "motor.load_per_wave_n" }]);
-    assert_eq!(harness.state().scene, Scene::motor());
+    assert_eq!(harness.state().scene(), &Scene::motor());
     assert!(harness.query_by_label("Reset load on one wave").is_none());
 }
 
@@ -255,7 +264,7 @@ fn an_optional_parameter_is_switched() {
     for on in [true, false] {
         harness.get_by_label("Finite width").click();
         harness.run();
-        assert_eq!(harness.state().scene.get("plate.width_mm").is_some(), on);
+        assert_eq!(harness.state().scene().get("plate.width_mm").is_some(), on);
         assert_eq!(harness.query_by_role_and_label(Role::Slider, "Width").is_some(), on);
     }
     assert_eq!(harness.state().pushed[1], Command::Reset { key: "plate.width_mm" });
@@ -286,7 +295,7 @@ fn a_table_comes_from_its_file() {
     type_into(&mut harness, "Compliance from a CSV file", path.to_str().unwrap());
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(harness.state().scene.rotor_model().unwrap().name(), "table", "{:?}", harness.state().refusals);
+    assert_eq!(harness.state().scene().rotor_model().unwrap().name(), "table", "{:?}", harness.state().state.rejected);
     harness.get_by_label("2 rows");
 }
 
@@ -298,7 +307,7 @@ fn names_are_kept_on_one_line() {
     harness.get_by_role_and_label(Role::MultilineTextInput, "Name").type_text("Mine, 2nd");
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(harness.state().scene.name, "Mine, 2nd");
+    assert_eq!(harness.state().scene().name, "Mine, 2nd");
 }
 
 #[test]
@@ -321,7 +330,7 @@ fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
     }
 }
 
-fn run(preset: &str) -> Run {
+fn run(preset: &str) -> SolvedScene {
     let scene = presets::find(preset).unwrap();
     let problem = Problem::new(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
@@ -329,10 +338,11 @@ fn run(preset: &str) -> Run {
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
     let validity = outside(&problem, Some(&solution));
-    Run { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
+    SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
 }
 
-fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
+fn shown(run: SolvedScene, width: f32, size: f32) -> Harness<'static, SolvedScene> {
+    let state = State::new(Document::opened(run.scene.clone(), None));
     let mut harness = Harness::builder()
         .with_size(egui::vec2(width, 3000.0))
         .with_context_setup(move |ctx| {
@@ -340,10 +350,7 @@ fn shown(run: Run, width: f32, size: f32) -> Harness<'static, Run> {
             ctx.all_styles_mut(|style| style.text_styles.values_mut().for_each(|font| font.size *= size));
         })
         .build_ui_state(
-            |ui, run: &mut Run| {
-                let model = Model { scene: &run.scene, aim: Fidelity::Fine, change: None };
-                results::show(ui, run, &model, true, &mut Vec::new());
-            },
+            move |ui, run: &mut SolvedScene| results::show(ui, run, &DrawContext::new(&state, Instant::now())),
             run,
         );
     harness.run();

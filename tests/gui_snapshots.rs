@@ -17,10 +17,10 @@ use egui_kittest::{Harness, SnapshotResults};
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
-use squeezefilm::gui::dialogs::Answer;
-use squeezefilm::gui::state::Tab;
-use squeezefilm::gui::world::World;
-use squeezefilm::job::Run;
+use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::view::Tab;
+use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::presets;
 use squeezefilm::solve::Method;
@@ -100,20 +100,20 @@ fn pollster_wait<T>(future: impl std::future::Future<Output = T>) -> T {
 /// The window on a preset, solved, standing at a phase in which several teeth touch.
 fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let world = World { now: measuring, ask: |_, _| Answer::NoDialog, measure: few };
+    let platform = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few };
     let mut window = Harness::builder()
         .with_size(Vec2::from(size))
         .with_pixels_per_point(1.0)
         .renderer(WgpuTestRenderer::new())
-        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap());
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap());
     // How long the solver takes decides how long a cursor has been blinking.
     window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
     window.key_press(Key::Space);
     for _ in 0..6000 {
         window.step();
         let app = window.state();
-        let fine = app.shown().is_some_and(|run| run.fidelity == Fidelity::Fine);
-        if fine && app.activity().running.is_none() {
+        let fine = app.state().run.as_deref().is_some_and(|run| run.fidelity == Fidelity::Fine);
+        if fine && app.state().activity.running.is_none() {
             break;
         }
         std::thread::sleep(Duration::from_millis(10));
@@ -135,7 +135,8 @@ fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'s
     // What a tab computes in the background.
     for _ in 0..1000 {
         let app = window.state();
-        let waits = app.view().tab == Tab::Torque && app.shown().is_some_and(|run| needs_torque(app, run));
+        let waits =
+            app.state().view.tab == Tab::Torque && app.state().run.as_deref().is_some_and(|run| needs_torque(app, run));
         if !waits {
             break;
         }
@@ -182,8 +183,8 @@ fn compared(
     window.key_press(Key::Enter);
     window.run_steps(2);
     until(&mut window, "solved", |app| {
-        let number = app.activity().number;
-        app.shown().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
+        let number = app.state().activity.number;
+        app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
     });
     ctrl(&mut window, Key::D);
     ctrl(&mut window, Key::Num2);
@@ -200,13 +201,13 @@ fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> 
     }
     window.get_by_label("Start the sweep").click();
     window.run_steps(2);
-    until(&mut window, "swept", |app| app.sweeps().swept().is_some_and(|swept| !swept.running()));
+    until(&mut window, "swept", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
     window
 }
 
 /// Whether torque over speed is still to come.
-fn needs_torque(app: &App, run: &Run) -> bool {
-    matches!(run.problem.scenario, Scenario::Motor(_)) && !app.merits().is_of(run)
+fn needs_torque(app: &App, run: &SolvedScene) -> bool {
+    matches!(run.problem.scenario, Scenario::Motor(_)) && !app.state().torque.is_of(run)
 }
 
 /// Until panels have their sizes and nothing fades in any more.
@@ -226,7 +227,7 @@ fn live(results: &mut SnapshotResults) {
         window.get_by_label("Start from rest").click();
         for _ in 0..6000 {
             window.step();
-            if window.state().starting().is_some_and(|starting| starting.ended().is_some()) {
+            if window.state().state().startup.as_ref().is_some_and(|starting| starting.ended().is_some()) {
                 break;
             }
             std::thread::sleep(Duration::from_millis(10));
@@ -283,7 +284,7 @@ fn the_window_looks_as_it_did() {
     let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num5)]);
     window.get_by_label("Measure").click();
     window.run_steps(2);
-    until(&mut window, "measured", |app| app.measured().is_some_and(|measured| !measured.running()));
+    until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
     window.snapshot("trade-off");
     results.extend_harness(&mut window);
     let mut window = self::window("plate-crossover", USUAL, &[LECTURE, TORQUE]);
@@ -329,8 +330,10 @@ fn solved(window: &mut Harness<'static, App>) {
     for _ in 0..6000 {
         window.step();
         let app = window.state();
-        let done = |run: &squeezefilm::job::Run| run.scene == *app.document().scene() && run.fidelity == Fidelity::Fine;
-        if app.activity().running.is_none() && app.shown().is_some_and(done) {
+        let done = |run: &squeezefilm::job::SolvedScene| {
+            run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine
+        };
+        if app.state().activity.running.is_none() && app.state().run.as_deref().is_some_and(done) {
             break;
         }
         std::thread::sleep(Duration::from_millis(10));

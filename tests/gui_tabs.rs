@@ -17,12 +17,12 @@ use squeezefilm::control::Cancel;
 use squeezefilm::export::compare::{difference_text, value_text};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
-use squeezefilm::gui::dialogs::Answer;
-use squeezefilm::gui::lessons::glossary::unexplained;
-use squeezefilm::gui::pinned::Page;
-use squeezefilm::gui::state::Tab;
-use squeezefilm::gui::sweeping::Swept;
-use squeezefilm::gui::world::World;
+use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::pins::Page;
+use squeezefilm::gui::state::sweep::Swept;
+use squeezefilm::gui::state::view::Tab;
+use squeezefilm::gui::ui::glossary::unexplained;
+use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::lessons::glossary;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Value, presets};
@@ -46,10 +46,10 @@ fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
 /// A window whose paths are typed.
 fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
-    let world = World { ask: |_, _| Answer::NoDialog, measure: few, ..World::default() };
+    let platform = Platform { ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
     Harness::builder()
         .with_size(Vec2::new(1400.0, 1000.0))
-        .build_eframe(move |context| App::in_world(context, Some((scene, None)), world).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap())
 }
 
 /// Steps until `ready`, at most a minute of waiting in all: solvers work on their own threads.
@@ -67,9 +67,9 @@ fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
 
 fn solved(window: &mut Window) {
     until(window, "the scene on screen is solved", |app| {
-        let number = app.activity().number;
-        app.activity().running.is_none()
-            && app.shown().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
+        let number = app.state().activity.number;
+        app.state().activity.running.is_none()
+            && app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
     });
 }
 
@@ -95,7 +95,7 @@ fn type_into(window: &mut Window, field: &str, text: &str) {
 }
 
 fn labels(app: &App) -> Vec<String> {
-    app.pins().runs().iter().map(|run| run.label.clone()).collect()
+    app.state().pins.runs().iter().map(|run| run.label.clone()).collect()
 }
 
 /// A window in which the fundamental case and one with half the spacing are pinned.
@@ -118,12 +118,12 @@ fn two_runs_are_pinned_and_the_table_has_their_difference() {
     window.get_by_label("Compare (2)");
 
     // The numbers are those of the analysis, of runs that were solved by themselves.
-    let scenes: Vec<_> = window.state().pins().runs().iter().map(|run| run.scene.clone()).collect();
+    let scenes: Vec<_> = window.state().state().pins.runs().iter().map(|run| run.scene.clone()).collect();
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let alone = compare::runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap();
     let rows = compare::results(&alone);
     let alpha = rows.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
-    let shown = window.state().pins().results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
+    let shown = window.state().state().pins.results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
     let (ours, theirs) = (&shown.cells[1], &alpha.cells[1]);
     // The window starts from the last solve: the same to a fraction of the stated error.
     let within = theirs.difference_error_percent.unwrap();
@@ -139,17 +139,18 @@ fn two_runs_are_pinned_and_the_table_has_their_difference() {
     assert!(window.query_by_label(tooth).is_none());
     click(&mut window, "Only those that differ");
     window.get_by_label(tooth);
-    assert_eq!(window.state().pins().page, Page::Numbers);
+    assert_eq!(window.state().state().pins.page, Page::Numbers);
     assert!(window.query_by_label("Time in the cycle").is_none(), "numbers do not move");
 }
 
 #[test]
 fn fields_move_in_phase_and_maps_share_one_scale() {
     let mut window = two_pinned();
-    let pressure = window.state().pins().runs().iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
+    let pressure =
+        window.state().state().pins.runs().iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
     let all: Vec<f64> = pressure.flatten().copied().collect();
     let (low, high) = all.iter().fold((f64::INFINITY, 0.0f64), |(low, high), p| (low.min(*p), high.max(*p)));
-    let own: Vec<f64> = window.state().pins().pins().iter().map(|pin| pin.kept.pressure()[1]).collect();
+    let own: Vec<f64> = window.state().state().pins.pins().iter().map(|pin| pin.curves.scales.pressure[1]).collect();
     assert!(own[0] != own[1], "each alone would have another scale");
     for label in labels(window.state()) {
         let about = format!("Pressure map of {label}, colours from ");
@@ -164,15 +165,15 @@ fn fields_move_in_phase_and_maps_share_one_scale() {
     // The timeline is the one of the motion.
     window.get_by_label("Pause");
     window.get_by_label_contains("t = ");
-    let phase = window.state().view().phase;
+    let phase = window.state().state().view.phase;
     std::thread::sleep(Duration::from_millis(30));
     window.run_steps(2);
-    assert_ne!(window.state().view().phase, phase);
+    assert_ne!(window.state().state().view.phase, phase);
     window.key_press(Key::Home);
     window.key_press(Key::ArrowRight);
     window.run_steps(2);
-    let frames = window.state().pins().runs()[0].solved.as_ref().unwrap().recording.frames;
-    assert!((window.state().view().phase - 1.0 / frames as f64).abs() < 1e-12);
+    let frames = window.state().state().pins.runs()[0].solved.as_ref().unwrap().recording.frames;
+    assert!((window.state().state().view.phase - 1.0 / frames as f64).abs() < 1e-12);
 }
 
 #[test]
@@ -181,16 +182,16 @@ fn pins_are_renamed_opened_and_removed() {
     let first = labels(window.state())[0].clone();
     type_into(&mut window, &format!("Label of {first}"), "as published");
     assert_eq!(labels(window.state())[0], "as published");
-    let spacing = |window: &Window| window.state().document().scene().get("film.min_spacing_nm").unwrap();
+    let spacing = |window: &Window| window.state().state().document.scene().get("film.min_spacing_nm").unwrap();
     assert_eq!(spacing(&window), Value::Number(100.0));
     click(&mut window, "Open as published");
     assert_eq!(spacing(&window), Value::Number(200.0));
     ctrl(&mut window, Key::Z);
     assert_eq!(spacing(&window), Value::Number(100.0));
     click(&mut window, "Remove as published");
-    assert_eq!(window.state().pins().runs().len(), 1);
+    assert_eq!(window.state().state().pins.runs().len(), 1);
     // What is left is what differences are from.
-    assert!(window.state().pins().results().iter().all(|row| row.cells[0].difference_percent.is_none()));
+    assert!(window.state().state().pins.results().iter().all(|row| row.cells[0].difference_percent.is_none()));
     window.get_by_label("Compare (1)");
 }
 
@@ -198,7 +199,7 @@ fn pins_are_renamed_opened_and_removed() {
 fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
     let mut window = window("fundamental");
     ctrl(&mut window, Key::Num2);
-    assert!(window.state().pins().runs().is_empty());
+    assert!(window.state().state().pins.runs().is_empty());
     window.get_by_label_contains("Pin a run, change the scene");
     let plate = presets::find("plate-crossover").unwrap().name;
     for preset in [&plate, &presets::find("levitating").unwrap().name] {
@@ -206,22 +207,23 @@ fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
         window.run_steps(3);
         window.get_by_label_contains(preset).click();
         window.run_steps(2);
-        until(&mut window, preset, |app| app.pins().waiting().is_empty() && labels(app).contains(preset));
+        until(&mut window, preset, |app| app.state().pins.waiting().is_empty() && labels(app).contains(preset));
     }
-    let fidelities = window.state().pins().runs().iter().map(|run| run.solved.as_ref().unwrap().model.fidelity.clone());
-    assert!(fidelities.into_iter().all(|fidelity| fidelity == window.state().document().aim().name()));
+    let fidelities =
+        window.state().state().pins.runs().iter().map(|run| run.solved.as_ref().unwrap().model.fidelity.clone());
+    assert!(fidelities.into_iter().all(|fidelity| fidelity == window.state().state().document.target().name()));
     window.get_by_label_contains("Motors and plates cannot be laid over each other");
     // Each has its own period: no time is that of all.
     window.get_by_label_contains("° of each cycle");
     assert!(window.query_by_label_contains("t = ").is_none());
     // The scene being edited is as it was.
-    assert_eq!(window.state().document().scene(), &presets::find("fundamental").unwrap());
+    assert_eq!(window.state().state().document.scene(), &presets::find("fundamental").unwrap());
     click(&mut window, "Remove all");
-    assert!(window.state().pins().runs().is_empty());
+    assert!(window.state().state().pins.runs().is_empty());
 }
 
 fn swept(app: &App) -> &Swept {
-    app.sweeps().swept().unwrap()
+    app.state().sweep.swept().unwrap()
 }
 
 #[test]
@@ -229,8 +231,8 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     let mut window = window("fundamental");
     solved(&mut window);
     ctrl(&mut window, Key::Num3);
-    assert_eq!(window.state().view().tab, Tab::Sweep);
-    assert!(window.state().sweeps().swept().is_none(), "nothing is solved before it is asked for");
+    assert_eq!(window.state().state().view.tab, Tab::Sweep);
+    assert!(window.state().state().sweep.swept().is_none(), "nothing is solved before it is asked for");
     type_into(&mut window, "Values along x", "40");
     click(&mut window, "Start the sweep");
     until(&mut window, "some points", |app| !swept(app).rows().is_empty());
@@ -253,7 +255,7 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     window.get_by_role_and_label(Role::ComboBox, "Result shown").click();
     window.run_steps(3);
     click(&mut window, "Film load, N");
-    assert_eq!(window.state().sweeps().quantity(&sweep_quantities(&window)), Quantity::FilmLoad);
+    assert_eq!(window.state().state().sweep.quantity(&sweep_quantities(&window)), Quantity::FilmLoad);
     assert!(!swept(window.state()).running() && swept(window.state()).rows() == before);
 }
 
@@ -268,7 +270,7 @@ fn a_point_is_read_and_opened_as_one_edit() {
     ctrl(&mut window, Key::Num3);
     type_into(&mut window, "Values along x", "5");
     click(&mut window, "Start the sweep");
-    until(&mut window, "all points", |app| app.sweeps().swept().is_some_and(|swept| !swept.running()));
+    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
     let drawing = "Sweep: point to read a value, click to make its scene the present one";
     let rect = window.get_by_label(drawing).rect();
     // Right of the middle: the fourth of five.
@@ -276,16 +278,16 @@ fn a_point_is_read_and_opened_as_one_edit() {
     window.hover_at(at);
     window.run_steps(20);
     window.get_by_label_contains("Click to make this the present scene");
-    let before = window.state().document().scene().clone();
+    let before = window.state().state().document.scene().clone();
     window.drag_at(at);
     window.step();
     window.drop_at(at);
     window.run_steps(3);
-    let opened = window.state().document().scene().clone();
+    let opened = window.state().state().document.scene().clone();
     assert_eq!(opened, swept(window.state()).sweep().scene_at(3).unwrap());
     assert!(window.query_by_label_contains("before the scene changed").is_none(), "it is a point of the sweep");
     ctrl(&mut window, Key::Z);
-    assert_eq!(window.state().document().scene(), &before);
+    assert_eq!(window.state().state().document.scene(), &before);
 }
 
 #[test]
@@ -297,7 +299,7 @@ fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     type_into(&mut window, "Values along y", "1");
     window.get_by_label_contains("allowed 2 to 10000");
     click(&mut window, "Start the sweep");
-    assert!(window.state().sweeps().swept().is_none());
+    assert!(window.state().state().sweep.swept().is_none());
     type_into(&mut window, "Values along y", "3");
     assert!(window.query_by_label_contains("allowed 2 to 10000").is_none());
     type_into(&mut window, "From along x", "-1");
@@ -305,7 +307,7 @@ fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     type_into(&mut window, "From along x", "1");
     // A fault that only both keys together have is told when it begins.
     click(&mut window, "Start the sweep");
-    until(&mut window, "all points", |app| app.sweeps().swept().is_some_and(|swept| !swept.running()));
+    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
     assert_eq!(swept(window.state()).rows().len(), 12);
     assert_eq!(swept(window.state()).sweep().axes().len(), 2);
     click(&mut window, "Back to one parameter");
@@ -331,7 +333,7 @@ fn closing_the_window_ends_a_sweep_and_what_is_being_solved() {
 /// Asks for an export in the menu and types where to; waits until it has ended.
 fn export(window: &mut Window, entry: &str, path: &Path) {
     begin_export(window, entry, path);
-    until(window, "the export ends", |app| !app.exports().running());
+    until(window, "the export ends", |app| app.state().exports.running().is_none());
 }
 
 fn begin_export(window: &mut Window, entry: &str, path: &Path) {
@@ -464,7 +466,7 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
     ctrl(&mut window, Key::Num3);
     type_into(&mut window, "Values along x", "3");
     click(&mut window, "Start the sweep");
-    until(&mut window, "all points", |app| app.sweeps().swept().is_some_and(|swept| !swept.running()));
+    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
     export(&mut window, "Sweep as table…", &at("sweep.csv"));
     let text = std::fs::read_to_string(at("sweep.csv")).unwrap();
     let rows = squeezefilm::export::sweep::read_csv(swept(window.state()).sweep(), &text).unwrap();
@@ -476,12 +478,12 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
 
     // A long one is cancelled, and leaves nothing; meanwhile no other begins.
     begin_export(&mut window, "Animation…", &at("long.mp4"));
-    until(&mut window, "it begins", |app| app.exports().running());
+    until(&mut window, "it begins", |app| app.state().exports.running().is_some());
     begin_export(&mut window, "Fields as NumPy archive…", &at("fields.npz"));
     window.get_by_label_contains("Another export goes on");
     click(&mut window, "Close");
     click(&mut window, "Cancel the export");
-    until(&mut window, "it ends", |app| !app.exports().running());
+    until(&mut window, "it ends", |app| app.state().exports.running().is_none());
     assert!(window.query_by_label("This did not work").is_none(), "that it was cancelled is no error");
     assert!(names(folder.path()).iter().all(|name| !name.contains("long") && !name.contains(".tmp")));
 }
@@ -596,7 +598,9 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     hovers(faults, &mut window, "About: stated error", "the numerical error only");
 
     ctrl(&mut window, Key::Num4);
-    until(&mut window, "torque over speed", |app| app.shown().is_some_and(|run| app.merits().is_of(run)));
+    until(&mut window, "torque over speed", |app| {
+        app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
+    });
     let torque =
         ["Torque over speed", "Power", "Efficiency", "With film", "Without film", "Friction heat", "Rotor speed"];
     explains(faults, &window, "Torque", &torque);
@@ -612,7 +616,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     ctrl(&mut window, Key::Num5);
     explains(faults, &window, "Trade-off, before", &[]);
     click(&mut window, "Measure");
-    until(&mut window, "measured", |app| app.measured().is_some_and(|measured| !measured.running()));
+    until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
     let tradeoff =
         ["fidelities", "other grids", "the paper's method", "present setting", "best", "Solve time", "Error of α"];
     explains(faults, &window, "Trade-off", &tradeoff);
@@ -622,7 +626,9 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     ctrl(&mut window, Key::Num6);
     explains(faults, &window, "Start-up, before", &[]);
     click(&mut window, "Start from rest");
-    until(&mut window, "a cycle arrives", |app| app.starting().is_some_and(|starting| starting.points().len() > 1));
+    until(&mut window, "a cycle arrives", |app| {
+        app.state().startup.as_ref().is_some_and(|starting| starting.points().len() > 1)
+    });
     let startup = ["α", "Least film thickness", "Highest pressure", "Cycle", "Periodic solve"];
     explains(faults, &window, "Start-up", &startup);
     click(&mut window, "Cancel the start-up");
@@ -677,10 +683,10 @@ fn left(window: &mut Window) -> Memory {
 /// The window after that.
 fn next(memory: Memory) -> Window {
     let memory: &'static Memory = Box::leak(Box::new(memory));
-    let world = World { ask: |_, _| Answer::NoDialog, ..World::default() };
+    let platform = Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() };
     Harness::builder().with_size(Vec2::new(1400.0, 1000.0)).build_eframe(move |context| {
         context.storage = Some(memory);
-        App::in_world(context, None, world).unwrap()
+        App::on_platform(context, None, platform).unwrap()
     })
 }
 
@@ -695,11 +701,11 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     let levitating = presets::find("levitating").unwrap().name;
     window.get_by_label_contains(&levitating).click();
     window.run_steps(2);
-    until(&mut window, "a third", |app| app.pins().runs().len() == 3);
+    until(&mut window, "a third", |app| app.state().pins.runs().len() == 3);
     let changed = labels(window.state())[1].clone();
     click(&mut window, &format!("Remove {changed}"));
     let kept = |app: &App| -> Vec<_> {
-        let pins = app.pins().pins().iter().zip(app.pins().runs());
+        let pins = app.state().pins.pins().iter().zip(app.state().pins.runs());
         pins.map(|(pin, run)| {
             let fidelity = run.solved.as_ref().unwrap().model.fidelity.clone();
             (run.label.clone(), pin.slot, fidelity, run.scene.clone())
@@ -709,7 +715,7 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     let before = kept(window.state());
     assert_eq!(before.iter().map(|pin| pin.1).collect::<Vec<_>>(), [0, 2]);
     let alpha = |app: &App| {
-        let row = app.pins().results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
+        let row = app.state().pins.results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
         row.cells.iter().map(|cell| (cell.value.unwrap(), cell.error.unwrap())).collect::<Vec<_>>()
     };
     let numbers = alpha(window.state());
@@ -718,14 +724,14 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
 
     let mut window = next(memory.clone());
     window.step();
-    assert_eq!(window.state().pins().waiting().len(), 2, "they are there at once, to be solved");
+    assert_eq!(window.state().state().pins.waiting().len(), 2, "they are there at once, to be solved");
     // Closed before they are solved, they are there the next time.
     assert_eq!(left(&mut window).0["pins"], memory.0["pins"]);
     until(&mut window, "the pins", |app| {
-        if app.shown().is_none_or(|run| run.fidelity < Fidelity::Fine) {
-            assert!(app.pins().runs().is_empty(), "the scene on screen comes first");
+        if app.state().run.as_deref().is_none_or(|run| run.fidelity < Fidelity::Fine) {
+            assert!(app.state().pins.runs().is_empty(), "the scene on screen comes first");
         }
-        app.pins().waiting().is_empty()
+        app.state().pins.waiting().is_empty()
     });
     assert_eq!(kept(window.state()), before);
     for ((ours, error), (theirs, other)) in alpha(window.state()).into_iter().zip(numbers) {
@@ -734,7 +740,7 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     // A new one comes after them.
     ctrl(&mut window, Key::D);
     assert_eq!(labels(window.state())[..2], before.iter().map(|pin| pin.0.clone()).collect::<Vec<_>>());
-    assert_eq!(window.state().pins().runs().len(), 3);
+    assert_eq!(window.state().state().pins.runs().len(), 3);
     // What was forgotten does not come back.
     ctrl(&mut window, Key::Num2);
     click(&mut window, "Remove all");
@@ -769,7 +775,7 @@ fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
         window.get_by_label_contains(said);
         click(&mut window, "Close");
         solved(&mut window);
-        until(&mut window, "the others", |app| app.pins().waiting().is_empty());
-        assert_eq!(window.state().pins().runs().len(), left_over);
+        until(&mut window, "the others", |app| app.state().pins.waiting().is_empty());
+        assert_eq!(window.state().state().pins.runs().len(), left_over);
     }
 }

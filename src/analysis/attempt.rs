@@ -31,14 +31,20 @@ pub fn attempt_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, String> {
-    match catch_unwind(AssertUnwindSafe(|| solve_from(warm, problem, settings, observer, cancel))) {
-        Ok(solved) => solved.map_err(|error| error.to_string()),
-        Err(panic) => {
-            let text = panic.downcast_ref::<&str>().copied();
-            let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-            Err(format!("the solver failed: {}", text.unwrap_or("no reason given")))
-        }
-    }
+    caught(|| solve_from(warm, problem, settings, observer, cancel))
+        .map_err(|panic| format!("the solver failed: {panic}"))?
+        .map_err(|error| error.to_string())
+}
+
+/// What `work` returns.
+///
+/// # Errors
+/// The text of its panic.
+pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
+        let text = panic.downcast_ref::<&str>().copied();
+        text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given").to_owned()
+    })
 }
 
 #[cfg(test)]

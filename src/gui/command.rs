@@ -1,15 +1,13 @@
-//! What a panel or a key asks the application to do. Panels push commands; only the application carries them out.
+//! Everything that a panel or a key asks for. `ui` pushes commands; `update` alone carries them out.
 
-use super::dialogs::Export;
-use super::exporting::Exporting;
-use super::holding;
-use super::lessons::Teach;
-use super::pinned::Pinning;
-use super::starting;
-use super::state::Tab;
-use super::sweeping::Sweeping;
+use super::state::dialogs::{Export, Purpose};
+use super::state::document::Next;
+use super::state::pins::Page;
+use super::state::view::Tab;
+use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Wish;
 use crate::fidelity::Fidelity;
+use crate::lessons::Prediction;
 use crate::problem::Numerics;
 use crate::scene::Value;
 use std::path::PathBuf;
@@ -41,7 +39,7 @@ pub enum Command {
     /// Solves with these numerics, refined up to this fidelity, from now on: one edit.
     Use {
         /// The last fidelity that an edit is solved at.
-        aim: Fidelity,
+        target: Fidelity,
         /// All of the scene's numerics.
         numerics: Numerics,
     },
@@ -49,12 +47,10 @@ pub enum Command {
     Undo,
     /// Makes it again.
     Redo,
-    /// Opens a built-in preset.
-    OpenBuiltIn(&'static str),
+    /// Opens a preset, or closes the window: asks first if there are unsaved changes.
+    Proceed(Next),
     /// Asks for a file to open.
     OpenDialog,
-    /// Opens a file.
-    OpenPath(PathBuf),
     /// Saves to the scene's file, or asks for one.
     Save,
     /// Asks for a file and saves there.
@@ -62,11 +58,15 @@ pub enum Command {
     /// Saves to this file.
     SavePath(PathBuf),
     /// Saves, asking for a file if there is none, then does this.
-    SaveThen(Box<Command>),
+    SaveThen(Next),
     /// Gives unsaved changes up, then does this.
-    DiscardThen(Box<Command>),
+    DiscardThen(Next),
     /// A question was left unanswered.
     Dismissed,
+    /// Takes away what is in the way.
+    CloseModal,
+    /// What is typed into the prompt for a path.
+    TypePath(String),
     /// Refines the present scene up to this fidelity.
     Refine(Fidelity),
     /// Cancels the running solve.
@@ -74,13 +74,13 @@ pub enum Command {
     /// Shows this in the middle of the window.
     Show(Tab),
     /// Asks something of the pinned runs.
-    Pin(Pinning),
+    Pin(PinCommand),
     /// Asks something of the sweep.
-    Sweep(Sweeping),
+    Sweep(SweepCommand),
     /// About the plate that is held.
-    Hold(holding::Ask),
+    Hold(HoldCommand),
     /// About the start-up.
-    Startup(starting::Ask),
+    Startup(StartupCommand),
     /// Measures error against time, now.
     Measure,
     /// Ends the measurement.
@@ -89,14 +89,18 @@ pub enum Command {
     Wish(Wish),
     /// Asks where to write this, and writes it.
     Export(Export),
-    /// Asks something of the export under way.
-    Exporting(Exporting),
+    /// Ends the export under way; nothing is written.
+    CancelExport,
+    /// What the last export wrote has been read.
+    CloseExportNote,
     /// Writes this to a file.
     WriteExport(Export, PathBuf),
     /// Play or pause.
     TogglePlay,
     /// Moves by this many frames, pausing.
     StepFrames(i64),
+    /// The pointer is at this x of a view \[m\], or in none.
+    Hover(Option<f64>),
     /// Jumps to this phase of the cycle, 0 to 1, pausing.
     Seek(f64),
     /// Seconds on screen for one cycle.
@@ -121,8 +125,149 @@ pub enum Command {
     WritePicture(PathBuf),
     /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
-    /// Something of the lessons, the tour or the glossary.
-    Teach(Teach),
-    /// Closes the window.
-    Quit,
+    /// About lessons.
+    Lesson(LessonCommand),
+    /// The tour, from this stop on; none ends it.
+    Tour(Option<usize>),
+    /// Shows or hides the glossary.
+    Glossary(bool),
+    /// What is looked for in the glossary.
+    SearchGlossary(String),
+}
+
+/// About the pinned runs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PinCommand {
+    /// Pins the run on screen.
+    Shown,
+    /// Solves a built-in preset in the background and pins it.
+    Preset(&'static str),
+    /// Forgets one that is being solved, or will be.
+    Forget(u64),
+    /// Calls a pin something else.
+    Rename(u64, String),
+    /// Takes a pin away.
+    Remove(u64),
+    /// Takes all pins away.
+    Clear,
+    /// Makes the scene of a pin the present scene: one edit.
+    Open(u64),
+    /// Shows this of them.
+    Look(Page),
+    /// Lists all parameters, or only those that differ.
+    AllParameters(bool),
+}
+
+/// About the sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SweepCommand {
+    /// Varies this along x (0) or y (1), over a range round its present value.
+    Choose(usize, &'static str),
+    /// Along x or y, from this.
+    From(usize, String),
+    /// Up to this.
+    To(usize, String),
+    /// In so many values.
+    Count(usize, String),
+    /// By equal ratios instead of equal steps.
+    Log(usize, bool),
+    /// Varies a second parameter.
+    Second(bool),
+    /// Solves every point at this.
+    Fidelity(Fidelity),
+    /// Draws this.
+    Draw(Quantity),
+    /// Begins anew.
+    Start,
+    /// Ends it; what is solved stays.
+    Cancel,
+    /// Goes on with what was cancelled.
+    Continue,
+    /// Makes the scene of a point the present scene: one edit.
+    Open(usize),
+}
+
+/// About the start-up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StartupCommand {
+    /// Starts from rest.
+    Start,
+    /// Ends it.
+    Cancel,
+    /// Looks at this cycle, or at the nearest one that is kept.
+    Choose(usize),
+    /// Whether the newest cycle is looked at.
+    Follow(bool),
+    /// Plays from the first cycle on.
+    Replay,
+}
+
+/// About the plate that is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HoldCommand {
+    /// Holds it at this gap \[m\].
+    To(f64),
+    /// Moves it by this share of its mean gap.
+    By(f64),
+    /// Lets it go back to its mean gap.
+    LetGo,
+    /// Puts the film to rest at the mean gap, and clears the charts.
+    Reset,
+    /// Slow motion: the leak time takes this many seconds.
+    Seconds(f64),
+}
+
+/// About lessons.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LessonCommand {
+    /// Begins a lesson, by its place in the list, at the step where it was left.
+    Open(usize),
+    /// The step after this one; after the last, the lesson is done.
+    Next,
+    /// The step before this one.
+    Back,
+    /// Ends the lesson and brings the student's scene back.
+    Leave,
+    /// Answers the question of the step, for now.
+    Predict(Prediction),
+    /// Keeps to that answer.
+    Commit,
+    /// Makes the changes that fulfil the task.
+    ShowMe,
+    /// Sets the step's scene up again.
+    SetUp,
+    /// Shows all results in place of the lesson's text, or the text again.
+    AllResults(bool),
+    /// Asks for a folder of lessons.
+    ChooseFolder,
+    /// Loads the lessons of this folder, beside those that are there.
+    LoadFolder(PathBuf),
+    /// Says again what was wrong with lessons.
+    Faults,
+}
+
+macro_rules! commands_of {
+    ($($variant:ident($part:ty)),*) => {
+        $(impl From<$part> for Command {
+            fn from(part: $part) -> Self {
+                Self::$variant(part)
+            }
+        })*
+    };
+}
+
+commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold(HoldCommand), Lesson(LessonCommand));
+commands_of!(Proceed(Next));
+
+impl Command {
+    /// What is done with the path that was chosen for `purpose`.
+    pub fn with_path(purpose: Purpose, path: PathBuf) -> Self {
+        match purpose {
+            Purpose::Open => Self::Proceed(Next::File(path)),
+            Purpose::Lessons => Self::Lesson(LessonCommand::LoadFolder(path)),
+            Purpose::Save => Self::SavePath(path),
+            Purpose::Screenshot => Self::WritePicture(path),
+            Purpose::Export(export) => Self::WriteExport(export, path),
+        }
+    }
 }

@@ -1,31 +1,15 @@
 //! The window: an explorer that answers while the slider moves.
 //!
-//! `app` drains the solver's events and carries out commands; panels and views only read state, draw, and push commands.
-//! The solver is reached through [`crate::job`] alone; the window's thread never solves.
+//! `app` is the glue to eframe. `state` is all that the window knows, and `derived` what is computed from runs to be drawn.
+//! `ui` reads the state, draws, and pushes commands; `update` carries them out, and never draws. The solver is reached through
+//! [`crate::job`] alone; the window's thread never solves.
 
 pub mod app;
 pub mod command;
-pub mod comparison;
-pub mod dialogs;
-pub mod document;
-pub mod edit;
-pub mod exporting;
-pub mod holding;
-pub mod keys;
-pub mod lessons;
-pub mod measured;
-pub mod merits;
-pub mod modal;
-pub mod panels;
-pub mod pinned;
-pub mod spot;
-pub mod starting;
+pub mod derived;
 pub mod state;
-pub mod sweeping;
-pub mod tabs;
-pub mod theme;
-pub mod views;
-pub mod world;
+pub mod ui;
+pub mod update;
 
 use crate::scene::Scene;
 use eframe::egui;

@@ -3,13 +3,12 @@
 //! It marches the film while the plate moves or the pressure still relaxes, paced by the clock, and sleeps otherwise. Only the
 //! newest gap that is asked for counts. What it publishes is bounded: one snapshot, and the samples since they were last taken.
 
-use super::panic_text;
+use crate::analysis::attempt::caught;
 use crate::fidelity::Fidelity;
 use crate::hold::{Hold, Reading, leak_time};
 use crate::plan::Plan;
 use crate::problem::{Numerics, Plate};
 use std::collections::VecDeque;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -44,9 +43,9 @@ pub struct Snapshot {
     pub failure: Option<String>,
 }
 
-/// What the hand asks for.
+/// What the hand asks for: the newest counts.
 #[derive(Clone, Copy, Debug)]
-struct Wish {
+struct Target {
     gap: f64,
     /// Seconds for a second of the film.
     slowed: f64,
@@ -56,9 +55,9 @@ struct Wish {
 
 #[derive(Debug)]
 struct Shared {
-    wish: Mutex<Wish>,
+    target: Mutex<Target>,
     changed: Condvar,
-    told: Mutex<(Arc<Snapshot>, VecDeque<Reading>)>,
+    published: Mutex<(Arc<Snapshot>, VecDeque<Reading>)>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -88,11 +87,11 @@ impl HeldPlate {
     ) -> std::io::Result<Self> {
         let plan = Plan::plate(&plate, Fidelity::Standard, &Numerics::default());
         let hold = Hold::new(&plate, &plan);
-        let wish = Wish { gap: plate.mean_gap, slowed, reset: false, closed: false };
+        let target = Target { gap: plate.mean_gap, slowed, reset: false, closed: false };
         let shared = Arc::new(Shared {
-            wish: Mutex::new(wish),
+            target: Mutex::new(target),
             changed: Condvar::new(),
-            told: Mutex::new((Arc::new(snapshot(&hold, 0, 1.0, None)), VecDeque::new())),
+            published: Mutex::new((Arc::new(snapshot(&hold, 0, 1.0, None)), VecDeque::new())),
         });
         let theirs = Arc::clone(&shared);
         let spawn = std::thread::Builder::new().name("squeezefilm-hold".to_owned());
@@ -100,38 +99,38 @@ impl HeldPlate {
         Ok(Self { plate, shared, worker: Some(worker) })
     }
 
-    fn ask(&self, change: impl FnOnce(&mut Wish)) {
-        change(&mut lock(&self.shared.wish));
+    fn ask(&self, change: impl FnOnce(&mut Target)) {
+        change(&mut lock(&self.shared.target));
         self.shared.changed.notify_all();
     }
 
     /// Moves the plate to `gap` \[m\], or as near as it may come.
     pub fn move_to(&self, gap: f64) {
         let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|wish| wish.gap = gap);
+        self.ask(|target| target.gap = gap);
     }
 
     /// Takes `slowed` seconds for a second of the film from now on.
     pub fn slow(&self, slowed: f64) {
-        self.ask(|wish| wish.slowed = slowed);
+        self.ask(|target| target.slowed = slowed);
     }
 
     /// Puts the film to rest at the mean gap.
     pub fn reset(&self) {
         let gap = self.plate.mean_gap;
-        self.ask(|wish| (wish.gap, wish.reset) = (gap, true));
+        self.ask(|target| (target.gap, target.reset) = (gap, true));
     }
 
     /// The newest snapshot, and what was read off since the last time.
     pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Reading>) {
-        let mut told = lock(&self.shared.told);
-        (Arc::clone(&told.0), std::mem::take(&mut told.1))
+        let mut published = lock(&self.shared.published);
+        (Arc::clone(&published.0), std::mem::take(&mut published.1))
     }
 }
 
 impl Drop for HeldPlate {
     fn drop(&mut self) {
-        self.ask(|wish| wish.closed = true);
+        self.ask(|target| target.closed = true);
         if let Some(worker) = self.worker.take() {
             // What panics in the film is caught; another panic would have nothing left to tell.
             let _ = worker.join();
@@ -162,21 +161,21 @@ fn follow(shared: &Shared, mut hold: Hold, now: fn() -> Instant, wake: &dyn Fn()
     let mut last: Option<Instant> = None;
     let (mut number, mut pace) = (0, 1.0);
     loop {
-        let wish = {
-            let mut wish = lock(&shared.wish);
+        let target = {
+            let mut target = lock(&shared.target);
             loop {
-                if wish.closed {
+                if target.closed {
                     return;
                 }
-                let there = (wish.gap - hold.gap()).abs() <= THERE * hold.gap();
-                if wish.reset || !there || hold.unrest() > AT_REST {
+                let there = (target.gap - hold.gap()).abs() <= THERE * hold.gap();
+                if target.reset || !there || hold.unrest() > AT_REST {
                     break;
                 }
                 last = None;
-                wish = shared.changed.wait(wish).unwrap_or_else(PoisonError::into_inner);
+                target = shared.changed.wait(target).unwrap_or_else(PoisonError::into_inner);
             }
-            let taken = *wish;
-            wish.reset = false;
+            let taken = *target;
+            target.reset = false;
             taken
         };
         let began = now();
@@ -187,43 +186,42 @@ fn follow(shared: &Shared, mut hold: Hold, now: fn() -> Instant, wake: &dyn Fn()
             let share = elapsed / passed.as_secs_f64();
             pace += 0.2 * (share - pace);
         }
-        let toward = wish.gap - hold.gap();
+        let toward = target.gap - hold.gap();
         let near = toward.abs() <= THERE * hold.gap();
-        let gap = if near { wish.gap } else { hold.gap() + toward * (1.0 - (-elapsed / HAND).exp()) };
+        let gap = if near { target.gap } else { hold.gap() + toward * (1.0 - (-elapsed / HAND).exp()) };
         let mut failure = None;
-        if wish.reset {
+        if target.reset {
             hold.reset();
         } else {
-            let march = AssertUnwindSafe(|| hold.advance(gap, elapsed / wish.slowed));
-            failure = match catch_unwind(march) {
+            failure = match caught(|| hold.advance(gap, elapsed / target.slowed)) {
                 Ok(Ok(())) => None,
                 Ok(Err(error)) => Some(error.to_string()),
-                Err(panic) => Some(format!("the film failed: {}", panic_text(panic.as_ref()))),
+                Err(panic) => Some(format!("the film failed: {panic}")),
             };
             if failure.is_some() {
                 hold.reset();
-                lock(&shared.wish).gap = hold.gap();
+                lock(&shared.target).gap = hold.gap();
             }
         }
         number += 1;
         {
-            let mut told = lock(&shared.told);
-            told.0 = Arc::new(snapshot(&hold, number, pace, failure));
-            if wish.reset {
-                told.1.clear();
+            let mut published = lock(&shared.published);
+            published.0 = Arc::new(snapshot(&hold, number, pace, failure));
+            if target.reset {
+                published.1.clear();
             }
-            if told.1.len() == SAMPLES {
-                told.1.pop_front();
+            if published.1.len() == SAMPLES {
+                published.1.pop_front();
             }
-            let reading = told.0.reading;
-            told.1.push_back(reading);
+            let reading = published.0.reading;
+            published.1.push_back(reading);
         }
         wake();
         // Until the next tick, or the end.
         let spent = now().saturating_duration_since(began);
-        let wish = lock(&shared.wish);
-        if let (Some(left), false) = (TICK.checked_sub(spent), wish.closed) {
-            drop(shared.changed.wait_timeout_while(wish, left, |wish| !wish.closed));
+        let target = lock(&shared.target);
+        if let (Some(left), false) = (TICK.checked_sub(spent), target.closed) {
+            drop(shared.changed.wait_timeout_while(target, left, |target| !target.closed));
         }
     }
 }

@@ -1,0 +1,190 @@
+//! Numbers and words as the window writes them.
+
+use crate::export::digits::{significant, with_error};
+
+/// Share of its error below which a value is shown as 0.
+const NOTHING: f64 = 0.05;
+
+/// `value` with about three significant digits.
+pub fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return "0".to_owned();
+    }
+    let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
+    signed(format!("{value:.decimals$}"))
+}
+
+/// With a true minus sign; "-0.00" is a zero.
+pub fn signed(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
+        Some(zero) => zero.to_owned(),
+        None => text,
+    }
+}
+
+/// `value` as it is, without trailing zeros.
+pub fn plain(value: f64) -> String {
+    trimmed(&number(value)).to_owned()
+}
+
+/// "×9000", to two digits.
+pub fn times(factor: f64) -> String {
+    if !(factor.is_finite() && factor > 0.0) {
+        return "×1".to_owned();
+    }
+    let power = 10f64.powf(factor.log10().floor() - 1.0);
+    let rounded = (factor / power).round() * power;
+    let decimals = if rounded < 10.0 { 1 } else { 0 };
+    format!("×{rounded:.decimals$}")
+}
+
+/// `value` to a number of significant digits, `round` deciding which way.
+pub fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let exponent = value.abs().log10().floor() as i32 - digits + 1;
+    let scaled = round(value / 10f64.powi(exponent));
+    // Through text, so that no stray bits are left.
+    format!("{scaled}e{exponent}").parse().unwrap_or(value)
+}
+
+/// With a capital first letter.
+pub fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
+/// `10⁻⁶`, with the digits that the fonts have.
+pub fn power_of_ten(exponent: f64) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        '9' => '⁹',
+        other => other,
+    };
+    let exponent: String = format!("{exponent:.0}").chars().map(raised).collect();
+    format!("10{exponent}")
+}
+
+/// A value with its error, an exponent raised. What is far below its error is 0.
+pub fn uncertain(value: f64, error: f64) -> String {
+    let value = if value.abs() < NOTHING * error { 0.0 } else { value };
+    let text = with_minus(&with_error(value, error));
+    match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
+        Some((before, Ok(exponent))) => format!("{before}{}", power_of_ten(exponent)),
+        _ => text,
+    }
+}
+
+/// `value` with this many significant digits and a true minus sign.
+pub fn digits(value: f64, digits: usize) -> String {
+    significant(value, digits).replace('-', "−")
+}
+
+/// Without zeros after the decimal point that say nothing.
+pub fn trimmed(number: &str) -> &str {
+    if number.contains('.') && !number.contains('e') {
+        number.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        number
+    }
+}
+
+/// With a true minus sign.
+pub fn with_minus(text: &str) -> String {
+    text.strip_prefix('-').map_or_else(|| text.to_owned(), |size| format!("−{size}"))
+}
+
+/// A time in the unit that suits it.
+pub fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-4 => format!("{:.2} µs", s * 1e6),
+        s if s < 1e-1 => format!("{:.2} ms", s * 1e3),
+        s => format!("{s:.2} s"),
+    }
+}
+
+/// A factor with its digits in groups of three.
+pub fn thousands(value: f64) -> String {
+    if value < 10.0 {
+        return format!("{value:.2}");
+    }
+    let digits = format!("{value:.0}");
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A time that is left, in whole seconds or minutes.
+pub fn rough(seconds: f64) -> String {
+    if seconds < 99.5 { format!("{:.0} s", seconds.max(1.0)) } else { format!("{:.0} min", seconds / 60.0) }
+}
+
+/// A value to the digit that its error leaves known, at most three decimals.
+pub fn with_known_digits(value: f64, error: f64) -> String {
+    let decimals = if error > 0.0 { (-error.log10().floor()).clamp(0.0, 3.0) } else { 3.0 };
+    let least = 10f64.powf(-decimals);
+    let decimals = decimals as usize;
+    let sign = if value < -0.5 * least { "−" } else { "" };
+    format!("{sign}{:.decimals$} ± {:.decimals$}", value.abs(), error.max(least))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits_and_a_true_minus() {
+        assert_eq!(number(1234.6), "1235");
+        assert_eq!(number(0.012345), "0.0123");
+        assert_eq!(number(-12.34), "−12.3");
+        assert_eq!(number(-0.00001), "0.0000");
+        assert_eq!(number(0.0), "0");
+        assert_eq!(times(9012.0), "×9000");
+        assert_eq!(times(0.0), "×1");
+    }
+
+    #[test]
+    fn digits_leave_no_stray_bits() {
+        assert_eq!(to_digits(0.300_000_000_4, 4, f64::round), 0.3);
+        assert_eq!(to_digits(2.892_143_8, 4, f64::floor), 2.892);
+        assert_eq!(to_digits(-123_456.0, 4, f64::round), -123_500.0);
+        assert_eq!(to_digits(1.0499e-10, 4, f64::round), 1.05e-10);
+    }
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(thousands(180_000.4), "180\u{202f}000");
+        assert_eq!(thousands(12.0), "12");
+        assert_eq!(time(3.333e-5), "33.33 µs");
+        assert_eq!(time(0.5), "0.50 s");
+    }
+
+    #[test]
+    fn exponents_are_raised() {
+        assert_eq!(power_of_ten(-12.0), "10⁻¹²");
+    }
+
+    #[test]
+    fn a_force_has_the_digits_that_are_known() {
+        assert_eq!(with_known_digits(186.04, 0.63), "186.0 ± 0.6");
+        assert_eq!(with_known_digits(-35.104, 0.061), "−35.10 ± 0.06");
+        assert_eq!(with_known_digits(-0.0001, 1e-7), "0.000 ± 0.001");
+        assert_eq!(with_known_digits(0.0, 0.0), "0.000 ± 0.001");
+    }
+}

@@ -1,0 +1,9 @@
+//! What is drawn, computed from runs and scenes: scales, curves, samples, texts. No egui in here, and no state.
+
+pub mod exact;
+pub mod format;
+pub mod sample;
+pub mod scales;
+pub mod sliders;
+pub mod ticks;
+pub mod words;

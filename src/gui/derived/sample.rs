@@ -1,0 +1,424 @@
+//! Reading values between nodes and between frames: no drawing in here.
+//!
+//! An instant is a *place*, counted in frames: 3.25 is a quarter of the way from frame 3 to frame 4, and after the last
+//! frame comes the first. By lag symmetry tooth k at a place is tooth 0 at place + k·frames/teeth, so that another tooth
+//! may lie between two frames where tooth 0 does not.
+
+use crate::problem::Motor;
+use crate::recording::Recording;
+use std::ops::Range;
+
+/// Wavenumber beyond all that a rotor resolves \[rad/m\]: what is left of its compliance is local.
+const LOCAL: f64 = 1e9;
+
+/// Interval of ascending `nodes` around `x` and the weight of its right end; `None` outside. Rounding at either end
+/// is forgiven.
+pub fn locate(nodes: &[f64], x: f64) -> Option<(usize, f64)> {
+    let (first, last) = (*nodes.first()?, *nodes.last()?);
+    let slack = 1e-9 * (last - first).abs();
+    if !(x >= first - slack && x <= last + slack) {
+        return None;
+    }
+    if nodes.len() == 1 {
+        return Some((0, 0.0));
+    }
+    let right = nodes.partition_point(|node| *node <= x).clamp(1, nodes.len() - 1);
+    let span = nodes[right] - nodes[right - 1];
+    let weight = if span > 0.0 { ((x - nodes[right - 1]) / span).clamp(0.0, 1.0) } else { 0.0 };
+    Some((right - 1, weight))
+}
+
+/// The value between `values[left]` and its right neighbour.
+pub fn between(values: &[f64], (left, weight): (usize, f64)) -> f64 {
+    let value = values[left];
+    if weight > 0.0 { value + weight * (values[left + 1] - value) } else { value }
+}
+
+/// Tooth whose pitch holds `x`, and `x` from that tooth's middle. Tooth 0 is centred at 0; beyond either end the outermost.
+pub fn tooth_at(x: f64, pitch: f64, teeth: usize) -> (usize, f64) {
+    if pitch <= 0.0 || teeth == 0 {
+        return (0, x);
+    }
+    let tooth = (x / pitch).round().clamp(0.0, (teeth - 1) as f64) as usize;
+    (tooth, x - tooth as f64 * pitch)
+}
+
+/// One plane of pressure as stored, with its mirror planes.
+pub struct Plane<'a> {
+    /// Nodes along x \[m\].
+    pub x: &'a [f64],
+    /// Nodes along y \[m\].
+    pub y: &'a [f64],
+    /// Absolute pressure \[Pa\], `[ix][iy]`.
+    pub values: &'a [f64],
+    /// Whether negative x mirrors positive x.
+    pub mirror_x: bool,
+    /// Whether negative y mirrors positive y.
+    pub mirror_y: bool,
+}
+
+impl<'a> Plane<'a> {
+    /// The map of `frame`, that of tooth 0 or in a transient of `tooth`; `None` if the recording has none.
+    pub fn of(recording: &'a Recording, tooth: usize, frame: usize) -> Option<Self> {
+        let size = recording.map_x.len() * recording.map_y.len();
+        let (maps, number) = match tooth.checked_sub(1) {
+            Some(other) if recording.transient => (&recording.other_pressure, other * recording.frames + frame),
+            _ => (&recording.pressure, frame),
+        };
+        let values = maps.get(number * size..(number + 1) * size)?;
+        (size > 0).then_some(Self {
+            x: &recording.map_x,
+            y: &recording.map_y,
+            values,
+            mirror_x: recording.half_length,
+            mirror_y: recording.half_width,
+        })
+    }
+
+    /// Adds `share` times the values along y at `x` to `out` (one for each stored y); false outside.
+    pub fn column(&self, x: f64, share: f64, out: &mut [f64]) -> bool {
+        let x = if self.mirror_x { x.abs() } else { x };
+        let Some((left, weight)) = locate(self.x, x) else { return false };
+        let ny = self.y.len();
+        let near = &self.values[left * ny..(left + 1) * ny];
+        let far = if weight > 0.0 { &self.values[(left + 1) * ny..(left + 2) * ny] } else { near };
+        for ((out, near), far) in out.iter_mut().zip(near).zip(far) {
+            *out += share * (near + weight * (far - near));
+        }
+        true
+    }
+
+    /// Where `y` lies in a column.
+    pub fn row(&self, y: f64) -> Option<(usize, f64)> {
+        locate(self.y, if self.mirror_y { y.abs() } else { y })
+    }
+}
+
+/// Greatest y of the full map \[m\]; 0 for a strip.
+pub fn half_width(recording: &Recording) -> f64 {
+    recording.map_y.last().copied().unwrap_or(0.0)
+}
+
+/// Two neighbouring frames and the weight of the second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pair {
+    first: usize,
+    second: usize,
+    weight: f64,
+}
+
+impl Pair {
+    /// The frames around `place`; of a transient the last stands until the cycle ends, because another cycle follows.
+    fn at(recording: &Recording, place: f64) -> Self {
+        let frames = recording.frames.max(1);
+        let place = place.rem_euclid(frames as f64);
+        let first = (place as usize).min(frames - 1);
+        if recording.transient && first + 1 == frames {
+            return Self { first, second: first, weight: 0.0 };
+        }
+        Self { first, second: (first + 1) % frames, weight: (place - first as f64).clamp(0.0, 1.0) }
+    }
+
+    /// That of tooth 0 which shows `tooth`.
+    fn lagged(recording: &Recording, tooth: usize, place: f64) -> Self {
+        let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
+        // Whole frames apart, so that a tooth a whole number of frames ahead is as exact as tooth 0.
+        let shift = tooth * frames;
+        Self::at(recording, place + (shift / teeth) as f64 + (shift % teeth) as f64 / teeth as f64)
+    }
+}
+
+/// How contact and gap exclude each other between two frames.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Touching {
+    /// Film thickness where the gap is closed \[m\].
+    pub min_spacing: f64,
+    /// Local compliance of the rotor \[m²/N\].
+    pub compliance: f64,
+}
+
+impl Touching {
+    /// That of `motor`.
+    pub fn of(motor: &Motor) -> Self {
+        Self { min_spacing: motor.min_spacing, compliance: motor.rotor.at(LOCAL) }
+    }
+
+    /// Gap \[m\] and contact line load \[N/m\] between (gap, load) of two frames, `weight` of the second.
+    ///
+    /// Where a node opens or closes, −compliance·load and the gap are two sides of one number, which passes 0 once: until
+    /// then there is contact, from then on a gap, never both.
+    fn between(self, [gap_0, load_0]: [f64; 2], [gap_1, load_1]: [f64; 2], weight: f64) -> [f64; 2] {
+        let mix = |a: f64, b: f64, share: f64| a + share.clamp(0.0, 1.0) * (b - a);
+        let (closed_0, closed_1) = (load_0 > 0.0, load_1 > 0.0);
+        if closed_0 == closed_1 {
+            return [mix(gap_0, gap_1, weight), mix(load_0, load_1, weight)];
+        }
+        // Part of the way at which the node opens, or closes.
+        let passes = |pressed: f64, open: f64| {
+            let sum = self.compliance * pressed + open;
+            if sum > 0.0 { self.compliance * pressed / sum } else { 1.0 }
+        };
+        let part = |from: f64, to: f64| if to > from { (weight - from) / (to - from) } else { f64::from(weight >= to) };
+        if closed_0 {
+            let opens = passes(load_0, gap_1);
+            [mix(gap_0, gap_1, part(opens, 1.0)), mix(load_0, load_1, part(0.0, opens))]
+        } else {
+            let closes = 1.0 - passes(load_1, gap_0);
+            [mix(gap_0, gap_1, part(0.0, closes)), mix(load_0, load_1, part(closes, 1.0))]
+        }
+    }
+}
+
+/// The lines of all teeth at one instant, `[tooth][node]`, in the units of the recording.
+#[derive(Debug, Default)]
+pub struct Lines {
+    nodes: usize,
+    /// Stator's displacement \[m\].
+    pub stator: Vec<f64>,
+    /// Film thickness \[m\].
+    pub film_thickness: Vec<f64>,
+    /// Contact line load \[N/m\].
+    pub contact: Vec<f64>,
+    /// Film's gauge line load \[N/m\].
+    pub film: Vec<f64>,
+}
+
+impl Lines {
+    /// Reads two frames of each tooth at most; a recorded frame as it is.
+    pub fn at(recording: &Recording, place: f64, touching: Touching) -> Self {
+        let nodes = recording.x.len();
+        let mut lines = Self { nodes, ..Self::default() };
+        let all_stored = recording.stored_teeth == recording.teeth;
+        for tooth in 0..recording.teeth {
+            let (stored, pair) = if all_stored {
+                (tooth, Pair::at(recording, place))
+            } else {
+                (0, Pair::lagged(recording, tooth, place))
+            };
+            let line = |frame: usize| {
+                let start = (stored * recording.frames + frame) * nodes;
+                start..start + nodes
+            };
+            lines.read(recording, line(pair.first), line(pair.second), pair.weight, touching);
+        }
+        lines
+    }
+
+    fn read(&mut self, recording: &Recording, first: Range<usize>, second: Range<usize>, weight: f64, how: Touching) {
+        if weight == 0.0 {
+            self.stator.extend_from_slice(&recording.stator[first.clone()]);
+            self.film_thickness.extend_from_slice(&recording.film_thickness[first.clone()]);
+            self.contact.extend_from_slice(&recording.contact[first.clone()]);
+            self.film.extend_from_slice(&recording.film[first]);
+            return;
+        }
+        for (i, j) in first.zip(second) {
+            let mix = |field: &[f64]| field[i] + weight * (field[j] - field[i]);
+            let state = |index: usize| [recording.film_thickness[index] - how.min_spacing, recording.contact[index]];
+            let [gap, contact] = how.between(state(i), state(j), weight);
+            self.stator.push(mix(&recording.stator));
+            self.film_thickness.push(how.min_spacing + gap);
+            self.contact.push(contact);
+            self.film.push(mix(&recording.film));
+        }
+    }
+
+    /// Where the nodes of `tooth` are.
+    pub fn of(&self, tooth: usize) -> Range<usize> {
+        tooth * self.nodes..(tooth + 1) * self.nodes
+    }
+}
+
+/// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth.
+pub fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, out: &mut [f64]) -> bool {
+    out.fill(0.0);
+    let Pair { first, second, weight } =
+        if recording.transient { Pair::at(recording, place) } else { Pair::lagged(recording, tooth, place) };
+    let Some(plane) = Plane::of(recording, tooth, first) else { return false };
+    if !plane.column(xi, 1.0 - weight, out) {
+        return false;
+    }
+    if weight > 0.0
+        && let Some(next) = Plane::of(recording, tooth, second)
+    {
+        next.column(xi, weight, out);
+    }
+    true
+}
+
+/// Pressure \[Pa\] at y = 0.
+pub fn middle_pressure(recording: &Recording, tooth: usize, xi: f64, place: f64) -> Option<f64> {
+    let row = Plane::of(recording, 0, 0)?.row(0.0)?;
+    let mut values = vec![0.0; recording.map_y.len()];
+    column(recording, tooth, xi, place, &mut values).then(|| between(&values, row))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::LineLoads;
+
+    #[test]
+    fn a_linear_function_is_read_exactly_on_a_graded_grid() {
+        let nodes = [-1.0, -0.9, -0.2, 0.5, 0.95, 1.0];
+        let values: Vec<f64> = nodes.iter().map(|x| 3.0 - 2.0 * x).collect();
+        for i in 0..=40 {
+            let x = -1.0 + 0.05 * f64::from(i);
+            let place = locate(&nodes, x).unwrap();
+            assert!((between(&values, place) - (3.0 - 2.0 * x)).abs() < 1e-12, "{x}");
+        }
+        assert_eq!(locate(&nodes, 1.01), None);
+        assert_eq!(locate(&nodes, -1.01), None);
+        assert_eq!(locate(&nodes, f64::NAN), None);
+        assert_eq!(locate(&[], 0.0), None);
+        assert_eq!(locate(&[0.0], 0.0), Some((0, 0.0)));
+    }
+
+    #[test]
+    fn a_tooth_is_hit_within_its_pitch() {
+        assert_eq!(tooth_at(0.4, 1.0, 9).0, 0);
+        assert_eq!(tooth_at(-0.5, 1.0, 9).0, 0);
+        let (tooth, xi) = tooth_at(3.25, 1.0, 9);
+        assert_eq!(tooth, 3);
+        assert!((xi - 0.25).abs() < 1e-12);
+        assert_eq!(tooth_at(8.6, 1.0, 9).0, 8);
+        assert_eq!(tooth_at(5.0, 10.0, 1), (0, 5.0));
+        assert_eq!(tooth_at(1.0, 0.0, 0), (0, 1.0));
+    }
+
+    fn recording(frames: usize, teeth: usize, half: bool) -> Recording {
+        let map_x = if half { vec![0.0, 0.3, 1.0] } else { vec![-1.0, 0.0, 1.0] };
+        let map_y = vec![0.0, 0.7, 1.0];
+        let mut pressure = Vec::new();
+        for frame in 0..frames {
+            for x in &map_x {
+                pressure.extend(map_y.iter().map(|y| frame as f64 + 10.0 * x + 100.0 * y));
+            }
+        }
+        let lines = LineLoads { frames, teeth, ..LineLoads::default() };
+        Recording { lines, map_x, map_y, pressure, half_width: true, half_length: half, ..Recording::default() }
+    }
+
+    #[test]
+    fn half_maps_are_mirrored() {
+        let plate = recording(1, 1, true);
+        let plane = Plane::of(&plate, 0, 0).unwrap();
+        let (mut left, mut right) = (vec![0.0; 3], vec![0.0; 3]);
+        assert!(plane.column(-0.6, 1.0, &mut left) && plane.column(0.6, 1.0, &mut right));
+        assert_eq!(left, right);
+        assert!((between(&left, plane.row(-0.5).unwrap()) - 56.0).abs() < 1e-9);
+        assert_eq!(plane.row(-0.5), plane.row(0.5));
+    }
+
+    #[test]
+    fn other_teeth_are_read_with_their_lag() {
+        let motor = recording(8, 4, false);
+        assert_eq!(Pair::lagged(&motor, 3, 4.0), Pair { first: 2, second: 3, weight: 0.0 });
+        assert_eq!(middle_pressure(&motor, 3, 0.5, 4.0), Some(7.0));
+        assert_eq!(middle_pressure(&motor, 3, 1.5, 4.0), None);
+        // 6 frames, 4 teeth: tooth 1 is a frame and a half ahead.
+        let uneven = recording(6, 4, false);
+        assert_eq!(Pair::lagged(&uneven, 1, 0.0), Pair { first: 1, second: 2, weight: 0.5 });
+        assert_eq!(middle_pressure(&uneven, 1, 0.0, 0.0), Some(1.5));
+        assert_eq!(middle_pressure(&uneven, 1, 0.0, 0.25), Some(1.75));
+        // Between the last frame, 5, and the first.
+        assert_eq!(middle_pressure(&uneven, 0, 0.0, 5.25), Some(3.75));
+        assert_eq!(middle_pressure(&Recording::default(), 0, 0.0, 0.0), None);
+    }
+
+    /// A wave that passes three teeth in six frames: all teeth stored, or one and its lag.
+    fn passing(stored_teeth: usize, frames: usize) -> Recording {
+        let teeth = 3;
+        let line = |tooth: usize, frame: usize| {
+            let phase = (frame as f64 / frames as f64 + tooth as f64 / 3.0).rem_euclid(1.0);
+            let wave = (std::f64::consts::TAU * phase).sin();
+            [(wave, 10.0 * wave), (2.0 * wave, 20.0 * wave)]
+        };
+        let lines = || (0..stored_teeth).flat_map(|t| (0..frames).flat_map(move |m| line(t, m)));
+        let stator = lines().map(|(wave, _)| -wave).collect();
+        let lines = LineLoads {
+            frames,
+            teeth,
+            stored_teeth,
+            x: vec![-1.0, 1.0],
+            film_thickness: lines().map(|(wave, _)| 0.5 + wave.max(0.0)).collect(),
+            contact: lines().map(|(_, load)| (-load).max(0.0)).collect(),
+            film: lines().map(|(_, load)| load).collect(),
+            ..LineLoads::default()
+        };
+        Recording { lines, stator, ..Recording::default() }
+    }
+
+    #[test]
+    fn a_recorded_frame_is_read_as_it_is() {
+        let recording = passing(1, 6);
+        let lines = Lines::at(&recording, 2.0, Touching { min_spacing: 0.5, compliance: 0.1 });
+        for tooth in 0..3 {
+            let offset = recording.line_offset(tooth, 2);
+            assert_eq!(lines.film_thickness[lines.of(tooth)], recording.film_thickness[offset..offset + 2]);
+            assert_eq!(lines.contact[lines.of(tooth)], recording.contact[offset..offset + 2]);
+        }
+    }
+
+    #[test]
+    fn between_frames_one_tooth_and_its_lag_are_what_all_teeth_stored_are() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let (one, all) = (passing(1, 6), passing(3, 6));
+        for place in [0.0, 0.3, 2.5, 5.9] {
+            let (a, b) = (Lines::at(&one, place, how), Lines::at(&all, place, how));
+            for (left, right) in [(&a.film_thickness, &b.film_thickness), (&a.contact, &b.contact), (&a.film, &b.film)]
+            {
+                assert_eq!(left.len(), 6);
+                assert!(left.iter().zip(right).all(|(x, y)| (x - y).abs() < 1e-12), "{place}: {left:?} {right:?}");
+            }
+        }
+        // Frames that the teeth do not divide: tooth 1 lies between two frames where tooth 0 lies on one.
+        let uneven = passing(1, 7);
+        let (place, lag) = (2.0, 7.0 / 3.0);
+        let (here, ahead) = (Lines::at(&uneven, place, how), Lines::at(&uneven, place + lag, how));
+        assert!(here.film[here.of(1)].iter().zip(&ahead.film[ahead.of(0)]).all(|(x, y)| (x - y).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_transient_does_not_run_back_into_its_beginning() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let repeating = passing(3, 6);
+        let once = Recording { transient: true, ..repeating.clone() };
+        let film = |recording: &Recording, place: f64| Lines::at(recording, place, how).film;
+        assert_eq!(film(&once, 5.7), film(&once, 5.0));
+        assert_ne!(film(&repeating, 5.7), film(&repeating, 5.0));
+        assert_eq!(film(&once, 2.5), film(&repeating, 2.5));
+        // Other teeth are not tooth 0 at another time: they have maps of their own.
+        let map = recording(8, 4, false);
+        let others = (1..4).flat_map(|tooth| map.pressure.iter().map(move |p| p + 1000.0 * f64::from(tooth))).collect();
+        let map = Recording { transient: true, other_pressure: others, ..map.clone() };
+        assert_eq!(middle_pressure(&map, 0, 0.5, 4.0), Some(9.0));
+        assert_eq!(middle_pressure(&map, 3, 0.5, 4.5), Some(3009.5));
+        assert_eq!(middle_pressure(&map, 3, 0.5, 7.5), Some(3012.0));
+    }
+
+    #[test]
+    fn contact_and_gap_exclude_each_other_between_frames_too() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let recording = passing(1, 6);
+        let (mut opened, mut before) = (0, Lines::at(&recording, 0.0, how));
+        for step in 0..=600 {
+            let lines = Lines::at(&recording, f64::from(step) / 100.0, how);
+            for (i, (thickness, contact)) in lines.film_thickness.iter().zip(&lines.contact).enumerate() {
+                let gap = thickness - 0.5;
+                assert!(gap >= -1e-12 && *contact >= 0.0);
+                assert!(gap.abs() < 1e-12 || *contact == 0.0, "step {step}, node {i}: gap {gap}, contact {contact}");
+                opened += usize::from(*contact > 0.0) ^ usize::from(before.contact[i] > 0.0);
+                // Nothing jumps: over a hundredth of a frame, at most what the steepest frame changes.
+                assert!((gap - (before.film_thickness[i] - 0.5)).abs() < 0.05, "step {step}");
+                assert!((contact - before.contact[i]).abs() < 0.5, "step {step}");
+            }
+            before = lines;
+        }
+        // Every node of every tooth opens once and closes once.
+        assert_eq!(opened, 12);
+        // Nodes that pass on which side they are at the second frame exactly, and values that exclude nothing.
+        assert_eq!(how.between([0.0, 2.0], [0.0, 0.0], 1.0), [0.0, 0.0]);
+        assert_eq!(Touching::default().between([0.1, 0.0], [0.3, 0.0], 0.5), [0.2, 0.0]);
+    }
+}

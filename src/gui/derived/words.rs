@@ -1,0 +1,211 @@
+//! Plain words for the keys of a scene and for the names it can choose from.
+
+use crate::plan::Decision;
+use crate::scene::{Parameter, Scene, Value};
+
+/// Names of the parameters, by key.
+const LABELS: &[(&str, &str)] = &[
+    ("name", "Name"),
+    ("about", "What this scene is"),
+    ("motor.contact_radius_mm", "Contact radius"),
+    ("motor.waves", "Waves round the ring"),
+    ("motor.load_per_wave_n", "Load on one wave"),
+    ("motor.dry_friction", "Dry friction coefficient"),
+    ("motor.rotor_speed_rpm", "Rotor speed"),
+    ("stator.frequency_khz", "Frequency"),
+    ("stator.normal_amplitude_um", "Normal amplitude"),
+    ("stator.tangential_amplitude_um", "Tangential amplitude"),
+    ("stator.teeth_per_wave", "Teeth on one wave"),
+    ("stator.tooth_width_mm", "Tooth width"),
+    ("stator.tooth_radius_m", "Tooth radius"),
+    ("rotor.contact_width_mm", "Contact width"),
+    ("rotor.model", "Compliance model"),
+    ("rotor.decay_length_mm", "Decay length"),
+    ("rotor.point_compliance_um_per_n", "Point compliance"),
+    ("rotor.local_compliance_m2_per_n", "Local compliance"),
+    ("rotor.compliance_csv", "Compliance from a CSV file"),
+    ("rotor.compliance", "Compliance table"),
+    ("plate.length_mm", "Length"),
+    ("plate.width_mm", "Width"),
+    ("plate.mean_gap_um", "Mean gap"),
+    ("plate.amplitude_um", "Amplitude"),
+    ("plate.frequency_khz", "Frequency"),
+    ("film.min_spacing_nm", "Minimum spacing H_m"),
+    ("film.ambient_pressure_kpa", "Ambient pressure"),
+    ("film.viscosity_upa_s", "Viscosity"),
+    ("film.mean_free_path_nm", "Mean free path"),
+    ("film.slip", "Slip at the walls"),
+    ("film.shear", "Sliding drags gas along"),
+    ("numerics.film_nodes_along", "Film nodes along"),
+    ("numerics.film_nodes_across", "Film nodes across"),
+    ("numerics.contact_nodes", "Contact nodes"),
+    ("numerics.steps_per_cycle", "Steps in a cycle"),
+    ("numerics.tolerance", "Tolerance of a cycle"),
+    ("numerics.wedge", "Wedge term"),
+    ("numerics.teeth", "Teeth solved"),
+    ("numerics.width", "Width solved"),
+    ("numerics.flow", "Flow of the film"),
+    ("numerics.time", "Leaking in time"),
+];
+
+/// What the checkbox of an optional parameter says, by key.
+const SWITCHES: &[(&str, &str)] = &[
+    ("stator.tooth_radius_m", "Crowned teeth"),
+    ("plate.width_mm", "Finite width"),
+    ("numerics.film_nodes_along", "Set film nodes along"),
+    ("numerics.film_nodes_across", "Set film nodes across"),
+    ("numerics.contact_nodes", "Set contact nodes"),
+    ("numerics.steps_per_cycle", "Set steps in a cycle"),
+    ("numerics.tolerance", "Set tolerance of a cycle"),
+];
+
+/// Plain words for the names of choices, by key and name.
+const CHOICES: &[(&str, &str, &str)] = &[
+    ("rotor.model", "beam", "Beam on a foundation"),
+    ("rotor.model", "table", "Table from a file"),
+    ("film.slip", "none", "No slip"),
+    ("film.slip", "first-order", "First order"),
+    ("film.slip", "second-order", "Second order"),
+    ("film.slip", "fukui-kaneko", "Fukui and Kaneko"),
+    ("numerics.wedge", "auto", AUTO),
+    ("numerics.wedge", "on", "Solved"),
+    ("numerics.wedge", "off", "Left out"),
+    ("numerics.teeth", "auto", AUTO),
+    ("numerics.teeth", "one", "One"),
+    ("numerics.teeth", "all", "All"),
+    ("numerics.width", "auto", AUTO),
+    ("numerics.width", "half", "Half"),
+    ("numerics.width", "full", "Full"),
+    ("numerics.flow", "auto", AUTO),
+    ("numerics.flow", "plane", "Plane"),
+    ("numerics.flow", "across", "Across"),
+    ("numerics.flow", "along", "Along"),
+    ("numerics.time", "auto", AUTO),
+    ("numerics.time", "march", "Marched"),
+    ("numerics.time", "trapped", "None, gas trapped"),
+];
+
+/// The choice that leaves it to the plan.
+const AUTO: &str = "Automatic";
+/// What the scene says for it.
+const AUTO_NAME: &str = "auto";
+
+fn find(table: &'static [(&'static str, &'static str)], key: &str) -> Option<&'static str> {
+    table.iter().find(|(found, _)| *found == key).map(|(_, words)| *words)
+}
+
+/// The name of a parameter; its key if it has none, which a test excludes.
+pub fn label(parameter: &Parameter) -> &'static str {
+    find(LABELS, parameter.key).unwrap_or(parameter.key)
+}
+
+/// What the checkbox of an optional parameter says.
+pub fn switch(parameter: &Parameter) -> &'static str {
+    find(SWITCHES, parameter.key).unwrap_or_else(|| label(parameter))
+}
+
+/// Plain words for one name of a choice; the name itself if there are none.
+pub fn choice<'a>(key: &str, name: &'a str) -> &'a str {
+    CHOICES.iter().find(|(found, option, _)| *found == key && *option == name).map_or(name, |(_, _, words)| *words)
+}
+
+/// As [`choice`]; of what is left to the plan, also what `plan` has chosen: "Auto: left out".
+pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
+    let found = plan.iter().find(|decision| decision.key() == Some(key));
+    match found {
+        Some(decision) if name == AUTO_NAME => automatic(key, decision.value()),
+        _ => choice(key, name).to_owned(),
+    }
+}
+
+/// That the plan has chosen this.
+pub fn automatic(key: &str, name: &str) -> String {
+    format!("Auto: {}", uncapitalised(choice(key, name)))
+}
+
+fn uncapitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
+}
+
+/// The accessible name of the field in which a value is typed, beside the slider that carries the label.
+pub fn field_name(parameter: &Parameter) -> String {
+    match parameter.unit {
+        "" => format!("{} as a number", label(parameter)),
+        unit => format!("{} in {unit}", label(parameter)),
+    }
+}
+
+/// What the user should know about a parameter that has no effect here.
+pub fn unused(scene: &Scene, parameter: &Parameter) -> Option<&'static str> {
+    match parameter.key {
+        key if !scene.heeds(key) => Some("No effect on a plate"),
+        "numerics.contact_nodes" => Some("Only for squeezefilm solve --method paper"),
+        _ => None,
+    }
+}
+
+/// The explanation shown when the pointer rests on a parameter: meaning, range, default, key.
+pub fn explanation(scene: &Scene, parameter: &Parameter, default: Option<&Value>) -> String {
+    let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
+    let mut text = parameter.about.to_owned();
+    if let Some(range) = scene.range(parameter.key) {
+        text.push_str(&format!("\n{} to {}{unit}", short(range.min), short(range.max)));
+    }
+    match (parameter.absent, default) {
+        (Some(meaning), _) => text.push_str(&format!("\nDefault {meaning}")),
+        (None, Some(Value::Text(name))) => {
+            text.push_str(&format!("\nDefault {}", choice(parameter.key, name)));
+        }
+        (None, Some(Value::Flag(on))) => text.push_str(if *on { "\nDefault on" } else { "\nDefault off" }),
+        (None, Some(value)) => text.push_str(&format!("\nDefault {value}{unit}")),
+        (None, None) => {}
+    }
+    text.push_str(&format!("\n{}", parameter.key));
+    text
+}
+
+/// A bound of a range, to at most five digits.
+fn short(value: f64) -> String {
+    let rounded = super::format::to_digits(value, 5, f64::round);
+    Value::Number(rounded).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Choice;
+    use crate::problem::Wedge;
+    use crate::scene::{PARAMETERS, ParameterKind};
+
+    #[test]
+    fn every_parameter_has_a_label() {
+        for parameter in PARAMETERS {
+            assert!(find(LABELS, parameter.key).is_some(), "{}", parameter.key);
+            assert_eq!(find(SWITCHES, parameter.key).is_some(), parameter.absent.is_some(), "{}", parameter.key);
+            if let ParameterKind::Choice { options, .. } = parameter.kind {
+                for option in options {
+                    assert_ne!(choice(parameter.key, option), *option, "{}", parameter.key);
+                }
+            }
+        }
+        for (key, _) in LABELS.iter().chain(SWITCHES) {
+            assert!(Parameter::find(key).is_some(), "{key}");
+        }
+    }
+
+    #[test]
+    fn what_is_left_to_the_plan_says_what_the_plan_chose() {
+        let plan = [Decision { chosen: Choice::Wedge(Wedge::Off), overruled: false, effect: 1e-3, weighed: None }];
+        assert_eq!(chosen("numerics.wedge", "auto", &plan), "Auto: left out");
+        assert_eq!(chosen("numerics.wedge", "on", &plan), "Solved");
+        assert_eq!(chosen("numerics.time", "auto", &plan), "Automatic");
+    }
+
+    #[test]
+    fn labels_are_sentence_case_without_colons() {
+        for words in LABELS.iter().chain(SWITCHES).map(|(_, words)| *words).chain(CHOICES.iter().map(|c| c.2)) {
+            assert!(words.starts_with(char::is_uppercase) && !words.contains(':'), "{words}");
+        }
+    }
+}

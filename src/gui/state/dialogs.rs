@@ -1,0 +1,132 @@
+//! What file dialogs are for, what came of one, and what can be exported.
+
+use std::path::PathBuf;
+
+/// What can be written to a file, or into a folder, of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Export {
+    /// All results of the run on screen, as `solve --out` writes them.
+    Data,
+    /// The figures of the run on screen, in every format.
+    Figures,
+    /// The fields of the run on screen as a NumPy archive.
+    Fields,
+    /// The cycle of the run on screen as moving pictures.
+    Animation,
+    /// A report of the run on screen.
+    Report,
+    /// All that `compare --out` writes of the pinned runs.
+    Comparison,
+    /// A report of the pinned runs.
+    ComparisonReport,
+    /// The points of the sweep as a table.
+    SweepTable,
+    /// The sweep as a figure.
+    SweepFigure,
+    /// All that `sweep --out` writes.
+    Sweep,
+    /// The measured trade-off as a table.
+    TradeoffTable,
+    /// The measured trade-off as a figure.
+    TradeoffFigure,
+}
+
+impl Export {
+    /// What its file is called at first.
+    pub fn file_name(self) -> &'static str {
+        match self {
+            Self::Data => "results",
+            Self::Figures => "figures",
+            Self::Fields => "fields.npz",
+            Self::Animation => "cycle.gif",
+            Self::Report | Self::ComparisonReport => "report.html",
+            Self::Comparison => "comparison",
+            Self::SweepTable => "sweep.csv",
+            Self::SweepFigure => "sweep.svg",
+            Self::Sweep => "sweep",
+            Self::TradeoffTable => "tradeoff.csv",
+            Self::TradeoffFigure => "tradeoff.svg",
+        }
+    }
+
+    /// What is asked.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Data => "Export all results into a folder",
+            Self::Figures => "Export the figures as SVG, PNG and PDF into a folder",
+            Self::Fields => "Export the fields as a NumPy archive",
+            Self::Animation => "Export the animation as GIF, MP4 or animated PNG",
+            Self::Report => "Export a report of this run as HTML",
+            Self::Comparison => "Export the comparison into a folder",
+            Self::ComparisonReport => "Export a report of the pinned runs as HTML",
+            Self::Sweep => "Export the sweep into a folder",
+            Self::SweepTable | Self::TradeoffTable => "Export the table as CSV",
+            Self::SweepFigure | Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
+        }
+    }
+
+    /// What is written, for whoever has to choose.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Data => {
+                "Everything about the run on screen: the scene, the numbers as JSON, loads and fields as CSV and NumPy arrays, and all figures"
+            }
+            Self::Figures => "The figures of the run on screen as SVG, PNG and PDF, ready to print",
+            Self::Fields => "All fields over one cycle as NumPy arrays in one file, .npz",
+            Self::Animation => "One cycle as moving pictures: a GIF, or an animated PNG with all colours",
+            Self::Report => "One HTML file with the numbers and figures of this run; it opens without a network",
+            Self::Comparison => "The report, tables, overlaid figures and one cycle in phase of the pinned runs",
+            Self::ComparisonReport => {
+                "One HTML file with what differs between the pinned runs; it opens without a network"
+            }
+            Self::Sweep => "The scene, the table as CSV and JSON, and the figure of the sweep",
+            Self::SweepTable => "A row for each point, with every result and its error",
+            Self::SweepFigure => "The sweep as it is drawn here, with the published points",
+            Self::TradeoffTable => "A row for each setting, with its time and its error",
+            Self::TradeoffFigure => "Error against solve time of all settings, as it is drawn here",
+        }
+    }
+
+    /// Kind of file and its extensions; `None` for a folder.
+    pub fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
+        match self {
+            Self::Data | Self::Figures | Self::Comparison | Self::Sweep => None,
+            Self::Fields => Some(("NumPy archive", &["npz"])),
+            Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
+            Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
+            Self::SweepTable | Self::TradeoffTable => Some(("Table", &["csv"])),
+            Self::SweepFigure | Self::TradeoffFigure => Some(("Figure", &["svg", "png", "pdf"])),
+        }
+    }
+
+    /// Whether it is several files, which go into a folder.
+    pub fn is_folder(self) -> bool {
+        self.filter().is_none()
+    }
+}
+
+/// What a dialog is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Open a preset.
+    Open,
+    /// Save the preset.
+    Save,
+    /// Save a picture of the window.
+    Screenshot,
+    /// Export results.
+    Export(Export),
+    /// Open a folder of lessons.
+    Lessons,
+}
+
+/// What came of a dialog.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// A file was chosen.
+    Path(PathBuf),
+    /// The dialog was closed.
+    Cancelled,
+    /// There was no dialog: the path has to be typed.
+    NoDialog,
+}

@@ -1,0 +1,222 @@
+//! The scene being edited: its file, its history of edits, and whether anything is unsaved.
+
+use crate::fidelity::Fidelity;
+use crate::scene::{Scene, SceneError, presets};
+use std::path::{Path, PathBuf};
+
+/// Edits that can be taken back.
+const HISTORY: usize = 500;
+/// Edits are solved up to this fidelity, unless another is asked for.
+const TARGET: Fidelity = Fidelity::Fine;
+
+/// What comes after the present scene; unsaved changes of that would be lost.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Next {
+    /// A built-in preset.
+    Preset(&'static str),
+    /// The preset in a file.
+    File(PathBuf),
+    /// The window closes.
+    Quit,
+}
+
+/// A scene and where it came from.
+#[derive(Clone, Debug)]
+pub struct Document {
+    scene: Scene,
+    target: Fidelity,
+    saved: Scene,
+    path: Option<PathBuf>,
+    undo: Vec<(Scene, Fidelity)>,
+    redo: Vec<(Scene, Fidelity)>,
+    /// The parameter that a pointer is dragging: its edits are one.
+    dragging: Option<&'static str>,
+    /// Whether a lesson has set it up to try things on: it is never saved, and nothing is lost with it.
+    practice: bool,
+}
+
+impl Document {
+    /// A scene as it was opened, from a file or built in.
+    pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {
+        let saved = scene.clone();
+        Self { saved, scene, target: TARGET, path, undo: Vec::new(), redo: Vec::new(), dragging: None, practice: false }
+    }
+
+    /// A scene to try things on: it never counts as unsaved.
+    pub fn practice(scene: Scene) -> Self {
+        Self { practice: true, ..Self::opened(scene, None) }
+    }
+
+    /// Whether it is there to try things on.
+    pub fn is_practice(&self) -> bool {
+        self.practice
+    }
+
+    /// The same, solved up to this fidelity.
+    pub fn with_target(self, target: Fidelity) -> Self {
+        Self { target, ..self }
+    }
+
+    /// A scene that outlived its window: unsaved if it differs from what its file or preset says.
+    pub fn restored(scene: Scene, saved: Scene, path: Option<PathBuf>) -> Self {
+        Self { saved, ..Self::opened(scene, path) }
+    }
+
+    /// The fundamental case.
+    ///
+    /// # Errors
+    /// Never: the preset is built in and tested.
+    pub fn fundamental() -> Result<Self, SceneError> {
+        Ok(Self::opened(presets::find("fundamental")?, None))
+    }
+
+    /// The scene as edited.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The last fidelity that an edit is solved at: part of the history, not of the file.
+    pub fn target(&self) -> Fidelity {
+        self.target
+    }
+
+    /// The scene as it was opened or last saved.
+    pub fn saved(&self) -> &Scene {
+        &self.saved
+    }
+
+    /// The file, if it has one.
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// Whether there are unsaved changes.
+    pub fn is_dirty(&self) -> bool {
+        !self.practice && self.scene != self.saved
+    }
+
+    /// Replaces the scene by an edited one. Edits of one `dragging` parameter are undone together.
+    pub fn edit(&mut self, next: Scene, key: &'static str, dragging: bool) {
+        if next != self.scene {
+            if self.dragging != Some(key) {
+                self.remember();
+            }
+            self.scene = next;
+            self.redo.clear();
+            self.dragging = dragging.then_some(key);
+        } else if !dragging {
+            self.dragging = None;
+        }
+    }
+
+    /// Replaces the scene and what it is solved up to: one edit. Whether anything changed.
+    pub fn change(&mut self, next: Scene, target: Fidelity) -> bool {
+        let changed = next != self.scene || target != self.target;
+        if changed {
+            self.remember();
+            (self.scene, self.target) = (next, target);
+            self.redo.clear();
+        }
+        self.dragging = None;
+        changed
+    }
+
+    fn remember(&mut self) {
+        self.undo.push((self.scene.clone(), self.target));
+        if self.undo.len() > HISTORY {
+            self.undo.remove(0);
+        }
+    }
+
+    /// Takes the last edit back; whether there was one.
+    pub fn undo(&mut self) -> bool {
+        self.dragging = None;
+        let Some((scene, target)) = self.undo.pop() else { return false };
+        let now = (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target));
+        self.redo.push(now);
+        true
+    }
+
+    /// Makes the last undone edit again; whether there was one.
+    pub fn redo(&mut self) -> bool {
+        self.dragging = None;
+        let Some((scene, target)) = self.redo.pop() else { return false };
+        let now = (std::mem::replace(&mut self.scene, scene), std::mem::replace(&mut self.target, target));
+        self.undo.push(now);
+        true
+    }
+
+    /// Whether there is anything to undo.
+    pub fn can_undo(&self) -> bool {
+        !self.undo.is_empty()
+    }
+
+    /// Whether there is anything to redo.
+    pub fn can_redo(&self) -> bool {
+        !self.redo.is_empty()
+    }
+
+    /// Saves to `path` (a temporary name, then renamed).
+    ///
+    /// # Errors
+    /// If the file cannot be written; nothing changes then.
+    pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
+        self.scene.save(path)?;
+        self.saved = self.scene.clone();
+        self.path = Some(path.to_path_buf());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with_spacing(document: &Document, nanometres: &str) -> Scene {
+        let mut scene = document.scene().clone();
+        scene.set("film.min_spacing_nm", nanometres).unwrap();
+        scene
+    }
+
+    #[test]
+    fn one_drag_is_one_edit() {
+        let mut document = Document::fundamental().unwrap();
+        let original = document.scene().clone();
+        for spacing in ["190", "180", "170"] {
+            document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", true);
+        }
+        document.edit(with_spacing(&document, "170"), "film.min_spacing_nm", false);
+        document.edit(with_spacing(&document, "100"), "film.min_spacing_nm", false);
+        assert!(document.is_dirty() && document.can_undo());
+        assert!(document.undo());
+        assert_eq!(document.scene(), &with_spacing(&document, "170"));
+        assert!(document.undo());
+        assert_eq!(document.scene(), &original);
+        assert!(!document.undo() && !document.is_dirty());
+        assert!(document.redo() && document.redo() && !document.redo());
+        assert_eq!(document.scene(), &with_spacing(&document, "100"));
+    }
+
+    #[test]
+    fn what_it_is_solved_up_to_is_an_edit_but_not_saved() {
+        let mut document = Document::fundamental().unwrap();
+        assert!(document.change(document.scene().clone(), Fidelity::Draft));
+        assert!(!document.change(document.scene().clone(), Fidelity::Draft));
+        assert!(!document.is_dirty() && document.target() == Fidelity::Draft);
+        assert!(document.undo() && document.target() == TARGET);
+        assert!(document.redo() && document.target() == Fidelity::Draft);
+    }
+
+    #[test]
+    fn saving_clears_the_mark_and_a_failed_save_changes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut document = Document::fundamental().unwrap();
+        document.edit(with_spacing(&document, "90"), "film.min_spacing_nm", false);
+        assert!(document.save(&folder.path().join("no/such/folder/a.toml")).is_err());
+        assert!(document.is_dirty() && document.path().is_none());
+        let path = folder.path().join("a.toml");
+        document.save(&path).unwrap();
+        assert!(!document.is_dirty());
+        assert_eq!(&Scene::load(&path).unwrap(), document.scene());
+    }
+}

@@ -1,0 +1,96 @@
+//! An edit of one parameter, and the edits that were rejected.
+
+use crate::scene::{Scene, SceneError, Value};
+use std::collections::BTreeMap;
+
+/// What happens to a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// It is set.
+    Value(Value),
+    /// It is set to what was typed.
+    Text(String),
+    /// It is removed.
+    Unset,
+}
+
+impl Change {
+    /// `scene` with `key` changed.
+    ///
+    /// # Errors
+    /// If the value is not allowed, or not together with the other keys.
+    pub fn applied(&self, scene: &Scene, key: &str) -> Result<Scene, SceneError> {
+        let mut next = scene.clone();
+        match self {
+            Self::Value(value) => next.set_value(key, value.clone())?,
+            Self::Text(text) => next.set(key, text)?,
+            Self::Unset => next.unset(key)?,
+        }
+        next.check()?;
+        Ok(next)
+    }
+}
+
+/// Edits that were rejected, by key, and why: shown at the parameter until it is corrected, or until the reason is gone.
+#[derive(Clone, Debug, Default)]
+pub struct RejectedEdits(BTreeMap<&'static str, (Change, String)>);
+
+impl RejectedEdits {
+    /// Why the last edit of `key` was rejected.
+    pub fn of(&self, key: &str) -> Option<&str> {
+        self.0.get(key).map(|(_, message)| message.as_str())
+    }
+
+    /// Remembers a rejected change.
+    pub fn reject(&mut self, key: &'static str, change: Change, message: String) {
+        self.0.insert(key, (change, message));
+    }
+
+    /// Forgets the rejected edit of `key`.
+    pub fn accept(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// The scene has changed: what it would no longer refuse is dropped, and the other reasons are given anew.
+    pub fn review(&mut self, scene: &Scene) {
+        self.0.retain(|key, (change, message)| match change.applied(scene, key) {
+            Ok(_) => false,
+            Err(error) => {
+                *message = error.to_string();
+                true
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refusal_goes_when_its_cause_is_gone() {
+        let mut scene = Scene::motor();
+        let mut rejected = RejectedEdits::default();
+        let (radius, viscosity) = ("motor.contact_radius_mm", "film.viscosity_upa_s");
+        for (key, value) in [(radius, 5.0), (viscosity, 0.0)] {
+            let change = Change::Value(Value::Number(value));
+            let error = change.applied(&scene, key).unwrap_err();
+            rejected.reject(key, change, error.to_string());
+        }
+        assert!(rejected.of(radius).unwrap().contains("of the tooth pitch"));
+        // A little narrower: other numbers in the reason. Much narrower: no reason left.
+        let before = rejected.of(radius).unwrap().to_owned();
+        scene.set("stator.tooth_width_mm", "1").unwrap();
+        rejected.review(&scene);
+        assert_ne!(rejected.of(radius).unwrap(), before);
+        scene.set("stator.tooth_width_mm", "0.3").unwrap();
+        rejected.review(&scene);
+        assert_eq!(rejected.of(radius), None);
+        assert!(rejected.of(viscosity).is_some(), "that one is out of range whatever else holds");
+    }
+}

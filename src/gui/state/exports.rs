@@ -1,0 +1,87 @@
+//! An export under way, or what the last one wrote.
+
+use super::dialogs::Export;
+use crate::job::task::{News, Task};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// The work of an export: it tells how many pictures are drawn, of how many, and returns what was written, or why nothing
+/// was; nothing at all if it was cancelled.
+pub type ExportTask = Task<(usize, usize), Result<Vec<PathBuf>, Option<String>>>;
+
+/// An export under way.
+#[derive(Debug)]
+pub struct RunningExport {
+    /// What is written.
+    pub export: Export,
+    task: ExportTask,
+    /// When it began.
+    pub started: Instant,
+    /// How many pictures are drawn, of how many.
+    pub drawn: (usize, usize),
+    /// Whether it was told to end.
+    pub cancelled: bool,
+}
+
+/// All that the window knows of exports.
+#[derive(Debug, Default)]
+pub struct ExportState {
+    running: Option<RunningExport>,
+    written: Option<Vec<PathBuf>>,
+}
+
+impl ExportState {
+    /// The one under way.
+    pub fn running(&self) -> Option<&RunningExport> {
+        self.running.as_ref()
+    }
+
+    /// What the last one wrote.
+    pub fn written(&self) -> Option<&[PathBuf]> {
+        self.written.as_deref()
+    }
+
+    /// One has begun.
+    pub fn begin(&mut self, export: Export, task: ExportTask, started: Instant) {
+        self.written = None;
+        self.running = Some(RunningExport { export, task, started, drawn: (0, 0), cancelled: false });
+    }
+
+    /// One ended at once.
+    pub fn wrote(&mut self, paths: Vec<PathBuf>) {
+        self.written = Some(paths);
+    }
+
+    /// Asks the one under way to end; nothing is written.
+    pub fn cancel(&mut self) {
+        if let Some(running) = &mut self.running {
+            running.task.cancel();
+            running.cancelled = true;
+        }
+    }
+
+    /// What the last one wrote has been read.
+    pub fn close(&mut self) {
+        self.written = None;
+    }
+
+    /// Takes what has been told since the last time; an error is to be shown.
+    pub fn drain(&mut self) -> Option<String> {
+        let running = self.running.as_mut()?;
+        let News { messages, end } = running.task.drain();
+        for (drawn, all) in messages {
+            // Several threads count: the last to tell need not have counted last.
+            running.drawn = (drawn.max(running.drawn.0), all);
+        }
+        let end = end?;
+        self.running = None;
+        match end {
+            Ok(Ok(paths)) => {
+                self.written = Some(paths);
+                None
+            }
+            Ok(Err(reason)) => reason,
+            Err(panic) => Some(format!("The export failed; nothing was written: {panic}")),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! All that the window knows: plain data, and how each part of it changes. Nothing is drawn here, and no work is started.
+
+pub mod activity;
+pub mod dialogs;
+pub mod document;
+pub mod edits;
+pub mod exports;
+pub mod hold;
+pub mod lessons;
+pub mod modal;
+pub mod pins;
+pub mod startup;
+pub mod sweep;
+pub mod switch_effect;
+pub mod torque;
+pub mod tour;
+pub mod tradeoff;
+pub mod view;
+pub mod window;

@@ -1,0 +1,45 @@
+//! What is in the way until it is answered: an error, a question, a path to type.
+
+use super::dialogs::Purpose;
+use super::document::Next;
+
+/// A modal.
+#[derive(Clone, Debug)]
+pub enum Modal {
+    /// Something went wrong; nothing changed.
+    Error(String),
+    /// Unsaved changes of this scene.
+    Unsaved {
+        /// The scene's name.
+        name: String,
+        /// What would lose them.
+        next: Next,
+    },
+    /// A path to type.
+    Path(PathPrompt),
+}
+
+/// A path, and what it may be used for.
+#[derive(Clone, Debug)]
+pub struct PathPrompt {
+    /// What it may be used for, the first by Enter.
+    pub purposes: Vec<Purpose>,
+    /// What is typed so far.
+    pub path: String,
+    /// Whether it stands in for a file dialog that could not be shown.
+    pub no_dialog: bool,
+    /// Whether it has not been drawn yet.
+    pub fresh: bool,
+}
+
+impl PathPrompt {
+    /// A prompt that was asked for.
+    pub fn asked(purposes: &[Purpose], path: String) -> Self {
+        Self { purposes: purposes.to_vec(), path, no_dialog: false, fresh: true }
+    }
+
+    /// A prompt in place of a file dialog that could not be shown.
+    pub fn instead_of_dialog(purpose: Purpose, path: String) -> Self {
+        Self { purposes: vec![purpose], path, no_dialog: true, fresh: true }
+    }
+}

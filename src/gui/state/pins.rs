@@ -1,0 +1,379 @@
+//! Runs that were pinned to be compared: what they are called, their colours, and the numbers of all of them. Their scenes
+//! outlive the window, and are solved again.
+
+use crate::analysis::compare::{ParameterRow, ResultRow, Run, parameters, results, unique};
+use crate::fidelity::Fidelity;
+use crate::gui::derived::scales::RunCurves;
+use crate::job::task::Task;
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// What is shown of the pins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Page {
+    /// Their fields, in motion.
+    #[default]
+    Fields,
+    /// Their parameters and results.
+    Numbers,
+}
+
+/// One pinned run, beside its entry in [`Pins::runs`].
+#[derive(Debug)]
+pub struct Pin {
+    /// Its own number, which no other pin ever has.
+    pub id: u64,
+    /// Which colour.
+    pub slot: usize,
+    /// Scales and curves of its cycle.
+    pub curves: RunCurves,
+}
+
+/// The solve of a pin; it returns nothing if it was cancelled.
+pub type PinTask = Task<(), Option<Run>>;
+
+/// A pin that is being solved, or will be: a preset, or one of the last window.
+#[derive(Debug)]
+pub struct Waiting {
+    /// Its own number, which is that of its pin.
+    pub id: u64,
+    /// What it is called, or will be.
+    pub name: String,
+    scene: Scene,
+    fidelity: Fidelity,
+    /// The colour that it had.
+    slot: Option<usize>,
+    /// None: its turn has not come.
+    task: Option<PinTask>,
+}
+
+/// A pin as it outlives the window.
+#[derive(Debug, Serialize, Deserialize)]
+struct Stored {
+    label: String,
+    slot: Option<usize>,
+    fidelity: String,
+    /// As a preset file has it.
+    scene: String,
+}
+
+impl Stored {
+    fn read(&self) -> Result<(Scene, Fidelity), String> {
+        let fidelity = self.fidelity.parse()?;
+        let scene = Scene::from_toml(&self.scene, &self.label).map_err(|error| error.to_string())?;
+        Ok((scene, fidelity))
+    }
+}
+
+/// What became of a request.
+#[derive(Debug)]
+pub enum Note {
+    /// Nothing is wrong.
+    Remark(String),
+    /// It could not be done.
+    Failure(String),
+}
+
+/// All pins, the first being what differences are from.
+#[derive(Debug, Default)]
+pub struct Pins {
+    pins: Vec<Pin>,
+    runs: Vec<Run>,
+    results: Vec<ResultRow>,
+    parameters: Vec<ParameterRow>,
+    waiting: Vec<Waiting>,
+    next: u64,
+    /// What is shown.
+    pub page: Page,
+    /// Whether parameters are listed that do not differ.
+    pub all_parameters: bool,
+    note: Option<Note>,
+}
+
+impl Pins {
+    /// The pins, in the order of [`Self::runs`].
+    pub fn pins(&self) -> &[Pin] {
+        &self.pins
+    }
+
+    /// The pinned runs.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Their numbers, computed when the pins change.
+    pub fn results(&self) -> &[ResultRow] {
+        &self.results
+    }
+
+    /// Their parameters.
+    pub fn parameters(&self) -> &[ParameterRow] {
+        &self.parameters
+    }
+
+    /// Those that are being solved, or will be.
+    pub fn waiting(&self) -> &[Waiting] {
+        &self.waiting
+    }
+
+    /// What became of the last request, if that cannot be seen.
+    pub fn note(&self) -> Option<&Note> {
+        self.note.as_ref()
+    }
+
+    /// A pin by its number.
+    pub fn run(&self, id: u64) -> Option<&Run> {
+        Some(&self.runs[self.place(id)?])
+    }
+
+    fn place(&self, id: u64) -> Option<usize> {
+        self.pins.iter().position(|pin| pin.id == id)
+    }
+
+    fn number(&mut self) -> u64 {
+        self.next += 1;
+        self.next
+    }
+
+    /// Pins `run`; one that is there already, solved the same way, is not pinned twice.
+    pub fn add(&mut self, run: Run) {
+        let id = self.number();
+        self.insert(id, None, run);
+    }
+
+    /// Pins `run` under its own number, in the order of the numbers. `stored`: what it was called, and its colour.
+    fn insert(&mut self, id: u64, stored: Option<(String, usize)>, mut run: Run) {
+        let twin = self.runs.iter().find(|other| other.scene == run.scene && fidelity(other) == fidelity(&run));
+        if let Some(twin) = twin {
+            self.note = Some(Note::Remark(format!("“{}” is this run already", twin.label)));
+            return;
+        }
+        self.note = run.solved.as_ref().err().map(|reason| Note::Failure(format!("{}: {reason}", run.label)));
+        if run.solved.is_err() {
+            return;
+        }
+        let taken = |slot: usize| {
+            self.pins.iter().any(|pin| pin.slot == slot) || self.waiting.iter().any(|other| other.slot == Some(slot))
+        };
+        let slot = match stored {
+            Some((label, slot)) => {
+                run.label = unique(&label, |label| self.runs.iter().any(|other| other.label == label));
+                slot
+            }
+            None => {
+                run.label = self.name_of(&run);
+                (0..).find(|slot| !taken(*slot)).unwrap_or_default()
+            }
+        };
+        let place = self.pins.partition_point(|pin| pin.id < id);
+        self.pins.insert(place, Pin { id, slot, curves: RunCurves::new(&run) });
+        self.runs.insert(place, run);
+        self.tabulate();
+    }
+
+    /// What it is called, or the scene's name and what it differs in from a pin of that name.
+    fn name_of(&self, run: &Run) -> String {
+        let name = &run.scene.name;
+        let taken = |label: &str| self.runs.iter().any(|other| other.label == label);
+        let namesake = self.runs.iter().find(|other| other.scene.name == *name);
+        if let Some(other) = namesake.filter(|_| taken(name)) {
+            let differing: Vec<String> = parameters(&[&other.scene, &run.scene])
+                .iter()
+                .filter(|row| row.differs())
+                .map(|row| {
+                    let value = row.values[1].as_ref().map_or_else(|| "none".to_owned(), ToString::to_string);
+                    format!("{} {value} {}", row.parameter.words(), row.parameter.unit).trim_end().to_owned()
+                })
+                .collect();
+            match &differing[..] {
+                [] => return unique(&format!("{name}, {}", fidelity(run)), taken),
+                [_] | [_, _] => return unique(&format!("{name}, {}", differing.join(", ")), taken),
+                _ => {}
+            }
+        }
+        unique(&run.label, taken)
+    }
+
+    /// Waits for `task`, which solves this scene.
+    pub fn wait(&mut self, scene: Scene, fidelity: Fidelity, task: PinTask) {
+        let id = self.number();
+        self.note = None;
+        let name = scene.name.clone();
+        self.waiting.push(Waiting { id, name, scene, fidelity, slot: None, task: Some(task) });
+    }
+
+    /// All pins as text, also those that are still to be solved.
+    pub fn stored(&self) -> String {
+        let pinned = self.pins.iter().zip(&self.runs).map(|(pin, run)| {
+            let (label, scene) = (run.label.clone(), run.scene.to_toml());
+            (pin.id, Stored { label, slot: Some(pin.slot), fidelity: fidelity(run).to_owned(), scene })
+        });
+        let waiting = self.waiting.iter().map(|waiting| {
+            let (label, scene) = (waiting.name.clone(), waiting.scene.to_toml());
+            (waiting.id, Stored { label, slot: waiting.slot, fidelity: waiting.fidelity.name().to_owned(), scene })
+        });
+        let mut all: Vec<(u64, Stored)> = pinned.chain(waiting).collect();
+        all.sort_by_key(|(id, _)| *id);
+        let all: Vec<Stored> = all.into_iter().map(|(_, stored)| stored).collect();
+        serde_json::to_string(&all).unwrap_or_default()
+    }
+
+    /// The pins of [`Self::stored`], which wait until they are solved; what cannot be read of them is left out, and said.
+    ///
+    /// # Errors
+    /// What could not be read.
+    pub fn restore(&mut self, text: &str) -> Result<(), String> {
+        let stored: Vec<Stored> = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let mut faults = Vec::new();
+        for stored in stored {
+            match stored.read() {
+                Ok((scene, fidelity)) => {
+                    let (id, name, slot) = (self.number(), stored.label, stored.slot);
+                    self.waiting.push(Waiting { id, name, scene, fidelity, slot, task: None });
+                }
+                Err(fault) => faults.push(fault),
+            }
+        }
+        if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
+    }
+
+    /// The next that is to be solved, if no other is under way.
+    pub fn turn(&self) -> Option<(u64, &Scene, Fidelity)> {
+        if self.waiting.iter().any(|waiting| waiting.task.is_some()) {
+            return None;
+        }
+        self.waiting.first().map(|waiting| (waiting.id, &waiting.scene, waiting.fidelity))
+    }
+
+    /// `task` solves the one whose turn it is.
+    pub fn begin(&mut self, id: u64, task: PinTask) {
+        if let Some(waiting) = self.waiting.iter_mut().find(|waiting| waiting.id == id) {
+            waiting.task = Some(task);
+        }
+    }
+
+    /// Takes what has been solved since the last time.
+    pub fn drain(&mut self) {
+        let mut solved = Vec::new();
+        let mut failed = None;
+        self.waiting.retain_mut(|waiting| {
+            let Some(task) = &waiting.task else { return true };
+            let Some(end) = task.drain().end else { return true };
+            let stored = waiting.slot.map(|slot| (waiting.name.clone(), slot));
+            match end {
+                Ok(Some(run)) => solved.push((waiting.id, stored, run)),
+                Ok(None) => failed = Some(Note::Failure(format!("{} could not be solved", waiting.name))),
+                Err(panic) => failed = Some(Note::Failure(format!("{} could not be solved: {panic}", waiting.name))),
+            }
+            false
+        });
+        self.note = failed.or(self.note.take());
+        for (id, stored, run) in solved {
+            self.insert(id, stored, run);
+        }
+    }
+
+    /// Forgets one that is being solved, or will be: cancels it.
+    pub fn forget(&mut self, id: u64) {
+        self.waiting.retain(|waiting| waiting.id != id);
+    }
+
+    /// Calls a pin something else; a name that another has is numbered.
+    pub fn rename(&mut self, id: u64, name: &str) {
+        if let Some(i) = self.place(id) {
+            let label = unique(name, |label| self.runs.iter().enumerate().any(|(j, run)| j != i && run.label == label));
+            self.runs[i].label = label;
+        }
+    }
+
+    /// Takes a pin away.
+    pub fn remove(&mut self, id: u64) {
+        if let Some(i) = self.place(id) {
+            self.pins.remove(i);
+            self.runs.remove(i);
+            self.note = None;
+            self.tabulate();
+        }
+    }
+
+    /// Takes all away, also those that are being solved.
+    pub fn clear(&mut self) {
+        *self = Self { next: self.next, page: self.page, all_parameters: self.all_parameters, ..Self::default() };
+    }
+
+    fn tabulate(&mut self) {
+        self.results = results(&self.runs);
+        self.parameters = parameters(&self.runs.iter().map(|run| &run.scene).collect::<Vec<&Scene>>());
+    }
+}
+
+/// The fidelity that a run was solved at, in a word.
+pub fn fidelity(run: &Run) -> &str {
+    run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
+}
+
+/// A run of the window as one to be compared.
+pub fn to_compare(run: &crate::job::SolvedScene) -> Run {
+    Run {
+        label: run.scene.name.clone(),
+        scene: run.scene.clone(),
+        problem: run.problem.clone(),
+        solved: Ok(Arc::new(run.solution.clone())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::compare::runs;
+    use crate::control::Cancel;
+    use crate::fidelity::Fidelity;
+    use crate::scene::presets;
+    use crate::solve::Settings;
+
+    fn solved(preset: &str, set: &[(&str, &str)], fidelity: Fidelity) -> Run {
+        let mut scene = presets::find(preset).unwrap();
+        scene.set_all(set.iter().copied()).unwrap();
+        let settings = Settings { fidelity, ..Settings::default() };
+        runs(&[scene], &settings, &Cancel::new(), &|_| ()).unwrap().remove(0)
+    }
+
+    #[test]
+    fn pins_are_told_apart_by_what_differs() {
+        let mut pins = Pins::default();
+        let plate = |set: &[(&str, &str)], fidelity| solved("plate-crossover", set, fidelity);
+        pins.add(plate(&[], Fidelity::Draft));
+        pins.add(plate(&[("plate.frequency_khz", "12")], Fidelity::Draft));
+        pins.add(plate(&[], Fidelity::Standard));
+        pins.add(plate(&[], Fidelity::Draft));
+        let name = &presets::find("plate-crossover").unwrap().name;
+        let labels: Vec<&str> = pins.runs().iter().map(|run| run.label.as_str()).collect();
+        assert_eq!(labels, [name.as_str(), &format!("{name}, frequency 12 kHz"), &format!("{name}, standard")]);
+        assert!(matches!(pins.note(), Some(Note::Remark(text)) if text.contains("already")));
+    }
+
+    #[test]
+    fn a_colour_is_used_again_and_names_stay_unique() {
+        let mut pins = Pins::default();
+        for spacing in ["2", "3", "4"] {
+            pins.add(solved("plate-crossover", &[("plate.frequency_khz", spacing)], Fidelity::Draft));
+        }
+        let second = pins.pins()[1].id;
+        pins.remove(second);
+        pins.add(solved("plate-viscous", &[], Fidelity::Draft));
+        let slots: Vec<usize> = pins.pins().iter().map(|pin| pin.slot).collect();
+        assert_eq!(slots, [0, 2, 1]);
+        let last = pins.pins()[2].id;
+        assert!(last > second);
+        pins.rename(last, "one");
+        let first = pins.pins()[0].id;
+        pins.rename(first, "one");
+        assert_eq!(pins.run(first).unwrap().label, "one (2)");
+        pins.rename(first, " one (2)  ");
+        assert_eq!(pins.run(first).unwrap().label, "one (2)");
+        assert_eq!(pins.results()[0].cells.len(), 3);
+        pins.clear();
+        assert!(pins.runs().is_empty() && pins.results().is_empty());
+    }
+}

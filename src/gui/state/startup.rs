@@ -1,0 +1,275 @@
+//! A start-up as the window has it: of which scene, every cycle's numbers, the recordings that are kept, and the cycle looked at.
+
+use crate::fidelity::Fidelity;
+use crate::gui::derived::scales::Ranges;
+use crate::job::SolvedScene;
+use crate::job::task::{News, Task};
+use crate::problem::Problem;
+use crate::recording::Recording;
+use crate::scene::Scene;
+use crate::solution::{Model, Outcome, Solution, Stats, Status};
+use crate::startup::{Cycle, Startup};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Memory that recordings may take \[bytes\], together.
+const MOST_BYTES: usize = 64 << 20;
+/// Runs from here on are cycles of a start-up: no number of the solver's.
+const FIRST_NUMBER: u64 = 1 << 40;
+
+/// One cycle's numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// From 1.
+    pub number: usize,
+    /// Means and extremes over the cycle.
+    pub outcome: Outcome,
+    /// By how much ln Z may still change until the cycle repeats; infinite at first.
+    pub remaining: f64,
+}
+
+/// Recordings that are kept, by the number of their cycle: the first, the newest, and those between that show most of the way.
+#[derive(Debug, Default)]
+struct KeptCycles {
+    runs: BTreeMap<usize, Arc<SolvedScene>>,
+    bytes: usize,
+}
+
+impl KeptCycles {
+    fn insert(&mut self, number: usize, run: Arc<SolvedScene>, most: usize) {
+        self.bytes += bytes(&run.solution.recording);
+        self.runs.insert(number, run);
+        while self.bytes > most && self.runs.len() > 1 {
+            let numbers: Vec<usize> = self.runs.keys().copied().collect();
+            // What changes, changes less and less: the one whose neighbours are the nearest in proportion.
+            let ratio = |three: &[usize]| three[2] as f64 / three[0] as f64;
+            let least = numbers.windows(3).min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+            let dropped = least.map_or(numbers[0], |three| three[1]);
+            if let Some(run) = self.runs.remove(&dropped) {
+                self.bytes -= bytes(&run.solution.recording);
+            }
+        }
+    }
+}
+
+/// Memory of a recording's fields \[bytes\].
+fn bytes(recording: &Recording) -> usize {
+    let Recording { lines, stator, pressure, other_pressure, film_load, .. } = recording;
+    let fields = lines.film_thickness.len() + stator.len() + lines.contact.len() + lines.film.len();
+    let maps = pressure.len() + other_pressure.len();
+    8 * (fields + maps + 5 * film_load.len())
+}
+
+/// The work of a start-up: it tells each cycle, and returns how it ended.
+pub type StartupTask = Task<Cycle, Result<Startup, String>>;
+
+/// A start-up, under way or ended.
+#[derive(Debug)]
+pub struct StartupState {
+    job: Option<StartupTask>,
+    scene: Scene,
+    problem: Problem,
+    fidelity: Fidelity,
+    count: u64,
+    points: Vec<Point>,
+    kept: KeptCycles,
+    ranges: Option<Ranges>,
+    ended: Option<Result<Startup, String>>,
+    chosen: usize,
+    follow: bool,
+}
+
+impl StartupState {
+    /// A start-up of `scene`, number `count` of this window.
+    pub fn new(job: StartupTask, scene: Scene, problem: Problem, fidelity: Fidelity, count: u64) -> Self {
+        Self {
+            job: Some(job),
+            scene,
+            problem,
+            fidelity,
+            count,
+            points: Vec::new(),
+            kept: KeptCycles::default(),
+            ranges: None,
+            ended: None,
+            chosen: 0,
+            follow: true,
+        }
+    }
+
+    /// Takes what has been computed since the last time.
+    pub fn drain(&mut self) {
+        let Some(job) = &self.job else { return };
+        let News { messages, end } = job.drain();
+        messages.into_iter().for_each(|cycle| self.take(cycle));
+        if let Some(end) = end {
+            self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+            self.job = None;
+        }
+    }
+
+    fn take(&mut self, cycle: Cycle) {
+        let Cycle { number, outcome, remaining, recording, .. } = cycle;
+        self.points.push(Point { number, outcome, remaining });
+        let ranges = Ranges::of(&recording);
+        self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
+        let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
+        let (scene, problem) = (self.scene.clone(), self.problem.clone());
+        let run = as_solved(number_of_run, scene, problem, self.fidelity, outcome, recording);
+        self.kept.insert(number, Arc::new(run), MOST_BYTES);
+        if self.follow || self.chosen == 0 {
+            self.chosen = number;
+        } else {
+            // What was looked at may no longer be kept.
+            self.choose(self.chosen);
+        }
+    }
+
+    /// Asks it to end.
+    pub fn cancel(&self) {
+        if let Some(job) = &self.job {
+            job.cancel();
+        }
+    }
+
+    /// Looks at cycle `number`, or at the nearest one that is kept, and no longer at the newest.
+    pub fn stay_at(&mut self, number: usize) {
+        self.follow = false;
+        self.choose(number);
+    }
+
+    fn choose(&mut self, number: usize) {
+        if let Some(kept) = self.kept().min_by_key(|kept| kept.abs_diff(number)) {
+            self.chosen = kept;
+        }
+    }
+
+    /// Looks at the newest cycle from now on, or stays where it is.
+    pub fn follow(&mut self, follow: bool) {
+        self.follow = follow;
+        if let (true, Some(newest)) = (follow, self.kept().last()) {
+            self.chosen = newest;
+        }
+    }
+
+    /// The cycle looked at has been shown to its end: goes on to the next one that is kept, if there is one.
+    pub fn next_cycle(&mut self) {
+        if let Some((next, _)) = self.kept.runs.range(self.chosen + 1..).next() {
+            self.chosen = *next;
+        }
+    }
+
+    /// Its number in this window.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Whether it goes on.
+    pub fn running(&self) -> bool {
+        self.job.is_some()
+    }
+
+    /// How it ended.
+    pub fn ended(&self) -> Option<&Result<Startup, String>> {
+        self.ended.as_ref()
+    }
+
+    /// All cycles, in order.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Cycles whose recordings are kept, ascending.
+    pub fn kept(&self) -> impl DoubleEndedIterator<Item = usize> {
+        self.kept.runs.keys().copied()
+    }
+
+    /// The cycle looked at.
+    pub fn run(&self) -> Option<&Arc<SolvedScene>> {
+        self.kept.runs.get(&self.chosen)
+    }
+
+    /// Number of the cycle looked at; 0 before the first.
+    pub fn chosen(&self) -> usize {
+        self.chosen
+    }
+
+    /// Whether the newest cycle is looked at.
+    pub fn follows(&self) -> bool {
+        self.follow
+    }
+
+    /// Ranges of the axes over all cycles so far.
+    pub fn ranges(&self) -> Option<&Ranges> {
+        self.ranges.as_ref()
+    }
+
+    /// Grids and steps are those of this fidelity.
+    pub fn fidelity(&self) -> Fidelity {
+        self.fidelity
+    }
+
+    /// Whether `scene` is another one than was started.
+    pub fn stale(&self, scene: &Scene) -> bool {
+        self.scene.kind != scene.kind || self.scene.numerics != scene.numerics
+    }
+
+    /// Name of the scene that was started.
+    pub fn name(&self) -> &str {
+        &self.scene.name
+    }
+
+    /// What was started.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+}
+
+/// A cycle as the views want it: as a solve of its own.
+fn as_solved(
+    number: u64,
+    scene: Scene,
+    problem: Problem,
+    fidelity: Fidelity,
+    outcome: Outcome,
+    recording: Recording,
+) -> SolvedScene {
+    let solution = Solution {
+        status: Status::Converged,
+        outcome,
+        performance: None,
+        stats: Stats::default(),
+        accuracy: Default::default(),
+        model: Model::default(),
+        warnings: Vec::new(),
+        recording,
+    };
+    let (validity, history) = (Vec::new(), Vec::new());
+    SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, history }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_is_bounded_and_holds_first_newest_and_the_early_way() {
+        let problem = Problem::new(&Scene::plate()).unwrap();
+        let run = |values: usize| {
+            let recording = Recording { pressure: vec![0.0; values], ..Recording::default() };
+            let outcome = Outcome::Plate(Default::default());
+            Arc::new(as_solved(0, Scene::plate(), problem.clone(), Fidelity::Draft, outcome, recording))
+        };
+        let mut kept = KeptCycles::default();
+        for number in 1..=100 {
+            kept.insert(number, run(100), 8000);
+            assert!(kept.bytes <= 8000);
+        }
+        let numbers: Vec<usize> = kept.runs.keys().copied().collect();
+        assert_eq!(numbers.len(), 10);
+        assert!(numbers.starts_with(&[1, 2, 3]) && numbers.ends_with(&[100]), "{numbers:?}");
+        // One that is too large by itself is still the newest.
+        kept.insert(101, run(5000), 8000);
+        assert_eq!(kept.runs.keys().copied().collect::<Vec<_>>(), [101]);
+    }
+}

@@ -1,0 +1,437 @@
+//! A sweep as the window has it: what is asked for, how far it is, and what was found.
+
+use crate::analysis::quantity::Quantity;
+use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, SweepError, Vary};
+use crate::analysis::table1::Published;
+use crate::fidelity::Fidelity;
+use crate::gui::derived::format::to_digits;
+use crate::gui::derived::sliders::slider_range;
+use crate::gui::derived::words::unused;
+use crate::job::task::{News, Task};
+use crate::problem::Problem;
+use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What is varied at first, along x and y: the first that a scene has.
+const FIRST: [&[&str]; 2] =
+    [&["plate.frequency_khz", "film.min_spacing_nm"], &["plate.mean_gap_um", "motor.load_per_wave_n"]];
+/// Points of a line, and along each side of a map.
+const LINE: usize = 25;
+const SIDE: usize = 12;
+/// A default range reaches from a part of the present value to this many times the value.
+const REACH: f64 = 4.0;
+/// Significant digits of its ends.
+const DIGITS: i32 = 2;
+/// An end that the scene refuses comes nearer to the present value in this many steps.
+const STEPS: u32 = 24;
+
+/// What is to be varied along one axis, as it was typed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxisForm {
+    /// Dotted key.
+    pub key: &'static str,
+    /// First value.
+    pub from: String,
+    /// Last value.
+    pub to: String,
+    /// How many.
+    pub count: String,
+    /// Equal ratios instead of equal steps.
+    pub log: bool,
+}
+
+impl AxisForm {
+    /// A useful range of `key` round its value in `scene`.
+    pub fn around(scene: &Scene, key: &'static str, count: usize) -> Self {
+        let mut form = Self { key, from: String::new(), to: String::new(), count: count.to_string(), log: false };
+        let Some(parameter) = Parameter::find(key) else { return form };
+        let (range, log) = slider_range(scene, parameter);
+        let default = match parameter.kind {
+            ParameterKind::Number { default, .. } => default,
+            ParameterKind::Whole { default, .. } => f64::from(default),
+            _ => 0.0,
+        };
+        let present = scene.get(key).and_then(|value| value.as_number()).unwrap_or(default);
+        // What is beyond the slider is still allowed.
+        let range = if range.contains(present) { range } else { scene.range(key).unwrap_or(range) };
+        let wanted = if log {
+            [present / REACH, present * REACH]
+        } else if present == 0.0 {
+            [range.min, range.max]
+        } else {
+            [present - present.abs(), present + present.abs()]
+        };
+        let whole = matches!(parameter.kind, ParameterKind::Whole { .. });
+        let [low, high] = wanted.map(|end| {
+            let end = end.clamp(range.min, range.max);
+            allowed(scene, key, present, if whole { end.round() } else { end }, whole, range)
+        });
+        (form.from, form.to, form.log) = (low.to_string(), high.to_string(), log && low > 0.0);
+        if whole && high - low + 1.0 < count as f64 {
+            form.count = format!("{}", high - low + 1.0);
+        }
+        form
+    }
+
+    /// What it says, if it says something.
+    ///
+    /// # Errors
+    /// What is wrong with it, in a sentence that tells what is allowed.
+    pub fn vary(&self, scene: &Scene) -> Result<Vary, String> {
+        let number = |text: &str| {
+            let text = text.trim().replace(',', ".").replace('−', "-");
+            let found = text.parse::<f64>().ok().filter(|number| number.is_finite());
+            found.ok_or_else(|| {
+                let accepts = Parameter::find(self.key).map(Parameter::accepts).unwrap_or_default();
+                format!("“{text}” is no number: allowed is {accepts}")
+            })
+        };
+        let (from, to) = (number(&self.from)?, number(&self.to)?);
+        let counted = self.count.trim().parse::<usize>();
+        let count = counted.map_err(|_| format!("{} values: allowed 2 to {MOST_VALUES}", self.count.trim()))?;
+        let scale = if self.log { Scale::Log } else { Scale::Linear };
+        let vary = Vary { key: self.key.to_owned(), from, to, count, scale };
+        Axis::new(scene, &vary).map_err(|error| in_place(&error))?;
+        Ok(vary)
+    }
+}
+
+/// What is wrong, said where it is: the key need not be named.
+fn in_place(error: &SweepError) -> String {
+    match error {
+        SweepError::Count { found, .. } => format!("{found} values: allowed 2 to {MOST_VALUES}"),
+        SweepError::Nothing { .. } => "Both ends are the same: they have to differ".to_owned(),
+        SweepError::Log { .. } => "For equal ratios both ends have to be above 0".to_owned(),
+        SweepError::Twice { .. } => "Both axes vary the same parameter: choose another".to_owned(),
+        other => other.to_string(),
+    }
+}
+
+/// The nearest to `end` on the way from `present` that a scene can have, in few digits.
+fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range: Range) -> f64 {
+    let fits = |value: f64| {
+        let mut next = scene.clone();
+        range.contains(value) && next.set_value(key, Value::Number(value)).is_ok() && Problem::new(&next).is_ok()
+    };
+    for step in 0..STEPS {
+        let value = end + (present - end) * f64::from(step) / f64::from(STEPS);
+        let short = if whole { value.round() } else { to_digits(value, DIGITS, f64::round) };
+        if let Some(found) = [short, value].into_iter().find(|value| fits(*value)) {
+            return found;
+        }
+    }
+    present
+}
+
+/// What is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Form {
+    /// Along x.
+    pub x: AxisForm,
+    /// Along y, for a map; kept while it is not asked for.
+    pub y: AxisForm,
+    /// Whether a second parameter is varied.
+    pub second: bool,
+    /// How every point is solved.
+    pub fidelity: Fidelity,
+}
+
+impl Form {
+    /// What is asked for at first.
+    pub fn of(scene: &Scene) -> Self {
+        let first = |axis: usize| {
+            let key = FIRST[axis].iter().copied().find(|key| varies(scene, key)).unwrap_or(FIRST[axis][0]);
+            AxisForm::around(scene, key, if axis == 0 { LINE } else { SIDE })
+        };
+        Self { x: first(0), y: first(1), second: false, fidelity: Fidelity::default() }
+    }
+
+    /// The axes that are asked for.
+    pub fn axes(&self) -> impl Iterator<Item = &AxisForm> {
+        [&self.x, &self.y].into_iter().take(if self.second { 2 } else { 1 })
+    }
+
+    /// The axis along x (0) or y (1).
+    pub fn axis(&mut self, axis: usize) -> &mut AxisForm {
+        if axis == 0 { &mut self.x } else { &mut self.y }
+    }
+
+    /// Varies `key` along an axis, over a range round its value in `scene`.
+    pub fn choose(&mut self, scene: &Scene, axis: usize, key: &'static str) {
+        *self.axis(axis) = AxisForm::around(scene, key, if self.second { SIDE } else { LINE });
+    }
+
+    /// Whether a second parameter is varied from now on.
+    pub fn set_second(&mut self, second: bool) {
+        // A map as fine along x as a line would take its time.
+        let usual = [LINE.to_string(), SIDE.to_string()];
+        let [old, new] = if second { [&usual[0], &usual[1]] } else { [&usual[1], &usual[0]] };
+        if self.x.count == *old {
+            self.x.count.clone_from(new);
+        }
+        self.second = second;
+    }
+}
+
+/// Whether a scene has a number of this key that can be varied.
+pub fn varies(scene: &Scene, key: &str) -> bool {
+    candidates(scene).any(|parameter| parameter.key == key)
+}
+
+/// What can be varied: numbers that have an effect here.
+pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '_ {
+    let number =
+        |parameter: &&Parameter| matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
+    scene.parameters().filter(number).filter(|parameter| unused(scene, parameter).is_none())
+}
+
+/// The work of a sweep: it tells each row as it is solved, and returns all of them in order.
+pub type SweepTask = Task<Row, Vec<Row>>;
+
+/// A sweep that was begun.
+#[derive(Debug)]
+pub struct Swept {
+    sweep: Arc<Sweep>,
+    rows: Vec<Row>,
+    published: Vec<Published>,
+    task: Option<SweepTask>,
+    /// The text of a panic that ended it.
+    failure: Option<String>,
+    started: Instant,
+    /// How many rows there were when it was begun or gone on with.
+    before: usize,
+}
+
+impl Swept {
+    /// The sweep.
+    pub fn sweep(&self) -> &Arc<Sweep> {
+        &self.sweep
+    }
+
+    /// The rows there are, in the order of the points.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Published points of Table I in its plane.
+    pub fn published(&self) -> &[Published] {
+        &self.published
+    }
+
+    /// Whether it goes on.
+    pub fn running(&self) -> bool {
+        self.task.is_some()
+    }
+
+    /// Whether every point is there.
+    pub fn complete(&self) -> bool {
+        self.rows.len() == self.sweep.len()
+    }
+
+    /// Why it ended before it was done, if it was not cancelled.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
+    }
+
+    /// Share that is done, 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.rows.len() as f64 / self.sweep.len().max(1) as f64
+    }
+
+    /// Time that is left \[s\], as far as can be said.
+    pub fn left(&self, now: Instant) -> Option<f64> {
+        let done = self.rows.len().checked_sub(self.before).filter(|done| *done > 0)?;
+        let spent = now.saturating_duration_since(self.started).as_secs_f64();
+        Some(spent * (self.sweep.len() - self.rows.len()) as f64 / done as f64)
+    }
+
+    /// Whether `scene` differs from the scene that was swept in more than what was varied.
+    pub fn stale(&self, scene: &Scene) -> bool {
+        let mut ours = self.sweep.scene().clone();
+        (ours.name, ours.about) = (scene.name.clone(), scene.about.clone());
+        for axis in self.sweep.axes() {
+            let key = axis.parameter.key;
+            let set = match scene.get(key) {
+                Some(value) => ours.set_value(key, value),
+                None => ours.unset(key),
+            };
+            if set.is_err() {
+                return true;
+            }
+        }
+        ours != *scene
+    }
+
+    /// The scene's values of what was varied, if it has them.
+    pub fn present(&self, scene: &Scene) -> Option<Vec<f64>> {
+        self.sweep.axes().iter().map(|axis| scene.get(axis.parameter.key)?.as_number()).collect()
+    }
+
+    /// Takes what has been solved since the last time.
+    fn drain(&mut self) {
+        let Some(task) = &self.task else { return };
+        let News { messages, end } = task.drain();
+        for row in messages {
+            let place = self.rows.partition_point(|other| other.point < row.point);
+            self.rows.insert(place, row);
+        }
+        if let Some(end) = end {
+            self.task = None;
+            match end {
+                Ok(rows) => self.rows = rows,
+                Err(panic) => self.failure = Some(panic),
+            }
+        }
+    }
+}
+
+/// What the tab knows.
+#[derive(Debug, Default)]
+pub struct SweepState {
+    form: Option<Form>,
+    quantity: Option<Quantity>,
+    swept: Option<Swept>,
+    refusal: Option<String>,
+}
+
+impl SweepState {
+    /// What is asked for; there is something as soon as a scene was seen.
+    pub fn form(&self) -> Option<&Form> {
+        self.form.as_ref()
+    }
+
+    /// What was begun.
+    pub fn swept(&self) -> Option<&Swept> {
+        self.swept.as_ref()
+    }
+
+    /// Why the last sweep that was asked for could not begin.
+    pub fn refusal(&self) -> Option<&str> {
+        self.refusal.as_deref()
+    }
+
+    /// What is drawn of these.
+    pub fn quantity(&self, among: &[Quantity]) -> Quantity {
+        let main = [Quantity::Alpha, Quantity::LoadRatio].into_iter();
+        let wanted = self.quantity.into_iter().chain(main);
+        wanted.into_iter().find(|wanted| among.contains(wanted)).unwrap_or(Quantity::FilmLoad)
+    }
+
+    /// The scene is shown: what it does not have cannot be asked for.
+    pub fn review(&mut self, scene: &Scene) {
+        match &mut self.form {
+            None => self.form = Some(Form::of(scene)),
+            Some(form) => {
+                let fresh = Form { second: form.second, fidelity: form.fidelity, ..Form::of(scene) };
+                if !varies(scene, form.x.key) || !varies(scene, form.y.key) {
+                    *form = fresh;
+                }
+            }
+        }
+    }
+
+    /// Draws this from now on.
+    pub fn draw(&mut self, quantity: Quantity) {
+        self.quantity = Some(quantity);
+    }
+
+    /// Changes what is asked for.
+    pub fn edit(&mut self, change: impl FnOnce(&mut Form)) {
+        self.refusal = None;
+        if let Some(form) = &mut self.form {
+            change(form);
+        }
+    }
+
+    /// What is asked for, checked.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn asked(&self, scene: &Scene) -> Result<Vec<Vary>, String> {
+        self.form.iter().flat_map(Form::axes).map(|axis| axis.vary(scene)).collect()
+    }
+
+    /// It cannot begin.
+    pub fn refuse(&mut self, error: &SweepError) {
+        self.refusal = Some(in_place(error));
+    }
+
+    /// It has begun, or goes on with `rows`.
+    pub fn begin(&mut self, sweep: Arc<Sweep>, rows: Vec<Row>, task: SweepTask, now: Instant) {
+        let published = sweep.published();
+        let before = rows.len();
+        self.refusal = None;
+        self.swept = Some(Swept { sweep, rows, published, task: Some(task), failure: None, started: now, before });
+    }
+
+    /// Takes what has been solved since the last time.
+    pub fn drain(&mut self) {
+        if let Some(swept) = &mut self.swept {
+            swept.drain();
+        }
+    }
+
+    /// Asks it to end.
+    pub fn cancel(&self) {
+        if let Some(task) = self.swept.as_ref().and_then(|swept| swept.task.as_ref()) {
+            task.cancel();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::presets;
+    use crate::solve::Settings;
+
+    #[test]
+    fn default_ranges_can_be_swept_and_hold_the_present_value() {
+        for preset in ["fundamental", "tooth-radius-3m", "levitating", "plate-crossover", "plate-trapped"] {
+            let scene = presets::find(preset).unwrap();
+            for parameter in candidates(&scene) {
+                let form = AxisForm::around(&scene, parameter.key, 7);
+                let vary = form.vary(&scene).unwrap_or_else(|error| panic!("{preset}, {}: {error}", parameter.key));
+                let sweep = Sweep::new(&scene, std::slice::from_ref(&vary), &Settings::default());
+                assert!(sweep.is_ok(), "{preset}, {}: {form:?}: {}", parameter.key, sweep.unwrap_err());
+                if let Some(present) = scene.get(parameter.key).and_then(|value| value.as_number()) {
+                    assert!((vary.from..=vary.to).contains(&present), "{preset}, {}: {form:?}", parameter.key);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bad_input_is_refused_with_what_is_allowed() {
+        let scene = presets::find("fundamental").unwrap();
+        let good = AxisForm::around(&scene, "film.min_spacing_nm", 9);
+        let fault = |form: AxisForm| form.vary(&scene).unwrap_err();
+        let text = str::to_owned;
+        assert!(fault(AxisForm { from: text("3"), ..good.clone() }).contains("allowed 5 to 10000 nm"));
+        assert!(fault(AxisForm { to: text("wide"), ..good.clone() }).contains("from 5 to 10000 nm"));
+        assert!(fault(AxisForm { count: text("1"), ..good.clone() }).contains("allowed 2 to 10000"));
+        assert!(fault(AxisForm { count: text("a few"), ..good.clone() }).contains("allowed 2 to 10000"));
+        assert!(fault(AxisForm { to: good.from.clone(), ..good.clone() }).contains("differ"));
+        let speed = AxisForm { log: true, ..AxisForm::around(&scene, "motor.rotor_speed_rpm", 9) };
+        assert!(fault(speed).contains("above 0"));
+        assert_eq!(AxisForm { from: text(" 5,5"), ..good }.vary(&scene).unwrap().from, 5.5);
+    }
+
+    #[test]
+    fn another_kind_of_scene_has_other_parameters() {
+        let (motor, plate) = (presets::find("fundamental").unwrap(), presets::find("plate-crossover").unwrap());
+        let mut sweeps = SweepState::default();
+        sweeps.review(&motor);
+        sweeps.edit(|form| form.x.from = "50".to_owned());
+        sweeps.review(&motor);
+        assert_eq!(sweeps.form().unwrap().x.from, "50");
+        // What has no effect on a plate is not offered.
+        assert!(varies(&motor, "film.min_spacing_nm") && !varies(&plate, "film.min_spacing_nm"));
+        sweeps.edit(|form| form.set_second(true));
+        sweeps.review(&plate);
+        let form = sweeps.form().unwrap();
+        assert!(form.x.key == "plate.frequency_khz" && form.second, "{form:?}");
+        assert!(sweeps.asked(&plate).is_ok_and(|axes| axes.len() == 2));
+    }
+}

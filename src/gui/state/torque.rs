@@ -1,0 +1,67 @@
+//! Torque over speed of the run on screen: computed in the background while its tab is shown, and kept.
+
+use crate::analysis::torque::TorqueCurves;
+use crate::fidelity::Fidelity;
+use crate::job::SolvedScene;
+use crate::job::task::Task;
+use crate::problem::Scenario;
+
+/// Of which run: its number and its fidelity.
+type Key = (u64, Fidelity);
+
+/// The computation: curves, or why there are none; nothing if it was cancelled.
+pub type TorqueTask = Task<(), Option<Result<TorqueCurves, String>>>;
+
+/// What is known, and what is being computed.
+#[derive(Debug, Default)]
+pub struct TorqueState {
+    asked: Option<Key>,
+    task: Option<TorqueTask>,
+    found: Option<(Key, Result<TorqueCurves, String>)>,
+}
+
+impl TorqueState {
+    /// Whether the curves of `run` are still to be computed.
+    pub fn lacks(&self, run: &SolvedScene) -> bool {
+        self.asked != Some((run.number, run.fidelity)) && matches!(run.problem.scenario, Scenario::Motor(_))
+    }
+
+    /// `task` computes those of `run`. Those before stay until then.
+    pub fn begin(&mut self, run: &SolvedScene, task: std::io::Result<TorqueTask>) {
+        let key = (run.number, run.fidelity);
+        self.asked = Some(key);
+        match task {
+            Ok(task) => self.task = Some(task),
+            Err(error) => self.found = Some((key, Err(format!("no thread can be started: {error}")))),
+        }
+    }
+
+    /// Takes what was found since the last time.
+    pub fn drain(&mut self) {
+        if let (Some(end), Some(key)) = (self.task.as_ref().and_then(|task| task.drain().end), self.asked) {
+            self.task = None;
+            match end {
+                Ok(Some(found)) => self.found = Some((key, found)),
+                Ok(None) => {}
+                Err(panic) => self.found = Some((key, Err(format!("it failed: {panic}")))),
+            }
+        }
+    }
+
+    /// The newest that is known.
+    pub fn found(&self) -> Option<&Result<TorqueCurves, String>> {
+        self.found.as_ref().map(|(_, found)| found)
+    }
+
+    /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
+    pub fn of(&self, run: &SolvedScene) -> Option<&TorqueCurves> {
+        let good = run.fidelity.min(Fidelity::Standard);
+        let (_, found) = self.found.as_ref().filter(|((number, found), _)| *number == run.number && *found >= good)?;
+        found.as_ref().ok()
+    }
+
+    /// Whether what is known is of `run`.
+    pub fn is_of(&self, run: &SolvedScene) -> bool {
+        self.found.as_ref().is_some_and(|(key, _)| *key == (run.number, run.fidelity))
+    }
+}

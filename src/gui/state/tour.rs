@@ -1,0 +1,36 @@
+//! The tour of the first start: four stops, each a part of the window and a few words about it.
+
+/// A stop.
+#[derive(Clone, Copy, Debug)]
+pub struct Stop {
+    /// The part that is highlighted.
+    pub place: &'static str,
+    /// What it is.
+    pub title: &'static str,
+    /// What to do with it.
+    pub text: &'static str,
+}
+
+/// All stops.
+pub const STOPS: &[Stop] = &[
+    Stop {
+        place: "parameters",
+        title: "Change anything",
+        text: "Every number of the motor has a slider. Drag one and the motor is solved again at once; Ctrl+Z takes it back. Point at a name to read what it means.",
+    },
+    Stop {
+        place: "wave",
+        title: "Watch one wave",
+        text: "The grey teeth of the stator push up against the rotor as a wave runs by, some 30 000 times a second, here slowed down. Blue is the trapped air, orange is where metal touches.",
+    },
+    Stop {
+        place: "headline",
+        title: "The number that matters",
+        text: "α is the share of the load that the air carries. What the air carries does not rub: with α = 0.25 a quarter of the torque is lost.",
+    },
+    Stop {
+        place: "lessons",
+        title: "Learn why",
+        text: "Eight short lessons show step by step why air trapped for a few microseconds acts as a spring. The glossary and this tour are under Help.",
+    },
+];

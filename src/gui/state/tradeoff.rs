@@ -1,0 +1,163 @@
+//! Error against time as the window has it: of which scene, how far, and what was found.
+
+use crate::analysis::tradeoff::{Candidate, Family, Run, Tradeoff};
+use crate::fidelity::Fidelity;
+use crate::job::task::{News, Task};
+use crate::job::tradeoff::Progress;
+use crate::problem::Numerics;
+use crate::scene::Scene;
+use crate::solve::{Method, Settings};
+use std::time::Instant;
+
+/// What a setting is called that is none of the others.
+const PRESENT: &str = "present setting";
+
+/// The work of a measurement.
+pub type MeasurementTask = Task<Progress, Vec<Run>>;
+
+/// A measurement, under way or ended.
+#[derive(Debug)]
+pub struct TradeoffState {
+    job: Option<MeasurementTask>,
+    scene: Scene,
+    started: Instant,
+    cancelled: bool,
+    /// The text of a panic that ended it.
+    failure: Option<String>,
+    share: f64,
+    tradeoff: Tradeoff,
+}
+
+impl TradeoffState {
+    /// A measurement of `scene` that began at `started`.
+    pub fn new(job: MeasurementTask, scene: Scene, started: Instant) -> Self {
+        Self {
+            job: Some(job),
+            scene,
+            started,
+            cancelled: false,
+            failure: None,
+            share: 0.0,
+            tradeoff: Tradeoff::of(&[]),
+        }
+    }
+
+    /// Takes what has been measured since the last time.
+    pub fn drain(&mut self) {
+        let Some(job) = &self.job else { return };
+        let News { messages, end } = job.drain();
+        if let Some((runs, share)) = messages.into_iter().last() {
+            (self.share, self.tradeoff) = (share, Tradeoff::of(&runs));
+        }
+        if let Some(end) = end {
+            self.job = None;
+            match end {
+                Ok(runs) => self.tradeoff = Tradeoff::of(&runs),
+                Err(panic) => self.failure = Some(panic),
+            }
+        }
+    }
+
+    /// Asks it to end.
+    pub fn cancel(&mut self) {
+        if let Some(job) = &self.job {
+            job.cancel();
+            self.cancelled = true;
+        }
+    }
+
+    /// Whether it goes on.
+    pub fn running(&self) -> bool {
+        self.job.is_some()
+    }
+
+    /// Whether it was told to end before it was done.
+    pub fn cancelled(&self) -> bool {
+        self.cancelled
+    }
+
+    /// Why it ended before it was done, if it was not cancelled.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
+    }
+
+    /// Share of the work that is done, 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.share
+    }
+
+    /// Time that is left \[s\], as far as can be said.
+    pub fn left(&self, now: Instant) -> Option<f64> {
+        let spent = now.saturating_duration_since(self.started).as_secs_f64();
+        (self.share > 0.0).then(|| spent * (1.0 - self.share) / self.share)
+    }
+
+    /// What was found.
+    pub fn tradeoff(&self) -> &Tradeoff {
+        &self.tradeoff
+    }
+
+    /// Name of the scene that was measured.
+    pub fn name(&self) -> &str {
+        &self.scene.name
+    }
+
+    /// Whether `scene` is another one than was measured. Numerics do not matter: each setting brings its own.
+    pub fn stale(&self, scene: &Scene) -> bool {
+        self.scene.kind != scene.kind
+    }
+}
+
+/// Whether the window solves with just this setting: `target`, and a scene's `numerics`.
+pub fn is_present(candidate: &Candidate, target: Fidelity, numerics: Numerics) -> bool {
+    // The window never uses the nodes of the paper's contact.
+    let ours = |numerics: Numerics| Numerics { contact_nodes: None, ..numerics };
+    let settings = candidate.settings;
+    settings.method == Method::Auto && settings.fidelity == target && ours(candidate.numerics) == ours(numerics)
+}
+
+/// Adds the present setting to what is measured, if it is not there.
+pub fn with_present(candidates: &mut Vec<Candidate>, target: Fidelity, numerics: Numerics) {
+    if !candidates.iter().any(|candidate| is_present(candidate, target, numerics)) {
+        candidates.push(Candidate {
+            name: PRESENT.to_owned(),
+            family: Family::Grid,
+            settings: Settings { fidelity: target, ..Settings::default() },
+            numerics,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::tradeoff::candidates;
+    use crate::problem::Problem;
+
+    #[test]
+    fn a_panic_of_the_measurement_ends_it_and_is_told() {
+        let task = Task::start("test", |_| (), |_, _| panic!("out of luck")).unwrap();
+        let mut state = TradeoffState::new(task, Scene::motor(), Instant::now());
+        for _ in 0..6000 {
+            state.drain();
+            if !state.running() {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(10));
+        }
+        assert!(!state.running());
+        assert_eq!(state.failure(), Some("out of luck"));
+    }
+
+    #[test]
+    fn the_present_setting_is_always_measured() {
+        let problem = Problem::new(&Scene::motor()).unwrap();
+        let mut all = candidates(&problem);
+        let count = all.len();
+        with_present(&mut all, Fidelity::Fine, Numerics::default());
+        assert_eq!(all.len(), count, "a fidelity is there already");
+        let own = Numerics { steps_per_cycle: Some(48), ..Numerics::default() };
+        with_present(&mut all, Fidelity::Draft, own);
+        assert!(all.len() == count + 1 && is_present(&all[count], Fidelity::Draft, own));
+    }
+}

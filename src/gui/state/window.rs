@@ -1,0 +1,166 @@
+//! The state of the whole window.
+
+use super::activity::Activity;
+use super::dialogs::Export;
+use super::document::Document;
+use super::edits::RejectedEdits;
+use super::exports::ExportState;
+use super::hold::HoldState;
+use super::lessons::{LessonState, OnScreen};
+use super::modal::Modal;
+use super::pins::{Page, Pins};
+use super::startup::StartupState;
+use super::sweep::SweepState;
+use super::switch_effect::SwitchHistory;
+use super::torque::TorqueState;
+use super::tradeoff::TradeoffState;
+use super::view::{Tab, View};
+use crate::job::SolvedScene;
+use crate::recording::Recording;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Files remembered.
+const RECENT: usize = 10;
+
+/// All that is drawn, and all that commands change.
+#[derive(Debug)]
+pub struct State {
+    /// The scene being edited.
+    pub document: Document,
+    /// Edits that the scene did not take.
+    pub rejected: RejectedEdits,
+    /// The run on screen.
+    pub run: Option<Arc<SolvedScene>>,
+    /// What the solver is doing.
+    pub activity: Activity,
+    /// How results are looked at.
+    pub view: View,
+    /// What the switches of the model changed.
+    pub switches: SwitchHistory,
+    /// Error against time, if it was measured.
+    pub tradeoff: Option<TradeoffState>,
+    /// The export under way, and what the last one wrote.
+    pub exports: ExportState,
+    /// Runs that were pinned to be compared.
+    pub pins: Pins,
+    /// The sweep.
+    pub sweep: SweepState,
+    /// Torque over speed.
+    pub torque: TorqueState,
+    /// Lessons, tour and glossary.
+    pub lessons: LessonState,
+    /// The start-up, if one was asked for.
+    pub startup: Option<StartupState>,
+    /// The plate that is held, once its tab was shown.
+    pub hold: Option<HoldState>,
+    /// What is in the way until it is answered.
+    pub modal: Option<Modal>,
+    /// Whether the sheet of shortcuts is shown.
+    pub shortcuts: bool,
+    /// Files that were opened or saved, the newest first.
+    pub recent: Vec<PathBuf>,
+    /// Whether the theme is dark.
+    pub dark: bool,
+    /// Whether text is as large as a lecture room needs it.
+    pub lecture: bool,
+    /// Whether the window is about to close, with nothing left to ask.
+    pub quitting: bool,
+}
+
+impl State {
+    /// A window on `document`, with nothing solved yet.
+    pub fn new(document: Document) -> Self {
+        Self {
+            document,
+            rejected: RejectedEdits::default(),
+            run: None,
+            activity: Activity::default(),
+            view: View::default(),
+            switches: SwitchHistory::default(),
+            tradeoff: None,
+            exports: ExportState::default(),
+            pins: Pins::default(),
+            sweep: SweepState::default(),
+            torque: TorqueState::default(),
+            lessons: LessonState::new(None),
+            startup: None,
+            hold: None,
+            modal: None,
+            shortcuts: false,
+            recent: Vec::new(),
+            dark: true,
+            lecture: false,
+            quitting: false,
+        }
+    }
+
+    /// Says that something did not work.
+    pub fn fail(&mut self, message: impl ToString) {
+        self.modal = Some(Modal::Error(message.to_string()));
+    }
+
+    /// Puts `path` first among the files remembered.
+    pub fn remember(&mut self, path: &Path) {
+        self.recent.retain(|other| other != path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(RECENT);
+    }
+
+    /// What moves in the middle: its frames are those of the timeline.
+    pub fn on_timeline(&self) -> Option<&Recording> {
+        let pinned = || self.pins.runs().iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);
+        let recording = match self.view.tab {
+            Tab::Motion => self.run.as_ref().map(|run| &run.solution.recording),
+            Tab::Startup => self.startup.as_ref().and_then(StartupState::run).map(|run| &run.solution.recording),
+            Tab::Compare if self.pins.page == Page::Fields => pinned(),
+            _ => None,
+        };
+        recording.filter(|recording| recording.frames > 0)
+    }
+
+    /// The shortest and the longest period of what moves with `recording` \[s\]: pinned runs need not have the same.
+    pub fn periods(&self, recording: &Recording) -> [f64; 2] {
+        let pinned = self.pins.runs().iter().filter(|_| self.view.tab == Tab::Compare);
+        let periods = pinned.filter_map(|run| Some(run.solved.as_ref().ok()?.recording.period));
+        periods.fold([recording.period; 2], |[low, high], period| [low.min(period), high.max(period)])
+    }
+
+    /// Whether the newest scene is still without a result, and without a reason why.
+    pub fn awaits_result(&self) -> bool {
+        self.run.as_ref().is_none_or(|run| self.activity.stale(run)) && self.activity.failure.is_none()
+    }
+
+    /// Whether there is what `export` writes.
+    pub fn can_export(&self, export: Export) -> bool {
+        match export {
+            Export::Data | Export::Figures | Export::Fields | Export::Animation | Export::Report => self.run.is_some(),
+            Export::Comparison | Export::ComparisonReport => self.pins.runs().len() > 1,
+            Export::SweepTable | Export::SweepFigure | Export::Sweep => {
+                self.sweep.swept().is_some_and(|swept| !swept.rows().is_empty())
+            }
+            Export::TradeoffTable | Export::TradeoffFigure => {
+                self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff().points.is_empty())
+            }
+        }
+    }
+
+    /// What a new file of the scene is called at first.
+    pub fn suggested_name(&self) -> String {
+        self.document.path().map_or_else(
+            || {
+                let stem: String =
+                    self.document.scene().name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+                format!("{}.toml", stem.to_lowercase())
+            },
+            |path| path.display().to_string(),
+        )
+    }
+
+    /// Lets the lesson look at what is on screen; whether it needs another frame soon.
+    pub fn observe(&mut self) -> bool {
+        let Self { run, torque, startup, hold, document, lessons, .. } = self;
+        let seen = OnScreen { run: run.as_deref(), torque, startup: startup.as_ref(), hold: hold.as_ref() };
+        lessons.observe(document, seen)
+    }
+}

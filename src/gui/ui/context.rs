@@ -1,0 +1,68 @@
+//! What every drawing function is given.
+
+use super::highlight;
+use super::theme::{Palette, palette};
+use crate::gui::command::Command;
+use crate::gui::state::window::State;
+use eframe::egui::{self, Color32, Rect, RichText, Ui};
+use std::cell::{Cell, RefCell};
+use std::time::Instant;
+
+/// The state to read, the colours, the present moment, and where commands go.
+#[derive(Debug)]
+pub struct DrawContext<'a> {
+    /// All that the window knows.
+    pub state: &'a State,
+    /// Colours of the present theme.
+    pub colours: Palette,
+    /// The present moment.
+    pub now: Instant,
+    commands: RefCell<Vec<Command>>,
+    pointed_x: Cell<Option<f64>>,
+}
+
+impl<'a> DrawContext<'a> {
+    /// To draw `state` at this moment.
+    pub fn new(state: &'a State, now: Instant) -> Self {
+        let commands = RefCell::default();
+        Self { state, colours: palette(state.dark), now, commands, pointed_x: Cell::default() }
+    }
+
+    /// Asks for `command`, which is carried out when all is drawn.
+    pub fn push(&self, command: impl Into<Command>) {
+        self.commands.borrow_mut().push(command.into());
+    }
+
+    /// The pointer is at this x of a view \[m\].
+    pub fn point_at(&self, x: f64) {
+        self.pointed_x.set(Some(x));
+    }
+
+    /// All that was asked for, also that the pointer is elsewhere than before.
+    pub fn into_commands(self) -> Vec<Command> {
+        let mut commands = self.commands.into_inner();
+        let pointed = self.pointed_x.get();
+        if pointed != self.state.view.cursor_x {
+            commands.push(Command::Hover(pointed));
+        }
+        commands
+    }
+
+    /// Text over as many lines as it takes.
+    pub fn say(&self, ui: &mut Ui, text: impl Into<String>, colour: Color32) {
+        ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
+    }
+
+    /// Secondary text over as many lines as it takes.
+    pub fn note(&self, ui: &mut Ui, text: impl Into<String>) {
+        self.say(ui, text, self.colours.quiet);
+    }
+
+    /// Says that the part of the window called `name` is at `rect`; it gets a ring if it is highlighted.
+    pub fn mark(&self, ui: &Ui, name: &str, rect: Rect) {
+        highlight::remember(ui, name, rect);
+        if self.state.lessons.highlights.has(name) {
+            highlight::ring(ui, rect);
+        }
+    }
+}

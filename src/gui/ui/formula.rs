@@ -1,0 +1,294 @@
+//! Sets formulas: every part is a box with a width, a height above the baseline and a depth below it.
+
+use crate::gui::ui::theme::MATHEMATICS as SIZES;
+use crate::lessons::formula::{Mark, Node, SUM};
+use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::{Color32, FontId, Galley, Painter, Pos2, Shape, Stroke, Vec2, pos2, vec2};
+use std::sync::Arc;
+
+/// Letters without a stem.
+const LOW: &str = "acegmnopqrsuvwxyzαγεηκμνπρστυχω";
+
+/// A formula that is set. Places are relative to its left end on the baseline.
+#[derive(Clone, Debug, Default)]
+pub(in crate::gui) struct Typeset {
+    pub(in crate::gui) width: f32,
+    pub(in crate::gui) ascent: f32,
+    pub(in crate::gui) descent: f32,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug)]
+enum Piece {
+    /// A text; the place is that of the left end of its own baseline.
+    Text(Pos2, Arc<Galley>),
+    Line(Vec<Pos2>, f32),
+    Dot(Pos2, f32),
+}
+
+/// How a formula is set.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::gui) struct Style {
+    /// Height of the text \[points\].
+    pub(in crate::gui) size: f32,
+    pub(in crate::gui) colour: Color32,
+    /// On its own: fractions as large as the rest.
+    pub(in crate::gui) display: bool,
+}
+
+impl Style {
+    fn scaled(self, scale: f32) -> Self {
+        Self { size: (scale * self.size).max(SIZES.least.min(self.size)), display: false, ..self }
+    }
+}
+
+/// A text as a galley, with its width and the height of its baseline below its top.
+pub(in crate::gui) fn galley(
+    painter: &Painter,
+    text: &str,
+    size: f32,
+    colour: Color32,
+    slanted: bool,
+) -> (Arc<Galley>, f32) {
+    let format =
+        TextFormat { font_id: FontId::proportional(size), color: colour, italics: slanted, ..Default::default() };
+    let mut job = LayoutJob::single_section(text.to_owned(), format);
+    job.wrap.max_width = f32::INFINITY;
+    let galley = painter.layout_job(job);
+    let baseline = baseline(&galley);
+    (galley, baseline)
+}
+
+/// Height of the baseline below the top of a galley.
+pub(in crate::gui) fn baseline(galley: &Galley) -> f32 {
+    let row = galley.rows.first();
+    row.and_then(|row| row.row.glyphs.first().map(|glyph| row.pos.y + glyph.pos.y)).unwrap_or_default()
+}
+
+impl Typeset {
+    /// Sets `nodes` side by side.
+    pub(in crate::gui) fn of(painter: &Painter, nodes: &[Node], style: Style) -> Self {
+        let mut row = Self::default();
+        for (i, node) in nodes.iter().enumerate() {
+            let sign = matches!(node, Node::Sign(_));
+            // A minus that begins something is no difference.
+            let unary = i == 0 || matches!(nodes[i - 1], Node::Sign(_));
+            let room = if sign && !unary { 0.24 * style.size } else { 0.0 };
+            row.width += room;
+            row.append(Self::node(painter, node, style));
+            row.width += room;
+        }
+        row
+    }
+
+    fn append(&mut self, part: Self) {
+        let width = part.width;
+        self.place(part, vec2(self.width, 0.0));
+        self.width += width;
+    }
+
+    /// Adds `part`, moved; what is wider than the whole widens nothing.
+    fn place(&mut self, part: Self, by: Vec2) {
+        self.ascent = self.ascent.max(part.ascent - by.y);
+        self.descent = self.descent.max(part.descent + by.y);
+        self.pieces.extend(part.pieces.into_iter().map(|piece| piece.moved(by)));
+    }
+
+    fn text(painter: &Painter, text: &str, style: Style, slanted: bool) -> Self {
+        let (galley, _) = galley(painter, text, style.size, style.colour, slanted);
+        let width = galley.size().x;
+        Self {
+            width: if slanted { width + 0.04 * style.size } else { width },
+            ascent: SIZES.ascent * style.size,
+            descent: SIZES.descent * style.size,
+            pieces: vec![Piece::Text(Pos2::ZERO, galley)],
+        }
+    }
+
+    fn node(painter: &Painter, node: &Node, style: Style) -> Self {
+        match node {
+            Node::Letter(letter) => Self::text(painter, &letter.to_string(), style, true),
+            Node::Upright(text) => Self::text(painter, text, style, false),
+            Node::Sign(sign) => Self::text(painter, &sign.to_string(), style, false),
+            Node::Space(room) => Self { width: room * style.size, ..Self::default() },
+            Node::Fraction(over, under) => Self::fraction(painter, over, under, style),
+            Node::Root(inside) => Self::root(painter, inside, style),
+            Node::Script { base, index, exponent } => Self::script(painter, base, [index, exponent], style),
+            Node::Bracketed(left, inside, right) => Self::bracketed(painter, *left, inside, *right, style),
+            Node::Marked(mark, inside) => Self::marked(painter, *mark, inside, style),
+        }
+    }
+
+    fn fraction(painter: &Painter, over: &[Node], under: &[Node], style: Style) -> Self {
+        let inner = if style.display { Style { display: false, ..style } } else { style.scaled(SIZES.fraction) };
+        let (over, under) = (Self::of(painter, over, inner), Self::of(painter, under, inner));
+        let rule = (SIZES.rule * style.size).max(1.0);
+        let (overhang, gap) = (0.12 * style.size, 0.14 * style.size + 0.5 * rule);
+        let widest = over.width.max(under.width) + 2.0 * overhang;
+        let side = 0.08 * style.size;
+        let axis = -SIZES.axis * style.size;
+        let line = vec![pos2(side, axis), pos2(side + widest, axis)];
+        let mut set = Self { width: widest + 2.0 * side, pieces: vec![Piece::Line(line, rule)], ..Self::default() };
+        let middle = |part: &Self| side + 0.5 * (widest - part.width);
+        let up = vec2(middle(&over), axis - gap - over.descent);
+        let down = vec2(middle(&under), axis + gap + under.ascent);
+        set.place(over, up);
+        set.place(under, down);
+        set
+    }
+
+    fn root(painter: &Painter, inside: &[Node], style: Style) -> Self {
+        let inside = Self::of(painter, inside, style);
+        let rule = (SIZES.rule * style.size).max(1.0);
+        let (gap, hook) = (0.14 * style.size, 0.55 * style.size);
+        let (top, bottom) = (-inside.ascent - gap, inside.descent);
+        let foot = 0.25 * style.size;
+        let line = vec![
+            pos2(0.04 * style.size, bottom - 0.42 * (bottom - top)),
+            pos2(0.16 * style.size, bottom - 0.48 * (bottom - top)),
+            pos2(0.5 * (foot + hook) - 0.06 * style.size, bottom),
+            pos2(hook, top),
+            pos2(hook + inside.width + 0.1 * style.size, top),
+        ];
+        let width = hook + inside.width + 0.16 * style.size;
+        let mut set = Self { width, ascent: -top + rule, pieces: vec![Piece::Line(line, rule)], ..Self::default() };
+        set.place(inside, vec2(hook + 0.03 * style.size, 0.0));
+        set
+    }
+
+    /// A sum on its own, with what it is over below and how far it goes above.
+    fn sum(painter: &Painter, [index, exponent]: [&[Node]; 2], style: Style) -> Self {
+        let small = style.scaled(SIZES.script);
+        let large = SIZES.sum * style.size;
+        let (galley, _) = galley(painter, SUM, large, style.colour, false);
+        // Its middle is where those of + and of fractions are.
+        let (ascent, descent) = (SIZES.ascent * large, SIZES.descent * large);
+        let drop = 0.5 * (ascent - descent) - SIZES.axis * style.size;
+        let sign = galley.size().x;
+        let [below, above] = [index, exponent].map(|nodes| Self::of(painter, nodes, small));
+        let width = sign.max(below.width).max(above.width);
+        let gap = 0.1 * style.size;
+        let mut set = Self { width: width + 0.1 * style.size, ..Self::default() };
+        let sign = Self { width: sign, ascent, descent, pieces: vec![Piece::Text(Pos2::ZERO, galley)] };
+        for (part, down) in [
+            (below.clone(), drop + descent + gap + below.ascent),
+            (above.clone(), drop - ascent - gap - above.descent),
+            (sign, drop),
+        ] {
+            if !part.pieces.is_empty() {
+                let middle = 0.5 * (width - part.width);
+                set.place(part, vec2(middle, down));
+            }
+        }
+        set
+    }
+
+    fn script(painter: &Painter, base: &[Node], scripts: [&[Node]; 2], style: Style) -> Self {
+        if style.display && matches!(base, [Node::Upright(sign)] if sign == SUM) {
+            return Self::sum(painter, scripts, style);
+        }
+        let [index, exponent] = scripts;
+        let small = style.scaled(SIZES.script);
+        let mut set = Self::of(painter, base, style);
+        let (base_ascent, base_descent, start) = (set.ascent, set.descent, set.width + 0.02 * style.size);
+        let tall = base_ascent > 1.1 * style.size;
+        for (nodes, below) in [(index, true), (exponent, false)] {
+            if nodes.is_empty() {
+                continue;
+            }
+            let part = Self::of(painter, nodes, small);
+            let down = match (below, tall) {
+                (true, true) => base_descent,
+                (true, false) => 0.22 * style.size,
+                (false, true) => -(base_ascent - 0.5 * part.ascent),
+                (false, false) => -0.40 * style.size,
+            };
+            set.width = set.width.max(start + part.width);
+            set.place(part, vec2(start, down));
+        }
+        set.width += 0.02 * style.size;
+        set
+    }
+
+    fn bracketed(painter: &Painter, left: char, inside: &[Node], right: char, style: Style) -> Self {
+        let inside = Self::of(painter, inside, style);
+        let rule = (SIZES.rule * style.size).max(1.0);
+        let (top, bottom) = (-inside.ascent - 0.04 * style.size, inside.descent + 0.04 * style.size);
+        let width = 0.34 * style.size;
+        let mut set = Self { width, ascent: -top, descent: bottom, pieces: Vec::new() };
+        set.pieces.push(Piece::Line(bracket(left, top, bottom, 0.06 * style.size, width - 0.1 * style.size), rule));
+        set.append(inside);
+        let from = set.width + 0.1 * style.size;
+        set.pieces.push(Piece::Line(bracket(right, top, bottom, from, from + width - 0.16 * style.size), rule));
+        set.width += width;
+        set
+    }
+
+    fn marked(painter: &Painter, mark: Mark, inside: &[Node], style: Style) -> Self {
+        let mut set = Self::of(painter, inside, style);
+        // Clear of a stem, and not far above a letter that has none.
+        let low = matches!(inside, [Node::Letter(letter)] if LOW.contains(*letter));
+        let top = if low { -0.68 * style.size } else { -set.ascent - 0.2 * style.size };
+        match mark {
+            Mark::Dot => set.pieces.push(Piece::Dot(pos2(0.58 * set.width, top), 0.065 * style.size)),
+            Mark::Bar => {
+                let line = vec![pos2(0.1 * set.width, top), pos2(set.width, top)];
+                set.pieces.push(Piece::Line(line, (SIZES.rule * style.size).max(1.0)));
+            }
+        }
+        set.ascent = set.ascent.max(-top + 0.08 * style.size);
+        set
+    }
+
+    /// Draws it with its left end at `at`, on the baseline.
+    pub(in crate::gui) fn paint(&self, painter: &Painter, at: Pos2, colour: Color32) {
+        let by = at.to_vec2();
+        for piece in &self.pieces {
+            match piece {
+                Piece::Text(place, galley) => {
+                    let corner = *place + by - vec2(0.0, baseline(galley));
+                    painter.galley(corner, Arc::clone(galley), colour);
+                }
+                Piece::Line(points, width) => {
+                    let points = points.iter().map(|point| *point + by).collect();
+                    painter.add(Shape::line(points, Stroke::new(*width, colour)));
+                }
+                Piece::Dot(place, radius) => {
+                    painter.circle_filled(*place + by, *radius, colour);
+                }
+            }
+        }
+    }
+}
+
+impl Piece {
+    fn moved(self, by: Vec2) -> Self {
+        match self {
+            Self::Text(place, galley) => Self::Text(place + by, galley),
+            Self::Line(points, width) => Self::Line(points.into_iter().map(|point| point + by).collect(), width),
+            Self::Dot(place, radius) => Self::Dot(place + by, radius),
+        }
+    }
+}
+
+/// A bracket between two heights and two widths.
+fn bracket(kind: char, top: f32, bottom: f32, left: f32, right: f32) -> Vec<Pos2> {
+    let middle = 0.5 * (top + bottom);
+    let curve = |from: f32, to: f32| {
+        let point = |i: u8| {
+            let share = f32::from(i) / 12.0;
+            let bow = 4.0 * share * (1.0 - share);
+            pos2(from + (to - from) * bow, top + share * (bottom - top))
+        };
+        (0..=12).map(point).collect()
+    };
+    match kind {
+        '(' => curve(right, left),
+        ')' => curve(left, right),
+        '[' => vec![pos2(right, top), pos2(left, top), pos2(left, bottom), pos2(right, bottom)],
+        ']' => vec![pos2(left, top), pos2(right, top), pos2(right, bottom), pos2(left, bottom)],
+        '⟨' => vec![pos2(right, top), pos2(left, middle), pos2(right, bottom)],
+        '⟩' => vec![pos2(left, top), pos2(right, middle), pos2(left, bottom)],
+        _ => vec![pos2(0.5 * (left + right), top), pos2(0.5 * (left + right), bottom)],
+    }
+}

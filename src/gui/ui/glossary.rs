@@ -1,0 +1,72 @@
+//! The glossary on hover, beside what is pointed at.
+
+use super::rich::{self, Look};
+use crate::gui::ui::hint::{beside_with, describe};
+use crate::lessons::glossary::{Term, find};
+use crate::lessons::text::plain_blocks;
+use eframe::egui::{self, Id, RichText, Ui};
+
+/// Widest explanation on hover.
+const WIDTH: f32 = 320.0;
+
+fn unexplained_id() -> Id {
+    Id::unique("glossary, unexplained")
+}
+
+/// Words that were shown and that the glossary does not have: none, which a test asks for.
+pub fn unexplained(ctx: &egui::Context) -> Vec<String> {
+    ctx.data(|data| data.get_temp::<Vec<String>>(unexplained_id())).unwrap_or_default()
+}
+
+/// Explains `word` while the pointer rests on `response`, beside the panel that it is in.
+pub fn hover(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
+    explain(ui, response, word, Some(ui.clip_rect()))
+}
+
+/// Explains `word` while the pointer rests on `response`, close to it: for the middle of the window.
+pub fn here(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
+    explain(ui, response, word, None)
+}
+
+/// What is drawn at `place`, the `number`th of its drawing, as something to point at.
+pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
+    let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("About: {word}")));
+    response
+}
+
+fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Rect>) -> egui::Response {
+    match find(word) {
+        Some(term) => {
+            describe(&response, || format!("{}: {}", title(term), plain_blocks(&term.text)));
+            let add = |ui: &mut Ui| {
+                ui.set_max_width(WIDTH);
+                explanation(ui, term);
+            };
+            match panel {
+                Some(panel) => beside_with(panel, response, add),
+                None => response.on_hover_ui(add),
+            }
+        }
+        None => {
+            ui.ctx().data_mut(|data| {
+                let missing: &mut Vec<String> = data.get_temp_mut_or_default(unexplained_id());
+                if !missing.iter().any(|other| other == word) {
+                    missing.push(word.to_owned());
+                }
+            });
+            response
+        }
+    }
+}
+
+fn explanation(ui: &mut Ui, term: &Term) {
+    ui.label(RichText::new(title(term)).strong());
+    let look = Look::usual(ui);
+    rich::blocks(ui, &term.text, look);
+}
+
+/// A term with its symbol.
+pub fn title(term: &Term) -> String {
+    if term.symbol.is_empty() { term.name.clone() } else { format!("{}  {}", term.name, term.symbol) }
+}

@@ -1,0 +1,57 @@
+//! Explanations on hover, which screen readers get too. In a panel they stand beside it and do not cover the rows around.
+//! And how wide a text is.
+
+use eframe::egui::{Color32, Rect, RectAlign, Response, TextStyle, Tooltip, Ui};
+
+/// Between the panel and the explanation.
+const GAP: f32 = 12.0;
+
+/// Tells screen readers what the pointer is told.
+pub fn describe(response: &Response, text: impl FnOnce() -> String) {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_description(text()));
+}
+
+/// Something that says what it is while the pointer rests on it.
+pub trait Hint {
+    /// Shows `text` at the widget.
+    fn hint(self, text: impl Into<String>) -> Self;
+}
+
+impl Hint for Response {
+    fn hint(self, text: impl Into<String>) -> Self {
+        let text = text.into();
+        describe(&self, || text.clone());
+        self.on_hover_text(text)
+    }
+}
+
+/// Shows `text` beside `panel` while the pointer rests on `response`, a widget in it.
+pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
+    describe(&response, || text.to_owned());
+    beside_with(panel, response, |ui| drop(ui.label(text)))
+}
+
+/// As [`beside`], with whatever `add` shows.
+pub fn beside_with(panel: Rect, response: Response, add: impl FnOnce(&mut Ui)) -> Response {
+    let mut tooltip = Tooltip::for_enabled(&response);
+    let row = Rect::from_x_y_ranges(panel.x_range(), response.rect.y_range());
+    tooltip.popup = tooltip
+        .popup
+        .anchor(row)
+        .align(RectAlign::RIGHT_START)
+        .align_alternatives(&[
+            RectAlign::RIGHT_END,
+            RectAlign::LEFT_START,
+            RectAlign::LEFT_END,
+            RectAlign::BOTTOM_START,
+        ])
+        .gap(GAP);
+    tooltip.show(add);
+    response
+}
+
+/// Width of a line of usual text \[points\].
+pub fn text_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+}

@@ -1,0 +1,191 @@
+//! The keyboard: one table feeds what keys do, the sheet that lists them, and the menus that name them.
+
+use crate::gui::command::{Command, HoldCommand, LessonCommand, PinCommand};
+use crate::gui::state::document::Next;
+use crate::gui::state::view::Tab;
+use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
+
+/// A shortcut, what it is called, and what it asks for.
+#[derive(Clone, Copy, Debug)]
+pub struct Shortcut {
+    /// The keys.
+    pub keys: KeyboardShortcut,
+    /// What it does.
+    pub about: &'static str,
+    /// What it asks for.
+    pub command: fn() -> Command,
+    /// Also while text is typed.
+    pub while_typing: bool,
+}
+
+const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(modifiers, key)
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+
+const fn always(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
+    Shortcut { keys, about, command, while_typing: true }
+}
+
+const fn idle(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
+    Shortcut { keys, about, command, while_typing: false }
+}
+
+/// The group of the keys that move the cycle.
+const MOTION: &str = "Motion";
+
+/// The group of the keys that move a held plate, and by how much of its mean gap.
+const HOLDING: &str = "Held plate";
+const HOLD_STEP: f64 = 0.05;
+
+/// All shortcuts, in the groups and the order in which the sheet lists them.
+pub const GROUPS: &[(&str, &[Shortcut])] = &[
+    (
+        MOTION,
+        &[
+            idle(key(NONE, Key::Space), "Play or pause", || Command::TogglePlay),
+            idle(key(NONE, Key::ArrowLeft), "One frame back", || Command::StepFrames(-1)),
+            idle(key(NONE, Key::ArrowRight), "One frame on", || Command::StepFrames(1)),
+            idle(key(NONE, Key::Home), "Start of the cycle", || Command::Seek(0.0)),
+            idle(key(NONE, Key::OpenBracket), "Follow the tooth before", || Command::NextTooth(-1)),
+            idle(key(NONE, Key::CloseBracket), "Follow the next tooth", || Command::NextTooth(1)),
+        ],
+    ),
+    (
+        HOLDING,
+        &[
+            idle(key(NONE, Key::ArrowUp), "Held plate up", || Command::Hold(HoldCommand::By(HOLD_STEP))),
+            idle(key(NONE, Key::ArrowDown), "Held plate down", || Command::Hold(HoldCommand::By(-HOLD_STEP))),
+        ],
+    ),
+    (
+        "Scene",
+        &[
+            always(key(CTRL, Key::Z), "Undo", || Command::Undo),
+            always(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo),
+            always(key(CTRL, Key::D), "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
+            idle(key(NONE, Key::Escape), "Stop solving", || Command::CancelSolve),
+        ],
+    ),
+    (
+        "Lessons",
+        &[
+            idle(key(NONE, Key::PageDown), "Next step", || Command::Lesson(LessonCommand::Next)),
+            idle(key(NONE, Key::PageUp), "Step before", || Command::Lesson(LessonCommand::Back)),
+        ],
+    ),
+    (
+        "File",
+        &[
+            always(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
+            always(key(CTRL, Key::S), "Save", || Command::Save),
+            always(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
+            always(key(CTRL, Key::Q), "Quit", || Command::Proceed(Next::Quit)),
+        ],
+    ),
+    (
+        "Window",
+        &[
+            always(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
+            always(key(CTRL, Key::Num2), "Compare pinned runs", || Command::Show(Tab::Compare)),
+            always(key(CTRL, Key::Num3), "Sweep a parameter", || Command::Show(Tab::Sweep)),
+            always(key(CTRL, Key::Num4), "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
+            always(key(CTRL, Key::Num5), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+            always(key(CTRL, Key::Num6), "Show the start-up", || Command::Show(Tab::Startup)),
+            always(key(CTRL, Key::Num7), "Hold a plate", || Command::Show(Tab::Hold)),
+            always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
+            always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
+            always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
+            always(key(NONE, Key::F3), "Show or hide the results", || Command::ToggleResults),
+            always(key(CTRL, Key::P), "Picture of the window", || Command::Screenshot),
+            always(key(NONE, Key::F1), "This sheet", || Command::ToggleShortcuts),
+        ],
+    ),
+];
+
+fn all() -> impl Iterator<Item = &'static Shortcut> {
+    GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter())
+}
+
+/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open, or text is typed. The plain keys are then its own,
+/// and those of an open menu. `tab`: the keys of the motion are its own.
+pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>) {
+    let typing = modal || ctx.egui_wants_keyboard_input() || Popup::is_any_open(ctx);
+    ctx.input_mut(|input| {
+        // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
+        for shift in [true, false] {
+            let groups = GROUPS.iter().filter(|(group, _)| match *group {
+                MOTION => tab.moves(),
+                HOLDING => tab == Tab::Hold,
+                _ => true,
+            });
+            let shortcuts = groups.flat_map(|(_, shortcuts)| shortcuts.iter());
+            for shortcut in shortcuts.filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
+                if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {
+                    commands.push((shortcut.command)());
+                }
+            }
+        }
+    });
+}
+
+/// The keys as they are printed on a keyboard.
+pub fn name(keys: &KeyboardShortcut) -> String {
+    let key = match keys.logical_key {
+        Key::ArrowLeft => "←",
+        Key::ArrowRight => "→",
+        Key::ArrowUp => "↑",
+        Key::ArrowDown => "↓",
+        Key::Escape => "Esc",
+        other => other.symbol_or_name(),
+    };
+    let modifiers = ModifierNames::NAMES.format(&keys.modifiers, cfg!(target_os = "macos"));
+    if modifiers.is_empty() { key.to_owned() } else { format!("{modifiers}+{key}") }
+}
+
+/// What the keys that ask for `command` do, and the keys: "Undo (Ctrl+Z)".
+pub fn about(command: &Command) -> String {
+    let found = all().find(|shortcut| (shortcut.command)() == *command);
+    found.map(|shortcut| format!("{} ({})", shortcut.about, name(&shortcut.keys))).unwrap_or_default()
+}
+
+/// The keys that ask for `command`; empty if none do.
+pub fn of(command: &Command) -> String {
+    all().find(|shortcut| (shortcut.command)() == *command).map(|shortcut| name(&shortcut.keys)).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_named_as_they_are_printed() {
+        assert_eq!(of(&Command::StepFrames(1)), "→");
+        assert_eq!(of(&Command::NextTooth(1)), "]");
+        assert_eq!(of(&Command::CancelSolve), "Esc");
+        assert_eq!(of(&Command::TogglePlay), "Space");
+        if cfg!(not(target_os = "macos")) {
+            assert_eq!(of(&Command::Redo), "Ctrl+Shift+Z");
+        }
+        assert_eq!(of(&Command::OpenPathPrompt), "");
+    }
+
+    #[test]
+    fn every_tab_has_its_number() {
+        for (i, (tab, _)) in Tab::ALL.iter().enumerate() {
+            assert!(of(&Command::Show(*tab)).ends_with(&(i + 1).to_string()), "{tab:?}");
+        }
+    }
+
+    #[test]
+    fn no_two_shortcuts_share_keys_or_words() {
+        for (i, a) in all().enumerate() {
+            for b in all().skip(i + 1) {
+                assert!(a.keys != b.keys && a.about != b.about, "{}", a.about);
+            }
+        }
+    }
+}

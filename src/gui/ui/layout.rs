@@ -1,0 +1,96 @@
+//! The window: panels around the middle, and what is over all of it.
+
+use super::context::DrawContext;
+use super::modals;
+use super::panels::{exports, lesson, menu, parameters, results, timeline};
+use super::{tabs, views};
+use crate::gui::command::LessonCommand;
+use crate::gui::state::view::Tab;
+use crate::problem::Scenario;
+use eframe::egui;
+
+/// Width of a panel at the side of the views.
+struct Side {
+    default: f32,
+    least: f32,
+    /// The most of a narrow window that it takes.
+    share: f32,
+}
+
+const PARAMETERS: Side = Side { default: 300.0, least: 210.0, share: 0.3 };
+/// A lesson is read: wider than the results, whose place it takes.
+const LESSON: Side = Side { default: 392.0, least: 240.0, share: 0.36 };
+const RESULTS: Side = Side { default: 304.0, least: 190.0, share: 0.29 };
+
+impl Side {
+    /// Fits `panel` into a window of this width: what is in the middle stays the widest.
+    fn fit(&self, panel: egui::Panel, window: f32) -> egui::Panel {
+        let most = (self.share * window).max(self.least);
+        panel.default_size(self.default.min(most)).size_range(self.least..=most).resizable(true)
+    }
+}
+
+/// Draws the whole window into `ui`.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let state = cx.state;
+    egui::Panel::top("menu").show(ui, |ui| menu::show(ui, cx));
+    egui::Panel::bottom("status").show(ui, |ui| {
+        timeline::show(ui, cx);
+        exports::show(ui, cx);
+        timeline::status(ui, cx);
+    });
+    let width = ui.available_width();
+    // Each size of text remembers its own widths.
+    let id = |name: &str| if state.lecture { format!("{name}, lecture") } else { name.to_owned() };
+    if state.view.parameters {
+        PARAMETERS.fit(egui::Panel::left(id("parameters")), width).show(ui, |ui| {
+            cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
+            parameters::show(ui, cx);
+        });
+    }
+    if state.view.results && state.lessons.running().is_some_and(|running| !running.all_results) {
+        LESSON.fit(egui::Panel::right(id("lesson")), width).show(ui, |ui| lesson::show(ui, cx));
+    } else if state.view.results {
+        RESULTS.fit(egui::Panel::right(id("results")), width).show(ui, |ui| {
+            // As wide before the first result as after it.
+            ui.set_min_width(ui.available_width());
+            if state.lessons.running().is_some() && ui.button("Back to the lesson").clicked() {
+                cx.push(LessonCommand::AllResults(false));
+            }
+            if let Some(run) = &state.run {
+                results::show(ui, run, cx);
+            }
+        });
+    }
+    egui::CentralPanel::default().show(ui, |ui| {
+        tabs::labels::show(ui, cx);
+        middle(ui, cx);
+    });
+    let ctx = ui.ctx();
+    if let Some(query) = &state.lessons.glossary {
+        modals::glossary::show(ctx, query, cx);
+    }
+    if let Some(stop) = state.lessons.tour {
+        modals::tour::show(ctx, stop, cx);
+    }
+    if state.shortcuts {
+        modals::shortcuts::show(ctx, cx);
+    }
+    modals::question::show(ctx, cx);
+}
+
+fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    match (cx.state.view.tab, &cx.state.run) {
+        (Tab::Motion, Some(run)) => views::run::show(ui, run, None, cx),
+        (Tab::Torque, Some(run)) => match run.problem.scenario {
+            Scenario::Motor(_) => tabs::torque::show(ui, run, cx),
+            Scenario::Plate(_) => tabs::exact::show(ui, run, cx),
+        },
+        (Tab::Motion | Tab::Torque, None) => drop(ui.centered_and_justified(|ui| ui.label("Solving…"))),
+        (Tab::Compare, _) => tabs::compare::show(ui, cx),
+        (Tab::Sweep, _) => tabs::sweep::show(ui, cx),
+        (Tab::Startup, _) => tabs::startup::show(ui, cx),
+        (Tab::Hold, _) => tabs::hold::show(ui, cx),
+        (Tab::Tradeoff, _) => tabs::tradeoff::show(ui, cx),
+    }
+}

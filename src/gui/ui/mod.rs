@@ -1,0 +1,18 @@
+//! What is drawn: it reads the state and pushes commands, and changes nothing.
+
+pub mod cache;
+pub mod chart;
+pub mod context;
+pub mod formula;
+pub mod glossary;
+pub mod highlight;
+pub mod hint;
+pub mod keys;
+pub mod layout;
+pub mod modals;
+pub mod paint;
+pub mod panels;
+pub mod rich;
+pub mod tabs;
+pub mod theme;
+pub mod views;

@@ -1,0 +1,138 @@
+//! Errors, questions and the prompt for a path, drawn.
+
+use super::frame::frame;
+use crate::gui::command::Command;
+use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::document::Next;
+use crate::gui::state::modal::{Modal, PathPrompt};
+use crate::gui::ui::context::DrawContext;
+use eframe::egui::{self, Id, Key, RichText, Ui};
+use std::path::PathBuf;
+
+/// Widest text.
+const WIDTH: f32 = 460.0;
+
+/// Shows what is in the way, if anything is.
+pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
+    let Some(modal) = &cx.state.modal else { return };
+    let response = egui::Modal::new(Id::unique("question")).frame(frame(ctx)).show(ctx, |ui| {
+        ui.set_width(WIDTH.min(0.8 * ctx.content_rect().width()));
+        match modal {
+            Modal::Error(message) => error(ui, message),
+            Modal::Unsaved { name, next } => unsaved(ui, name, next),
+            Modal::Path(prompt) => path(ui, prompt, cx),
+        }
+    });
+    let closed = response.should_close().then(|| vec![Command::Dismissed]);
+    if let Some(commands) = response.inner.or(closed) {
+        cx.push(Command::CloseModal);
+        commands.into_iter().for_each(|command| cx.push(command));
+    }
+}
+
+/// What the user answered, once that is clear: commands for when the question is gone.
+type Answer = Option<Vec<Command>>;
+
+fn heading(ui: &mut Ui, text: &str) {
+    ui.add(egui::Label::new(RichText::new(text).heading()).wrap());
+    ui.add_space(8.0);
+}
+
+fn error(ui: &mut Ui, message: &str) -> Answer {
+    heading(ui, "This did not work");
+    // A long message scrolls: the button below stays in the window.
+    egui::ScrollArea::vertical().max_height(0.6 * ui.ctx().content_rect().height()).show(ui, |ui| {
+        ui.add(egui::Label::new(message).wrap());
+    });
+    ui.add_space(12.0);
+    let close = ui.button("Close");
+    if ui.memory(|memory| memory.focused().is_none()) {
+        close.request_focus();
+    }
+    close.clicked().then(Vec::new)
+}
+
+fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {
+    heading(ui, &format!("Save the changes to “{name}”?"));
+    ui.horizontal_wrapped(|ui| {
+        let save = ui.button("Save");
+        if ui.memory(|memory| memory.focused().is_none()) {
+            save.request_focus();
+        }
+        let discard = ui.button("Don't save");
+        let keep = ui.button("Keep editing");
+        let answers = [
+            (save, Command::SaveThen(next.clone())),
+            (discard, Command::DiscardThen(next.clone())),
+            (keep, Command::Dismissed),
+        ];
+        answers.into_iter().find(|(button, _)| button.clicked()).map(|(_, command)| vec![command])
+    })
+    .inner
+}
+
+fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
+    heading(
+        ui,
+        match prompt.purposes[..] {
+            [Purpose::Open] => "Open a preset",
+            [Purpose::Save] => "Save the preset",
+            [Purpose::Lessons] => "Open a folder of lessons",
+            [Purpose::Screenshot] => "Save a picture of the window",
+            [Purpose::Export(export)] => export.title(),
+            _ => "Open or save a preset",
+        },
+    );
+    if prompt.no_dialog {
+        let text = "No file dialog answers on this machine: type the path.";
+        cx.note(ui, text);
+        ui.add_space(6.0);
+    }
+    let folder = matches!(prompt.purposes[..], [Purpose::Export(export)] if export.is_folder());
+    let label = ui.label(if folder { "Folder" } else { "Path" });
+    let mut typed = prompt.path.clone();
+    let field = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(f32::INFINITY)).labelled_by(label.id);
+    if prompt.fresh {
+        field.request_focus();
+    }
+    if prompt.fresh || field.changed() {
+        cx.push(Command::TypePath(typed.clone()));
+    }
+    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    let path = expanded(&typed);
+    let named = !typed.trim().is_empty();
+    let writes = prompt.purposes.iter().any(|purpose| !matches!(purpose, Purpose::Open | Purpose::Lessons));
+    let replaces = writes && named && cx.state.document.path() != Some(path.as_path()) && path.is_file();
+    if replaces && !prompt.purposes.contains(&Purpose::Open) {
+        cx.say(ui, "There is such a file already", cx.colours.alarm);
+    }
+    ui.add_space(12.0);
+    ui.horizontal_wrapped(|ui| {
+        let mut answer = None;
+        for (i, &purpose) in prompt.purposes.iter().enumerate() {
+            let text = match purpose {
+                Purpose::Open | Purpose::Lessons => "Open",
+                _ if replaces => "Replace",
+                Purpose::Save | Purpose::Screenshot | Purpose::Export(_) => "Save",
+            };
+            let clicked = ui.add_enabled(named, egui::Button::new(text)).clicked();
+            // Enter takes the first, but replaces nothing.
+            let replacing = replaces && purpose != Purpose::Open;
+            if clicked || (entered && named && i == 0 && !replacing) {
+                answer = Some(vec![Command::with_path(purpose, path.clone())]);
+            }
+        }
+        let cancelled = ui.button("Cancel").clicked();
+        answer.or(cancelled.then(|| vec![Command::Dismissed]))
+    })
+    .inner
+}
+
+/// A typed path, `~/` being the home folder.
+fn expanded(path: &str) -> PathBuf {
+    let path = path.trim();
+    match (path.strip_prefix("~/"), std::env::home_dir()) {
+        (Some(rest), Some(home)) => home.join(rest),
+        _ => PathBuf::from(path),
+    }
+}

@@ -1,0 +1,58 @@
+//! The sheet of keyboard shortcuts.
+
+use super::frame::frame;
+use crate::gui::command::Command;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::keys::{self, GROUPS, Shortcut};
+use eframe::egui::{self, RichText, TextStyle};
+
+/// Between the two columns, and between a key and what it does.
+const GAP: f32 = 28.0;
+
+/// Shows the sheet.
+pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
+    let response = egui::Modal::new(egui::Id::unique("shortcuts")).frame(frame(ctx)).show(ctx, |ui| {
+        ui.heading("Keyboard shortcuts");
+        ui.add_space(10.0);
+        let columns = GROUPS.split_at(GROUPS.len() / 2);
+        // Keys of one width, so that what they do begins at one place.
+        let font = TextStyle::Monospace.resolve(ui.style());
+        let width = |shortcut: &Shortcut| {
+            let text = keys::name(&shortcut.keys);
+            ui.painter().layout_no_wrap(text, font.clone(), egui::Color32::PLACEHOLDER).size().x
+        };
+        let widest = GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter()).map(width).fold(0.0, f32::max);
+        egui::ScrollArea::vertical().max_height(0.75 * ctx.content_rect().height()).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                for (i, groups) in [columns.0, columns.1].into_iter().enumerate() {
+                    if i > 0 {
+                        ui.add_space(GAP);
+                    }
+                    ui.vertical(|ui| {
+                        groups.iter().for_each(|(title, shortcuts)| group(ui, title, shortcuts, widest, cx))
+                    });
+                }
+            });
+        });
+        ui.add_space(6.0);
+        ui.button("Close").clicked()
+    });
+    if response.inner || response.should_close() {
+        cx.push(Command::ToggleShortcuts);
+    }
+}
+
+fn group(ui: &mut egui::Ui, title: &str, shortcuts: &[Shortcut], widest: f32, cx: &DrawContext<'_>) {
+    ui.label(RichText::new(title).color(cx.colours.quiet));
+    egui::Grid::new(("shortcuts", title)).num_columns(2).min_col_width(widest).spacing([GAP / 2.0, 5.0]).show(
+        ui,
+        |ui| {
+            for shortcut in shortcuts {
+                ui.label(RichText::new(keys::name(&shortcut.keys)).monospace().strong());
+                ui.add(egui::Label::new(shortcut.about).extend());
+                ui.end_row();
+            }
+        },
+    );
+    ui.add_space(12.0);
+}

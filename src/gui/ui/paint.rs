@@ -1,0 +1,350 @@
+//! Axes, ticks, text and bands: the little that the views need to draw.
+
+use super::glossary;
+use super::hint::Hint;
+use super::theme::{self, Palette};
+use crate::gui::derived::format::{number, plain};
+use crate::gui::derived::ticks::{Ticks, round_down};
+use crate::recording::Recording;
+use eframe::egui::epaint::{Mesh, Shape};
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
+use std::cell::RefCell;
+use std::sync::{Arc, OnceLock};
+
+/// Colours and text of the drawings.
+pub(in crate::gui::ui) struct PlotStyle {
+    pub(in crate::gui::ui) palette: Palette,
+    pub(in crate::gui::ui) text: Color32,
+    pub(in crate::gui::ui) grid: Color32,
+    pub(in crate::gui::ui) font: FontId,
+    /// Height of a line of text.
+    pub(in crate::gui::ui) row: f32,
+    /// Terms that were written, and where; and what they mean, if the glossary does not say.
+    terms: RefCell<Vec<(Rect, String, Option<String>)>>,
+}
+
+impl PlotStyle {
+    pub(in crate::gui::ui) fn new(ui: &Ui) -> Self {
+        let palette = theme::palette(ui.visuals().dark_mode);
+        let body = TextStyle::Body.resolve(ui.style());
+        let font = FontId::new((0.85 * body.size).max(9.0), body.family);
+        let row = ui.fonts_mut(|fonts| fonts.row_height(&font));
+        Self {
+            palette,
+            text: ui.visuals().text_color(),
+            grid: palette.quiet.gamma_multiply(0.22),
+            font,
+            row,
+            terms: RefCell::default(),
+        }
+    }
+
+    /// Fill of a solid body: opaque, so that bodies may overlap, and lighter than its outline.
+    pub(in crate::gui::ui) fn solid(&self, outline: Color32) -> Color32 {
+        self.palette.canvas.lerp_to_gamma(outline, 0.72)
+    }
+
+    /// Writes one line.
+    pub(in crate::gui::ui) fn write(
+        &self,
+        painter: &Painter,
+        at: Pos2,
+        anchor: Align2,
+        text: &str,
+        colour: Color32,
+    ) -> Rect {
+        painter.text(at, anchor, text, self.font.clone(), colour)
+    }
+
+    /// What was written at `place` is explained by the glossary under `word`.
+    pub(in crate::gui::ui) fn term(&self, place: Rect, word: &str) {
+        self.terms.borrow_mut().push((place, word.to_owned(), None));
+    }
+
+    /// What was written at `place` is explained by `text`.
+    pub(in crate::gui::ui) fn parameter(&self, place: Rect, name: &str, text: String) {
+        self.terms.borrow_mut().push((place, name.to_owned(), Some(text)));
+    }
+
+    /// Explains the terms of the drawing on hover: after all that also wants the pointer. Whether the pointer is on one: values
+    /// are then read out elsewhere.
+    pub(in crate::gui::ui) fn explain(&self, ui: &Ui) -> bool {
+        let mut pointed = false;
+        for (number, (place, word, text)) in self.terms.borrow_mut().drain(..).enumerate() {
+            let response = glossary::over(ui, place, &word, number);
+            pointed |= response.hovered();
+            match text {
+                Some(text) => drop(response.hint(text)),
+                None => drop(glossary::here(ui, response, &word)),
+            }
+        }
+        pointed
+    }
+
+    /// Width of one line.
+    pub(in crate::gui::ui) fn width(&self, painter: &Painter, text: &str) -> f32 {
+        painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
+    }
+
+    /// A title above `plot`, and a legend at its right end: the first of `titles`, long to short, beside which the legend
+    /// fits; else the first that fits alone. `word`: what the glossary explains it under; the legend is terms itself.
+    pub(in crate::gui::ui) fn title(
+        &self,
+        painter: &Painter,
+        plot: Rect,
+        word: &str,
+        titles: &[&str],
+        legend: &[(&str, Color32)],
+    ) {
+        let bottom = plot.top() - 2.0;
+        let gap = 0.7 * self.row;
+        let width: f32 = legend.iter().map(|(text, _)| self.width(painter, text) + gap + self.row).sum();
+        let fits =
+            |beside: f32| titles.iter().copied().find(|title| self.width(painter, title) + beside <= plot.width());
+        let with_legend = fits(gap + width);
+        let Some(title) = with_legend.or_else(|| fits(0.0)).or(titles.last().copied()) else { return };
+        let clip = painter.clip_rect().intersect(Rect::everything_left_of(plot.right() + 1.0));
+        let corner = pos2(plot.left(), bottom);
+        let place = self.write(&painter.with_clip_rect(clip), corner, Align2::LEFT_BOTTOM, title, self.text);
+        self.term(place.intersect(clip), word);
+        if with_legend.is_none() {
+            return;
+        }
+        let mut right = plot.right();
+        for (text, colour) in legend.iter().rev() {
+            let place = self.write(painter, pos2(right, bottom), Align2::RIGHT_BOTTOM, text, self.text);
+            let left = place.left();
+            let key = Rect::from_center_size(
+                pos2(left - 0.6 * self.row, bottom - 0.5 * self.row),
+                vec2(0.7 * self.row, 0.35 * self.row),
+            );
+            painter.rect_filled(key, 1.0, *colour);
+            self.term(place.union(key), text);
+            right = key.left() - gap;
+        }
+    }
+}
+
+/// Takes the whole of `ui`; `None`, with a word about it, if there is nothing to draw or no room.
+pub(in crate::gui::ui) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rect> {
+    if recording.frames == 0 || recording.x.is_empty() || recording.film.is_empty() {
+        ui.label("This run has no fields to show.");
+        return None;
+    }
+    let size = ui.available_size();
+    let (rect, _) = ui.allocate_exact_size(size.min(vec2(6000.0, 6000.0)), Sense::hover());
+    (rect.width() > 160.0 && rect.height() > 160.0).then_some(rect)
+}
+
+/// A rectangle on the screen and what its edges mean.
+#[derive(Clone, Copy)]
+pub(in crate::gui::ui) struct Axes {
+    pub(in crate::gui::ui) rect: Rect,
+    pub(in crate::gui::ui) x: [f64; 2],
+    pub(in crate::gui::ui) y: [f64; 2],
+}
+
+impl Axes {
+    /// Ranges of no extent are widened.
+    pub(in crate::gui::ui) fn new(rect: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
+        Self { rect, x: widened(x), y: widened(y) }
+    }
+
+    pub(in crate::gui::ui) fn px(&self, x: f64) -> f32 {
+        let part = (x - self.x[0]) / (self.x[1] - self.x[0]);
+        self.rect.left() + part as f32 * self.rect.width()
+    }
+
+    pub(in crate::gui::ui) fn py(&self, y: f64) -> f32 {
+        let part = (y - self.y[0]) / (self.y[1] - self.y[0]);
+        self.rect.bottom() - part as f32 * self.rect.height()
+    }
+
+    pub(in crate::gui::ui) fn at(&self, x: f64, y: f64) -> Pos2 {
+        pos2(self.px(x), self.py(y))
+    }
+
+    /// x at a place on the screen; `None` beside the rectangle.
+    pub(in crate::gui::ui) fn x_at(&self, px: f32) -> Option<f64> {
+        let part = f64::from((px - self.rect.left()) / self.rect.width());
+        (0.0..=1.0).contains(&part).then(|| self.x[0] + part * (self.x[1] - self.x[0]))
+    }
+
+    /// Background and frame.
+    pub(in crate::gui::ui) fn canvas(&self, painter: &Painter, style: &PlotStyle) {
+        painter.rect_filled(self.rect, 2.0, style.palette.canvas);
+    }
+
+    /// Horizontal grid lines with their values, written left of the plot. `unit`: size of the written unit.
+    pub(in crate::gui::ui) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
+        let about = (self.rect.height() / (2.2 * style.row)).clamp(1.0, 6.0) as usize;
+        let range = [self.y[0] / unit, self.y[1] / unit];
+        // One value alone says nothing about the scale.
+        let mut several = (about..about + 3).map(|about| Ticks::new(range, about));
+        let ticks = several.find(|ticks| ticks.values().count() > 1).unwrap_or_else(|| Ticks::new(range, about));
+        for value in ticks.values() {
+            let y = self.py(value * unit);
+            painter.hline(self.rect.x_range(), y, Stroke::new(1.0, style.grid));
+            // A label may not reach into the title above or the axis below.
+            let label = y.min(self.rect.bottom() - 0.35 * style.row).max(self.rect.top() + 0.35 * style.row);
+            if (label - y).abs() < 0.4 * style.row {
+                let at = pos2(self.rect.left() - 4.0, label);
+                style.write(painter, at, Align2::RIGHT_CENTER, &ticks.format(value), style.palette.quiet);
+            }
+        }
+    }
+
+    /// Vertical grid lines.
+    pub(in crate::gui::ui) fn x_grid(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
+        for value in self.x_values(style, unit).values() {
+            painter.vline(self.px(value * unit), self.rect.y_range(), Stroke::new(1.0, style.grid));
+        }
+    }
+
+    fn x_values(&self, style: &PlotStyle, unit: f64) -> Ticks {
+        let about = (self.rect.width() / (3.6 * style.row)).clamp(1.0, 12.0) as usize;
+        Ticks::new([self.x[0] / unit, self.x[1] / unit], about)
+    }
+
+    /// Values below the plot, and the name of the axis left of them.
+    pub(in crate::gui::ui) fn x_labels(&self, painter: &Painter, style: &PlotStyle, unit: f64, name: &str) {
+        let ticks = self.x_values(style, unit);
+        let top = self.rect.bottom() + 1.0;
+        let place =
+            style.write(painter, pos2(self.rect.left() - 4.0, top), Align2::RIGHT_TOP, name, style.palette.quiet);
+        style.term(place, name.split(',').next().unwrap_or(name));
+        let named = place.right();
+        for value in ticks.values() {
+            let text = ticks.format(value);
+            let half = 0.5 * style.width(painter, &text);
+            let x = self.px(value * unit);
+            if x - half > named + 2.0 && x + half < self.rect.right() + 8.0 {
+                style.write(painter, pos2(x, top), Align2::CENTER_TOP, &text, style.palette.quiet);
+            }
+        }
+    }
+
+    /// The line under the pointer.
+    pub(in crate::gui::ui) fn cursor(&self, painter: &Painter, style: &PlotStyle, x: Option<f64>) {
+        if let Some(x) = x.filter(|x| (self.x[0]..=self.x[1]).contains(x)) {
+            painter.vline(self.px(x), self.rect.y_range(), Stroke::new(1.0, style.palette.accent));
+        }
+    }
+}
+
+fn widened([low, high]: [f64; 2]) -> [f64; 2] {
+    if !(low.is_finite() && high.is_finite()) {
+        return [0.0, 1.0];
+    }
+    let span = high - low;
+    if span > 1e-12 * low.abs().max(high.abs()) && span > f64::MIN_POSITIVE {
+        return [low, high];
+    }
+    let half = if low == 0.0 { 0.5 } else { 0.05 * low.abs() };
+    [low - half, high + half]
+}
+
+/// Fills between two lines, given as columns (x, one y, other y).
+pub(in crate::gui::ui) fn band(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32)>, colour: Color32) {
+    shaded(painter, columns.map(|(x, one, other)| (x, one, other, colour)));
+}
+
+/// The same with a colour for each column: (x, one y, other y, colour).
+pub(in crate::gui::ui) fn shaded(painter: &Painter, columns: impl Iterator<Item = (f32, f32, f32, Color32)>) {
+    let mut mesh = Mesh::default();
+    let (least, _) = columns.size_hint();
+    mesh.reserve_vertices(2 * least);
+    mesh.reserve_triangles(2 * least);
+    for (x, one, other, colour) in columns {
+        let next = mesh.vertices.len() as u32;
+        mesh.colored_vertex(pos2(x, one), colour);
+        mesh.colored_vertex(pos2(x, other), colour);
+        if next > 0 {
+            mesh.add_triangle(next - 2, next - 1, next);
+            mesh.add_triangle(next - 1, next, next + 1);
+        }
+    }
+    painter.add(Shape::Mesh(Arc::new(mesh)));
+}
+
+/// Colours of the field in 256 steps.
+pub(in crate::gui::ui) fn field_colours() -> &'static [Color32; 256] {
+    static COLOURS: OnceLock<[Color32; 256]> = OnceLock::new();
+    COLOURS.get_or_init(|| std::array::from_fn(|i| theme::field_colour(i as f64 / 255.0)))
+}
+
+/// A title above `plot` with the colour bar and its ends at the right end of the same line.
+/// `word`: what the glossary explains it under.
+pub(in crate::gui::ui) fn title_with_bar(
+    painter: &Painter,
+    style: &PlotStyle,
+    plot: Rect,
+    word: &str,
+    titles: [&str; 2],
+    range: [f64; 2],
+) {
+    let ends = range.map(|pascal| number(pascal / 1e3));
+    title_with_ends(painter, style, plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
+}
+
+/// The same with what is written at the ends of the bar.
+pub(in crate::gui::ui) fn title_with_ends(
+    painter: &Painter,
+    style: &PlotStyle,
+    plot: Rect,
+    word: &str,
+    titles: [&str; 2],
+    ends: [&str; 2],
+) {
+    let bottom = plot.top() - 2.0;
+    let written = style.width(painter, ends[0]) + style.width(painter, ends[1]) + 2.0 * style.row;
+    let room = plot.width() - written - 2.0 * style.row;
+    // The longer title if a bar of some length is left.
+    let title = if style.width(painter, titles[0]) < room { titles[0] } else { titles[1] };
+    let length = (room - style.width(painter, title)).clamp(2.0 * style.row, 9.0 * style.row);
+    let place = style.write(painter, pos2(plot.left(), bottom), Align2::LEFT_BOTTOM, title, style.text);
+    style.term(place, word);
+    let right =
+        style.write(painter, pos2(plot.right(), bottom), Align2::RIGHT_BOTTOM, ends[1], style.palette.quiet).left();
+    let bar = Rect::from_min_max(
+        pos2(right - 4.0 - length, bottom - 0.8 * style.row),
+        pos2(right - 4.0, bottom - 0.2 * style.row),
+    );
+    let colours = field_colours();
+    let column =
+        |i: u8| (bar.left() + bar.width() * f32::from(i) / 255.0, bar.top(), bar.bottom(), colours[usize::from(i)]);
+    shaded(painter, (0..=255u8).step_by(5).map(column));
+    style.write(painter, pos2(bar.left() - 4.0, bottom), Align2::RIGHT_BOTTOM, ends[0], style.palette.quiet);
+}
+
+/// A vertical bar left of `plot`, as long as a round number of micrometres, `scale` points to a metre.
+pub(in crate::gui::ui) fn scale_bar(painter: &Painter, style: &PlotStyle, plot: Rect, scale: f64) {
+    let length = round_down(0.3 * f64::from(plot.height()) / scale / 1e-6);
+    let height = (length * 1e-6 * scale) as f32;
+    let x = plot.left() - 6.0;
+    let middle = plot.center().y;
+    let (top, bottom) = (middle - 0.5 * height, middle + 0.5 * height);
+    let stroke = Stroke::new(1.5, style.text);
+    painter.vline(x, top..=bottom, stroke);
+    for y in [top, bottom] {
+        painter.hline(x - 3.0..=x + 3.0, y, stroke);
+    }
+    let at = pos2(x - 5.0, middle);
+    style.write(painter, at - vec2(0.0, 0.5 * style.row), Align2::RIGHT_CENTER, &plain(length), style.text);
+    style.write(painter, at + vec2(0.0, 0.5 * style.row), Align2::RIGHT_CENTER, "µm", style.text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_of_no_extent_is_widened() {
+        let axes = Axes::new(Rect::from_min_size(Pos2::ZERO, vec2(10.0, 10.0)), [0.0, 0.0], [5.0, 5.0]);
+        assert!(axes.at(0.0, 5.0).is_finite());
+        let axes = Axes::new(axes.rect, [0.0, f64::NAN], [f64::INFINITY, f64::NEG_INFINITY]);
+        assert!(axes.at(0.0, 5.0).is_finite());
+        assert_eq!(axes.x_at(-1.0), None);
+        assert_eq!(axes.x_at(5.0), Some(0.5));
+    }
+}

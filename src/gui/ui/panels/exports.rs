@@ -1,0 +1,55 @@
+//! How far an export is, or what it wrote.
+
+use crate::gui::command::Command;
+use crate::gui::derived::format::rough;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::Hint;
+use eframe::egui::{self, RichText};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// One line above the status: how far an export is, or what it wrote.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let exports = &cx.state.exports;
+    if let Some(running) = exports.running() {
+        ui.horizontal(|ui| {
+            if ui.button("Cancel the export").hint("Ends it; nothing is written").clicked() {
+                cx.push(Command::CancelExport);
+            }
+            let (drawn, all) = running.drawn;
+            if all > 0 {
+                let share = drawn as f32 / all as f32;
+                let spent = cx.now.saturating_duration_since(running.started).as_secs_f64();
+                let left = spent * (all - drawn.min(all)) as f64 / drawn.max(1) as f64;
+                let left = if drawn > 0 && drawn < all { format!(", {} left", rough(left)) } else { String::new() };
+                let text = format!("{drawn} of {all} pictures{left}");
+                ui.add(egui::ProgressBar::new(share).desired_width(220.0).text(text));
+            } else {
+                ui.spinner();
+            }
+            ui.label(if running.cancelled { "Ending…" } else { running.export.title() });
+        });
+        ui.ctx().request_repaint_after(Duration::from_secs(1));
+    } else if let Some(paths) = exports.written() {
+        ui.horizontal(|ui| {
+            if ui.small_button("✕").hint("Closes this note").accessible_name("Close the note").clicked() {
+                cx.push(Command::CloseExportNote);
+            }
+            let list = paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
+            let text = RichText::new(summary(paths)).color(cx.colours.good);
+            ui.add(egui::Label::new(text).truncate()).hint(list);
+        });
+    }
+}
+
+/// Where the files are.
+fn summary(paths: &[PathBuf]) -> String {
+    match paths {
+        [] => "Nothing to write".to_owned(),
+        [only] => format!("Wrote {}", only.display()),
+        [first, ..] => {
+            let folder = first.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
+            format!("Wrote {} files to {folder}", paths.len())
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! A field for typed values. What is refused stays in the field, with the reason below, until it is corrected or
+//! Escape brings the value back.
+
+use crate::gui::command::Command;
+use crate::gui::ui::context::DrawContext;
+use crate::scene::Value;
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::TextEditState;
+use eframe::egui::{self, Id, Key};
+
+/// Text that differs from the scene.
+#[derive(Clone, Debug)]
+struct Edit {
+    text: String,
+    stage: Stage,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stage {
+    /// The cursor is in the field.
+    Typing,
+    /// Handed to the application by Enter; if refused, the cursor stays.
+    Entered,
+    /// Handed to the application by leaving the field, or refused already.
+    Left,
+}
+
+/// One field.
+#[derive(Clone, Copy, Debug)]
+pub struct Field<'a> {
+    /// Dotted key.
+    pub key: &'static str,
+    /// The value in the scene; `None` if there is nothing to go back to.
+    pub value: Option<&'a Value>,
+    /// Name for screen readers.
+    pub name: &'a str,
+    /// What an empty field says.
+    pub hint: &'static str,
+    /// Why the last text was refused.
+    pub refused: Option<&'a str>,
+    /// Width of the text.
+    pub width: f32,
+    /// Whether long text continues on further lines.
+    pub wrapped: bool,
+}
+
+impl Field<'_> {
+    /// Shows the field and pushes what comes of it.
+    pub fn show(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>) -> egui::Response {
+        let id = id_of(self.key);
+        let present = self.value.map(plain).unwrap_or_default();
+        let edit = self.pending(ui, id);
+        let mut text = edit.as_ref().map_or_else(|| present.clone(), |edit| edit.text.clone());
+        let alarmed = self.refused.is_some() && edit.is_some();
+        let free = self.value.is_none_or(is_text);
+        let editor = if self.wrapped {
+            egui::TextEdit::multiline(&mut text).desired_rows(1).return_key(None)
+        } else {
+            egui::TextEdit::singleline(&mut text)
+        };
+        let entered = ui.memory(|memory| memory.has_focus(id)) && ui.input(|input| input.key_pressed(Key::Enter));
+        let response = editor
+            .id(id)
+            .desired_width(self.width)
+            .align(if free { egui::Align2::LEFT_CENTER } else { egui::Align2::RIGHT_CENTER })
+            .hint_text(self.hint)
+            .text_color_opt(alarmed.then_some(cx.colours.alarm))
+            .show(ui)
+            .response
+            .response
+            .accessible_name(self.name);
+        if entered {
+            ui.memory_mut(|memory| memory.surrender_focus(id));
+        }
+        if response.gained_focus() {
+            select_all(ui, id, &text);
+        }
+        let escaped = ui.input(|input| input.key_pressed(Key::Escape));
+        let typing = edit.as_ref().is_some_and(|edit| edit.stage == Stage::Typing) || response.changed();
+        if response.has_focus() {
+            if typing || edit.is_some() {
+                keep(ui, id, text, Stage::Typing);
+            }
+        } else if typing || (self.refused.is_some() && response.lost_focus() && escaped) {
+            // A field that was not shown for a while has not been left just now.
+            let left = response.lost_focus() && !escaped;
+            self.finish(ui, id, &text, left && text.trim() != present, entered, cx);
+        }
+        response
+    }
+
+    /// Text that differs from the scene, if there is any.
+    fn pending(&self, ui: &egui::Ui, id: Id) -> Option<Edit> {
+        let edit: Edit = ui.data(|data| data.get_temp(id))?;
+        match edit.stage {
+            Stage::Typing => {}
+            _ if self.refused.is_none() => {
+                ui.data_mut(|data| data.remove::<Edit>(id));
+                return None;
+            }
+            Stage::Entered => {
+                ui.memory_mut(|memory| memory.request_focus(id));
+                keep(ui, id, edit.text.clone(), Stage::Left);
+            }
+            Stage::Left => {}
+        }
+        Some(edit)
+    }
+
+    /// The cursor has left the field: hands the text over, or drops it.
+    fn finish(&self, ui: &egui::Ui, id: Id, text: &str, submit: bool, entered: bool, cx: &DrawContext<'_>) {
+        if submit {
+            cx.push(self.submit(text));
+            keep(ui, id, text.to_owned(), if entered { Stage::Entered } else { Stage::Left });
+            return;
+        }
+        ui.data_mut(|data| data.remove::<Edit>(id));
+        if let (Some(_), Some(value)) = (self.refused, self.value) {
+            // Setting what is already set takes the refusal back.
+            cx.push(Command::Set { key: self.key, value: value.clone(), dragging: false });
+        }
+    }
+
+    fn submit(&self, text: &str) -> Command {
+        match self.value {
+            // Free text is a value as it stands, on one line.
+            Some(Value::Text(_)) => {
+                let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+                Command::Set { key: self.key, value: Value::Text(line), dragging: false }
+            }
+            _ => Command::SetText { key: self.key, text: text.trim().to_owned() },
+        }
+    }
+}
+
+/// Whether the field of `key` holds text that is not in the scene.
+pub fn holds_text(ui: &egui::Ui, key: &'static str) -> bool {
+    ui.data(|data| data.get_temp::<Edit>(id_of(key))).is_some()
+}
+
+fn id_of(key: &'static str) -> Id {
+    Id::unique(("parameter", key))
+}
+
+fn is_text(value: &Value) -> bool {
+    matches!(value, Value::Text(_))
+}
+
+/// The value as it is edited: texts in full.
+fn plain(value: &Value) -> String {
+    match value {
+        Value::Text(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
+
+fn keep(ui: &egui::Ui, id: Id, text: String, stage: Stage) {
+    ui.data_mut(|data| data.insert_temp(id, Edit { text, stage }));
+}
+
+fn select_all(ui: &egui::Ui, id: Id, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(all));
+    state.store(ui.ctx(), id);
+}

@@ -1,0 +1,191 @@
+//! The menu bar.
+
+use crate::gui::command::{Command, LessonCommand};
+use crate::gui::state::dialogs::Export;
+use crate::gui::state::document::Next;
+use crate::gui::state::view::Tab;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::{Hint, beside};
+use crate::gui::ui::keys;
+use crate::lessons::text::plain_blocks;
+use crate::scene::presets;
+use eframe::egui::{self, Button};
+
+/// Shows the menus.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let document = &cx.state.document;
+    egui::MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| file(ui, cx));
+        ui.menu_button("Presets", |ui| built_in(ui, cx));
+        ui.menu_button("Edit", |ui| {
+            item(ui, "Undo", document.can_undo(), Command::Undo, cx);
+            item(ui, "Redo", document.can_redo(), Command::Redo, cx);
+        });
+        ui.menu_button("View", |ui| {
+            let other = if cx.state.dark { "Light theme" } else { "Dark theme" };
+            for &(tab, name) in Tab::ALL {
+                item(ui, name, true, Command::Show(tab), cx);
+            }
+            ui.separator();
+            item(ui, other, true, Command::ToggleTheme, cx);
+            item(ui, "Lecture size", true, Command::ToggleLecture, cx);
+            ui.separator();
+            item(ui, "Parameters, show or hide", true, Command::ToggleParameters, cx);
+            item(ui, "Results, show or hide", true, Command::ToggleResults, cx);
+            ui.separator();
+            item(ui, "Picture of the window…", true, Command::Screenshot, cx);
+        });
+        let menu = ui.menu_button("Lessons", |ui| lessons(ui, cx));
+        cx.mark(ui, "lessons", menu.response.rect);
+        ui.menu_button("Help", |ui| {
+            item(ui, "Glossary", true, Command::Glossary(true), cx);
+            item(ui, "Take the tour", true, Command::Tour(Some(0)), cx);
+            ui.separator();
+            item(ui, "Keyboard shortcuts", true, Command::ToggleShortcuts, cx);
+        });
+        ui.separator();
+        let mark = if document.is_dirty() { " •" } else { "" };
+        let name = document.scene().title(document.saved());
+        let title = ui.add(egui::Label::new(egui::RichText::new(format!("{name}{mark}")).strong()).truncate());
+        let place = document.path().map_or_else(
+            || {
+                if document.is_practice() {
+                    "set up by the lesson, to try things on".to_owned()
+                } else {
+                    "built-in preset, not saved".to_owned()
+                }
+            },
+            |p| p.display().to_string(),
+        );
+        title.hint(if document.is_dirty() { format!("{place} (changes not saved)") } else { place });
+    });
+}
+
+fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, cx: &DrawContext<'_>) {
+    if ui.add_enabled(enabled, Button::new(text).shortcut_text(keys::of(&command))).clicked() {
+        cx.push(command);
+        ui.close();
+    }
+}
+
+/// What can be exported, in groups: of the run on screen, of the pinned runs, of the sweep, of the trade-off.
+const EXPORTS: &[&[(&str, Export)]] = &[RUN, COMPARISON, SWEEP, TRADEOFF];
+
+const RUN: &[(&str, Export)] = &[
+    ("All results, into a folder…", Export::Data),
+    ("Figures, into a folder…", Export::Figures),
+    ("Fields as NumPy archive…", Export::Fields),
+    ("Animation…", Export::Animation),
+    ("Report as HTML…", Export::Report),
+];
+
+/// What can be exported of the pinned runs.
+pub const COMPARISON: &[(&str, Export)] =
+    &[("Comparison, into a folder…", Export::Comparison), ("Comparison as HTML…", Export::ComparisonReport)];
+
+/// What can be exported of the sweep.
+pub const SWEEP: &[(&str, Export)] = &[
+    ("Sweep, into a folder…", Export::Sweep),
+    ("Sweep as table…", Export::SweepTable),
+    ("Sweep as figure…", Export::SweepFigure),
+];
+
+const TRADEOFF: &[(&str, Export)] =
+    &[("Trade-off as table…", Export::TradeoffTable), ("Trade-off as figure…", Export::TradeoffFigure)];
+
+/// A button with a menu of exports.
+pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], cx: &DrawContext<'_>) {
+    let menu = ui.menu_button("Export ▾", |ui| {
+        for (text, export) in group {
+            export_item(ui, text, *export, true, cx);
+        }
+    });
+    menu.response.hint("Writes this to files, as the command line does");
+}
+
+fn export_item(ui: &mut egui::Ui, text: &str, export: Export, enabled: bool, cx: &DrawContext<'_>) {
+    let entry = ui.add_enabled(enabled, Button::new(text));
+    if beside(ui.max_rect(), entry, export.about()).clicked() {
+        cx.push(Command::Export(export));
+        ui.close();
+    }
+}
+
+fn exports(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    for (i, group) in EXPORTS.iter().enumerate() {
+        if i > 0 {
+            ui.separator();
+        }
+        for (text, export) in *group {
+            export_item(ui, text, *export, cx.state.can_export(*export), cx);
+        }
+    }
+}
+
+fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    item(ui, "Open…", true, Command::OpenDialog, cx);
+    item(ui, "Open or save by path…", true, Command::OpenPathPrompt, cx);
+    ui.menu_button("Recent", |ui| {
+        if cx.state.recent.is_empty() {
+            ui.weak("Nothing opened yet");
+        }
+        for path in &cx.state.recent {
+            item(ui, &path.display().to_string(), true, Command::Proceed(Next::File(path.clone())), cx);
+        }
+    });
+    ui.separator();
+    item(ui, "Save", true, Command::Save, cx);
+    item(ui, "Save as…", true, Command::SaveAs, cx);
+    ui.separator();
+    ui.menu_button("Export", |ui| exports(ui, cx));
+    ui.separator();
+    item(ui, "Quit", true, Command::Proceed(Next::Quit), cx);
+}
+
+fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let state = &cx.state.lessons;
+    for (i, lesson) in state.lessons().iter().enumerate() {
+        let progress = state.progress(lesson);
+        let mark = match (progress.step, progress.done) {
+            (0, true) => "✔ done".to_owned(),
+            (0, false) => format!("{} steps", lesson.steps.len()),
+            (step, _) => format!("at step {} of {}", (step + 1).min(lesson.steps.len()), lesson.steps.len()),
+        };
+        let entry = ui.add(Button::new(format!("{}  {}", i + 1, lesson.title)).shortcut_text(mark));
+        if beside(ui.max_rect(), entry, &plain_blocks(&lesson.about)).clicked() {
+            cx.push(LessonCommand::Open(i));
+            ui.close();
+        }
+    }
+    ui.separator();
+    let running = state.running().is_some();
+    item(ui, "Leave the lesson", running, Command::Lesson(LessonCommand::Leave), cx);
+    item(ui, "Open a folder of lessons…", true, Command::Lesson(LessonCommand::ChooseFolder), cx);
+    if !state.faults().is_empty() {
+        item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
+    }
+}
+
+fn built_in(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    presets_menu(ui, |name| Next::Preset(name).into(), cx);
+}
+
+/// All built-in presets; `command` is asked with the one that is clicked.
+pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command, cx: &DrawContext<'_>) {
+    let room = 0.85 * ui.ctx().content_rect().height();
+    egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
+        let mut kind = "motor";
+        for preset in presets::BUILT_IN {
+            // Built-in presets parse: a test opens every one.
+            let Ok(scene) = preset.scene() else { continue };
+            if std::mem::replace(&mut kind, scene.scene()) != kind {
+                ui.separator();
+            }
+            let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));
+            if beside(ui.max_rect(), entry, &scene.about).clicked() {
+                cx.push(command(preset.name));
+                ui.close();
+            }
+        }
+    });
+}

@@ -1,0 +1,11 @@
+//! Panels: what is around the middle of the window.
+
+pub mod convergence;
+pub mod exports;
+pub mod field;
+pub mod lesson;
+pub mod menu;
+pub mod model;
+pub mod parameters;
+pub mod results;
+pub mod timeline;

@@ -1,0 +1,446 @@
+//! The left panel: every parameter of the scene. Reads the scene, pushes commands.
+
+use super::field::{self, Field};
+use crate::gui::command::Command;
+use crate::gui::derived::format::capitalised;
+use crate::gui::derived::sliders::{inside, slider_range};
+use crate::gui::derived::words::{self, choice, field_name, label, switch};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::highlight;
+use crate::gui::ui::hint::{Hint, beside, text_width};
+use crate::plan::Decision;
+use crate::scene::{Kind, Parameter, ParameterKind, Scene, Value};
+use eframe::egui::{self, RichText, TextStyle};
+
+/// What the eye meets first.
+const MAIN: &[&str] = &[
+    "film.min_spacing_nm",
+    "stator.tooth_width_mm",
+    "stator.frequency_khz",
+    "plate.mean_gap_um",
+    "plate.amplitude_um",
+    "plate.frequency_khz",
+];
+
+/// The other groups: table, heading, whether it starts open.
+const GROUPS: &[(&str, &str, bool)] = &[
+    ("motor", "Motor", true),
+    ("stator", "Stator", true),
+    ("plate", "Plate", true),
+    ("rotor", "Rotor", false),
+    ("film", "Film", false),
+    ("numerics", "Numerics", false),
+];
+
+/// Width of a field for numbers, in heights of the text.
+const FIELD_WIDTH: f32 = 4.4;
+/// Narrowest slider.
+const SHORTEST_SLIDER: f32 = 40.0;
+/// Size of notes relative to the text.
+const NOTE_SIZE: f32 = 0.88;
+/// Between the frame of the main group and what is in it.
+const FRAME_MARGIN: i8 = 6;
+
+/// Shows the parameters of the scene, and at each why its last edit was rejected.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let scene = cx.state.document.scene();
+    let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
+    let defaults = match scene.kind {
+        Kind::Motor { .. } => Scene::motor(),
+        Kind::Plate { .. } => Scene::plate(),
+    };
+    egui::ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| {
+        let mut panel = Panel { scene, defaults: &defaults, plan, units: 0.0, cx };
+        panel.all(ui);
+    });
+}
+
+/// What every row needs.
+struct Panel<'a> {
+    scene: &'a Scene,
+    defaults: &'a Scene,
+    plan: &'a [Decision],
+    /// Width of the column of units of the present group.
+    units: f32,
+    cx: &'a DrawContext<'a>,
+}
+
+impl Panel<'_> {
+    fn all(&mut self, ui: &mut egui::Ui) {
+        ui.spacing_mut().item_spacing.y = 4.0;
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        // Fields and boxes get an outline: in the light theme their fill is nearly that of the panel.
+        ui.visuals_mut().widgets.inactive.bg_stroke = ui.visuals().widgets.noninteractive.bg_stroke;
+        ui.add_space(6.0);
+        for parameter in self.in_group("") {
+            self.row(ui, parameter);
+        }
+        ui.add_space(4.0);
+        let scene = self.scene;
+        let main = MAIN.iter().filter_map(|key| Parameter::find(key));
+        let main: Vec<_> = main.filter(|p| scene.get(p.key).is_some() && is_main(scene, p)).collect();
+        self.measure_units(ui, &main);
+        let line = ui.visuals().widgets.noninteractive.bg_stroke;
+        egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            heading(ui, "Main");
+            for parameter in main {
+                self.row(ui, parameter);
+            }
+        });
+        ui.add_space(4.0);
+        for &(table, title, open) in GROUPS {
+            let parameters = self.in_group(table);
+            if parameters.is_empty() {
+                continue;
+            }
+            self.measure_units(ui, &parameters);
+            let highlights = &self.cx.state.lessons.highlights;
+            let refused = parameters.iter().any(|parameter| {
+                self.cx.state.rejected.of(parameter.key).is_some()
+                    || (highlights.reveal && highlights.has(parameter.key))
+            });
+            egui::CollapsingHeader::new(RichText::new(title).strong())
+                .id_salt(table)
+                .default_open(open)
+                .open(refused.then_some(true))
+                .show_unindented(ui, |ui| {
+                    for parameter in parameters {
+                        self.row(ui, parameter);
+                    }
+                });
+        }
+        ui.add_space(12.0);
+    }
+
+    /// Makes the column of units as wide as the widest of `parameters`.
+    fn measure_units(&mut self, ui: &egui::Ui, parameters: &[&'static Parameter]) {
+        self.units = parameters.iter().map(|parameter| text_width(ui, parameter.unit)).fold(0.0, f32::max);
+    }
+
+    fn in_group(&self, table: &str) -> Vec<&'static Parameter> {
+        let inside = |p: &&'static Parameter| p.table() == table && !is_main(self.scene, p);
+        let mut parameters: Vec<_> = self.scene.parameters().filter(inside).collect();
+        if table == "rotor"
+            && self.scene.rotor_model().is_some()
+            && !parameters.iter().any(|p| p.kind == ParameterKind::CsvPath)
+        {
+            // A file that is given to a beam replaces it.
+            parameters.extend(Parameter::find("rotor.compliance_csv"));
+        }
+        parameters
+    }
+
+    fn row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+        let row = ui.push_id(parameter.key, |ui| {
+            let value = self.scene.get(parameter.key);
+            match (parameter.kind, &value) {
+                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, None) => {
+                    self.switch_row(ui, parameter, false)
+                }
+                (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, Some(value)) => {
+                    if parameter.absent.is_some() {
+                        self.switch_row(ui, parameter, true);
+                    }
+                    self.number_row(ui, parameter, value);
+                }
+                (ParameterKind::Flag { .. }, Some(Value::Flag(on))) => self.flag_row(ui, parameter, *on),
+                (ParameterKind::Choice { options, .. }, Some(Value::Text(name))) => {
+                    self.choice_row(ui, parameter, options, name);
+                }
+                (ParameterKind::Rows, Some(Value::Rows(rows))) => self.rows_row(ui, parameter, rows.len()),
+                (ParameterKind::Text { .. }, Some(value)) => self.text_row(ui, parameter, value),
+                (ParameterKind::CsvPath, _) => self.path_row(ui, parameter),
+                // No scene has a value of another type than its key.
+                _ => {}
+            }
+            self.footnotes(ui, parameter);
+        });
+        let highlights = &self.cx.state.lessons.highlights;
+        if highlights.has(parameter.key) {
+            highlight::ring(ui, row.response.rect);
+            if highlights.reveal {
+                ui.scroll_to_rect(row.response.rect.expand(ui.text_style_height(&TextStyle::Body)), None);
+            }
+        }
+        ui.add_space(4.0);
+    }
+
+    /// The name, and at its right the button that brings the default back.
+    fn label_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) -> egui::Response {
+        let explanation = self.explanation(parameter);
+        let text = RichText::new(label(parameter));
+        let text = if is_main(self.scene, parameter) { text.strong() } else { text };
+        self.beside_reset(ui, parameter, |ui| {
+            let name = ui.add(egui::Label::new(text).wrap().selectable(false));
+            beside(ui.clip_rect(), name, &explanation)
+        })
+    }
+
+    /// `add` at the left, and the reset button at the right if the value is not the default.
+    fn beside_reset<R>(
+        &mut self,
+        ui: &mut egui::Ui,
+        parameter: &'static Parameter,
+        add: impl FnOnce(&mut egui::Ui) -> R,
+    ) -> R {
+        let default = self.default(parameter);
+        let changed = default.is_some() && default != self.scene.get(parameter.key);
+        let side = ui.text_style_height(&TextStyle::Body);
+        let right = ui.max_rect().right();
+        let row = ui.scope(|ui| {
+            ui.set_max_width((ui.available_width() - side - ui.spacing().item_spacing.x).max(side));
+            add(ui)
+        });
+        if changed {
+            // Placed over the row, which keeps its height when the button comes and goes.
+            let corner = egui::pos2(right - side, row.response.rect.top());
+            let area = egui::Rect::from_min_size(corner, egui::vec2(side, side));
+            let text = default.as_ref().map(|value| self.in_words(parameter, value)).unwrap_or_default();
+            let response = reset_button(ui, area, &format!("Reset {}", label(parameter).to_lowercase()))
+                .hint(format!("Reset to {text}"));
+            if response.clicked() {
+                self.cx.push(Command::Reset { key: parameter.key });
+            }
+        }
+        row.inner
+    }
+
+    fn number_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
+        let explanation = self.explanation(parameter);
+        // The checkbox above mostly says it already.
+        let said =
+            parameter.absent.is_some() && switch(parameter).to_lowercase().contains(&label(parameter).to_lowercase());
+        let name = if said { None } else { Some(self.label_row(ui, parameter)) };
+        ui.horizontal(|ui| {
+            let em = ui.text_style_height(&TextStyle::Body);
+            let field = FIELD_WIDTH * em;
+            let gaps = 2.0 * ui.spacing().item_spacing.x;
+            ui.spacing_mut().slider_width = (ui.available_width() - field - self.units - gaps).max(SHORTEST_SLIDER);
+            let slider = self.slider(ui, parameter, value);
+            let slider = beside(ui.clip_rect(), slider, &explanation);
+            match name {
+                Some(name) => slider.labelled_by(name.id),
+                None => slider.accessible_name(label(parameter)),
+            };
+            let typed = Field {
+                key: parameter.key,
+                value: Some(value),
+                name: &field_name(parameter),
+                hint: "",
+                refused: self.cx.state.rejected.of(parameter.key),
+                width: field,
+                wrapped: false,
+            };
+            let typed = typed.show(ui, self.cx);
+            beside(ui.clip_rect(), typed, &explanation);
+            ui.add(
+                egui::Label::new(RichText::new(parameter.unit).color(self.cx.colours.quiet)).selectable(false).extend(),
+            );
+        });
+    }
+
+    fn slider(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) -> egui::Response {
+        let present = value.as_number().unwrap_or_default();
+        let (range, logarithmic) = slider_range(self.scene, parameter);
+        let whole = matches!(parameter.kind, ParameterKind::Whole { .. });
+        let mut moved = present;
+        let slider = egui::Slider::new(&mut moved, range.min..=range.max)
+            .logarithmic(logarithmic)
+            .clamping(egui::SliderClamping::Never)
+            .show_value(false)
+            .trailing_fill(true);
+        let slider = if whole { slider.integer() } else { slider };
+        let response = ui.add(slider);
+        let dragging = response.dragged();
+        if response.changed() || response.drag_stopped() {
+            let value = if moved == present {
+                value.clone()
+            } else if whole {
+                // Ranges of whole numbers are far inside those of i64.
+                Value::Whole(moved.clamp(range.min, range.max).round() as i64)
+            } else {
+                Value::Number(inside(moved, range))
+            };
+            self.cx.push(Command::Set { key: parameter.key, value, dragging });
+        }
+        response
+    }
+
+    /// The checkbox that switches an optional parameter on and off.
+    fn switch_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, present: bool) {
+        let mut on = present;
+        let explanation = self.explanation(parameter);
+        let checkbox = ui.checkbox(&mut on, switch(parameter));
+        if beside(ui.clip_rect(), checkbox, &explanation).changed() {
+            self.cx.push(match (on, parameter.kind) {
+                (true, ParameterKind::Number { default, .. }) => {
+                    Command::Set { key: parameter.key, value: Value::Number(default), dragging: false }
+                }
+                (true, ParameterKind::Whole { default, .. }) => {
+                    Command::Set { key: parameter.key, value: Value::Whole(i64::from(default)), dragging: false }
+                }
+                _ => Command::Reset { key: parameter.key },
+            });
+        }
+        // That unset numerics are left to the fidelity need not be said four times.
+        if let (false, Some(meaning), true) = (present, parameter.absent, parameter.table() != "numerics") {
+            quiet(ui, self.cx, &capitalised(meaning));
+        }
+    }
+
+    fn flag_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, on: bool) {
+        let explanation = self.explanation(parameter);
+        self.beside_reset(ui, parameter, |ui| {
+            let mut on = on;
+            let checkbox = ui.checkbox(&mut on, label(parameter));
+            if beside(ui.clip_rect(), checkbox, &explanation).changed() {
+                self.cx.push(Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false });
+            }
+        });
+    }
+
+    fn choice_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, options: &[&'static str], name: &str) {
+        let named = self.label_row(ui, parameter);
+        let combo = egui::ComboBox::from_id_salt(parameter.key)
+            .selected_text(words::chosen(parameter.key, name, self.plan))
+            .width(ui.available_width())
+            .truncate()
+            .show_ui(ui, |ui| {
+                for option in options {
+                    // A table is chosen by giving its file, below.
+                    let possible = (parameter.key, *option) != ("rotor.model", "table") || name == "table";
+                    let text = choice(parameter.key, option);
+                    let picked = ui.add_enabled(possible, egui::Button::selectable(*option == name, text));
+                    if picked.on_disabled_hover_text("Give a CSV file below").clicked() && *option != name {
+                        let value = Value::Text((*option).to_owned());
+                        self.cx.push(Command::Set { key: parameter.key, value, dragging: false });
+                    }
+                }
+            });
+        combo.response.labelled_by(named.id);
+    }
+
+    fn text_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
+        let field = Field {
+            key: parameter.key,
+            value: Some(value),
+            name: label(parameter),
+            hint: label(parameter),
+            refused: self.cx.state.rejected.of(parameter.key),
+            width: f32::INFINITY,
+            wrapped: true,
+        };
+        let field = field.show(ui, self.cx);
+        beside(ui.clip_rect(), field, parameter.about);
+    }
+
+    fn path_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+        let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false));
+        let name = beside(ui.clip_rect(), name, &format!("{}\n{}", parameter.about, parameter.key));
+        let field = Field {
+            key: parameter.key,
+            value: None,
+            name: label(parameter),
+            hint: "path of the file, then Enter",
+            refused: self.cx.state.rejected.of(parameter.key),
+            width: f32::INFINITY,
+            wrapped: false,
+        };
+        let field = field.show(ui, self.cx).labelled_by(name.id);
+        beside(ui.clip_rect(), field, "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n");
+    }
+
+    fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {
+        let explanation = self.explanation(parameter);
+        ui.horizontal_wrapped(|ui| {
+            let name = ui.label(label(parameter));
+            beside(ui.clip_rect(), name, &explanation);
+            ui.label(RichText::new(format!("{rows} {}", if rows == 1 { "row" } else { "rows" })).strong());
+        });
+        quiet(ui, self.cx, "Edit the table in its file and give the file again");
+    }
+
+    /// What is refused, and what has no effect.
+    fn footnotes(&self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+        if let Some(message) = self.cx.state.rejected.of(parameter.key) {
+            let prefix = format!("{} = ", parameter.key);
+            let text = message.strip_prefix(&prefix).unwrap_or(message);
+            ui.add(egui::Label::new(RichText::new(text).color(self.cx.colours.alarm)).wrap());
+            let kept = self.scene.get(parameter.key).map(|value| self.in_words(parameter, &value));
+            if let (Some(kept), true) = (kept, parameter.range().is_some()) {
+                let back =
+                    if field::holds_text(ui, parameter.key) { "; Escape in the field brings it back" } else { "" };
+                quiet(ui, self.cx, &format!("Still {kept}{back}"));
+            }
+        }
+        if let Some(note) = words::unused(self.scene, parameter) {
+            quiet(ui, self.cx, note);
+        }
+    }
+
+    /// The default of a parameter that has one in this scene.
+    fn default(&self, parameter: &Parameter) -> Option<Value> {
+        if parameter.absent.is_some() || matches!(parameter.kind, ParameterKind::Text { .. } | ParameterKind::Rows) {
+            return None;
+        }
+        self.defaults.get(parameter.key)
+    }
+
+    fn explanation(&self, parameter: &Parameter) -> String {
+        words::explanation(self.scene, parameter, self.default(parameter).as_ref())
+    }
+
+    fn in_words(&self, parameter: &Parameter, value: &Value) -> String {
+        match value {
+            Value::Text(name) => choice(parameter.key, name).to_owned(),
+            Value::Flag(on) => (if *on { "on" } else { "off" }).to_owned(),
+            value if parameter.unit.is_empty() => value.to_string(),
+            value => format!("{value} {}", parameter.unit),
+        }
+    }
+}
+
+/// Whether the parameter is among those that the eye meets first. A plate has no minimum spacing.
+fn is_main(scene: &Scene, parameter: &Parameter) -> bool {
+    MAIN.contains(&parameter.key) && words::unused(scene, parameter).is_none()
+}
+
+fn heading(ui: &mut egui::Ui, text: &str) {
+    ui.add(egui::Label::new(RichText::new(text).strong()).selectable(false));
+    ui.add_space(2.0);
+}
+
+/// A round arrow in `area`.
+fn reset_button(ui: &egui::Ui, area: egui::Rect, name: &str) -> egui::Response {
+    let response = ui.interact(area, ui.scope_id().with("reset"), egui::Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
+    let visuals = ui.style().interact(&response);
+    if response.has_focus() {
+        ui.painter().rect_stroke(area, 3, visuals.fg_stroke, egui::StrokeKind::Inside);
+    }
+    let font = egui::FontId::proportional(TextStyle::Body.resolve(ui.style()).size);
+    ui.painter().text(area.center(), egui::Align2::CENTER_CENTER, "↺", font, visuals.text_color());
+    response
+}
+
+fn quiet(ui: &mut egui::Ui, cx: &DrawContext<'_>, text: &str) {
+    let size = NOTE_SIZE * TextStyle::Body.resolve(ui.style()).size;
+    ui.add(egui::Label::new(RichText::new(text).size(size).color(cx.colours.quiet)).wrap().selectable(false));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::PARAMETERS;
+
+    #[test]
+    fn every_parameter_is_in_a_group() {
+        for parameter in PARAMETERS {
+            let grouped = GROUPS.iter().any(|(table, _, _)| *table == parameter.table());
+            assert!(grouped || parameter.table().is_empty(), "{}", parameter.key);
+        }
+        assert!(MAIN.iter().all(|key| Parameter::find(key).is_some()));
+    }
+}

@@ -1,0 +1,344 @@
+//! The right panel: the numbers of a run. Every text can be selected and copied.
+
+use super::convergence;
+use super::model;
+use crate::analysis::regime;
+use crate::analysis::validity::Excess;
+use crate::dimensionless::Dimensionless;
+use crate::export::digits::significant;
+use crate::export::json::{beside_limit, force_unit};
+use crate::gui::derived::format::{capitalised, uncertain, with_minus};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::hint::text_width;
+use crate::job::SolvedScene;
+use crate::problem::{Motor, Plate, Scenario};
+use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Status};
+use eframe::egui::{self, Color32, RichText, TextStyle};
+
+/// Significant digits of numbers without an error of their own.
+const DIGITS: usize = 4;
+/// Size of the headline number relative to the text.
+const HEADLINE: f32 = 2.1;
+/// Size of its error relative to the text.
+const HEADLINE_ERROR: f32 = 1.35;
+
+/// Shows the results of `run`, and the switches of its model.
+pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
+    egui::ScrollArea::vertical().id_salt("results").auto_shrink(false).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 4.0;
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        ui.add_space(8.0);
+        convergence_banner(ui, run, cx);
+        match (&run.problem.scenario, &run.solution.outcome) {
+            (Scenario::Motor(motor), Outcome::Motor(result)) => {
+                motor_numbers(ui, motor, result, run.solution.performance.as_ref(), cx);
+            }
+            (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, run, plate, result, cx),
+            // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
+            _ => {}
+        }
+        for warning in &run.solution.warnings {
+            cx.say(ui, warning, cx.colours.alarm);
+        }
+        limits(ui, &run.validity, cx);
+        section(ui, "Regime");
+        regime_numbers(ui, run, cx);
+        ui.add_space(8.0);
+        ui.separator();
+        if !run.solution.model.decisions.is_empty() {
+            let part = egui::CollapsingHeader::new(RichText::new("Model").strong())
+                .default_open(true)
+                .show_unindented(ui, |ui| model::show(ui, run, cx));
+            glossary::hover(ui, part.header_response, "Model");
+        }
+        let part = egui::CollapsingHeader::new(RichText::new("How it was solved").strong())
+            .default_open(true)
+            .show_unindented(ui, |ui| how(ui, run, cx));
+        glossary::hover(ui, part.header_response, "How it was solved");
+        ui.add_space(12.0);
+    });
+}
+
+fn motor_numbers(
+    ui: &mut egui::Ui,
+    motor: &Motor,
+    result: &MotorResult,
+    performance: Option<&Performance>,
+    cx: &DrawContext<'_>,
+) {
+    if result.levitated {
+        banner(ui, cx.colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
+    }
+    let top = ui.next_widget_position();
+    headline(ui, "α", &uncertain(result.alpha, result.alpha_error), "");
+    cx.note(
+        ui,
+        if regime::sucks(result.alpha, result.alpha_error) {
+            "the air sucks: contact carries more than the load"
+        } else {
+            "share of the load carried by air"
+        },
+    );
+    shares(ui, result.alpha, cx);
+    let headline = egui::Rect::from_min_max(top, ui.max_rect().right_bottom()).with_max_y(ui.min_rect().bottom());
+    cx.mark(ui, "headline", headline);
+    ui.add_space(4.0);
+    let force_error = result.alpha_error * motor.load;
+    let torque_error = result.alpha_error * motor.friction_torque(motor.load);
+    number(ui, cx, "Film load", &uncertain(result.film_load, force_error), "N");
+    number(ui, cx, "Over the cycle", &span(result.film_load_min, result.film_load_max), "N");
+    number(ui, cx, "Contact load", &uncertain(result.contact_load, force_error), "N");
+    number(ui, cx, "Teeth in contact, mean", &format!("{} of {}", shown(result.teeth_in_contact), motor.teeth), "");
+    section(ui, "Torque of the ring");
+    if let Some(Performance { stall_torque, .. }) = performance {
+        number(ui, cx, "Stall torque", &uncertain(stall_torque.value, stall_torque.error), "N·m");
+    }
+    number(ui, cx, "Maximum operating torque", &uncertain(result.max_torque, torque_error), "N·m");
+    number(ui, cx, "The same without air", &shown(motor.friction_torque(motor.load)), "N·m");
+    section(ui, "Extremes");
+    extremes(ui, cx, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
+}
+
+fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
+    let unit = force_unit(&run.problem);
+    let ratio = |load| PlateResult::ratio(load, plate);
+    headline(ui, "", &uncertain(result.film_load, result.film_load_error), unit);
+    cx.note(ui, "mean load of the film over the cycle");
+    ui.add_space(4.0);
+    number(ui, cx, "Over the cycle", &span(result.film_load_min, result.film_load_max), unit);
+    let area = if plate.width.is_some() { "Load / (p_a · area)" } else { "Load / (p_a · length)" };
+    section(ui, area);
+    number(ui, cx, "Mean", &uncertain(ratio(result.film_load), ratio(result.film_load_error)), "");
+    number(ui, cx, "Over the cycle", &span(ratio(result.film_load_min), ratio(result.film_load_max)), "");
+    section(ui, "Extremes");
+    extremes(ui, cx, result.min_gap, result.max_pressure, plate.gas.ambient_pressure);
+}
+
+fn extremes(ui: &mut egui::Ui, cx: &DrawContext<'_>, gap: f64, pressure: f64, ambient: f64) {
+    number(ui, cx, "Least gap", &shown(gap * 1e9), "nm");
+    number(ui, cx, "Highest pressure", &shown(pressure * 1e-3), "kPa");
+    number(ui, cx, "Relative to ambient", &format!("{} ×", significant(pressure / ambient, 3)), "");
+}
+
+/// Where the model is out of its depth; nothing if it is not.
+fn limits(ui: &mut egui::Ui, validity: &[Excess], cx: &DrawContext<'_>) {
+    if validity.is_empty() {
+        return;
+    }
+    section(ui, "Outside the limits of the model");
+    for excess in validity {
+        number(ui, cx, &capitalised(&excess.name.replace('-', " ")), &beside_limit(excess), "");
+        ui.add(egui::Label::new(&excess.text).wrap());
+        ui.add_space(2.0);
+    }
+}
+
+fn regime_numbers(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
+    let numbers = &Dimensionless::of(&run.problem);
+    let weight = regime::weight(&run.problem, &run.solution.outcome);
+    let rows = [
+        ("Squeeze number σ", numbers.squeeze_number, vec![regime::squeeze(numbers), &weight]),
+        ("Bearing number Λ", numbers.bearing_number, vec![regime::bearing(numbers)]),
+        ("Knudsen number Kn", numbers.knudsen_number, vec![regime::knudsen(numbers)]),
+    ];
+    for (name, value, phrases) in rows {
+        number(ui, cx, name, &shown(value), "");
+        phrases.iter().for_each(|phrase| cx.note(ui, *phrase));
+        ui.add_space(2.0);
+    }
+}
+
+fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
+    let stats = &run.solution.stats;
+    number(ui, cx, "Fidelity", run.fidelity.name(), "");
+    match &run.solution.outcome {
+        Outcome::Motor(result) => number(ui, cx, "Error of α", &rough(result.alpha_error), ""),
+        Outcome::Plate(result) => {
+            number(ui, cx, "Error of the load", &rough(result.film_load_error), force_unit(&run.problem));
+        }
+    }
+    if stats.coupling_iterations > 0 {
+        number(ui, cx, "Rounds of film and contact", &stats.coupling_iterations.to_string(), "");
+        number(ui, cx, "Contact problems", &stats.contact_solves.to_string(), "");
+    } else {
+        number(ui, cx, "Rounds", &stats.cycles.to_string(), "");
+    }
+    number(ui, cx, "Film steps", &stats.film_steps.to_string(), "");
+    number(ui, cx, "Film nodes, finest grid", &stats.film_nodes.to_string(), "");
+    number(ui, cx, "Steps in a cycle", &stats.steps_per_cycle.to_string(), "");
+    let (time, unit) = if run.wall_s < 1.0 { (run.wall_s * 1e3, "ms") } else { (run.wall_s, "s") };
+    number(ui, cx, "Time", &significant(time, 3), unit);
+    if !run.history.is_empty() {
+        ui.add_space(6.0);
+        cx.note(ui, "Change in each round, one line for each grid; dashed, where it may stop");
+        convergence::show(ui, &run.history, cx);
+    }
+    ui.add_space(4.0);
+}
+
+fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
+    match &run.solution.status {
+        Status::Converged => {
+            let last = run.history.last();
+            let text = last.map_or_else(String::new, |last| {
+                format!(": the last round changed {:.0e}, allowed {:.0e}", last.residual, last.tolerance)
+            });
+            let mut job = egui::text::LayoutJob::default();
+            let font = TextStyle::Body.resolve(ui.style());
+            job.append("✔ Converged", 0.0, egui::TextFormat::simple(font.clone(), cx.colours.good));
+            job.append(&text, 0.0, egui::TextFormat::simple(font, cx.colours.quiet));
+            let label = ui.add(egui::Label::new(job).wrap());
+            glossary::hover(ui, label, "Converged");
+            ui.add_space(2.0);
+        }
+        Status::NotConverged { residual, tolerance } => {
+            let text = format!("The last round still changed by {residual:.1e}, allowed {tolerance:.0e}");
+            banner(ui, cx.colours.alarm, "Not converged", &text);
+        }
+        Status::NotResolved { error } => {
+            let words = format!("The stated error is {error:.1} times the result: ask for more accuracy");
+            banner(ui, cx.colours.alarm, "Not resolved", &words);
+        }
+        Status::Cancelled => banner(ui, cx.colours.alarm, "Cancelled", "These numbers are on the way, not the result"),
+    }
+}
+
+/// A title and a sentence on a tinted ground.
+fn banner(ui: &mut egui::Ui, colour: Color32, title: &str, text: &str) {
+    let ground = ui.visuals().panel_fill.lerp_to_gamma(colour, 0.16);
+    egui::Frame::new().fill(ground).corner_radius(4).inner_margin(egui::Margin::symmetric(8, 6)).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        let label = ui.add(egui::Label::new(RichText::new(title).strong().color(colour)).wrap());
+        glossary::hover(ui, label, title);
+        ui.add(egui::Label::new(text).wrap());
+    });
+    ui.add_space(6.0);
+}
+
+/// The number that matters, its error smaller; all of it smaller where it would not fit.
+fn headline(ui: &mut egui::Ui, symbol: &str, value: &str, unit: &str) {
+    let body = TextStyle::Body.resolve(ui.style()).size;
+    let (number, error) = value.split_once(" ± ").map_or((value, None), |(number, error)| (number, Some(error)));
+    let (strong, weak) = (ui.visuals().strong_text_color(), ui.visuals().text_color());
+    let job = |scale: f32| {
+        let mut job = egui::text::LayoutJob::default();
+        let mut add = |text: &str, size: f32, colour: Color32| {
+            let format = egui::TextFormat {
+                font_id: egui::FontId::proportional(size * body * scale),
+                color: colour,
+                valign: egui::Align::BOTTOM,
+                ..Default::default()
+            };
+            job.append(text, 0.0, format);
+        };
+        if !symbol.is_empty() {
+            add(symbol, HEADLINE, weak);
+            add("  ", HEADLINE_ERROR, weak);
+        }
+        add(number, HEADLINE, strong);
+        if let Some(error) = error {
+            add(" ± ", HEADLINE_ERROR, weak);
+            add(error, HEADLINE_ERROR, weak);
+        }
+        if !unit.is_empty() {
+            add(" ", HEADLINE_ERROR, weak);
+            add(unit, HEADLINE_ERROR, weak);
+        }
+        job.wrap.max_width = f32::INFINITY;
+        ui.painter().layout_job(job)
+    };
+    let mut galley = job(1.0);
+    let room = ui.available_width();
+    if galley.size().x > room {
+        galley = job(room / galley.size().x * 0.98);
+    }
+    let label = ui.add(egui::Label::new(galley));
+    glossary::hover(ui, label, if symbol.is_empty() { "Film load" } else { symbol });
+}
+
+/// Air and contact as parts of one bar, and what the colours mean.
+fn shares(ui: &mut egui::Ui, alpha: f64, cx: &DrawContext<'_>) {
+    let height = 0.6 * text_height(ui);
+    let (area, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), height), egui::Sense::hover());
+    // Suction can make the share negative, and it can pass 1 while it converges; the bar shows what it can.
+    let share = if alpha.is_finite() { alpha.clamp(0.0, 1.0) as f32 } else { 0.0 };
+    let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
+    painter.rect_filled(area, 3, cx.colours.contact);
+    let air = egui::Rect::from_min_max(area.min, egui::pos2(area.left() + share * area.width(), area.bottom()));
+    painter.rect_filled(
+        air,
+        if share < 1.0 { egui::CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 } } else { 3.into() },
+        cx.colours.film,
+    );
+    glossary::hover(ui, response, "α");
+    // Adding 0 turns −0 into 0.
+    let percent = |share: f64| format!("{:.1} %", (1000.0 * share).round() / 10.0 + 0.0);
+    let (air, contact) = (format!("air {}", percent(alpha)), format!("contact {}", percent(1.0 - alpha)));
+    let both = text_width(ui, &air) + text_width(ui, &contact) + 2.0 * height + 5.0 * ui.spacing().item_spacing.x;
+    let legends = |ui: &mut egui::Ui| {
+        legend(ui, cx.colours.film, &air);
+        legend(ui, cx.colours.contact, &contact);
+    };
+    if both < ui.available_width() {
+        ui.horizontal(legends);
+    } else {
+        legends(ui);
+    }
+}
+
+fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
+    let side = 0.6 * text_height(ui);
+    // Swatch and text stay on one line.
+    ui.horizontal(|ui| {
+        let (area, _) = ui.allocate_exact_size(egui::vec2(side, side), egui::Sense::hover());
+        ui.painter().rect_filled(area, 2, colour);
+        let label = ui.add(egui::Label::new(text).extend());
+        glossary::hover(ui, label, text.split(' ').next().unwrap_or_default());
+    });
+}
+
+fn section(ui: &mut egui::Ui, title: &str) {
+    ui.add_space(8.0);
+    let label = ui.add(egui::Label::new(RichText::new(title).strong()).wrap());
+    glossary::hover(ui, label, title);
+}
+
+/// A name at the left, its value and unit at the right; below each other where they do not fit side by side.
+fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value: &str, unit: &str) {
+    let value = if unit.is_empty() { value.to_owned() } else { format!("{value} {unit}") };
+    let (term, gap) = (name, 2.0 * ui.spacing().item_spacing.x);
+    let fits = text_width(ui, name) + text_width(ui, &value) + gap < ui.available_width();
+    let name = egui::Label::new(RichText::new(name).color(cx.colours.quiet));
+    let value = egui::Label::new(RichText::new(value).color(ui.visuals().strong_text_color()));
+    let right = egui::Layout::right_to_left(egui::Align::Center);
+    if fits {
+        ui.horizontal(|ui| {
+            let label = ui.add(name.extend());
+            glossary::hover(ui, label, term);
+            ui.with_layout(right, |ui| ui.add(value.extend()));
+        });
+    } else {
+        let label = ui.add(name.wrap());
+        glossary::hover(ui, label, term);
+        ui.horizontal(|ui| ui.with_layout(right, |ui| ui.add(value.wrap())));
+    }
+}
+
+fn text_height(ui: &egui::Ui) -> f32 {
+    ui.text_style_height(&TextStyle::Body)
+}
+
+fn shown(value: f64) -> String {
+    with_minus(&significant(value, DIGITS))
+}
+
+/// An error, to two digits.
+fn rough(error: f64) -> String {
+    significant(error, 2)
+}
+
+fn span(least: f64, most: f64) -> String {
+    format!("{} … {}", shown(least), shown(most))
+}

@@ -1,0 +1,126 @@
+//! The bottom panel: the cycle's timeline, and what the solver is doing.
+
+use crate::fidelity::Fidelity;
+use crate::gui::command::Command;
+use crate::gui::derived::format::{thousands, time};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::hint::Hint;
+use crate::gui::ui::keys;
+use crate::solution::{Outcome, Status};
+use eframe::egui::{self, ProgressBar, RichText, Slider};
+
+/// Seconds on screen for one cycle that can be chosen.
+const SPEEDS: [f64; 6] = [0.5, 1.5, 3.0, 6.0, 12.0, 30.0];
+
+/// Play, step, scrub and speed.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let Some(recording) = cx.state.on_timeline() else { return };
+    let (periods, view) = (cx.state.periods(recording), &cx.state.view);
+    ui.add_space(2.0);
+    let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
+    let row = ui.horizontal(|ui| {
+        let play = if view.playing { "Pause" } else { "Play" };
+        if ui
+            .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
+            .hint(keys::about(&Command::TogglePlay))
+            .clicked()
+        {
+            cx.push(Command::TogglePlay);
+        }
+        if ui.button("◀").hint(keys::about(&Command::StepFrames(-1))).clicked() {
+            cx.push(Command::StepFrames(-1));
+        }
+        if ui.button("▶").hint(keys::about(&Command::StepFrames(1))).clicked() {
+            cx.push(Command::StepFrames(1));
+        }
+        let alike = same(periods);
+        let slowed = |seconds: f64| {
+            let [most, least] = periods.map(|period| thousands(seconds / period));
+            if alike { format!("slowed {most}×") } else { format!("slowed {least} to {most}×") }
+        };
+        let speed =
+            egui::ComboBox::from_id_salt("speed").selected_text(slowed(view.seconds_per_cycle)).show_ui(ui, |ui| {
+                for seconds in SPEEDS {
+                    let text = format!("one cycle in {seconds} s, {}", slowed(seconds));
+                    if ui.selectable_label(seconds == view.seconds_per_cycle, text).clicked() {
+                        cx.push(Command::SecondsPerCycle(seconds));
+                    }
+                }
+            });
+        name(&speed.response, "Speed");
+        glossary::here(ui, speed.response, "Slow motion");
+        let mut at = place;
+        ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
+        let slider = Slider::new(&mut at, 0.0..=frames).clamping(egui::SliderClamping::Never).show_value(false);
+        let scrub = ui.add(slider.smart_aim(false));
+        name(&scrub, "Time in the cycle");
+        let scrub = scrub.hint("Drag to an instant of the cycle");
+        if scrub.changed() {
+            // To a recorded frame; the end of the cycle is its start.
+            cx.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
+        }
+        let phase = place / frames;
+        let degrees = (360.0 * phase).round() % 360.0;
+        ui.label(if alike {
+            format!("t = {}  ({degrees:.0}°)", time(recording.period * phase))
+        } else {
+            format!("{degrees:.0}° of each cycle")
+        });
+    });
+    cx.mark(ui, "timeline", row.response.rect);
+}
+
+/// Whether all that moves has one period.
+fn same([shortest, longest]: [f64; 2]) -> bool {
+    longest / shortest - 1.0 < 1e-9
+}
+
+/// Fidelity, error, time; progress and cancel while something runs.
+pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let (run, activity) = (cx.state.run.as_deref(), &cx.state.activity);
+    ui.horizontal(|ui| {
+        if let Some(run) = run {
+            let error = match run.solution.outcome {
+                Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha_error),
+                Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load_error),
+            };
+            let ended = if run.solution.status == Status::Converged { "converged, " } else { "" };
+            let text = format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s);
+            let label = ui.label(text);
+            glossary::hover(ui, label, "Fidelity");
+            match run.solution.status {
+                Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(cx.colours.alarm))),
+                Status::NotResolved { .. } => drop(ui.label(RichText::new("not resolved").color(cx.colours.alarm))),
+                _ if activity.stale(run) => drop(ui.label(RichText::new("of the scene before this edit").weak())),
+                _ => {}
+            }
+        } else {
+            ui.label("Nothing solved yet");
+        }
+        if let Some(message) = &activity.failure {
+            // All of a long one is said on hover.
+            ui.add(egui::Label::new(RichText::new(message).color(cx.colours.alarm)).truncate()).hint(message);
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if let Some(running) = &activity.running {
+                if ui.button("Cancel").hint(keys::about(&Command::CancelSolve)).clicked() {
+                    cx.push(Command::CancelSolve);
+                }
+                ui.add(ProgressBar::new(running.fraction()).desired_width(120.0));
+                ui.label(running.text());
+            } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !activity.stale(run)) {
+                let text = "Solve for reference";
+                let hover = "Some seconds: the error falls to a few millionths";
+                if ui.small_button(text).hint(hover).clicked() {
+                    cx.push(Command::Refine(Fidelity::Reference));
+                }
+            }
+        });
+    });
+}
+
+/// Gives a widget without text of its own a name for screen readers.
+fn name(response: &egui::Response, text: &'static str) {
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, text));
+}

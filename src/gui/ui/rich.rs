@@ -1,0 +1,213 @@
+//! Text with formulas in it, broken into lines.
+
+use super::formula::{Style as MathStyle, Typeset, galley};
+use crate::gui::ui::theme::{MATHEMATICS, palette};
+use crate::lessons::text::{Block, Inline, Style, plain};
+use eframe::egui::{self, Color32, FontId, Galley, Rect, Response, Sense, TextStyle, Ui, pos2, vec2};
+use std::sync::Arc;
+
+/// How a text looks.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::gui) struct Look {
+    /// Height of the text \[points\].
+    pub(in crate::gui) size: f32,
+    pub(in crate::gui) colour: Color32,
+}
+
+impl Look {
+    /// The usual text of this ui.
+    pub(in crate::gui) fn usual(ui: &Ui) -> Self {
+        Self { size: TextStyle::Body.resolve(ui.style()).size, colour: ui.visuals().text_color() }
+    }
+
+    /// A little larger than the usual: to be read, not looked up.
+    pub(in crate::gui) fn reading(ui: &Ui) -> Self {
+        let usual = Self::usual(ui);
+        Self { size: 1.08 * usual.size, colour: ui.visuals().strong_text_color().lerp_to_gamma(usual.colour, 0.35) }
+    }
+
+    pub(in crate::gui) fn coloured(self, colour: Color32) -> Self {
+        Self { colour, ..self }
+    }
+}
+
+/// Shows blocks below each other.
+pub(in crate::gui) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
+    for (i, block) in blocks.iter().enumerate() {
+        if i > 0 {
+            ui.add_space(0.45 * look.size);
+        }
+        match block {
+            Block::Paragraph(parts) => drop(paragraph(ui, parts, look)),
+            Block::Item(parts) => drop(item(ui, parts, look)),
+            Block::Formula(formula) => {
+                let room = ui.available_width();
+                let mut size = MATHEMATICS.display * look.size;
+                let set = |ui: &Ui, size: f32| {
+                    let style = MathStyle { size, colour: look.colour, display: true };
+                    Typeset::of(ui.painter(), &formula.nodes, style)
+                };
+                let mut formula_set = set(ui, size);
+                if formula_set.width > room {
+                    size *= (room / formula_set.width) * 0.98;
+                    formula_set = set(ui, size);
+                }
+                let height = formula_set.ascent + formula_set.descent + 0.5 * look.size;
+                let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
+                let left = area.left() + (0.5 * (room - formula_set.width)).max(0.0);
+                let at = pos2(left, area.top() + 0.25 * look.size + formula_set.ascent);
+                formula_set.paint(ui.painter(), at, look.colour);
+                let text = formula.plain();
+                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.as_str()));
+            }
+        }
+    }
+}
+
+/// One piece that is not broken.
+struct Atom {
+    width: f32,
+    ascent: f32,
+    descent: f32,
+    /// Room before it, if it does not begin a line; none glues it to what comes before.
+    space: Option<f32>,
+    drawn: Drawn,
+}
+
+enum Drawn {
+    Words(Arc<Galley>, f32, Color32, Option<Color32>),
+    Math(Typeset),
+}
+
+/// Shows one paragraph; its response has the whole text.
+pub(in crate::gui) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
+    let atoms = atoms(ui, parts, look);
+    let room = ui.available_width();
+    // Lines of atoms; what is glued together is moved together.
+    let mut lines: Vec<Vec<Atom>> = vec![Vec::new()];
+    let mut at = 0.0;
+    let mut units: Vec<Vec<Atom>> = Vec::new();
+    for atom in atoms {
+        match units.last_mut() {
+            Some(unit) if atom.space.is_none() => unit.push(atom),
+            _ => units.push(vec![atom]),
+        }
+    }
+    for unit in units {
+        let width: f32 = unit.iter().map(|atom| atom.width).sum();
+        let space = unit.first().and_then(|atom| atom.space).unwrap_or_default();
+        if at > 0.0 && at + space + width > room {
+            lines.push(Vec::new());
+            at = 0.0;
+        }
+        at += if at > 0.0 { space + width } else { width };
+        if let Some(line) = lines.last_mut() {
+            line.extend(unit);
+        }
+    }
+    let lead = 0.36 * look.size;
+    let (ascent, descent) = (MATHEMATICS.ascent * look.size, MATHEMATICS.descent * look.size);
+    let heights: Vec<(f32, f32)> = lines
+        .iter()
+        .map(|line| line.iter().fold((ascent, descent), |(a, d), atom| (a.max(atom.ascent), d.max(atom.descent))))
+        .collect();
+    let height: f32 = heights.iter().map(|(ascent, descent)| ascent + descent + lead).sum();
+    let (area, response) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
+    let text = plain(parts);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.as_str()));
+    if ui.is_rect_visible(area) {
+        let mut top = area.top();
+        for (line, (ascent, descent)) in lines.iter().zip(&heights) {
+            let writing = top + 0.5 * lead + ascent;
+            let mut x = area.left();
+            for (i, atom) in line.iter().enumerate() {
+                if i > 0 {
+                    x += atom.space.unwrap_or_default();
+                }
+                match &atom.drawn {
+                    Drawn::Words(galley, baseline, colour, ground) => {
+                        let place = pos2(x, writing - baseline);
+                        if let Some(ground) = ground {
+                            let rect = Rect::from_min_size(place, galley.size()).expand2(vec2(2.0, 0.0));
+                            ui.painter().rect_filled(rect, 3.0, *ground);
+                        }
+                        ui.painter().galley(place, Arc::clone(galley), *colour);
+                    }
+                    Drawn::Math(set) => set.paint(ui.painter(), pos2(x, writing), look.colour),
+                }
+                x += atom.width;
+            }
+            top += ascent + descent + lead;
+        }
+    }
+    response
+}
+
+/// An item of a list.
+fn item(ui: &mut Ui, parts: &[Inline], look: Look) -> Response {
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        let (dot, _) = ui.allocate_exact_size(vec2(0.95 * look.size, look.size), Sense::hover());
+        ui.painter().circle_filled(
+            dot.left_center() + vec2(0.4 * look.size, 0.08 * look.size),
+            0.13 * look.size,
+            look.colour,
+        );
+        ui.vertical(|ui| paragraph(ui, parts, look)).inner
+    })
+    .inner
+}
+
+fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
+    let painter = ui.painter();
+    let space = painter
+        .layout_no_wrap(" ".to_owned(), FontId::proportional(look.size), look.colour)
+        .size()
+        .x
+        .max(0.25 * look.size);
+    let (ascent, descent) = (MATHEMATICS.ascent * look.size, MATHEMATICS.descent * look.size);
+    let mut atoms = Vec::new();
+    // Whether white space came before.
+    let mut apart = true;
+    for part in parts {
+        match part {
+            Inline::Math(formula) => {
+                let style = MathStyle { size: look.size, colour: look.colour, display: false };
+                let set = Typeset::of(painter, &formula.nodes, style);
+                let (width, ascent, descent) = (set.width, set.ascent, set.descent);
+                let space = apart.then_some(space);
+                atoms.push(Atom { width, ascent, descent, space, drawn: Drawn::Math(set) });
+                apart = false;
+            }
+            Inline::Text { text, style } => {
+                let mut rest = text.as_str();
+                while !rest.is_empty() {
+                    let trimmed = rest.trim_start();
+                    apart |= trimmed.len() < rest.len();
+                    let end = trimmed.find(char::is_whitespace).unwrap_or(trimmed.len());
+                    let (word, after) = trimmed.split_at(end);
+                    rest = after;
+                    if word.is_empty() {
+                        break;
+                    }
+                    let (colour, ground) = match style {
+                        Style::Plain | Style::Slanted => (look.colour, None),
+                        Style::Strong => (emphasis(ui), None),
+                        Style::Code => (look.colour, Some(ui.visuals().extreme_bg_color)),
+                    };
+                    let (galley, baseline) = galley(painter, word, look.size, colour, *style == Style::Slanted);
+                    let width = galley.size().x;
+                    let drawn = Drawn::Words(galley, baseline, colour, ground);
+                    atoms.push(Atom { width, ascent, descent, space: apart.then_some(space), drawn });
+                    apart = false;
+                }
+            }
+        }
+    }
+    atoms
+}
+
+/// The fonts have one weight: what is strong has a colour.
+fn emphasis(ui: &Ui) -> Color32 {
+    palette(ui.visuals().dark_mode).film
+}

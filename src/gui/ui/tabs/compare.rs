@@ -1,0 +1,325 @@
+//! Pinned runs beside each other: who they are, their fields in phase, and their numbers with differences from the first.
+
+use crate::analysis::compare::{ParameterRow, Run};
+use crate::analysis::quantity::Quantity;
+use crate::export::compare::{difference_text, value_text};
+use crate::gui::command::{Command, PinCommand};
+use crate::gui::derived::format::capitalised;
+use crate::gui::derived::words::{explanation, label};
+use crate::gui::state::pins::{Note, Page, fidelity};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::hint::{Hint, text_width};
+use crate::gui::ui::keys;
+use crate::gui::ui::panels::menu::{COMPARISON, export_button, presets_menu};
+use crate::gui::ui::theme::run_colour;
+use crate::gui::ui::views::overlay::{self, Overlaid};
+use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
+
+/// Widest field for a label, in heights of the text.
+const WIDEST_LABEL: f32 = 16.0;
+/// Between a pin's parts.
+const CHIP_MARGIN: i8 = 4;
+const CHIP_GAP: f32 = 5.0;
+/// With more runs than this, or in a tab narrower than their columns, differences stand below the values instead of beside
+/// them.
+const BESIDE: usize = 3;
+/// Widths of the columns of names, values and differences, and of a label above them that has room or has not, in heights of
+/// the text.
+const COLUMNS: [f32; 3] = [12.0, 9.0, 8.0];
+const HEADS: [f32; 2] = [11.0, 7.5];
+
+/// Shows the tab.
+pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let pins = &cx.state.pins;
+    if pins.runs().is_empty() && pins.waiting().is_empty() {
+        introduction(ui, cx);
+        return;
+    }
+    chips(ui, cx);
+    note(ui, cx);
+    if pins.runs().is_empty() {
+        return;
+    }
+    ui.add_space(2.0);
+    match pins.page {
+        Page::Fields => {
+            let overlaid: Vec<Overlaid<'_>> = pins
+                .pins()
+                .iter()
+                .zip(pins.runs())
+                .map(|(pin, run)| Overlaid {
+                    id: pin.id,
+                    colour: run_colour(pin.slot, cx.state.dark),
+                    run,
+                    curves: &pin.curves,
+                })
+                .collect();
+            overlay::show(ui, &overlaid, cx);
+        }
+        Page::Numbers => numbers(ui, cx),
+    }
+}
+
+fn introduction(ui: &mut Ui, cx: &DrawContext<'_>) {
+    ui.add_space(8.0);
+    let text = "Pin a run, change the scene, pin the next: their waves, pressures and loads are laid over each other in \
+                phase, their maps share one scale of colours, and a table tells what differs.";
+    cx.note(ui, text);
+    ui.add_space(6.0);
+    ui.horizontal_wrapped(|ui| add_buttons(ui, cx));
+    note(ui, cx);
+}
+
+/// What became of the last request.
+fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let (text, colour) = match cx.state.pins.note() {
+        Some(Note::Remark(text)) => (text, cx.colours.quiet),
+        Some(Note::Failure(text)) => (text, cx.colours.alarm),
+        None => return,
+    };
+    cx.say(ui, text, colour);
+}
+
+/// What adds a pin.
+fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let pin = Command::Pin(PinCommand::Shown);
+    let button = ui.add_enabled(cx.state.run.is_some(), egui::Button::new("Pin the run on screen"));
+    if button.hint(keys::about(&pin)).clicked() {
+        cx.push(pin);
+    }
+    let menu = ui.menu_button("Pin a preset ▾", |ui| {
+        presets_menu(ui, |name| PinCommand::Preset(name).into(), cx);
+    });
+    menu.response.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
+}
+
+/// Who is pinned: the legend of all drawings.
+fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let pins = &cx.state.pins;
+    ui.horizontal_wrapped(|ui| {
+        for (page, name, about) in [
+            (Page::Fields, "Fields", "Waves, pressures, maps and loads of all pinned runs, in phase"),
+            (Page::Numbers, "Numbers", "Results and parameters of all pinned runs, and what differs"),
+        ] {
+            if ui.selectable_label(pins.page == page, name).hint(about).clicked() {
+                cx.push(PinCommand::Look(page));
+            }
+        }
+        ui.separator();
+        add_buttons(ui, cx);
+        if pins.runs().len() > 1 && ui.button("Remove all").hint("Takes all pins away").clicked() {
+            cx.push(PinCommand::Clear);
+        }
+        if pins.runs().len() > 1 {
+            export_button(ui, COMPARISON, cx);
+        }
+    });
+    ui.add_space(2.0);
+    ui.horizontal_wrapped(|ui| {
+        for (pin, run) in pins.pins().iter().zip(pins.runs()) {
+            let colour = run_colour(pin.slot, cx.state.dark);
+            chip(ui, pin.id, run, colour, run.scene == *cx.state.document.scene(), cx);
+        }
+        for waiting in pins.waiting() {
+            frame(ui, cx.colours.quiet).show(ui, |ui| {
+                ui.spinner();
+                ui.label(&waiting.name);
+                let forget = ui.small_button("✕").hint("Do not pin it");
+                if forget.accessible_name(format!("Do not pin {}", waiting.name)).clicked() {
+                    cx.push(PinCommand::Forget(waiting.id));
+                }
+            });
+        }
+    });
+}
+
+fn frame(ui: &Ui, colour: Color32) -> egui::Frame {
+    let fill = ui.visuals().extreme_bg_color;
+    egui::Frame::new().fill(fill).stroke((1.0, colour)).corner_radius(5).inner_margin(egui::Margin::same(CHIP_MARGIN))
+}
+
+fn chip(ui: &mut Ui, id: u64, run: &Run, colour: Color32, present: bool, cx: &DrawContext<'_>) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    let button = |text: &str| text_width(ui, text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
+    // All but the label.
+    let rest = 2.0 * f32::from(CHIP_MARGIN) + em + CHIP_GAP + button("✕") + if present { 0.0 } else { button("Open") };
+    let label = text_width(ui, &run.label) + 4.0;
+    let label = label.min(WIDEST_LABEL * em).min(ui.max_rect().width() - rest - 8.0).max(2.0 * em);
+    // In one piece, so that it is a whole that goes to the next line.
+    let size = vec2(rest + label, ui.spacing().interact_size.y + 2.0 * f32::from(CHIP_MARGIN));
+    let row = egui::Layout::left_to_right(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, row, |ui| chip_parts(ui, id, run, (colour, label), present, cx));
+}
+
+fn chip_parts(ui: &mut Ui, id: u64, run: &Run, (colour, label): (Color32, f32), present: bool, cx: &DrawContext<'_>) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    frame(ui, colour).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.x = CHIP_GAP;
+        let (swatch, _) = ui.allocate_exact_size(vec2(0.8 * em, 0.8 * em), Sense::hover());
+        ui.painter().rect_filled(swatch, 2.0, colour);
+        name_field(ui, id, run, label, cx);
+        if !present {
+            let open = ui.small_button("Open").hint("Makes this the present scene; undo brings back what was");
+            if open.accessible_name(format!("Open {}", run.label)).clicked() {
+                cx.push(PinCommand::Open(id));
+            }
+        }
+        let remove = ui.small_button("✕").hint("Remove this pin");
+        if remove.accessible_name(format!("Remove {}", run.label)).clicked() {
+            cx.push(PinCommand::Remove(id));
+        }
+    });
+}
+
+/// The label, to be typed over; Enter or leaving takes it, Escape does not.
+fn name_field(ui: &mut Ui, pin: u64, run: &Run, width: f32, cx: &DrawContext<'_>) {
+    let id = Id::unique(("label of a pin", pin));
+    let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
+    let field = egui::TextEdit::singleline(&mut text)
+        .id(id)
+        .frame(egui::Frame::NONE)
+        .clip_text(true)
+        .margin(egui::Margin::ZERO)
+        .align(egui::Align2::LEFT_CENTER)
+        .min_size(vec2(width, ui.spacing().interact_size.y))
+        .desired_width(width);
+    let about = format!("{}, solved at {}. Type to call it something else", run.label, fidelity(run));
+    let response = ui.add(field).hint(about);
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, format!("Label of {}", run.label))
+    });
+    if response.lost_focus() {
+        let escaped = ui.input(|input| input.key_pressed(Key::Escape));
+        if !escaped && text != run.label {
+            cx.push(PinCommand::Rename(pin, text));
+        }
+        ui.data_mut(|data| data.remove::<String>(id));
+    } else if response.changed() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    }
+}
+
+/// Results and parameters of all pins.
+fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let pins = &cx.state.pins;
+    let quiet = |text: &str| RichText::new(text).color(cx.colours.quiet);
+    egui::ScrollArea::both().id_salt("numbers of pins").auto_shrink(false).show(ui, |ui| {
+        let [motors, plates] = ["motor", "plate"].map(|kind| pins.runs().iter().any(|run| run.scene.scene() == kind));
+        if pins.runs().len() < 2 {
+            ui.label(quiet("Pin another run to see differences"));
+        } else {
+            ui.label(quiet("Differences are from the first. The ± is the solver's estimate of its numerical error"));
+        }
+        if motors && plates {
+            ui.label(quiet("Motors and plates have few numbers in common; what one does not have is left empty"));
+        }
+        ui.add_space(4.0);
+        ui.label(RichText::new("Results").strong());
+        results(ui, cx);
+        ui.add_space(10.0);
+        ui.label(RichText::new("Parameters").strong());
+        let mut differing = !pins.all_parameters;
+        let about = "Leaves out the parameters in which all pinned runs are alike";
+        if ui.checkbox(&mut differing, "Only those that differ").hint(about).changed() {
+            cx.push(PinCommand::AllParameters(!differing));
+        }
+        let rows: Vec<&ParameterRow> =
+            pins.parameters().iter().filter(|row| pins.all_parameters || row.differs()).collect();
+        if rows.is_empty() {
+            let text = if pins.runs().len() < 2 { "There is nothing to differ from" } else { "None differs" };
+            ui.label(quiet(text));
+        } else {
+            parameters(ui, &rows, cx);
+        }
+        ui.add_space(8.0);
+    });
+}
+
+/// The labels above the columns, in the colours of the curves.
+fn heads(ui: &mut Ui, [beside, roomy]: [bool; 2], cx: &DrawContext<'_>) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    ui.label("");
+    for (i, (pin, run)) in cx.state.pins.pins().iter().zip(cx.state.pins.runs()).enumerate() {
+        ui.scope(|ui| {
+            ui.set_max_width(HEADS[usize::from(!roomy)] * em);
+            let text = RichText::new(&run.label).color(run_colour(pin.slot, cx.state.dark)).strong();
+            ui.add(egui::Label::new(text).wrap()).hint(&run.label);
+        });
+        if beside && i > 0 {
+            let label = ui.label(RichText::new("difference").color(cx.colours.quiet));
+            glossary::here(ui, label, "difference");
+        }
+    }
+    ui.end_row();
+}
+
+fn grid(id: &str, columns: usize) -> egui::Grid {
+    egui::Grid::new(id).num_columns(columns).striped(true).spacing([18.0, 4.0])
+}
+
+/// Whether differences fit beside the values of this many runs.
+fn fits_beside(ui: &Ui, count: usize) -> bool {
+    let [name, value, difference] = COLUMNS;
+    let (values, differences) = (count as f32, count.saturating_sub(1) as f32);
+    let wide = (name + value * values + difference * differences) * ui.text_style_height(&TextStyle::Body);
+    count <= BESIDE && wide < ui.available_width()
+}
+
+fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let count = cx.state.pins.runs().len();
+    let beside = fits_beside(ui, count);
+    grid("results of pins", if beside { 2 * count } else { count + 1 }).show(ui, |ui| {
+        heads(ui, [beside; 2], cx);
+        for row in cx.state.pins.results() {
+            let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
+            let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
+            let label = ui.label(strong(capitalised(&row.label())));
+            glossary::here(ui, label, row.quantity.words());
+            for (i, cell) in row.cells.iter().enumerate() {
+                if beside {
+                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
+                    if i > 0 {
+                        let difference = RichText::new(difference_text(row, cell)).color(cx.colours.quiet);
+                        ui.add(egui::Label::new(difference).extend());
+                    }
+                    continue;
+                }
+                ui.vertical(|ui| {
+                    ui.spacing_mut().item_spacing.y = 0.0;
+                    ui.add(egui::Label::new(strong(value_text(row, cell))).extend());
+                    let difference = difference_text(row, cell);
+                    if !difference.is_empty() {
+                        ui.add(egui::Label::new(RichText::new(difference).color(cx.colours.quiet)).extend());
+                    }
+                });
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn parameters(ui: &mut Ui, rows: &[&ParameterRow], cx: &DrawContext<'_>) {
+    let roomy = fits_beside(ui, cx.state.pins.runs().len());
+    grid("parameters of pins", cx.state.pins.runs().len() + 1).show(ui, |ui| {
+        heads(ui, [false, roomy], cx);
+        for row in rows {
+            let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
+            let about = explanation(cx.state.document.scene(), row.parameter, None);
+            ui.label(format!("{}{unit}", label(row.parameter))).hint(about);
+            for value in &row.values {
+                match value {
+                    Some(value) => {
+                        let text = RichText::new(value.to_string());
+                        ui.label(if row.differs() { text.strong() } else { text.color(cx.colours.quiet) });
+                    }
+                    None => {
+                        let text = row.parameter.absent.map_or("–", |_| "none");
+                        ui.label(RichText::new(text).color(cx.colours.quiet));
+                    }
+                }
+            }
+            ui.end_row();
+        }
+    });
+}

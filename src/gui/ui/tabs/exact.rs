@@ -1,0 +1,243 @@
+//! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
+//! invariant.
+
+use crate::analysis::exact::{Harmonic, aspect};
+use crate::estimate::Estimate;
+use crate::export::exact::units;
+use crate::gui::derived::exact::{ExactCurves, small_amplitude};
+use crate::gui::derived::format::uncertain;
+use crate::gui::derived::format::{digits, power_of_ten};
+use crate::gui::ui::cache::once;
+use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, powers, title};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::rich::{self, Look};
+use crate::job::SolvedScene;
+use crate::problem::Scenario;
+use eframe::egui::{self, Color32, RichText, TextStyle, Ui};
+use egui_plot::{HLine, LineStyle, Points, VLine};
+
+/// Heights of the charts: shares of the tab, and at least this many lines of text.
+const SHARES: [f32; 2] = [0.33, 0.27];
+const LEAST_LINES: [f32; 2] = [10.0, 9.0];
+/// A tab wider than this, in heights of the text, has room for a column of remarks.
+const WIDE: f32 = 28.0;
+const WIDTH: f32 = 2.0;
+/// Significant digits of numbers without an error.
+const DIGITS: usize = 4;
+const RADIUS: f32 = 5.0;
+
+/// All that this tab explains below its table, as in lessons: text, and formulae that are set.
+mod notes {
+    use crate::lessons::text::{Block, blocks};
+    use std::sync::LazyLock;
+
+    const LOAD: &str = r"
+Over a cycle, with $\tau = 2\pi t/T\,$ and the amplitude $\varepsilon$ in mean gaps, the load is its mean, a **spring** $S\,$ in step
+with the approach, a **damping** $D\,$ in step with its speed, and smaller harmonics:
+
+$$ F = F_0 + p_a A \, \varepsilon \left( -S\,\cos\tau + D\,\sin\tau \right) + \dots $$";
+
+    const STRIP: &str = r"
+Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow:
+
+$$ S + iD = 1 - \frac{2}{\kappa} \tanh\frac{\kappa}{2} \qquad \kappa^2 = \frac{i\sigma}{Q} $$";
+
+    const RECTANGLE: &str = r"
+Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow and $a$, width over length:
+
+$$ S + iD = \sum_{n\text{ odd}} \frac{8}{(n\pi)^2} \, \frac{i\sigma'}{q^2} \, \left( 1 - \frac{2}{qa} \tanh\frac{qa}{2} \right) $$
+
+$$ q^2 = (n\pi)^2 + i\sigma' \qquad \sigma' = \frac{\sigma}{Q} $$";
+
+    const TRAPPED: &str = r"
+Gas without time to leave, $\sigma \to \infty$: the mean pressure saturates (Langlois 1962, Salbu 1964), with slip a little lower:
+
+$$ \langle P \rangle = \sqrt{\frac{1 + \frac{3}{2}\varepsilon^2}{1 - \varepsilon^2}} $$";
+
+    const INVARIANT: &str = r"
+The invariant, the same at every point of the film, for every $\sigma$ and $\varepsilon$, with $Z = PH\,$ and $m = \lambda_a/h_0$:
+
+$$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\langle \frac{H^3}{2} + 6mH^2 \right\rangle $$";
+
+    fn read(linear: &str) -> Vec<Block> {
+        // They are built in; a test reads them.
+        [LOAD, linear, TRAPPED, INVARIANT].into_iter().flat_map(|text| blocks(text).unwrap_or_default()).collect()
+    }
+
+    /// Of a strip, or of a plate of finite width.
+    pub(super) fn of(strip: bool) -> &'static [Block] {
+        static NOTES: LazyLock<[Vec<Block>; 2]> = LazyLock::new(|| [RECTANGLE, STRIP].map(read));
+        &NOTES[usize::from(strip)]
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn every_note_is_read() {
+            for text in [LOAD, STRIP, RECTANGLE, TRAPPED, INVARIANT] {
+                assert!(blocks(text).unwrap().iter().any(|block| matches!(block, Block::Formula(_))), "{text}");
+            }
+        }
+    }
+}
+
+/// Shows the tab.
+pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
+    let Scenario::Plate(plate) = &run.problem.scenario else { return };
+    let height = ui.available_height();
+    let known = once(ui, "exact", (run.number, run.fidelity), || ExactCurves::new(run, plate));
+    egui::ScrollArea::vertical().id_salt("exact").auto_shrink(false).show(ui, |ui| {
+        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
+        ui.set_max_width(ui.available_width() - 14.0);
+        let em = ui.text_style_height(&TextStyle::Body);
+        let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
+        title(ui, "Spring and damping against the squeeze number", "Squeeze number");
+        coefficients(ui, &known, aspect(plate), tall(0), cx);
+        ui.add_space(4.0);
+        title(ui, &format!("Load over the cycle, {}", known.unit.0), "Film load");
+        cycle(ui, &known, tall(1), cx);
+        ui.add_space(4.0);
+        table(ui, &known, units(plate), cx);
+        ui.add_space(12.0);
+        let look = Look::usual(ui);
+        rich::blocks(ui, notes::of(plate.width.is_none()), look);
+        ui.add_space(8.0);
+    });
+}
+
+/// Where spring and damping are drawn in.
+fn pair(cx: &DrawContext<'_>) -> [(&'static str, Color32); 2] {
+    [("spring S", cx.colours.film), ("damping D", cx.colours.contact)]
+}
+
+fn coefficients(ui: &mut Ui, known: &ExactCurves, aspect: Option<f64>, height: f32, cx: &DrawContext<'_>) {
+    let [spring, damping] = pair(cx);
+    // They stay as long as width over length and the window do.
+    let key = [aspect.unwrap_or(f64::INFINITY), known.window[0], known.window[1]];
+    let curves = once(ui, "small amplitude", key, || small_amplitude(aspect, known.window));
+    legend(
+        ui,
+        &[
+            (spring.0, spring.1, SOLID),
+            (damping.0, damping.1, SOLID),
+            ("present σ/Q, points as computed", cx.colours.accent, SOLID),
+        ],
+    );
+    let em = ui.text_style_height(&TextStyle::Body);
+    let most = f64::from((ui.available_width() / (4.0 * em)).max(2.0));
+    let name = "Spring and damping against the squeeze number";
+    let computed = known.comparison.solved.map(|found| [found.spring.value, found.damping.value]);
+    let top = computed.into_iter().flatten().fold(1.0, f64::max);
+    let whole = place(ui, height);
+    let plot = chart(ui, name, height)
+        .x_axis_label("σ/Q")
+        .x_grid_spacer(move |input| powers(&input, most))
+        .x_axis_formatter(|mark, _| power_of_ten(mark.value.round()));
+    let shown = plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(known.window[0]..=known.window[1]);
+        plot.set_plot_bounds_y(0.0..=1.12 * top);
+        let present = known.comparison.effective_squeeze_number.log10();
+        plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
+        for (points, (_, colour)) in [(&curves.0, spring), (&curves.1, damping)] {
+            plot.line(line(points, colour, WIDTH, SOLID));
+        }
+        for (value, (_, colour)) in computed.into_iter().flatten().zip([spring, damping]) {
+            plot.points(Points::new("", vec![[present, value]]).color(colour).radius(RADIUS).allow_hover(false));
+        }
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some("σ/Q"), "Spring and damping");
+}
+
+fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
+    let (boyle, viscous) = (cx.colours.contact, cx.colours.rotor);
+    let dash = LineStyle::dashed_loose();
+    legend(
+        ui,
+        &[
+            ("computed", cx.colours.film, SOLID),
+            ("gas trapped, Boyle (σ → ∞)", boyle, dash),
+            ("incompressible (σ → 0)", viscous, LineStyle::dashed_dense()),
+        ],
+    );
+    let name = "Load over the cycle and its limits";
+    let whole = place(ui, height);
+    let shown = chart(ui, name, height).x_axis_label("t/T").show(ui, |plot| {
+        plot.set_plot_bounds_x(0.0..=1.0);
+        plot.set_plot_bounds_y(known.bounds[0]..=known.bounds[1]);
+        plot.hline(HLine::new("", 0.0).color(cx.colours.quiet).width(1.0).allow_hover(false));
+        let lines = [
+            (&known.boyle, boyle, dash),
+            (&known.viscous, viscous, LineStyle::dashed_dense()),
+            (&known.load, cx.colours.film, SOLID),
+        ];
+        for (points, colour, style) in lines {
+            plot.line(line(points, colour, WIDTH, style));
+        }
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some("t/T"), "Film load");
+}
+
+/// Computed beside exact.
+fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_>) {
+    let found = &known.comparison;
+    let both = |solved: Option<Harmonic<Estimate>>| match solved {
+        Some(solved) => [solved.spring, solved.damping].map(stated),
+        None => ["nothing vibrates"; 2].map(str::to_owned),
+    };
+    let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
+    let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
+    let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping]
+        .map(|value| digits(value, DIGITS));
+    let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
+    // What it is called, computed, exact, and when that holds.
+    let rows = [
+        ["Spring S", &spring, &digits(found.linear.spring, DIGITS), "for ε → 0"],
+        ["Damping D", &damping, &digits(found.linear.damping, DIGITS), "for ε → 0"],
+        [&names[0], &stiffness, &linear[0], "for ε → 0"],
+        [&names[1], &loss, &linear[1], "for ε → 0"],
+        ["Mean pressure", &stated(found.mean_pressure), &digits(found.trapped_mean_pressure, DIGITS), "for σ → ∞"],
+        ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
+    ];
+    // In a narrow tab when the exact value holds is said on hover, and below, alone.
+    let wide = ui.available_width() > WIDE * ui.text_style_height(&TextStyle::Body);
+    let grid = egui::Grid::new("exact").num_columns(if wide { 4 } else { 3 }).striped(true).spacing([14.0, 4.0]);
+    egui::ScrollArea::horizontal().id_salt("exact table").auto_shrink(true).show(ui, |ui| {
+        grid.show(ui, |ui| {
+            for head in ["", "Computed", "Exact"] {
+                let label = ui.label(RichText::new(head).color(cx.colours.quiet));
+                if !head.is_empty() {
+                    glossary::here(ui, label, head);
+                }
+            }
+            ui.end_row();
+            for [name, computed, exact, when] in rows {
+                let label = ui.label(RichText::new(name).color(cx.colours.quiet));
+                glossary::here(ui, label, name);
+                for value in [computed, exact] {
+                    let value = ui.label(RichText::new(value).color(ui.visuals().strong_text_color()));
+                    glossary::here(ui, value, name);
+                }
+                if wide {
+                    ui.label(RichText::new(when).color(cx.colours.quiet));
+                }
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn stated(found: Estimate) -> String {
+    uncertain(found.value, found.error)
+}
+
+/// A share in per cent, two digits, written out.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{value:.decimals$} %")
+}

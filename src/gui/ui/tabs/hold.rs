@@ -1,0 +1,87 @@
+//! A plate in the hand: dragged up and down, and the film's answer felt as a force.
+
+use crate::gui::command::HoldCommand;
+use crate::gui::derived::format::{thousands, time};
+use crate::gui::state::document::Next;
+use crate::gui::state::hold::{HoldState, SECONDS};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::hint::Hint;
+use crate::gui::ui::views;
+use eframe::egui::{self, Slider, TextStyle};
+
+/// What a motor is changed for.
+const PRESET: &str = "plate-crossover";
+/// Below this share of what was asked for, the film is said to be slower.
+const SLOW: f64 = 0.85;
+/// Widest slider, and what stands beside either, in heights of the text.
+const WIDEST: f32 = 18.0;
+const BESIDE_GAP: f32 = 18.0;
+const BESIDE_SECONDS: f32 = 21.0;
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let Some(hold) = &cx.state.hold else {
+        ui.add_space(8.0);
+        let text = "Only a plate can be held: the teeth of a motor follow their wave. Open a plate to feel how the film answers.";
+        cx.note(ui, text);
+        ui.add_space(4.0);
+        let hover = "A built-in preset: some of its gas escapes, some is squeezed";
+        if ui.button("Open the plate at its crossover").hint(hover).clicked() {
+            cx.push(Next::Preset(PRESET));
+        }
+        return;
+    };
+    controls(ui, hold, cx);
+    pace(ui, hold, cx);
+    views::hold::show(ui, hold, cx);
+}
+
+fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    // Sliders do not go to the next row: they take what is left of theirs.
+    let room = |ui: &egui::Ui, others: f32| (ui.available_width() - others * em).clamp(2.0 * em, WIDEST * em);
+    ui.horizontal(|ui| {
+        let [least, most] = hold.reach().map(|gap| gap * 1e6);
+        let mut gap = hold.target() * 1e6;
+        ui.spacing_mut().slider_width = room(ui, BESIDE_GAP);
+        let label = ui.label("Gap");
+        let label = glossary::here(ui, label, "Gap");
+        let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(3).smart_aim(false);
+        if ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓").changed() {
+            cx.push(HoldCommand::To(gap * 1e-6));
+        }
+        if ui.button("Let go").hint("Back to the mean gap").clicked() {
+            cx.push(HoldCommand::LetGo);
+        }
+        if ui.button("Reset").hint("Mean gap, ambient pressure, empty charts").clicked() {
+            cx.push(HoldCommand::Reset);
+        }
+    });
+    ui.horizontal(|ui| {
+        let mut seconds = hold.seconds();
+        ui.spacing_mut().slider_width = room(ui, BESIDE_SECONDS);
+        let label = ui.label("Leak time takes");
+        let label = glossary::here(ui, label, "Leak time");
+        let slider = Slider::new(&mut seconds, SECONDS).logarithmic(true).suffix(" s").max_decimals(1);
+        if ui.add(slider).labelled_by(label.id).hint("How slow the slow motion is").changed() {
+            cx.push(HoldCommand::Seconds(seconds));
+        }
+        let label = ui.label(format!("slowed {}×", thousands(hold.slowed())));
+        glossary::here(ui, label, "Slow motion");
+    });
+}
+
+/// How slow the slow motion is, in words; and whether this computer keeps up.
+fn pace(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
+    let leak = time(hold.leak_time());
+    cx.note(ui, format!("The film's leak time at the mean gap is {leak}. Drag the plate."));
+    let now = hold.now();
+    if now.pace < SLOW {
+        let text = format!("This computer takes {:.1} times as long as that", 1.0 / now.pace.max(1e-3));
+        cx.say(ui, text, cx.colours.alarm);
+    }
+    if let Some(failure) = &now.failure {
+        cx.say(ui, failure, cx.colours.alarm);
+    }
+}

@@ -1,0 +1,37 @@
+//! The labels above the middle of the window.
+
+use crate::gui::command::{Command, PinCommand};
+use crate::gui::state::view::Tab;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::Hint;
+use crate::gui::ui::keys;
+use crate::scene::Kind;
+use eframe::egui;
+
+/// The labels above the middle, and at their right what pins the run.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let state = cx.state;
+    let (present, pinned, solved) = (state.view.tab, state.pins.runs().len(), state.run.is_some());
+    let plate = matches!(state.document.scene().kind, Kind::Plate { .. });
+    let row = ui.horizontal_wrapped(|ui| {
+        for &(tab, _) in Tab::ALL {
+            let name = tab.label(plate);
+            let text = if tab == Tab::Compare && pinned > 0 { format!("{name} ({pinned})") } else { name.to_owned() };
+            let label = ui.selectable_label(tab == present, text).hint(keys::about(&Command::Show(tab)));
+            if label.clicked() && tab != present {
+                cx.push(Command::Show(tab));
+            }
+        }
+        if present != Tab::Compare {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let pin = Command::Pin(PinCommand::Shown);
+                let about = format!("Keeps this run for comparison ({})", keys::of(&pin));
+                if ui.add_enabled(solved, egui::Button::new("Pin")).hint(about).clicked() {
+                    cx.push(pin);
+                }
+            });
+        }
+    });
+    cx.mark(ui, "tabs", row.response.rect);
+    ui.separator();
+}

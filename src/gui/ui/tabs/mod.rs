@@ -1,0 +1,10 @@
+//! What can be in the middle of the window, one of them at a time: the motion is in `views`, the others are here.
+
+pub mod compare;
+pub mod exact;
+pub mod hold;
+pub mod labels;
+pub mod startup;
+pub mod sweep;
+pub mod torque;
+pub mod tradeoff;

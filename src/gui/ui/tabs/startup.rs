@@ -1,0 +1,123 @@
+//! The transient from rest, cycle after cycle as it is computed: how the film pumps up until the cycle repeats.
+
+use crate::export::startup::unsettled;
+use crate::gui::command::StartupCommand;
+use crate::gui::state::startup::StartupState;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::Hint;
+use crate::gui::ui::views;
+use crate::solution::Status;
+use eframe::egui::{self, RichText, TextStyle};
+
+/// Height of the plots: their share of the tab, and at least and at most this many lines of text.
+const PLOTS_SHARE: f32 = 0.22;
+const LINES: (f32, f32) = (6.5, 13.0);
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let height = ui.available_height();
+    buttons(ui, cx);
+    let Some(startup) = &cx.state.startup else {
+        introduction(ui, cx);
+        return;
+    };
+    state(ui, startup, cx);
+    if startup.points().is_empty() {
+        return;
+    }
+    let line = ui.text_style_height(&TextStyle::Body);
+    let plots = (PLOTS_SHARE * height).clamp(LINES.0 * line, LINES.1 * line);
+    let periodic = cx.state.run.as_deref().filter(|run| !startup.stale(&run.scene));
+    let history = ui.scope(|ui| views::history::show(ui, startup, periodic, plots, cx));
+    cx.mark(ui, "history", history.response.rect);
+    if let Some(run) = startup.run() {
+        views::run::show(ui, run, startup.ranges(), cx);
+    }
+}
+
+fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        match cx.state.startup.as_ref().filter(|startup| startup.running()) {
+            Some(_) => {
+                if ui.button("Cancel the start-up").hint("Ends it; the cycles computed so far stay").clicked() {
+                    cx.push(StartupCommand::Cancel);
+                }
+            }
+            None => {
+                let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
+                let button = ui.button("Start from rest").hint(hover);
+                cx.mark(ui, "start", button.rect);
+                if button.clicked() {
+                    cx.push(StartupCommand::Start);
+                }
+            }
+        }
+        let Some(startup) = cx.state.startup.as_ref().filter(|startup| startup.run().is_some()) else { return };
+        let mut follow = startup.follows();
+        let hover = "Shows each cycle as soon as it is computed";
+        if ui.checkbox(&mut follow, "Follow the newest cycle").hint(hover).changed() {
+            cx.push(StartupCommand::Follow(follow));
+        }
+        let hover = "Plays the cycles that are kept one after the other, from the first";
+        if ui.button("Play from rest").hint(hover).clicked() {
+            cx.push(StartupCommand::Replay);
+        }
+    });
+}
+
+fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    ui.add_space(8.0);
+    for text in [
+        "How does the film come to carry load, from the moment at which the vibration begins?",
+        "At t = 0 the gas is at ambient pressure everywhere: the wave stands still, pressed against the rotor (a plate is held \
+         at its largest gap). Then it moves. Every tooth is followed, with nothing accelerated, until the cycle repeats; each \
+         cycle is shown as soon as it is computed. Nothing is computed before you ask.",
+    ] {
+        cx.note(ui, text);
+        ui.add_space(4.0);
+    }
+}
+
+/// How far it is, and of what; then the numbers of the cycle looked at.
+fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
+    let (text, colour) = ending(startup, cx, ui.visuals().text_color());
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(text).color(colour));
+        ui.label(RichText::new(format!("computed at {}", startup.fidelity())).color(cx.colours.quiet));
+    });
+    if startup.stale(cx.state.document.scene()) {
+        let text = format!("Of “{}” before the scene changed; start again", startup.name());
+        cx.say(ui, text, cx.colours.alarm);
+    }
+    if let Some(point) = startup.points().get(startup.chosen().wrapping_sub(1)) {
+        let text = format!("Shown is {}", views::history::words(point, &startup.problem().scenario));
+        ui.add(egui::Label::new(text).wrap());
+    }
+}
+
+/// How far it is, in words.
+fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) -> (String, egui::Color32) {
+    let cycles = startup.points().len();
+    let remaining = startup.points().last().map_or(f64::INFINITY, |point| point.remaining);
+    let open = if remaining.is_finite() {
+        format!("not yet repeating, trapped gas may still change by {:.1} %", 100.0 * remaining)
+    } else {
+        "not yet repeating".to_owned()
+    };
+    match startup.ended() {
+        None if cycles == 0 => ("The first cycle is being computed".to_owned(), usual),
+        None => (format!("Cycle {cycles}: {open}"), usual),
+        Some(Err(message)) => (message.clone(), cx.colours.alarm),
+        Some(Ok(ended)) => match ended.status {
+            Status::Converged => (format!("Cycle {cycles}: repeats to {:.1e}", ended.remaining), cx.colours.good),
+            Status::Cancelled if cycles == 0 => ("Cancelled in the first cycle".to_owned(), cx.colours.quiet),
+            Status::Cancelled => (format!("Cancelled after cycle {cycles}: {open}"), cx.colours.quiet),
+            Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {
+                (format!("Ended after cycle {cycles}: {}", unsettled(ended).unwrap_or_default()), cx.colours.alarm)
+            }
+            Status::NotConverged { .. } | Status::NotResolved { .. } => {
+                (format!("Ended after cycle {cycles}: {open}"), cx.colours.alarm)
+            }
+        },
+    }
+}

@@ -1,0 +1,268 @@
+//! Torque, power and efficiency of a motor over the speed of its rotor, with the film and without it, and what a designer
+//! reads off them.
+
+use crate::analysis::torque::TorqueCurves;
+use crate::estimate::Estimate;
+use crate::export::digits::significant;
+use crate::gui::derived::format::{digits, uncertain};
+use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, title};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::job::SolvedScene;
+use crate::problem::{Motor, Scenario};
+use crate::solution::{Performance, Point};
+use eframe::egui::{self, Color32, RichText, TextStyle, Vec2b};
+use egui_plot::{LineStyle, VLine};
+
+/// Heights of the charts: shares of the tab, and at least this many lines of text.
+const SHARES: [f32; 3] = [0.29, 0.2, 0.2];
+const LEAST_LINES: [f32; 3] = [9.0, 8.0, 6.0];
+/// In a tab wider than this, in heights of the text, power and efficiency stand beside each other.
+const BESIDE: f32 = 36.0;
+/// Top of the efficiency's axis, a little above 100 %.
+const ALL: f64 = 104.0;
+/// Room above the highest curve.
+const HEADROOM: f64 = 1.08;
+/// Significant digits of numbers without an error.
+const DIGITS: usize = 4;
+/// Width of the lines.
+const WIDTH: f32 = 2.0;
+/// Titles of the charts, and what the glossary explains them under.
+const CHARTS: [(&str, &str); 3] =
+    [("Torque of the ring, N·m", "Torque over speed"), ("Power, W", "Power"), ("Efficiency, %", "Efficiency")];
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
+    let Scenario::Motor(motor) = &run.problem.scenario else { return };
+    let height = ui.available_height();
+    egui::ScrollArea::vertical().id_salt("torque").auto_shrink(false).show(ui, |ui| {
+        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
+        ui.set_max_width(ui.available_width() - 14.0);
+        match cx.state.torque.found() {
+            None => drop(ui.label("Solving the contact without film…")),
+            Some(Err(why)) => {
+                let text = format!("There are no curves to show: {why}");
+                cx.say(ui, text, cx.colours.alarm);
+            }
+            Some(Ok(merit)) => found(ui, motor, merit, height, cx),
+        }
+    });
+}
+
+fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx: &DrawContext<'_>) {
+    if merit.surface_speed <= 0.0 {
+        cx.note(ui, "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.");
+        return;
+    }
+    let (film, dry, heat) = (cx.colours.film, cx.colours.contact, cx.colours.rotor);
+    legend(
+        ui,
+        &[
+            ("with film", film, SOLID),
+            ("without film", dry, LineStyle::dashed_loose()),
+            ("friction heat, with film", heat, LineStyle::dashed_dense()),
+            ("rotor speed of the scene", cx.colours.accent, SOLID),
+        ],
+    );
+    let em = ui.text_style_height(&TextStyle::Body);
+    let mut pointed = None;
+    let curve = |of: &Performance, value: &dyn Fn(&Point) -> Option<f64>| -> Vec<[f64; 2]> {
+        of.curve.iter().filter_map(|point| Some([merit.rpm(point.speed), value(point)?])).collect()
+    };
+    let (with, without) = (&merit.with_film, &merit.without_film);
+    type Value<'a> = &'a dyn Fn(&Point) -> Option<f64>;
+    let torque: Value<'_> = &|point| Some(point.torque.value);
+    let output: Value<'_> = &|point| Some(point.output);
+    let friction: Value<'_> = &|point| Some(point.friction);
+    let efficiency: Value<'_> = &|point| point.efficiency.map(|share| 100.0 * share);
+    let dash = LineStyle::dashed_loose();
+    let charts = [
+        (CHARTS[0], vec![(curve(without, torque), dry, dash), (curve(with, torque), film, SOLID)]),
+        (
+            CHARTS[1],
+            vec![
+                (curve(with, friction), heat, LineStyle::dashed_dense()),
+                (curve(without, output), dry, dash),
+                (curve(with, output), film, SOLID),
+            ],
+        ),
+        (CHARTS[2], vec![(curve(without, efficiency), dry, dash), (curve(with, efficiency), film, SOLID)]),
+    ];
+    let side_by_side = ui.available_width() > BESIDE * em;
+    let mut one = |ui: &mut egui::Ui, i: usize, bottom: bool| {
+        let ((name, word), lines) = &charts[i];
+        title(ui, name, word);
+        let tall = (SHARES[i] * height).max(LEAST_LINES[i] * em);
+        let top = if i == 2 { Some(ALL) } else { None };
+        pointed = panel(ui, (name, word), tall, lines, top, bottom, merit, cx).or(pointed);
+    };
+    let first = ui.scope(|ui| one(ui, 0, side_by_side));
+    cx.mark(ui, "torque", first.response.rect);
+    if side_by_side {
+        ui.columns(2, |columns| {
+            one(&mut columns[0], 1, true);
+            one(&mut columns[1], 2, true);
+        });
+    } else {
+        one(ui, 1, false);
+        one(ui, 2, true);
+    }
+    readout(ui, merit, pointed, cx);
+    ui.add_space(6.0);
+    table(ui, motor, merit, cx);
+    ui.add_space(6.0);
+    notes(ui, motor, merit, cx);
+    ui.add_space(8.0);
+}
+
+/// One chart over the speed, which is named below it if it is at the `bottom`; the speed under the pointer \[rpm\].
+fn panel(
+    ui: &mut egui::Ui,
+    (name, word): (&str, &str),
+    height: f32,
+    lines: &[(Vec<[f64; 2]>, Color32, LineStyle)],
+    top: Option<f64>,
+    bottom: bool,
+    merit: &TorqueCurves,
+    cx: &DrawContext<'_>,
+) -> Option<f64> {
+    let fastest = merit.rpm(merit.surface_speed);
+    let present = merit.rpm(merit.with_film.present.speed);
+    let greatest = lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point[1])).fold(0.0, f64::max);
+    let top = top.unwrap_or(if greatest > 0.0 { HEADROOM * greatest } else { 1.0 });
+    let (group, whole) = (egui::Id::unique("torque charts"), place(ui, height));
+    let mut plot =
+        chart(ui, name, height).show_axes(Vec2b::TRUE).link_cursor(group, Vec2b::new(true, false)).show_x(true);
+    if bottom {
+        plot = plot.x_axis_label("speed of the rotor, rpm");
+    }
+    let shown = plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(0.0..=fastest);
+        plot.set_plot_bounds_y(0.0..=top);
+        if (0.0..=fastest).contains(&present) {
+            plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
+        }
+        for (points, colour, style) in lines {
+            plot.line(line(points, *colour, WIDTH, *style));
+        }
+        plot.pointer_coordinate().map(|at| at.x)
+    });
+    let response = shown.response;
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some("Rotor speed"), word);
+    shown.inner.filter(|_| response.hovered()).filter(|speed| (0.0..=fastest).contains(speed))
+}
+
+/// The values at the speed under the pointer.
+fn readout(ui: &mut egui::Ui, merit: &TorqueCurves, pointed: Option<f64>, cx: &DrawContext<'_>) {
+    let Some(speed) = pointed else {
+        cx.note(ui, "Point at a chart to read its values");
+        return;
+    };
+    let at = |of: &Performance| {
+        let next = of.curve.partition_point(|point| merit.rpm(point.speed) < speed).clamp(1, of.curve.len().max(2) - 1);
+        let (a, b) = (of.curve.get(next - 1)?, of.curve.get(next)?);
+        let [low, high] = [a, b].map(|point| merit.rpm(point.speed));
+        let part = if high > low { (speed - low) / (high - low) } else { 0.0 };
+        let mix = |a: f64, b: f64| a + part * (b - a);
+        let percent = a.efficiency.zip(b.efficiency).map(|(a, b)| 100.0 * mix(a, b));
+        let percent = percent.map_or_else(String::new, |share| format!(", {} %", digits(share, DIGITS)));
+        let (torque, output) = (mix(a.torque.value, b.torque.value), mix(a.output, b.output));
+        Some(format!("{} N·m, {} W{percent}", digits(torque, DIGITS), digits(output, DIGITS)))
+    };
+    let (Some(with), Some(without)) = (at(&merit.with_film), at(&merit.without_film)) else { return };
+    let text = format!("{} rpm: with film {with}; without {without}", digits(speed, DIGITS));
+    ui.add(egui::Label::new(text).wrap());
+}
+
+/// The numbers, with the film and without it.
+fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContext<'_>) {
+    let (with, without) = (&merit.with_film, &merit.without_film);
+    let speed = |found: Option<Estimate>| {
+        let rpm = |found: Estimate| Estimate { value: merit.rpm(found.value), error: merit.rpm(found.error) };
+        stated(found.map(rpm), 1.0, "rpm")
+    };
+    let present = format!("Torque at {} rpm", trimmed(merit.rpm(motor.rotor_speed)));
+    type Cell<'a> = Box<dyn Fn(&Performance) -> String + 'a>;
+    // What it is called here, its value, and what the glossary explains it under.
+    let rows: Vec<(&str, Cell<'_>, &str)> = vec![
+        ("Stall torque", Box::new(|of| stated(Some(of.stall_torque), 1.0, "N·m")), "Stall torque"),
+        (
+            "Maximum operating torque",
+            Box::new(|of| stated(Some(of.max_torque), 1.0, "N·m")),
+            "Maximum operating torque",
+        ),
+        ("No-load speed", Box::new(move |of| speed(of.no_load_speed)), "No-load speed"),
+        ("Greatest power", Box::new(|of| stated(Some(of.max_power), 1.0, "W")), "Greatest power"),
+        ("    at", Box::new(move |of| speed(of.max_power_speed)), "Greatest power"),
+        ("Greatest efficiency", Box::new(|of| stated(of.max_efficiency, 100.0, "%")), "Efficiency"),
+        ("    at", Box::new(move |of| speed(of.max_efficiency_speed)), "Efficiency"),
+        (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
+        ("Friction heat there", Box::new(|of| format!("{} W", digits(of.present.friction, DIGITS))), "Friction heat"),
+    ];
+    let grid = egui::Grid::new("figures of merit").num_columns(3).striped(true).spacing([10.0, 4.0]);
+    // Wider than the tab only in a small window with large text.
+    egui::ScrollArea::horizontal().id_salt("figures of merit").auto_shrink(true).show(ui, |ui| {
+        grid.show(ui, |ui| {
+            for (head, colour) in
+                [("", cx.colours.quiet), ("With film", cx.colours.film), ("Without film", cx.colours.contact)]
+            {
+                let label = ui.label(RichText::new(head).color(colour));
+                if !head.is_empty() {
+                    glossary::here(ui, label, head);
+                }
+            }
+            ui.end_row();
+            for (name, cell, word) in &rows {
+                let label = ui.label(RichText::new(*name).color(cx.colours.quiet));
+                glossary::here(ui, label, word);
+                for of in [with, without] {
+                    let value = ui.label(RichText::new(cell(of)).color(ui.visuals().strong_text_color()));
+                    glossary::here(ui, value, word);
+                }
+                ui.end_row();
+            }
+        });
+    });
+}
+
+/// What else follows, in sentences.
+fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContext<'_>) {
+    let drag = significant(1e6 * merit.viscous_drag.abs(), 2);
+    cx.note(ui, &format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")));
+    cx.note(ui, &format!("The film's own viscous drag, not counted here, is at most {drag} µN·m."));
+    if merit.with_film.no_load_speed.is_none() {
+        cx.note(ui, "No tooth touches the rotor: nothing but that drag drives it.");
+        return;
+    }
+    let dry = stated(Some(merit.dry_equivalent), 1.0, "");
+    let text = format!(
+        "A model without film needs the friction coefficient {} for the same maximum operating torque, instead of {}.",
+        dry.trim_end(),
+        trimmed(motor.dry_friction)
+    );
+    cx.note(ui, &text);
+    let text = format!(
+        "Pressures are those of the scene's rotor speed; at another speed the film changes the torque by less than {} %.",
+        significant(100.0 * merit.speed_effect, 2)
+    );
+    cx.note(ui, &text);
+}
+
+/// A number with its error and unit; "none" if there is none.
+fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
+    found.map_or_else(
+        || "none".to_owned(),
+        |found| {
+            let [value, error] = [found.value, found.error].map(|number| number * factor);
+            let text = if error == 0.0 { digits(value, DIGITS) } else { uncertain(value, error) };
+            format!("{text} {unit}")
+        },
+    )
+}
+
+/// A number of the scene as it was given: conversions leave a last bit that nobody wrote.
+fn trimmed(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{rounded}")
+}

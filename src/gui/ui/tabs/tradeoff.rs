@@ -1,0 +1,439 @@
+//! Error against solve time of the present scene, measured on this machine when asked for: each setting a point, the front
+//! of those that no other beats, the present setting ringed, and the cheapest that serves a wish.
+
+use crate::analysis::quantity::Quantity;
+use crate::analysis::tradeoff::{Candidate, Ended, Family, Point, Tradeoff, Wish};
+use crate::export::digits::significant;
+use crate::export::tradeoff::status;
+use crate::gui::command::Command;
+use crate::gui::derived::format::{rough, trimmed};
+use crate::gui::state::dialogs::Export;
+use crate::gui::state::tradeoff::{TradeoffState, is_present};
+use crate::gui::ui::chart::{axes, line, place as chart_place, still};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::hint::Hint;
+use crate::solve::Method;
+use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
+use egui_plot::{GridMark, HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, Points, VLine};
+
+/// Height of the plot: its share of the tab, and at least this many lines of text.
+const PLOT_SHARE: f32 = 0.56;
+const LEAST_LINES: f32 = 12.0;
+/// Radius of a point, and of the ring round the present setting.
+const RADIUS: f32 = 4.5;
+const RING: f32 = 9.0;
+/// Fewer decades than this have ticks at 2 and 5 too.
+const FEW_DECADES: f64 = 2.5;
+/// Around the points, a share of their range.
+const MARGIN: egui::Vec2 = egui::vec2(0.12, 0.12);
+/// Between a point and its name, a share of their range.
+const NAME_GAP: f64 = 0.012;
+/// Width of a letter of a name, in heights of the text.
+const NAME_WIDTH: f32 = 0.5;
+/// Between a number and its unit, which stay on one line.
+const NO_BREAK: char = '\u{a0}';
+/// Width of a tick's text, in heights of the text.
+const TICK_WIDTH: f32 = 5.0;
+/// What can be asked for: per cent, and ms.
+const ACCURACY: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
+const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let height = ui.available_height();
+    egui::ScrollArea::vertical().id_salt("trade-off").auto_shrink(false).show(ui, |ui| {
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        buttons(ui, cx);
+        let Some(measured) = &cx.state.tradeoff else {
+            introduction(ui, cx);
+            return;
+        };
+        state(ui, measured, cx);
+        let tradeoff = measured.tradeoff();
+        if !tradeoff.points.iter().any(|point| place(point).is_some()) {
+            return;
+        }
+        legend(ui, cx);
+        let least = LEAST_LINES * ui.text_style_height(&TextStyle::Body);
+        plot(ui, tradeoff, (PLOT_SHARE * height).max(least), cx);
+        ui.add_space(4.0);
+        for wish in [Wish::Accuracy(cx.state.view.accuracy), Wish::Budget(cx.state.view.budget)] {
+            advice(ui, tradeoff, wish, cx);
+        }
+        ui.add_space(6.0);
+        table(ui, tradeoff, cx);
+        ui.add_space(8.0);
+    });
+}
+
+fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        let running = cx.state.tradeoff.as_ref().filter(|measured| measured.running());
+        match running {
+            Some(measured) => {
+                let hover = "Ends it; what was measured stays";
+                if ui.button("Cancel the measurement").hint(hover).clicked() {
+                    cx.push(Command::CancelMeasure);
+                }
+                let left = measured.left(cx.now).map_or_else(String::new, |left| format!(", {} left", rough(left)));
+                let text = format!("{:.0} %{left}", 100.0 * measured.share());
+                ui.add(egui::ProgressBar::new(measured.share() as f32).desired_width(140.0).text(text));
+                // What is left grows less even while nothing new is told.
+                ui.ctx().request_repaint_after(std::time::Duration::from_secs(1));
+            }
+            None => {
+                if ui.button("Measure").hint("Takes about a minute; the window stays usable").clicked() {
+                    cx.push(Command::Measure);
+                }
+            }
+        }
+        if cx
+            .state
+            .tradeoff
+            .as_ref()
+            .is_some_and(|measured| !measured.running() && !measured.tradeoff().points.is_empty())
+        {
+            for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
+            {
+                if ui.button(text).hint(export.about()).clicked() {
+                    cx.push(Command::Export(export));
+                }
+            }
+        }
+    });
+}
+
+fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    ui.add_space(8.0);
+    for text in [
+        "How exact can this scene be solved, and how fast, on this machine?",
+        "Each fidelity, some grids beside them and the method of the paper on its meshes are timed in turn, in the \
+         background, and judged by the error of α (of a plate, of the film load). Nothing is measured before you ask.",
+    ] {
+        cx.note(ui, text);
+        ui.add_space(4.0);
+    }
+}
+
+/// Of what, and whether that still is the scene.
+fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
+    if measured.stale(cx.state.document.scene()) {
+        let text = format!("Measured on “{}” before the scene changed; measure again", measured.name());
+        cx.say(ui, text, cx.colours.alarm);
+    } else if measured.cancelled() {
+        let text = if measured.running() { "Ending…" } else { "Cancelled; this was measured until then" };
+        cx.note(ui, text);
+    }
+    if let Some(failure) = measured.failure() {
+        cx.say(ui, format!("The measurement failed: {failure}"), cx.colours.alarm);
+    }
+    let unconverged = measured.tradeoff().points.iter().filter(|point| !usable(&point.run.ended)).count();
+    if unconverged > 0 {
+        let text = format!("{unconverged} of the settings did not converge: they are in the table only");
+        cx.note(ui, text);
+    }
+}
+
+/// Whether the window solves with just this setting.
+fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
+    is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics)
+}
+
+fn usable(ended: &Ended) -> bool {
+    matches!(ended, Ended::Waiting | Ended::Converged)
+}
+
+/// Where the families stand, in colour and shape.
+fn style(family: Family, cx: &DrawContext<'_>) -> (&'static str, Color32, MarkerShape) {
+    match family {
+        Family::Fidelity => ("fidelities", cx.colours.film, MarkerShape::Circle),
+        Family::Grid => ("other grids", cx.colours.good, MarkerShape::Up),
+        Family::Paper => ("the paper's method", cx.colours.contact, MarkerShape::Square),
+    }
+}
+
+fn legend(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    ui.horizontal_wrapped(|ui| {
+        for family in [Family::Fidelity, Family::Grid, Family::Paper] {
+            let (name, colour, shape) = style(family, cx);
+            key(ui, name, |painter, at| match shape {
+                MarkerShape::Square => {
+                    painter.rect_filled(egui::Rect::from_center_size(at, egui::Vec2::splat(1.6 * RADIUS)), 0, colour);
+                }
+                MarkerShape::Up => {
+                    let corner = |x: f32, y: f32| at + RADIUS * egui::vec2(x, y);
+                    let corners = vec![corner(0.0, -1.1), corner(1.0, 0.8), corner(-1.0, 0.8)];
+                    painter.add(egui::Shape::convex_polygon(corners, colour, egui::Stroke::NONE));
+                }
+                _ => drop(painter.circle_filled(at, RADIUS, colour)),
+            });
+        }
+        key(ui, "present setting", |painter, at| {
+            painter.circle_stroke(at, 0.6 * RING, egui::Stroke::new(2.0, cx.colours.accent));
+        });
+        key(ui, "best", |painter, at| {
+            let end = egui::vec2(0.5 * em, 0.0);
+            let stroke = egui::Stroke::new(1.5, cx.colours.quiet);
+            painter.extend(egui::Shape::dashed_line(&[at - end, at + end], stroke, 4.0, 3.0));
+        });
+    });
+}
+
+/// An entry of the legend, in one piece, so that it is a whole that goes to the next line.
+fn key(ui: &mut egui::Ui, text: &str, draw: impl FnOnce(&egui::Painter, egui::Pos2)) {
+    let font = TextStyle::Body.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, ui.visuals().text_color());
+    let em = galley.size().y;
+    let size = egui::vec2(1.3 * em + galley.size().x, em);
+    let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+    glossary::here(ui, response, text);
+    draw(ui.painter(), area.left_center() + egui::vec2(0.5 * em, 0.0));
+    let colour = ui.visuals().text_color();
+    ui.painter().galley(area.left_top() + egui::vec2(1.3 * em, 0.0), galley, colour);
+}
+
+/// log₁₀ of time \[s\] and of the error \[%\]; `None` without either.
+fn place(point: &Point) -> Option<[f64; 2]> {
+    let [time, error] = [point.median, 100.0 * point.error?].map(f64::log10);
+    (time.is_finite() && error.is_finite()).then_some([time, error])
+}
+
+fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_>) {
+    let judged = if tradeoff.judged == Quantity::Alpha { "error of α" } else { "error of the film load" };
+    let grid = ui.visuals().widgets.noninteractive.bg_stroke.color;
+    let font = TextStyle::Body.resolve(ui.style());
+    let em = ui.text_style_height(&TextStyle::Body);
+    let width = ui.available_width();
+    let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
+    let whole = chart_place(ui, height);
+    // For screen readers the table below says it all.
+    let plot = still("trade-off plot", height)
+        .grid_color(grid)
+        .x_axis_label("solve time")
+        .y_axis_label(judged)
+        .x_grid_spacer(move |input| decades(input.bounds, most))
+        .y_grid_spacer(|input| decades(input.bounds, 12.0))
+        .x_axis_formatter(|mark, _| duration(10f64.powf(mark.value)))
+        .y_axis_formatter(|mark, _| percent(10f64.powf(mark.value - 2.0)))
+        .label_formatter(|at| match at {
+            HoverPosition::NearDataPoint { plot_name, .. } if !plot_name.is_empty() => {
+                let point = tradeoff.points.iter().find(|point| point.run.candidate.name == *plot_name)?;
+                let error = point.error.map_or_else(String::new, |error| format!("\nerror {}", percent(error)));
+                Some(format!("{plot_name}{error}\ntime {}", duration(point.median)))
+            }
+            _ => None,
+        })
+        .set_margin_fraction(MARGIN);
+    let shown_plot = plot.show(ui, |plot| {
+        let guide = LineStyle::dashed_loose();
+        let quiet = cx.colours.quiet;
+        let within = |low: f64, value: f64, high: f64| value > low && value < high;
+        let range = |axis: usize| {
+            tradeoff
+                .points
+                .iter()
+                .filter_map(place)
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
+        };
+        let ([left, right], [bottom, top]) = (range(0), range(1));
+        // Room for the names, at the left of their points.
+        for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
+            let letters = point.run.candidate.name.len() as f32;
+            if let Some([time, error]) = place(point) {
+                let room = f64::from(NAME_WIDTH * em * letters / width) * (right - left);
+                plot.points(Points::new("", vec![[time - room, error]]).radius(0.0).allow_hover(false));
+            }
+        }
+        // Wishes beyond all points would only squeeze them together.
+        let (accuracy, budget) = ((100.0 * cx.state.view.accuracy).log10(), cx.state.view.budget.log10());
+        if within(bottom, accuracy, top) {
+            plot.hline(HLine::new("", accuracy).color(quiet).width(1.0).style(guide).allow_hover(false));
+        }
+        if within(left, budget, right) {
+            plot.vline(VLine::new("", budget).color(quiet).width(1.0).style(guide).allow_hover(false));
+        }
+        let mut front: Vec<[f64; 2]> = tradeoff.points.iter().filter(|p| p.best).filter_map(place).collect();
+        front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        plot.line(line(&front, quiet, 1.5, LineStyle::dashed_dense()));
+        for point in &tradeoff.points {
+            let Some([time, error]) = place(point) else { continue };
+            let candidate = &point.run.candidate;
+            let (_, colour, shape) = style(candidate.family, cx);
+            let (low, high) = point.quartiles;
+            if low > 0.0 && high > low {
+                let bar = [[low.log10(), error], [high.log10(), error]];
+                plot.line(line(&bar, colour, 1.0, LineStyle::Solid));
+            }
+            plot.points(
+                Points::new(candidate.name.clone(), vec![[time, error]]).color(colour).shape(shape).radius(RADIUS),
+            );
+            if in_use(candidate, cx) {
+                let ring = Points::new("", vec![[time, error]]).color(cx.colours.accent).radius(RING).filled(false);
+                plot.points(ring.allow_hover(false));
+            }
+            if candidate.family == Family::Fidelity {
+                // Below and left of a point of the front there is no other.
+                let at = PlotPoint::new(time - NAME_GAP * (right - left), error - NAME_GAP * (top - bottom));
+                plot.text(
+                    egui_plot::Text::new("", at, RichText::new(&candidate.name).font(font.clone()))
+                        .color(colour)
+                        .anchor(Align2::RIGHT_TOP)
+                        .allow_hover(false),
+                );
+            }
+        }
+    });
+    axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), judged);
+}
+
+/// A wish, what serves it, and the way to use that.
+fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, wish: Wish, cx: &DrawContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        let (name, mut value, unit, range, about) = match wish {
+            Wish::Accuracy(share) => {
+                ("Accuracy", 100.0 * share, " %", ACCURACY, "The cheapest with at most this error")
+            }
+            Wish::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most exact within this time"),
+        };
+        let label = ui.label(name);
+        let label = glossary::here(ui, label, name);
+        let speed = 0.01 * value;
+        let drag = egui::DragValue::new(&mut value)
+            .suffix(unit)
+            .range(range)
+            .speed(speed)
+            .custom_formatter(|value, _| trimmed(&significant(value, 3)).to_owned());
+        if ui.add(drag).labelled_by(label.id).hint(about).changed() {
+            cx.push(Command::Wish(match wish {
+                Wish::Accuracy(_) => Wish::Accuracy(1e-2 * value),
+                Wish::Budget(_) => Wish::Budget(1e-3 * value),
+            }));
+        }
+        let Some(point) = tradeoff.choose(wish).and_then(|i| tradeoff.points.get(i)) else {
+            ui.add(egui::Label::new(RichText::new("no setting serves").color(cx.colours.alarm)));
+            return;
+        };
+        let candidate = &point.run.candidate;
+        let error = point.error.map_or_else(String::new, |error| format!(", error at most {}", percent(error)));
+        ui.add(egui::Label::new(format!("→ {}: {}{error}", candidate.name, duration(point.median))).wrap());
+        if in_use(candidate, cx) {
+            ui.label(RichText::new("in use").color(cx.colours.good));
+            return;
+        }
+        let ours = candidate.settings.method == Method::Auto;
+        let button = ui.add_enabled(ours, egui::Button::new("Use it"));
+        let button = button.on_disabled_hover_text("The window solves by its own method only");
+        let named = button.accessible_name(format!("Use it for the {}", name.to_lowercase()));
+        if named.hint("One edit, undone like any other").clicked() {
+            cx.push(Command::Use { target: candidate.settings.fidelity, numerics: candidate.numerics });
+        }
+    });
+}
+
+/// Every setting in words, the fastest first.
+fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
+    let mut order: Vec<&Point> = tradeoff.points.iter().collect();
+    order.sort_by(|a, b| a.median.total_cmp(&b.median));
+    let quiet = |text: &str| RichText::new(text).color(cx.colours.quiet);
+    let grid = egui::Grid::new("settings").num_columns(4).striped(true).spacing([14.0, 4.0]);
+    // Wider than the tab only in a small window with large text.
+    egui::ScrollArea::horizontal().id_salt("settings").auto_shrink(true).show(ui, |ui| {
+        grid.show(ui, |ui| {
+            for (head, word) in [("Setting", "Setting"), ("Time", "Solve time"), ("Error", "Stated error")] {
+                let label = ui.label(quiet(head));
+                glossary::here(ui, label, word);
+            }
+            ui.label("");
+            ui.end_row();
+            for point in order {
+                let candidate = &point.run.candidate;
+                let (family, colour, _) = style(candidate.family, cx);
+                let setting = ui.label(RichText::new(&candidate.name).color(colour));
+                glossary::here(ui, setting, family);
+                ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
+                ui.label(point.error.map_or_else(String::new, percent));
+                let mut marks = Vec::new();
+                match &point.run.ended {
+                    Ended::Waiting | Ended::Converged => {}
+                    Ended::Failed(_) => marks.push("failed".to_owned()),
+                    other => marks.push(status(other)),
+                }
+                if point.best {
+                    marks.push("best".to_owned());
+                }
+                if in_use(candidate, cx) {
+                    marks.push("in use".to_owned());
+                }
+                let marks = ui.label(quiet(&marks.join(", ")));
+                if let Ended::Failed(reason) = &point.run.ended {
+                    marks.hint(reason);
+                }
+                ui.end_row();
+            }
+        })
+    });
+}
+
+/// Ticks of an axis of log₁₀: decades, thinned if there are many, and 2 and 5 if there are few.
+fn decades((from, to): (f64, f64), most: f64) -> Vec<GridMark> {
+    let count = to - from;
+    if !count.is_finite() || count <= 0.0 {
+        return Vec::new();
+    }
+    let every = (count / most).ceil().max(1.0);
+    let steps: &[f64] = if count < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let first = (from / every).floor() as i64;
+    let last = (to / every).ceil() as i64;
+    (first..=last)
+        .flat_map(|k| steps.iter().map(move |step| k as f64 * every + step.log10()))
+        .filter(|value| (from..=to).contains(value))
+        .map(|value| GridMark { value, step_size: every })
+        .collect()
+}
+
+/// A time in the unit that suits it, three digits.
+fn duration(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s < 0.9995e-3 => (1e6 * s, "µs"),
+        s if s < 0.9995 => (1e3 * s, "ms"),
+        s if s < 99.5 => (s, "s"),
+        s => (s / 60.0, "min"),
+    };
+    format!("{}{NO_BREAK}{unit}", trimmed(&significant(value, 3)))
+}
+
+/// A share in per cent, two digits, written out however small.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{}{NO_BREAK}%", trimmed(&format!("{value:.decimals$}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_unit_that_suits_them() {
+        for (seconds, text) in [(1e-4, "100 µs"), (1e-3, "1 ms"), (0.0161, "16.1 ms"), (1.0, "1 s"), (150.0, "2.5 min")]
+        {
+            assert_eq!(duration(seconds), text.replace(' ', "\u{a0}"));
+        }
+        let percents = [percent(0.01), percent(0.0213), percent(1e-6)];
+        assert_eq!(percents, ["1\u{a0}%", "2.1\u{a0}%", "0.0001\u{a0}%"]);
+    }
+
+    #[test]
+    fn ticks_are_within_and_not_too_many() {
+        for bounds in [(-3.2, 1.1), (-2.9, -2.1), (-40.0, 3.0)] {
+            let marks = decades(bounds, 12.0);
+            assert!((2..=14).contains(&marks.len()), "{bounds:?}: {}", marks.len());
+            assert!(marks.iter().all(|mark| mark.value >= bounds.0 && mark.value <= bounds.1));
+        }
+        assert!(decades((f64::NEG_INFINITY, f64::INFINITY), 12.0).is_empty());
+    }
+}

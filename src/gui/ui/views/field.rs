@@ -1,0 +1,119 @@
+//! The pressure map as a picture: resampled from the graded nodes to pixels, one texture for each map on screen.
+
+use crate::fidelity::Fidelity;
+use crate::gui::derived::sample::{self, Plane, between};
+use crate::gui::ui::paint::{Axes, field_colours};
+use crate::recording::Recording;
+use eframe::egui::{Color32, ColorImage, Id, Painter, Rect, TextureHandle, TextureOptions, Ui, pos2};
+
+/// Texels across the width: the field is smooth, the graphics card interpolates.
+const MOST_ROWS: usize = 96;
+/// Texels along x.
+const MOST_COLUMNS: usize = 2048;
+
+/// What a picture shows: as long as it stays, the texture does too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stamp {
+    /// Number of the run and its fidelity.
+    pub(super) run: (u64, Fidelity),
+    /// Instant shown, in frames.
+    pub(super) place: f64,
+    /// First tooth shown.
+    pub(super) tooth: usize,
+    /// x at the left and right edge \[m\].
+    pub(super) x: [f64; 2],
+    /// Pressures of the first and last colour \[Pa\].
+    pub(super) range: [f64; 2],
+}
+
+#[derive(Clone)]
+struct Picture {
+    stamp: Stamp,
+    size: [usize; 2],
+    texture: TextureHandle,
+}
+
+/// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `axes.rect`.
+pub(super) fn draw(ui: &Ui, painter: &Painter, axes: &Axes, recording: &Recording, name: &str, stamp: Stamp) {
+    let scale = painter.pixels_per_point();
+    let texels = |length: f32, most: usize| ((length * scale).round().max(1.0) as usize).min(most);
+    let size = [texels(axes.rect.width(), MOST_COLUMNS), texels(axes.rect.height(), MOST_ROWS)];
+    let id = Id::unique(("squeezefilm map", name));
+    let known = ui.data(|data| data.get_temp::<Picture>(id));
+    let texture = match known {
+        Some(known) if known.stamp == stamp && known.size == size => known.texture,
+        known => {
+            let image = ColorImage::new(size, pixels(recording, &stamp, size));
+            let texture = match known {
+                Some(mut known) => {
+                    known.texture.set(image, TextureOptions::LINEAR);
+                    known.texture
+                }
+                None => ui.ctx().load_texture(name, image, TextureOptions::LINEAR),
+            };
+            ui.data_mut(|data| data.insert_temp(id, Picture { stamp, size, texture: texture.clone() }));
+            texture
+        }
+    };
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    painter.image(texture.id(), axes.rect, whole, Color32::WHITE);
+}
+
+/// Pixels of the map, row by row from y = +w/2 down; transparent beside the teeth.
+fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2]) -> Vec<Color32> {
+    let mut pixels = vec![Color32::TRANSPARENT; columns * rows];
+    let Some(plane) = Plane::of(recording, 0, 0) else { return pixels };
+    let half = sample::half_width(recording);
+    let places: Vec<Option<(usize, f64)>> =
+        (0..rows).map(|j| plane.row(half * (1.0 - (2.0 * j as f64 + 1.0) / rows as f64))).collect();
+    let colours = field_colours();
+    let [low, high] = stamp.range;
+    let per_colour = if high > low { 255.0 / (high - low) } else { 0.0 };
+    let mut values = vec![0.0; recording.map_y.len()];
+    for i in 0..columns {
+        let x = stamp.x[0] + (i as f64 + 0.5) / columns as f64 * (stamp.x[1] - stamp.x[0]);
+        let (tooth, xi) = sample::tooth_at(x, recording.pitch, recording.teeth.saturating_sub(stamp.tooth).max(1));
+        if !sample::column(recording, stamp.tooth + tooth, xi, stamp.place, &mut values) {
+            continue;
+        }
+        for (j, place) in places.iter().enumerate() {
+            if let Some(place) = *place {
+                let colour = (between(&values, place) - low) * per_colour;
+                pixels[j * columns + i] = colours[colour.clamp(0.0, 255.0) as usize];
+            }
+        }
+    }
+    pixels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::LineLoads;
+
+    #[test]
+    fn grooves_are_transparent_and_the_width_is_mirrored() {
+        let recording = Recording {
+            lines: LineLoads { frames: 2, teeth: 2, stored_teeth: 1, pitch: 1.0, length: 2.0, ..LineLoads::default() },
+            map_x: vec![-0.25, 0.0, 0.25],
+            map_y: vec![0.0, 0.5],
+            half_width: true,
+            pressure: [[1.0, 0.0].repeat(3), [3.0, 0.0].repeat(3)].concat(),
+            ..Recording::default()
+        };
+        let stamp = Stamp { run: (0, Fidelity::Draft), place: 0.0, tooth: 0, x: [-0.5, 1.5], range: [0.0, 3.0] };
+        let (columns, rows) = (40, 9);
+        let pixels = pixels(&recording, &stamp, [columns, rows]);
+        let at = |i: usize, j: usize| pixels[j * columns + i];
+        assert_eq!(at(0, 4), Color32::TRANSPARENT);
+        assert_eq!(at(20, 4), Color32::TRANSPARENT);
+        // Tooth 1 is half a cycle ahead.
+        assert_eq!(at(10, 4), field_colours()[85]);
+        assert_eq!(at(30, 4), field_colours()[255]);
+        for i in 0..columns {
+            for j in 0..rows {
+                assert_eq!(at(i, j), at(i, rows - 1 - j));
+            }
+        }
+    }
+}

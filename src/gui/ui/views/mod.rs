@@ -1,0 +1,21 @@
+//! Views: each draws one run at one phase of the cycle.
+//!
+//! A redraw reads the two frames around the present instant only (`derived::sample`); what needs the whole recording is computed once for a run (`derived::scales`).
+//! Everything is drawn with the painter, on axes of our own (`ui::paint`): one x axis is shared by all parts of a view.
+
+mod field;
+pub mod history;
+pub mod hold;
+mod loads;
+mod map;
+mod motor;
+mod motor_frame;
+pub mod overlay;
+mod plate;
+mod pointer;
+pub mod run;
+mod scales;
+mod series;
+pub mod swept;
+mod tooth;
+mod wave;

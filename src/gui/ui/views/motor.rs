@@ -1,0 +1,166 @@
+//! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
+
+use super::motor_frame::MotorFrame;
+use super::pointer::{Readout, named, seek};
+use super::scales::scales_of;
+use super::{loads, map, tooth, wave};
+use crate::gui::command::Command;
+use crate::gui::derived::format::number;
+use crate::gui::derived::sample::{self, Lines, Touching};
+use crate::gui::derived::scales::Ranges;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::paint::{PlotStyle, area};
+use crate::job::SolvedScene;
+use crate::problem::Scenario;
+use eframe::egui::{self, CursorIcon, Rect, pos2};
+
+/// Where the parts go.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    wave: Rect,
+    loads: Rect,
+    map: Rect,
+    /// The followed tooth, titles and axes included.
+    tooth: Option<Rect>,
+    readout: Rect,
+    gutter: f32,
+}
+
+impl Layout {
+    fn new(area: Rect, row: f32, gutter: f32, readout: f32) -> Self {
+        let (title, axis) = (row + 7.0, row + 3.0);
+        let body = area.height() - readout - 3.0 * title - axis;
+        let least = 6.0 * row + title + axis;
+        let with_tooth = body > 16.0 * row + least && area.width() > 3.0 * (gutter + 5.0 * row);
+        let below = if with_tooth { (0.24 * body).max(least) } else { 0.0 };
+        let rest = (body - below - 4.0).max(30.0);
+        let plot = |top: f32, part: f32| {
+            let low = pos2(area.right() - 0.5 * row, top + part * rest);
+            Rect::from_min_max(pos2(area.left() + gutter, top), low)
+        };
+        let wave = plot(area.top() + title, 0.50);
+        let loads = plot(wave.bottom() + title, 0.31);
+        let map = plot(loads.bottom() + title, 0.19);
+        let under = map.bottom() + axis;
+        let tooth = with_tooth
+            .then(|| Rect::from_min_max(pos2(area.left(), under + 2.0), pos2(wave.right(), under + 2.0 + below)));
+        let readout = Rect::from_min_max(pos2(area.left(), area.bottom() - readout), area.right_bottom());
+        Self { wave, loads, map, tooth, readout, gutter }
+    }
+}
+
+/// Draws `run` at the view's phase.
+pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+    let recording = &run.solution.recording;
+    let Scenario::Motor(motor) = &run.problem.scenario else { return };
+    let Some(area) = area(ui, recording) else { return };
+    let scales = scales_of(ui, run, within);
+    let place = cx.state.view.place(recording);
+    let touching = Touching::of(motor);
+    let shown = MotorFrame {
+        run: (run.number, run.fidelity),
+        recording,
+        motor,
+        scales: &scales,
+        place,
+        lines: Lines::at(recording, place, touching),
+        tooth: cx.state.view.tooth.min(recording.teeth.saturating_sub(1)),
+        cursor: cx.state.view.cursor_x,
+    };
+    let style = PlotStyle::new(ui);
+    let painter = ui.painter_at(area);
+    let gutter = style.width(&painter, "−0.000") + 6.0;
+    let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
+    let layout = Layout::new(area, style.row, gutter, longest.height(&painter, &style, area.width()));
+
+    let axes = wave::draw(&painter, &style, layout.wave, &shown);
+    loads::draw(&painter, &style, layout.loads, &shown);
+    map::draw(ui, &painter, &style, layout.map, &shown);
+    if let Some(rect) = layout.tooth {
+        let drawn = tooth::draw(ui, &painter, &style, rect, layout.gutter, &shown);
+        for (axes, place) in drawn.plots.iter().zip(["least gap", "loads"]) {
+            cx.mark(ui, place, axes.rect);
+        }
+        cx.mark(ui, "tooth", rect);
+        for (axes, name) in drawn.plots.iter().zip(["Least gap over the cycle", "Loads over the cycle"]) {
+            seek(ui, axes, name, cx);
+        }
+    }
+    readout(&shown).draw(&painter, &style, layout.readout);
+
+    let pointed = layout.wave.union(layout.map);
+    let name = "Motor along one wavelength: point to read values, click a tooth to follow it";
+    let response = named(ui, pointed, name).on_hover_cursor(CursorIcon::Crosshair);
+    if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+        cx.point_at(x);
+    }
+    if response.clicked()
+        && let Some(x) = response.interact_pointer_pos().and_then(|at| axes.x_at(at.x))
+    {
+        cx.push(Command::FollowTooth(sample::tooth_at(x, recording.pitch, recording.teeth).0));
+    }
+    for (name, rect) in [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)] {
+        cx.mark(ui, name, rect.shrink(2.0));
+    }
+    style.explain(ui);
+}
+
+/// A row of values, as wide as it takes.
+const LONGEST: [&str; 7] = [
+    "x −00.00 mm",
+    "tooth 00",
+    "gap 0.0000 µm",
+    "film thickness 0.0000 µm",
+    "contact 0000 kPa",
+    "film −0000 kPa gauge",
+    "p at y = 0 0000 kPa absolute",
+];
+
+fn readout(shown: &MotorFrame<'_>) -> Readout {
+    let recording = shown.recording;
+    let [left, right] = shown.x_range();
+    let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
+        return Readout { values: vec!["Point at a view to read its values, click a tooth to follow it".to_owned()] };
+    };
+    let (tooth, xi) = sample::tooth_at(x, recording.pitch, recording.teeth);
+    let mut values = vec![format!("x {} mm", number(x * 1e3))];
+    let Some(node) = sample::locate(&recording.x, xi) else {
+        values.push("groove".to_owned());
+        return Readout { values };
+    };
+    let lines = &shown.lines;
+    let at = |field: &[f64]| sample::between(&field[lines.of(tooth)], node);
+    let thickness = at(&lines.film_thickness);
+    let width = shown.motor.contact_width;
+    values.push(format!("tooth {tooth}"));
+    values.push(format!("gap {} µm", number((thickness - shown.motor.min_spacing).max(0.0) * 1e6)));
+    values.push(format!("film thickness {} µm", number(thickness * 1e6)));
+    values.push(format!("contact {} kPa", number(at(&lines.contact) / width / 1e3)));
+    values.push(format!("film {} kPa gauge", number(at(&lines.film) / width / 1e3)));
+    if let Some(pressure) = sample::middle_pressure(recording, tooth, xi, shown.place) {
+        values.push(format!("p at y = 0 {} kPa absolute", number(pressure / 1e3)));
+    }
+    Readout { values }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_neither_overlap_nor_leave_the_area() {
+        for (width, height) in [(430.0, 560.0), (800.0, 800.0), (1000.0, 500.0), (360.0, 380.0)] {
+            for row in [12.0, 15.0, 22.0] {
+                let area = Rect::from_min_size(pos2(10.0, 20.0), egui::vec2(width, height));
+                let layout = Layout::new(area, row, 3.2 * row, 2.0 * row);
+                let mut parts = vec![layout.wave, layout.loads, layout.map];
+                parts.extend(layout.tooth);
+                parts.push(layout.readout);
+                for pair in parts.windows(2) {
+                    assert!(pair[0].bottom() <= pair[1].top() + 0.01, "{width}×{height}, {row}: {parts:?}");
+                }
+                assert!(parts.iter().all(|part| area.expand(0.01).contains_rect(*part) && part.height() > 5.0));
+            }
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! A motor at one instant: what its views draw.
+
+use crate::fidelity::Fidelity;
+use crate::gui::derived::sample::Lines;
+use crate::gui::derived::scales::Scales;
+use crate::gui::ui::paint::{Axes, PlotStyle};
+use crate::problem::Motor;
+use crate::recording::Recording;
+use eframe::egui::{Painter, Rect};
+
+/// A motor at one instant.
+pub(super) struct MotorFrame<'a> {
+    /// Number of the run, and its fidelity.
+    pub(super) run: (u64, Fidelity),
+    pub(super) recording: &'a Recording,
+    pub(super) motor: &'a Motor,
+    pub(super) scales: &'a Scales,
+    /// The instant, in frames.
+    pub(super) place: f64,
+    /// The lines at that instant.
+    pub(super) lines: Lines,
+    pub(super) tooth: usize,
+    pub(super) cursor: Option<f64>,
+}
+
+impl MotorFrame<'_> {
+    pub(super) fn x_range(&self) -> [f64; 2] {
+        let half = 0.5 * self.recording.pitch;
+        [-half, self.recording.length - half]
+    }
+
+    /// Phase of the instant.
+    pub(super) fn phase(&self) -> f64 {
+        self.place / self.recording.frames.max(1) as f64
+    }
+
+    /// A faint column behind the followed tooth.
+    pub(super) fn mark_followed(&self, painter: &Painter, style: &PlotStyle, axes: &Axes) {
+        let middle = self.tooth as f64 * self.recording.pitch;
+        let reach = self.recording.x.last().copied().unwrap_or(0.0);
+        let column = Rect::from_x_y_ranges(axes.px(middle - reach)..=axes.px(middle + reach), axes.rect.y_range());
+        painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
+    }
+}

@@ -1,0 +1,517 @@
+//! Several runs at the same phase of their own cycles: surfaces, pressures and loads laid over each other, pressure maps
+//! beside each other with one scale of colours. Motors with motors, plates with plates: they have no axis in common.
+
+use super::field::{self, Stamp};
+use super::pointer::{named, seek};
+use super::series::{Series, Trace};
+use crate::analysis::compare::Run;
+use crate::fidelity::Fidelity;
+use crate::gui::derived::format::{number, times};
+use crate::gui::derived::sample::{self, Lines, Touching};
+use crate::gui::derived::scales::{Curve, RunCurves, common};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar, title_with_bar};
+use crate::problem::{Motor, Plate, Scenario};
+use crate::recording::Recording;
+use eframe::egui::{self, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+
+/// Wavelengths, or lengths of plates, that differ by less are the same.
+const SAME: f64 = 1e-9;
+/// Heights of the drawings, in lines of text: least of a plot, of a map of a motor, of a map of a plate.
+const LEAST_PLOT: f32 = 3.8;
+const LEAST_MAP: f32 = 1.8;
+const MOST_MAP: f32 = 4.0;
+const PLATE_MAP: f32 = 7.0;
+
+/// A run among others.
+#[derive(Clone, Copy, Debug)]
+pub struct Overlaid<'a> {
+    /// Its own number, which no other run ever has.
+    pub id: u64,
+    /// Its colour.
+    pub colour: Color32,
+    /// The run.
+    pub run: &'a Run,
+    /// Scales and curves of its cycle.
+    pub curves: &'a RunCurves,
+}
+
+impl<'a> Overlaid<'a> {
+    /// Its fields, if it has any.
+    fn recording(&self) -> Option<&'a Recording> {
+        let recording = &self.run.solved.as_ref().ok()?.recording;
+        (recording.frames > 0 && !recording.x.is_empty() && !recording.film.is_empty()).then_some(recording)
+    }
+}
+
+/// A motor at the present instant.
+struct MotorNow<'a> {
+    of: Overlaid<'a>,
+    recording: &'a Recording,
+    motor: &'a Motor,
+    place: f64,
+    lines: Lines,
+}
+
+/// A plate at the present instant.
+struct PlateNow<'a> {
+    of: Overlaid<'a>,
+    recording: &'a Recording,
+    plate: &'a Plate,
+    place: f64,
+}
+
+/// Draws the runs at the view's phase; scrolls if that takes more than there is room for.
+pub fn show(ui: &mut Ui, runs: &[Overlaid<'_>], cx: &DrawContext<'_>) {
+    let (mut motors, mut plates) = (Vec::new(), Vec::new());
+    for run in runs {
+        let Some(recording) = run.recording() else { continue };
+        let place = cx.state.view.place(recording);
+        match &run.run.problem.scenario {
+            Scenario::Motor(motor) => {
+                let touching = Touching::of(motor);
+                let lines = Lines::at(recording, place, touching);
+                motors.push(MotorNow { of: *run, recording, motor, place, lines });
+            }
+            Scenario::Plate(plate) => plates.push(PlateNow { of: *run, recording, plate, place }),
+        }
+    }
+    let mixed = !motors.is_empty() && !plates.is_empty();
+    let height = ui.available_height();
+    egui::ScrollArea::vertical().id_salt("overlaid").auto_shrink(false).show(ui, |ui| {
+        if mixed {
+            let text = "Motors and plates cannot be laid over each other: a wave and a plate have no axis in common. Each \
+                        kind has its own drawings; the numbers that both have are under Numbers.";
+            cx.note(ui, text);
+        }
+        let share = if mixed { 0.8 * height } else { ui.available_height() };
+        if !motors.is_empty() {
+            draw_motors(ui, &motors, share, cx);
+        }
+        if !plates.is_empty() {
+            draw_plates(ui, &plates, share, cx);
+        }
+    });
+}
+
+/// Takes the whole width and this height.
+fn take(ui: &mut Ui, height: f32) -> Rect {
+    let size = vec2(ui.available_width().min(6000.0), height.min(20_000.0));
+    ui.allocate_exact_size(size, Sense::hover()).0
+}
+
+/// An x axis for lengths: in metres if they are all the same, else in lengths of each.
+struct Along {
+    alike: bool,
+    first: f64,
+}
+
+impl Along {
+    fn of(mut lengths: impl Iterator<Item = f64>) -> Self {
+        let first = lengths.next().unwrap_or(1.0);
+        Self { alike: lengths.all(|length| (length / first - 1.0).abs() < SAME), first }
+    }
+
+    /// What a metre of a run of this length is on the axis.
+    fn metre(&self, length: f64) -> f64 {
+        if self.alike { 1.0 } else { 1.0 / length }
+    }
+
+    fn labels(&self, painter: &Painter, style: &PlotStyle, axes: &Axes, length: &str) {
+        if self.alike {
+            axes.x_labels(painter, style, 1e-3, "x, mm");
+        } else {
+            axes.x_labels(painter, style, 1.0, length);
+        }
+    }
+
+    fn grid(&self, painter: &Painter, style: &PlotStyle, axes: &Axes) {
+        axes.x_grid(painter, style, if self.alike { 1e-3 } else { 1.0 });
+    }
+
+    /// x under the pointer as the other views have it \[m\], and back.
+    fn to_metres(&self, x: f64) -> f64 {
+        if self.alike { x } else { x * self.first }
+    }
+
+    fn on_axis(&self, x: f64) -> f64 {
+        if self.alike { x } else { x / self.first }
+    }
+}
+
+fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext<'_>) {
+    let style = PlotStyle::new(ui);
+    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let count = runs.len() as f32;
+    let gap = 4.0;
+    let fixed = 5.0 * title + 2.0 * axis + (count - 1.0) * gap + 8.0;
+    let least = fixed + 4.0 * LEAST_PLOT * style.row + count * LEAST_MAP * style.row;
+    let area = take(ui, height.max(least));
+    let painter = ui.painter_at(area);
+    let body = area.height() - fixed;
+    let map = (0.20 * body / count).clamp(LEAST_MAP * style.row, MOST_MAP * style.row);
+    let rest = body - count * map;
+    let gutter = style.width(&painter, "−0.000") + 6.0;
+    let right = area.right() - 0.5 * style.row;
+    let mut top = area.top();
+    let mut next = |before: f32, height: f32| {
+        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + before), pos2(right, top + before + height));
+        top = rect.bottom();
+        rect
+    };
+    let wave = next(title, 0.36 * rest);
+    let contact = next(title, 0.21 * rest);
+    let film = next(title, 0.21 * rest);
+    let maps: Vec<Rect> = (0..runs.len()).map(|i| next(if i == 0 { title } else { gap }, map)).collect();
+    let loads = next(axis + title, 0.22 * rest);
+
+    let along = Along::of(runs.iter().map(|run| run.recording.length));
+    let ends = runs.iter().map(|run| {
+        let (half, metre) = (0.5 * run.recording.pitch, along.metre(run.recording.length));
+        [-half * metre, (run.recording.length - half) * metre]
+    });
+    let x = common(ends);
+    let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
+
+    let axes = draw_surfaces(&painter, &style, wave, runs, x, &along, cursor);
+    let names = [("Contact pressure, kPa", "Contact pressure"), ("Film pressure, kPa gauge", "Gauge pressure")];
+    for (field, (name, rect)) in names.into_iter().zip([contact, film]).enumerate() {
+        draw_pressure(&painter, &style, rect, runs, (x, &along, cursor), name, field);
+    }
+
+    let range = common(runs.iter().map(|run| run.of.curves.scales.pressure));
+    let titles =
+        ["Pressure maps of the film, kPa absolute, one scale of colours", "Pressure maps, absolute, one scale"];
+    title_with_bar(&painter, &style, maps[0], "Pressure map", titles, range);
+    for (slot, (run, rect)) in runs.iter().zip(&maps).enumerate() {
+        let metre = along.metre(run.recording.length);
+        let half = sample::half_width(run.recording);
+        // In metres of this run: its own teeth are where its own x says.
+        let axes = Axes::new(*rect, x.map(|x| x / metre), [-half, half]);
+        axes.canvas(&painter, &style);
+        let stamp = Stamp { run: (run.of.id, Fidelity::Draft), place: run.place, tooth: 0, x: axes.x, range };
+        field::draw(ui, &painter, &axes, run.recording, &format!("overlaid motor {slot}"), stamp);
+        key_beside(&painter, *rect, run.of.colour);
+        axes.cursor(&painter, &style, cursor.map(|x| x / metre));
+        map_name(ui, *rect, &run.of.run.label, range);
+    }
+    if let Some(last) = maps.last() {
+        along.labels(&painter, &style, &Axes::new(*last, x, [0.0, 1.0]), "x/λ");
+    }
+
+    let period = common_period(runs.iter().map(|run| run.recording.period));
+    let middle = 0.5 * (area.left() + right);
+    let halves = [(area.left() + gutter, middle - 0.4 * style.row), (middle + 0.4 * style.row + gutter, right)];
+    type Of = fn(&RunCurves) -> &Curve;
+    let curves: [(&str, Of); 2] = [
+        ("Film load on one wave, N", |curves| &curves.film),
+        ("Contact load on one wave, N", |curves| &curves.contact),
+    ];
+    for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
+        let rect = Rect::from_x_y_ranges(left..=right, loads.y_range());
+        let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, of(run.of.curves))).collect();
+        over_cycle(ui, &painter, &style, rect, title, &kept, (1.0, period, cx.state.view.phase), cx);
+    }
+
+    let pointed = wave.union(*maps.last().unwrap_or(&film));
+    let response = named(ui, pointed, "Motors along one wavelength: point to read values");
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    let on_a_term = style.explain(ui);
+    if !on_a_term && let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+        cx.point_at(along.to_metres(x));
+        response.on_hover_ui_at_pointer(|ui| motor_values(ui, runs, x, &along));
+    }
+}
+
+/// A strip of a run's colour left of its map.
+fn key_beside(painter: &Painter, map: Rect, colour: Color32) {
+    let strip = Rect::from_min_max(pos2(map.left() - 9.0, map.top()), pos2(map.left() - 4.0, map.bottom()));
+    painter.rect_filled(strip, 1.0, colour);
+}
+
+/// What a map is, for screen readers.
+fn map_name(ui: &Ui, rect: Rect, label: &str, range: [f64; 2]) {
+    let [low, high] = range.map(|pressure| number(pressure / 1e3));
+    let name = format!("Pressure map of {label}, colours from {low} to {high} kPa");
+    let response = ui.interact(rect, ui.scope_id().with(&name), Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, &name));
+}
+
+/// The period that all have; not a number if they differ.
+fn common_period(mut periods: impl Iterator<Item = f64>) -> f64 {
+    let first = periods.next().unwrap_or(f64::NAN);
+    if periods.all(|period| (period / first - 1.0).abs() < SAME) { first } else { f64::NAN }
+}
+
+/// Curves of all runs over the cycle, of which each has its own length.
+fn over_cycle(
+    ui: &Ui,
+    painter: &Painter,
+    style: &PlotStyle,
+    rect: Rect,
+    title: &str,
+    curves: &[(Color32, &Curve)],
+    (unit, period, phase): (f64, f64, f64),
+    cx: &DrawContext<'_>,
+) {
+    let traces: Vec<_> =
+        curves.iter().map(|(colour, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour }).collect();
+    let range = common(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]));
+    let series = Series { title, legend: &[], traces: &traces, range, unit, period, phase };
+    let axes = series.draw(painter, style, rect);
+    seek(ui, &axes, title, cx);
+}
+
+fn draw_surfaces(
+    painter: &Painter,
+    style: &PlotStyle,
+    rect: Rect,
+    runs: &[MotorNow<'_>],
+    x: [f64; 2],
+    along: &Along,
+    cursor: Option<f64>,
+) -> Axes {
+    let heights = runs.iter().map(|run| {
+        let scales = &run.of.curves.scales;
+        [scales.stator[0], (scales.rotor[1] - run.motor.min_spacing).max(scales.stator[1])]
+    });
+    let [low, high] = common(heights);
+    let margin = 0.08 * (high - low).max(1e-9);
+    let axes = Axes::new(rect, x, [low - margin, high + margin]);
+    let scale = f64::from(rect.height()) / (axes.y[1] - axes.y[0]);
+    let across = f64::from(rect.width()) / (axes.x[1] - axes.x[0]) / if along.alike { 1.0 } else { along.first };
+    axes.canvas(painter, style);
+    scale_bar(painter, style, rect, scale);
+    let titles = [
+        format!("Rotor undersides (thick) over tooth tops (thin), vertical {}", times(scale / across)),
+        format!("Rotor (thick), teeth (thin), {}", times(scale / across)),
+        "Rotor and teeth".to_owned(),
+    ];
+    style.title(painter, rect, "Travelling wave", &titles.each_ref().map(String::as_str), &[]);
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    along.grid(painter, style, &axes);
+    for run in runs {
+        let metre = along.metre(run.recording.length);
+        let at = |tooth: usize, node: usize, height: f64| {
+            axes.at((tooth as f64 * run.recording.pitch + run.recording.x[node]) * metre, height)
+        };
+        let mut underside: Vec<Pos2> = Vec::new();
+        for tooth in 0..run.recording.teeth {
+            let line = run.lines.of(tooth);
+            let top = run.lines.stator[line.clone()].iter().enumerate();
+            painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));
+            let rotor = line.clone().enumerate().map(|(i, k)| {
+                let height = run.lines.stator[k] + run.lines.film_thickness[k] - run.motor.min_spacing;
+                at(tooth, i, height)
+            });
+            underside.extend(rotor);
+        }
+        painter.line(underside, Stroke::new(2.2, run.of.colour));
+    }
+    axes.cursor(painter, style, cursor);
+    axes
+}
+
+fn draw_pressure(
+    painter: &Painter,
+    style: &PlotStyle,
+    rect: Rect,
+    runs: &[MotorNow<'_>],
+    (x, along, cursor): ([f64; 2], &Along, Option<f64>),
+    (name, word): (&str, &str),
+    field: usize,
+) {
+    let ranges = runs.iter().map(|run| run.of.curves.lines[field].map(|load| load / run.motor.contact_width));
+    let [low, high] = common(ranges.chain([[0.0, 0.0]]));
+    let margin = 0.06 * (high - low).max(1.0);
+    let axes = Axes::new(rect, x, [low - margin, high + margin]);
+    axes.canvas(painter, style);
+    axes.y_ticks(painter, style, 1e3);
+    style.title(painter, rect, word, &[name], &[]);
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    along.grid(painter, style, &axes);
+    let zero = axes.py(0.0);
+    painter.hline(rect.x_range(), zero, Stroke::new(1.0, style.palette.quiet));
+    for run in runs {
+        let metre = along.metre(run.recording.length);
+        for tooth in 0..run.recording.teeth {
+            let values = &[&run.lines.contact, &run.lines.film][field][run.lines.of(tooth)];
+            // Nothing rather than a line at zero where a tooth does not touch.
+            if values.iter().all(|value| *value == 0.0) {
+                continue;
+            }
+            let middle = tooth as f64 * run.recording.pitch;
+            let points = run.recording.x.iter().zip(values);
+            let line: Vec<Pos2> =
+                points.map(|(xi, load)| axes.at((middle + xi) * metre, load / run.motor.contact_width)).collect();
+            band(painter, line.iter().map(|at| (at.x, at.y, zero)), run.of.colour.gamma_multiply(0.16));
+            painter.line(line, Stroke::new(1.6, run.of.colour));
+        }
+    }
+    axes.cursor(painter, style, cursor);
+}
+
+/// Values of every motor at x.
+fn motor_values(ui: &mut Ui, runs: &[MotorNow<'_>], x: f64, along: &Along) {
+    let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} λ", number(x)) };
+    ui.label(place);
+    egui::Grid::new("values of motors").spacing([12.0, 2.0]).show(ui, |ui| {
+        for head in ["", "gap, nm", "contact, kPa", "film, kPa gauge"] {
+            ui.weak(head);
+        }
+        ui.end_row();
+        for run in runs {
+            let (tooth, xi) =
+                sample::tooth_at(x / along.metre(run.recording.length), run.recording.pitch, run.recording.teeth);
+            ui.colored_label(run.of.colour, &run.of.run.label);
+            match sample::locate(&run.recording.x, xi) {
+                None => drop(ui.weak("groove")),
+                Some(node) => {
+                    let at = |field: &[f64]| sample::between(&field[run.lines.of(tooth)], node);
+                    let gap = at(&run.lines.film_thickness) - run.motor.min_spacing;
+                    ui.label(number(gap.max(0.0) * 1e9));
+                    for field in [&run.lines.contact, &run.lines.film] {
+                        ui.label(number(at(field) / run.motor.contact_width / 1e3));
+                    }
+                }
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext<'_>) {
+    let style = PlotStyle::new(ui);
+    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let with_map: Vec<&PlateNow<'_>> = runs.iter().filter(|run| run.plate.width.is_some()).collect();
+    let columns = with_map.len().clamp(1, 3);
+    let rows = with_map.len().div_ceil(columns) as f32;
+    let map = PLATE_MAP * style.row;
+    let fixed = 2.0 * title + 2.0 * axis + 8.0 + if rows > 0.0 { title + rows * (map + 6.0) } else { 0.0 };
+    let area = take(ui, height.max(fixed + 3.2 * LEAST_PLOT * style.row));
+    let painter = ui.painter_at(area);
+    let body = area.height() - fixed;
+    let gutter = style.width(&painter, "−0.000") + 6.0;
+    let right = area.right() - 0.5 * style.row;
+    let across = |top: f32, height: f32| Rect::from_min_max(pos2(area.left() + gutter, top), pos2(right, top + height));
+
+    // Pressure along the plates.
+    let profile = across(area.top() + title, 0.52 * body);
+    let along = Along::of(runs.iter().map(|run| run.plate.length));
+    let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.plate.length * along.metre(run.plate.length))));
+    let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
+    let range = common(runs.iter().map(|run| run.of.curves.scales.pressure));
+    let ambient = common(runs.iter().map(|run| [run.plate.gas.ambient_pressure; 2]));
+    let [low, high] = common([range, ambient].into_iter());
+    let margin = 0.06 * (high - low);
+    let axes = Axes::new(profile, x, [low - margin, high + margin]);
+    axes.canvas(&painter, &style);
+    axes.y_ticks(&painter, &style, 1e3);
+    let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
+    style.title(&painter, profile, "Film pressure", &titles, &[]);
+    let inside = painter.with_clip_rect(painter.clip_rect().intersect(profile));
+    along.grid(&inside, &style, &axes);
+    for run in runs {
+        let metre = along.metre(run.plate.length);
+        let at = |x: f64| {
+            sample::middle_pressure(run.recording, 0, x, run.place).map(|pressure| axes.at(x * metre, pressure))
+        };
+        let nodes = &run.recording.map_x;
+        let mirrored = nodes.iter().rev().filter(|x| run.recording.half_length && **x > 0.0).map(|x| -x);
+        let line: Vec<Pos2> = mirrored.chain(nodes.iter().copied()).filter_map(at).collect();
+        inside.line(line, Stroke::new(1.8, run.of.colour));
+        let rest = axes.py(run.plate.gas.ambient_pressure);
+        inside.hline(profile.x_range(), rest, Stroke::new(1.0, style.palette.quiet));
+    }
+    axes.cursor(&inside, &style, cursor);
+    along.labels(&painter, &style, &axes, "x/length");
+    let mut top = profile.bottom() + axis;
+
+    // Maps, of plates that have a width.
+    for (slot, run) in with_map.iter().enumerate() {
+        if slot == 0 {
+            top += title;
+            let titles = ["Pressure maps, kPa absolute, one scale of colours", "Maps, one scale"];
+            title_with_bar(&painter, &style, across(top, map), "Pressure map", titles, range);
+        } else if slot.is_multiple_of(columns) {
+            top += map + 6.0;
+        }
+        let column = (slot % columns) as f32;
+        let step = (right - area.left() - gutter) / columns as f32;
+        let left = area.left() + gutter + column * step;
+        let rect =
+            Rect::from_min_max(pos2(left + if column > 0.0 { 16.0 } else { 0.0 }, top), pos2(left + step, top + map));
+        let half = [0.5 * run.plate.length, sample::half_width(run.recording)];
+        let axes = Axes::new(rect, [-half[0], half[0]], [-half[1], half[1]]);
+        axes.canvas(&painter, &style);
+        let stamp = Stamp { run: (run.of.id, Fidelity::Draft), place: run.place, tooth: 0, x: axes.x, range };
+        field::draw(ui, &painter, &axes, run.recording, &format!("overlaid plate {slot}"), stamp);
+        key_beside(&painter, rect, run.of.colour);
+        map_name(ui, rect, &run.of.run.label, range);
+    }
+    if !with_map.is_empty() {
+        top += map;
+    }
+
+    // Over the cycle, and against the gap.
+    let (plots, bottom) = (top + title, area.bottom() - axis);
+    let middle = 0.5 * (area.left() + right);
+    let left = Rect::from_min_max(pos2(area.left() + gutter, plots), pos2(middle - 2.2 * style.row, bottom));
+    let right = Rect::from_min_max(pos2(middle + 0.4 * style.row + gutter, plots), pos2(right, bottom));
+    let period = common_period(runs.iter().map(|run| run.recording.period));
+    let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.curves.film)).collect();
+    let title = "Mean pressure, kPa gauge";
+    over_cycle(ui, &painter, &style, left, title, &kept, (1e3, period, cx.state.view.phase), cx);
+    draw_loops(&painter, &style, right, runs, cx.state.view.phase);
+
+    let response = named(ui, profile, "Plates along their length: point to read values");
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    let on_a_term = style.explain(ui);
+    if !on_a_term && let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+        cx.point_at(along.to_metres(x));
+        response.on_hover_ui_at_pointer(|ui| plate_values(ui, runs, x, &along));
+    }
+}
+
+/// Values of every plate at x.
+fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
+    let place = if along.alike { format!("x {} mm", number(x * 1e3)) } else { format!("x {} lengths", number(x)) };
+    ui.label(place);
+    egui::Grid::new("values of plates").spacing([12.0, 2.0]).show(ui, |ui| {
+        for head in ["", "p, kPa absolute"] {
+            ui.weak(head);
+        }
+        ui.end_row();
+        for run in runs {
+            ui.colored_label(run.of.colour, &run.of.run.label);
+            let x = x / along.metre(run.plate.length);
+            let pressure = sample::middle_pressure(run.recording, 0, x, run.place);
+            ui.label(pressure.map_or_else(String::new, |pressure| number(pressure / 1e3)));
+            ui.end_row();
+        }
+    });
+}
+
+/// Mean gauge pressure against the gap over its mean.
+fn draw_loops(painter: &Painter, style: &PlotStyle, rect: Rect, runs: &[PlateNow<'_>], phase: f64) {
+    let [low, high] = common(runs.iter().map(|run| run.of.curves.film.range()).chain([[0.0, 0.0]]));
+    let [near, far] = common(runs.iter().map(|run| run.of.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
+    let (margin, side) = (0.08 * (high - low), 0.08 * (far - near));
+    let axes = Axes::new(rect, [near - side, far + side], [low - margin, high + margin]);
+    axes.canvas(painter, style);
+    axes.y_ticks(painter, style, 1e3);
+    axes.x_labels(painter, style, 1.0, "gap/mean");
+    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
+    style.title(painter, rect, "Loop", &titles, &[]);
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    axes.x_grid(painter, style, 1.0);
+    painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, style.palette.quiet));
+    for run in runs {
+        let Some((curves, _)) = run.of.curves.scales.tooth(0) else { continue };
+        let at = |phase: f64| axes.at(curves.thickness.at(phase) / run.plate.mean_gap, run.of.curves.film.at(phase));
+        let samples = 180;
+        let line: Vec<Pos2> = (0..=samples).map(|i| at(f64::from(i) / f64::from(samples))).collect();
+        painter.line(line, Stroke::new(1.6, run.of.colour));
+        painter.circle(at(phase), 3.5, run.of.colour, Stroke::new(1.0, style.palette.canvas));
+    }
+}

@@ -1,0 +1,240 @@
+//! The plate: gap, pressure profile and map, load over the cycle, pressure–gap loop.
+
+use super::field::{self, Stamp};
+use super::map::y_labels;
+use super::pointer::{Readout, named, seek};
+use super::scales::scales_of;
+use super::series::{Series, Trace};
+use crate::gui::derived::format::{number, times};
+use crate::gui::derived::sample::{self, Lines, Touching};
+use crate::gui::derived::scales::{Curve, Ranges, Scales};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::paint::{Axes, PlotStyle, area, scale_bar, title_with_bar};
+use crate::job::SolvedScene;
+use crate::problem::{Plate, Scenario};
+use crate::recording::Recording;
+use eframe::egui::{self, CursorIcon, Painter, Pos2, Rect, Stroke, pos2};
+
+/// A plate at one instant: what its views draw.
+struct PlateFrame<'a> {
+    recording: &'a Recording,
+    plate: &'a Plate,
+    scales: &'a Scales,
+    /// The instant, in frames.
+    place: f64,
+    phase: f64,
+    lines: Lines,
+    cursor: Option<f64>,
+}
+
+impl PlateFrame<'_> {
+    fn x_range(&self) -> [f64; 2] {
+        [-0.5 * self.recording.length, 0.5 * self.recording.length]
+    }
+
+    fn thickness(&self) -> f64 {
+        self.lines.film_thickness[0]
+    }
+}
+
+/// Draws `run` at the view's phase.
+pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+    let recording = &run.solution.recording;
+    let Scenario::Plate(plate) = &run.problem.scenario else { return };
+    let Some(area) = area(ui, recording) else { return };
+    let scales = scales_of(ui, run, within);
+    let place = cx.state.view.place(recording);
+    let phase = place / recording.frames.max(1) as f64;
+    let lines = Lines::at(recording, place, Touching::default());
+    let shown = PlateFrame { recording, plate, scales: &scales, place, phase, lines, cursor: cx.state.view.cursor_x };
+    let style = PlotStyle::new(ui);
+    let painter = ui.painter_at(area);
+    let gutter = style.width(&painter, "−0.000") + 6.0;
+
+    let (title, axis) = (style.row + 7.0, style.row + 3.0);
+    let readout = readout(&shown);
+    let longest = Readout { values: LONGEST.map(str::to_owned).to_vec() };
+    let reserved = longest.height(&painter, &style, area.width());
+    let with_map = plate.width.is_some();
+    let heads = if with_map { 4.0 } else { 3.0 };
+    let body = (area.height() - reserved - heads * title - 2.0 * axis - 6.0).max(60.0);
+    let parts = if with_map { [0.23, 0.25, 0.20] } else { [0.28, 0.38, 0.0] };
+    let right = area.right() - 0.5 * style.row;
+    let mut top = area.top();
+    let mut next = |part: f32| {
+        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + title), pos2(right, top + title + part * body));
+        top = rect.bottom();
+        rect
+    };
+    let (wall, profile) = (next(parts[0]), next(parts[1]));
+    let axes = draw_gap(&painter, &style, wall, &shown);
+    draw_profile(&painter, &style, profile, &shown);
+    let mut last = profile;
+    if with_map {
+        last = next(parts[2]);
+        let half = sample::half_width(recording);
+        let axes = Axes::new(last, shown.x_range(), [-half, half]);
+        axes.canvas(&painter, &style);
+        let range = scales.pressure;
+        let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: axes.x, range };
+        field::draw(ui, &painter, &axes, recording, "plate", stamp);
+        title_with_bar(&painter, &style, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
+        y_labels(&painter, &style, &axes);
+        axes.cursor(&painter, &style, shown.cursor);
+    }
+    Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
+
+    let bottom = (area.bottom() - reserved - axis).max(last.bottom() + axis + title + style.row);
+    let middle = 0.5 * (area.left() + right);
+    let plots = [(area.left(), middle - 0.4 * style.row), (middle + 0.4 * style.row, right)].map(|(left, right)| {
+        Rect::from_min_max(pos2(left + gutter, last.bottom() + axis + title + 2.0), pos2(right, bottom))
+    });
+    let over_cycle = draw_load(&painter, &style, plots[0], &shown);
+    seek(ui, &over_cycle, "Load over the cycle", cx);
+    draw_loop(&painter, &style, plots[1], &shown);
+    let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
+    readout.draw(&painter, &style, place);
+
+    let name = "Plate along its length: point to read values";
+    let response = named(ui, wall.union(last), name).on_hover_cursor(CursorIcon::Crosshair);
+    if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+        cx.point_at(x);
+    }
+    for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
+        cx.mark(ui, name, rect.shrink(2.0));
+    }
+    if with_map {
+        cx.mark(ui, "map", last.shrink(2.0));
+    }
+    style.explain(ui);
+}
+
+/// The wall, the plate above it, the film between them.
+fn draw_gap(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
+    let highest = shown.scales.thickness[1].max(1e-9);
+    let (below, above) = (0.16, 0.26);
+    let part = 1.0 - below - above;
+    let bottom = -highest * below / part;
+    let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + highest / part]);
+    let scale = f64::from(rect.height()) * part / highest;
+    axes.canvas(painter, style);
+    scale_bar(painter, style, rect, scale);
+    let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
+    let title = format!("Gap {} µm, vertical {}", number(shown.thickness() * 1e6), times(scale / along));
+    let short = format!("Gap {} µm", number(shown.thickness() * 1e6));
+    let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
+    style.title(painter, rect, "Gap", &[&title, &short], &legend);
+
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
+    let (left, right) = (rect.left(), rect.right());
+    let block = |top: f32, bottom: f32| Rect::from_min_max(pos2(left, top), pos2(right, bottom));
+    painter.rect_filled(block(plate, wall), 0.0, style.palette.film.gamma_multiply(0.25));
+    painter.rect_filled(block(wall, rect.bottom()), 0.0, style.solid(style.palette.stator));
+    painter.hline(rect.x_range(), wall, Stroke::new(1.5, style.palette.stator));
+    // The plate keeps its thickness and moves.
+    let thickness = 0.8 * above as f32 * rect.height();
+    painter.rect_filled(block(plate - thickness, plate), 0.0, style.solid(style.palette.rotor));
+    painter.hline(rect.x_range(), plate, Stroke::new(1.5, style.palette.rotor));
+    axes.cursor(painter, style, shown.cursor);
+    axes
+}
+
+/// Pressure along x at y = 0.
+fn draw_profile(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) {
+    let recording = shown.recording;
+    let ambient = shown.plate.gas.ambient_pressure;
+    let [low, high] = shown.scales.pressure;
+    let (low, high) = (low.min(ambient), high.max(ambient));
+    let margin = 0.06 * (high - low);
+    let axes = Axes::new(rect, shown.x_range(), [low - margin, high + margin]);
+    axes.canvas(painter, style);
+    axes.y_ticks(painter, style, 1e3);
+    let title = if shown.plate.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
+    style.title(
+        painter,
+        rect,
+        "Film pressure",
+        &[title],
+        &[("film", style.palette.film), ("ambient", style.palette.quiet)],
+    );
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    axes.x_grid(painter, style, 1e-3);
+    painter.hline(rect.x_range(), axes.py(ambient), Stroke::new(1.0, style.palette.quiet));
+    let at = |x: f64| sample::middle_pressure(recording, 0, x, shown.place).map(|pressure| axes.at(x, pressure));
+    let mirrored = recording.map_x.iter().rev().filter(|x| recording.half_length && **x > 0.0).map(|x| -x);
+    let line: Vec<Pos2> = mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect();
+    painter.line(line, Stroke::new(1.8, style.palette.film));
+    axes.cursor(painter, style, shown.cursor);
+}
+
+/// Unit of a load: its name and its size.
+pub(super) fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
+    match (greatest < 0.5, strip) {
+        (true, false) => ("mN", 1e-3),
+        (true, true) => ("mN/m", 1e-3),
+        (false, false) => ("N", 1.0),
+        (false, true) => ("N/m", 1.0),
+    }
+}
+
+fn draw_load(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
+    let [low, high] = shown.scales.tooth_load;
+    let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
+    let none = Curve::default();
+    let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
+    let series = Series {
+        title: &format!("Film load, {name}"),
+        legend: &[],
+        traces: &[Trace { curve, lag, offset: 0.0, colour: style.palette.film }],
+        range: [low, high],
+        unit,
+        period: shown.recording.period,
+        phase: shown.phase,
+    };
+    series.draw(painter, style, rect)
+}
+
+/// Mean gauge pressure against the gap, once round the cycle.
+fn draw_loop(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) {
+    let area = shown.plate.area();
+    let [low, high] = shown.scales.tooth_load.map(|load| load / area);
+    let margin = 0.08 * (high - low);
+    let [near, far] = shown.scales.thickness;
+    let side = 0.08 * (far - near);
+    let axes = Axes::new(rect, [near - side, far + side], [low - margin, high + margin]);
+    axes.canvas(painter, style);
+    axes.y_ticks(painter, style, 1e3);
+    axes.x_labels(painter, style, 1e-6, "gap, µm");
+    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
+    style.title(painter, rect, "Loop", &titles, &[]);
+    axes.x_grid(painter, style, 1e-6);
+    painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, style.palette.quiet));
+    let Some((curves, _)) = shown.scales.tooth(0) else { return };
+    let at = |phase: f64| axes.at(curves.thickness.at(phase), curves.film.at(phase) / area);
+    let samples = 180;
+    let line: Vec<Pos2> = (0..=samples).map(|i| at(f64::from(i) / f64::from(samples))).collect();
+    painter.line(line, Stroke::new(1.6, style.palette.film));
+    painter.circle(at(shown.phase), 3.5, style.palette.film, Stroke::new(1.0, style.palette.canvas));
+}
+
+const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p at y = 0 0000 kPa absolute", "load −0000 mN/m"];
+
+fn readout(shown: &PlateFrame<'_>) -> Readout {
+    let [left, right] = shown.x_range();
+    let Some(x) = shown.cursor.filter(|x| (left..=right).contains(x)) else {
+        return Readout { values: vec!["Point at a view to read its values".to_owned()] };
+    };
+    let mut values = vec![format!("x {} mm", number(x * 1e3)), format!("gap {} µm", number(shown.thickness() * 1e6))];
+    if let Some(pressure) = sample::middle_pressure(shown.recording, 0, x, shown.place) {
+        let place = if shown.plate.width.is_some() { "p at y = 0" } else { "p" };
+        values.push(format!("{place} {} kPa absolute", number(pressure / 1e3)));
+    }
+    if let Some((curves, lag)) = shown.scales.tooth(0) {
+        let load = curves.film.at(shown.phase + lag);
+        let [low, high] = shown.scales.tooth_load;
+        let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
+        values.push(format!("load {} {name}", number(load / unit)));
+    }
+    Readout { values }
+}

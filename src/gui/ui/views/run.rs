@@ -1,0 +1,124 @@
+//! One run in the middle of the window.
+
+use super::{motor, plate};
+use crate::gui::derived::scales::Ranges;
+use crate::gui::ui::context::DrawContext;
+use crate::job::SolvedScene;
+use crate::problem::Scenario;
+use eframe::egui::Ui;
+
+/// Draws `run` at the view's phase; the axes have the ranges `within`, if it is one cycle of several.
+pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+    match run.problem.scenario {
+        Scenario::Motor(_) => motor::show(ui, run, within, cx),
+        Scenario::Plate(_) => plate::show(ui, run, within, cx),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::{Cancel, Progress};
+    use crate::fidelity::Fidelity;
+    use crate::gui::command::Command;
+    use crate::gui::state::document::Document;
+    use crate::gui::state::view::View;
+    use crate::gui::state::window::State;
+    use crate::gui::ui::theme;
+    use crate::problem::Problem;
+    use crate::recording::Recording;
+    use crate::scene::presets;
+    use crate::solve::{Method, Settings, solve};
+    use eframe::egui::{Vec2, pos2, vec2};
+    use egui_kittest::Harness;
+    use std::time::Instant;
+
+    fn run(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
+        let mut scene = presets::find(preset).unwrap();
+        scene.set_all(set.iter().copied()).unwrap();
+        let problem = Problem::new(&scene).unwrap();
+        let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
+        let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
+        let (validity, history) = (Vec::new(), Vec::new());
+        SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0, history }
+    }
+
+    /// Draws a few frames at several phases and cursors; returns the state of the view and what was asked.
+    fn look(run: &SolvedScene, size: Vec2, click: bool) -> (View, Vec<Command>) {
+        let state = State::new(Document::fundamental().unwrap());
+        let mut harness = Harness::builder().with_size(size).build_ui_state(
+            |ui, (state, commands): &mut (State, Vec<Command>)| {
+                theme::install_fonts(ui.ctx());
+                let cx = DrawContext::new(state, Instant::now());
+                show(ui, run, None, &cx);
+                for command in cx.into_commands() {
+                    match command {
+                        Command::Hover(x) => state.view.cursor_x = x,
+                        other => commands.push(other),
+                    }
+                }
+            },
+            (state, Vec::new()),
+        );
+        for (phase, cursor, tooth) in [(0.0, None, 0), (0.37, Some(0.0), 1), (0.999, Some(2.1e-3), 1000)] {
+            let view = &mut harness.state_mut().0.view;
+            (view.phase, view.cursor_x, view.tooth) = (phase, cursor, tooth);
+            harness.run_steps(2);
+        }
+        if click {
+            let at = pos2(0.5 * size.x, 0.2 * size.y);
+            harness.hover_at(at);
+            harness.run_steps(1);
+            harness.drag_at(at);
+            harness.drop_at(at);
+            harness.run_steps(1);
+        }
+        let (state, commands) = harness.state();
+        (state.view.clone(), commands.clone())
+    }
+
+    #[test]
+    fn every_kind_of_run_is_drawn_at_every_size() {
+        let runs = [
+            run("fundamental", &[], Method::Auto),
+            run("fundamental", &[], Method::Paper),
+            run("levitating", &[], Method::Auto),
+            run("tooth-radius-3m", &[], Method::Auto),
+            run("plate-crossover", &[], Method::Auto),
+            run("plate-trapped", &[("plate.width_mm", "0.3")], Method::Auto),
+        ];
+        for run in &runs {
+            for size in [vec2(20.0, 20.0), vec2(200.0, 180.0), vec2(430.0, 560.0), vec2(1200.0, 800.0)] {
+                look(run, size, false);
+            }
+        }
+    }
+
+    #[test]
+    fn pointing_reads_x_and_clicking_follows_a_tooth() {
+        let (view, commands) = look(&run("fundamental", &[], Method::Auto), vec2(800.0, 700.0), true);
+        assert!(view.cursor_x.is_some_and(|x| x > 8e-3 && x < 16e-3), "{:?}", view.cursor_x);
+        assert!(matches!(commands[..], [Command::FollowTooth(3..=5)]), "{commands:?}");
+    }
+
+    #[test]
+    fn extremes_do_not_disturb_it() {
+        let mut still = run("levitating", &[], Method::Auto);
+        let nothing = &mut still.solution.recording;
+        let lines = &mut nothing.lines;
+        for field in [&mut nothing.stator, &mut lines.contact, &mut lines.film, &mut lines.film_thickness] {
+            field.fill(0.0);
+        }
+        nothing.pressure.fill(101_325.0);
+        look(&still, vec2(600.0, 600.0), false);
+        still.number = 2;
+        still.solution.recording = Recording::default();
+        look(&still, vec2(600.0, 600.0), false);
+        for teeth in ["1", "64"] {
+            let few =
+                run("fundamental", &[("stator.teeth_per_wave", teeth), ("stator.tooth_width_mm", "0.3")], Method::Auto);
+            look(&few, vec2(600.0, 600.0), false);
+        }
+        look(&run("fundamental", &[("stator.normal_amplitude_um", "0")], Method::Auto), vec2(600.0, 600.0), false);
+    }
+}

@@ -1,0 +1,525 @@
+//! A sweep: over one parameter a line with its error as a band, over two a map with lines of equal value. Points appear as
+//! they are solved; the nearest to the pointer is read out, and a click asks for its scene.
+
+use super::pointer::named;
+use crate::analysis::quantity::Quantity;
+use crate::analysis::sweep::{Axis, Ending, Row, Sweep};
+use crate::analysis::table1::Published;
+use crate::export::digits::{significant, with_error};
+use crate::export::figure::{contour, is_contour};
+use crate::gui::command::SweepCommand;
+use crate::gui::derived::format::{capitalised, digits, trimmed};
+use crate::gui::derived::scales::span;
+use crate::gui::derived::ticks::Ticks;
+use crate::gui::derived::words::label;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, title_with_ends};
+use crate::scene::Scale;
+use eframe::egui::epaint::Mesh;
+use eframe::egui::{
+    Align2, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2,
+};
+use std::sync::Arc;
+
+/// Each point has its dot if they are at least this far apart.
+const DOT_SPACING: f32 = 7.0;
+/// Radius of a dot, and of the ring round the one that is pointed at.
+const DOT: f32 = 3.0;
+const RING: f32 = 7.0;
+/// How near the pointer has to be.
+const NEAR: f32 = 40.0;
+/// Lines of equal value, about.
+const LEVELS: usize = 7;
+/// An end of the colours that is less than this share of the range is zero.
+const NOTHING: f64 = 1e-3;
+/// An axis of equal ratios has ticks at 2 and 5 if it spans fewer decades than this.
+const FEW_DECADES: f64 = 2.5;
+/// Values whose greatest is more than this many times the least have many sizes.
+const MANY_SIZES: f64 = 300.0;
+/// An axis of values that reach below this share of the greatest begins at zero.
+const FROM_ZERO: f64 = 0.6;
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Plotted<'a> {
+    /// The sweep.
+    pub sweep: &'a Sweep,
+    /// Its rows so far.
+    pub rows: &'a [Row],
+    /// What is read off them.
+    pub quantity: Quantity,
+    /// Points of Table I.
+    pub published: &'a [Published],
+    /// Where the present scene is.
+    pub present: Option<&'a [f64]>,
+}
+
+impl Plotted<'_> {
+    /// The value at a row that converged, and its error.
+    fn sound(&self, row: &Row) -> Option<(f64, f64)> {
+        if row.ending != Ending::Converged {
+            return None;
+        }
+        let error = self.quantity.error().and_then(|error| row.numbers.get(error));
+        Some((row.numbers.get(self.quantity)?, error.unwrap_or(0.0)))
+    }
+
+    /// What Table I says of the quantity.
+    fn published(&self, point: &Published) -> Option<f64> {
+        match self.quantity {
+            Quantity::Alpha => Some(point.alpha),
+            Quantity::FilmLoad => Some(point.film_load),
+            _ => None,
+        }
+    }
+
+    /// A row in words.
+    fn words(&self, row: &Row) -> String {
+        let mut lines: Vec<String> = Vec::new();
+        for (axis, value) in self.sweep.axes().iter().zip(&row.values) {
+            lines.push(format!("{} {} {}", label(axis.parameter), short(*value), axis.parameter.unit));
+        }
+        let unit = self.quantity.unit(self.sweep.problem());
+        let name = capitalised(self.quantity.words());
+        let value = row.numbers.get(self.quantity).map(|value| {
+            let error = self.quantity.error().map(|error| row.numbers.get(error).unwrap_or(f64::INFINITY));
+            error.map_or_else(|| significant(value, 4), |error| with_error(value, error))
+        });
+        lines.push(value.map_or_else(|| format!("{name}: none"), |value| format!("{name} {value} {unit}")));
+        match &row.ending {
+            Ending::Converged => {}
+            Ending::NotConverged => lines.push("not converged".to_owned()),
+            Ending::Failed(reason) => lines.push(format!("failed: {reason}")),
+        }
+        lines.push("Click to make this the present scene".to_owned());
+        lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// Draws the sweep into all of `ui`.
+pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
+    let size = ui.available_size().min(vec2(6000.0, 6000.0));
+    let (area, _) = ui.allocate_exact_size(size, Sense::hover());
+    if area.width() < 160.0 || area.height() < 120.0 {
+        return;
+    }
+    let style = PlotStyle::new(ui);
+    let pointed = match plotted.sweep.axes() {
+        [x] => line(ui, &style, area, plotted, x),
+        [x, y] => map(ui, &style, area, plotted, x, y),
+        _ => None,
+    };
+    let response = named(ui, area, "Sweep: point to read a value, click to make its scene the present one");
+    let on_a_term = style.explain(ui);
+    // What is drawn follows the pointer of the frame before, which is this one while it rests.
+    let Some(row) = pointed.filter(|_| !on_a_term) else { return };
+    let response = response.on_hover_cursor(CursorIcon::PointingHand);
+    if response.clicked() {
+        cx.push(SweepCommand::Open(row.point));
+    }
+    response.on_hover_ui_at_pointer(|ui| {
+        ui.label(plotted.words(row));
+    });
+}
+
+/// Where a value of an axis is: equal ratios are equal steps of the logarithm.
+fn place(axis: &Axis, value: f64) -> f64 {
+    if axis.scale == Scale::Log { value.log10() } else { value }
+}
+
+fn ends(axis: &Axis) -> [f64; 2] {
+    span(axis.values.iter().map(|value| place(axis, *value)))
+}
+
+/// Values with their places, about as many as there is room for.
+fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<(f64, String)> {
+    if axis.scale == Scale::Log {
+        let decades = range[1] - range[0];
+        let steps: &[f64] = if decades < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let every = (decades / most.max(1) as f64).ceil().max(1.0) as i64;
+        let found: Vec<(f64, String)> = (range[0].floor() as i64..=range[1].ceil() as i64)
+            .filter(|power| power.rem_euclid(every) == 0)
+            .flat_map(|power| steps.iter().map(move |step| step * 10f64.powi(power as i32)))
+            .filter(|value| (range[0] - 1e-9..=range[1] + 1e-9).contains(&value.log10()))
+            .map(|value| (value.log10(), short(value)))
+            .collect();
+        if (2..=most.max(2)).contains(&found.len()) {
+            return found;
+        }
+        // Less than a few: equal steps, where the logarithm has them.
+        let ticks = Ticks::new(range.map(|end| 10f64.powf(end)), most);
+        return ticks.values().filter(|value| *value > 0.0).map(|value| (value.log10(), ticks.format(value))).collect();
+    }
+    let ticks = Ticks::new(range, most);
+    ticks.values().map(|value| (value, ticks.format(value))).collect()
+}
+
+/// At most six digits, none for nothing.
+fn short(value: f64) -> String {
+    trimmed(&significant(value, 6)).to_owned()
+}
+
+/// The name of an axis.
+fn name(axis: &Axis) -> String {
+    let unit = axis.parameter.unit;
+    if unit.is_empty() { label(axis.parameter).to_owned() } else { format!("{}, {unit}", label(axis.parameter)) }
+}
+
+/// Grid lines, values and name of the axis along x.
+fn draw_x(painter: &Painter, style: &PlotStyle, axes: &Axes, axis: &Axis, grid: bool) {
+    let most = (axes.rect.width() / (4.2 * style.row)).clamp(2.0, 12.0) as usize;
+    let mut free = f32::NEG_INFINITY;
+    for (at, text) in marks(axis, axes.x, most) {
+        let x = axes.px(at);
+        if grid {
+            painter.vline(x, axes.rect.y_range(), Stroke::new(1.0, style.grid));
+        }
+        let half = 0.5 * style.width(painter, &text);
+        if x - half > free {
+            style.write(painter, pos2(x, axes.rect.bottom() + 2.0), Align2::CENTER_TOP, &text, style.palette.quiet);
+            free = x + half + 6.0;
+        }
+    }
+    let below = pos2(axes.rect.center().x, axes.rect.bottom() + 3.0 + style.row);
+    let named = style.write(painter, below, Align2::CENTER_TOP, &name(axis), style.text);
+    about(style, named, axis);
+}
+
+/// What the marks in a map are, at the right end of the line above it, right of `free`.
+fn marked(painter: &Painter, style: &PlotStyle, rect: Rect, free: f32, plotted: &Plotted<'_>) {
+    let marks =
+        [("○ present", "present", plotted.present.is_some()), ("□ Table I", "Table I", !plotted.published.is_empty())];
+    let mut right = rect.right();
+    for (text, word, _) in marks.into_iter().filter(|mark| mark.2) {
+        if right - style.width(painter, text) > free + style.row {
+            let corner = pos2(right, rect.top() - 2.0);
+            let place = style.write(painter, corner, Align2::RIGHT_BOTTOM, text, style.palette.quiet);
+            style.term(place, word);
+            right = place.left() - style.row;
+        }
+    }
+}
+
+/// What is varied is explained where it is named.
+fn about(style: &PlotStyle, named: Rect, axis: &Axis) {
+    let text = format!("{}\n{}", axis.parameter.about, axis.parameter.key);
+    style.parameter(named, label(axis.parameter), text);
+}
+
+/// The plot within `area`: titles above, values left and below.
+fn plot(area: Rect, style: &PlotStyle, gutter: f32, titles: f32) -> Rect {
+    Rect::from_min_max(
+        pos2(area.left() + gutter, area.top() + titles * (style.row + 6.0)),
+        pos2(area.right() - 0.8 * style.row, area.bottom() - 2.0 * style.row - 8.0),
+    )
+}
+
+fn pointer(ui: &Ui, rect: Rect) -> Option<Pos2> {
+    ui.ctx().pointer_hover_pos().filter(|at| rect.contains(*at) && ui.ctx().layer_id_at(*at) == Some(ui.layer_id()))
+}
+
+fn cross(painter: &Painter, at: Pos2, reach: f32, stroke: Stroke) {
+    for (a, b) in [(vec2(-reach, -reach), vec2(reach, reach)), (vec2(-reach, reach), vec2(reach, -reach))] {
+        painter.line_segment([at + a, at + b], stroke);
+    }
+}
+
+fn square(painter: &Painter, at: Pos2, colour: Color32) {
+    let rect = Rect::from_center_size(at, vec2(9.0, 9.0));
+    painter.rect_stroke(rect, 0.0, Stroke::new(1.8, colour), StrokeKind::Middle);
+}
+
+/// One parameter.
+fn line<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, axis: &Axis) -> Option<&'a Row> {
+    let painter = ui.painter_at(area);
+    let mut rows: Vec<(&Row, f64)> = plotted.rows.iter().map(|row| (row, place(axis, row.values[0]))).collect();
+    rows.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let table: Vec<[f64; 2]> = plotted
+        .published
+        .iter()
+        .filter_map(|point| Some([place(axis, point.values[0]), plotted.published(point)?]))
+        .collect();
+    let x = ends(axis);
+    let inside = |at: &&[f64; 2]| (x[0] - 1e-9..=x[1] + 1e-9).contains(&at[0]);
+    let bands = rows.iter().filter_map(|(row, _)| plotted.sound(row)).flat_map(|(value, error)| {
+        // An error without bounds is not drawn.
+        if error.is_finite() { [value - error, value + error] } else { [value; 2] }
+    });
+    let unsound = rows.iter().filter(|(row, _)| row.ending == Ending::NotConverged);
+    let unsound = unsound.filter_map(|(row, _)| row.numbers.get(plotted.quantity));
+    let [mut low, mut high] = span(bands.chain(unsound).chain(table.iter().filter(inside).map(|at| at[1])));
+    if low > 0.0 && low < FROM_ZERO * high {
+        low = 0.0;
+    } else if high < 0.0 && high > FROM_ZERO * low {
+        high = 0.0;
+    }
+    let margin = 0.06 * (high - low);
+    let y = [if low == 0.0 { 0.0 } else { low - margin }, if high == 0.0 { 0.0 } else { high + margin }];
+    let widest =
+        Ticks::new(y, 6).values().map(|v| style.width(&painter, &Ticks::new(y, 6).format(v))).fold(0.0, f32::max);
+    let side = 0.02 * (x[1] - x[0]);
+    let rect = plot(area, style, widest.clamp(2.0 * style.row, 8.0 * style.row) + 8.0, 1.0);
+    let axes = Axes::new(rect, [x[0] - side, x[1] + side], y);
+    axes.canvas(&painter, style);
+    axes.y_ticks(&painter, style, 1.0);
+    draw_x(&painter, style, &axes, axis, true);
+    let colour = style.palette.film;
+    let mut legend = vec![("computed", colour)];
+    if plotted.quantity.error().is_some() {
+        legend.push(("stated error", colour.gamma_multiply(0.4)));
+    }
+    if table.iter().any(|at| inside(&at)) {
+        legend.push(("Table I", style.palette.contact));
+    }
+    let title = capitalised(&plotted.quantity.label(plotted.sweep.problem()));
+    style.title(&painter, rect, plotted.quantity.words(), &[&title], &legend);
+
+    let inner = painter.with_clip_rect(painter.clip_rect().intersect(rect.expand(RING)));
+    if let Some([present]) = plotted.present.map(|values| [place(axis, values[0])])
+        && (axes.x[0]..=axes.x[1]).contains(&present)
+    {
+        let at = axes.px(present);
+        let stroke = Stroke::new(1.0, style.palette.accent);
+        inner.extend(Shape::dashed_line(&[pos2(at, rect.top()), pos2(at, rect.bottom())], stroke, 5.0, 4.0));
+        let left = at > rect.center().x;
+        let (anchor, gap) = if left { (Align2::RIGHT_BOTTOM, -4.0) } else { (Align2::LEFT_BOTTOM, 4.0) };
+        let place = pos2(at + gap, rect.bottom() - 2.0);
+        style.term(style.write(&inner, place, anchor, "present", style.palette.accent), "present");
+    }
+    // Neighbours on screen are joined if no point is missing between them that will still come.
+    let step = (x[1] - x[0]) / (axis.values.len().max(2) - 1) as f64;
+    let mut piece: Vec<(Pos2, f32, f32)> = Vec::new();
+    let mut last = f64::NEG_INFINITY;
+    let end = |piece: &mut Vec<(Pos2, f32, f32)>| {
+        if piece.len() > 1 {
+            let fill = colour.gamma_multiply(0.22);
+            band(&inner, piece.iter().map(|(at, up, down)| (at.x, *up, *down)), fill);
+            inner.line(piece.iter().map(|(at, ..)| *at).collect(), Stroke::new(1.8, colour));
+        }
+        piece.clear();
+    };
+    for (row, at) in &rows {
+        let whole = matches!(axis.parameter.kind, crate::scene::ParameterKind::Whole { .. });
+        if at - last > if whole { f64::INFINITY } else { 1.5 * step } {
+            end(&mut piece);
+        }
+        match plotted.sound(row) {
+            Some((value, error)) => {
+                let error = if error.is_finite() { error } else { 0.0 };
+                piece.push((axes.at(*at, value), axes.py(value + error), axes.py(value - error)));
+                last = *at;
+            }
+            None => end(&mut piece),
+        }
+    }
+    end(&mut piece);
+    let dots = rect.width() / axis.values.len() as f32 >= DOT_SPACING;
+    for (row, at) in &rows {
+        match plotted.sound(row) {
+            Some((value, _)) if dots || rows.len() < 3 => drop(inner.circle_filled(axes.at(*at, value), DOT, colour)),
+            Some(_) => {}
+            None => cross(&inner, on_screen(plotted, &axes, row, *at), 4.0, Stroke::new(1.8, style.palette.alarm)),
+        }
+    }
+    for at in table.iter().filter(inside) {
+        square(&inner, axes.at(at[0], at[1]), style.palette.contact);
+    }
+    let pointer = pointer(ui, rect.expand(NEAR))?;
+    let far = |row: &Row, at: f64| on_screen(plotted, &axes, row, at) - pointer;
+    let (row, at) = rows.iter().min_by(|a, b| far(a.0, a.1).x.abs().total_cmp(&far(b.0, b.1).x.abs()))?;
+    (far(row, *at).x.abs() < NEAR).then(|| {
+        inner.circle_stroke(on_screen(plotted, &axes, row, *at), RING, Stroke::new(2.0, style.palette.accent));
+        *row
+    })
+}
+
+/// Where a point is on screen; one without a value at the bottom.
+fn on_screen(plotted: &Plotted<'_>, axes: &Axes, row: &Row, at: f64) -> Pos2 {
+    let value = row.numbers.get(plotted.quantity);
+    value.map_or_else(|| pos2(axes.px(at), axes.rect.bottom() - 6.0), |value| axes.at(at, value))
+}
+
+/// Ascending places, and the edges of the cells round them.
+fn cells(axis: &Axis) -> (Vec<f64>, Vec<f64>) {
+    let mut places: Vec<f64> = axis.values.iter().map(|value| place(axis, *value)).collect();
+    places.sort_by(f64::total_cmp);
+    let mut edges: Vec<f64> = places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    if let ([first, second, ..], [.., before, last]) = (&places[..], &places[..]) {
+        edges.insert(0, 1.5 * first - 0.5 * second);
+        edges.push(1.5 * last - 0.5 * before);
+    }
+    (places, edges)
+}
+
+/// Two parameters.
+fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Axis, y: &Axis) -> Option<&'a Row> {
+    let painter = ui.painter_at(area);
+    let ((xs, x_edges), (ys, y_edges)) = (cells(x), cells(y));
+    let nearest = |places: &[f64], at: f64| {
+        let right = places.partition_point(|place| *place < at).clamp(1, places.len().max(2) - 1);
+        if at - places[right - 1] < places[right] - at { right - 1 } else { right }
+    };
+    let cell = |row: &Row| (nearest(&xs, place(x, row.values[0])), nearest(&ys, place(y, row.values[1])));
+    let shown = || plotted.rows.iter().filter_map(|row| plotted.sound(row)).map(|(value, _)| value);
+    let extent = span(shown());
+    // Values of many sizes get colours by their logarithm: else all but the greatest look the same.
+    let log = extent[0] > 0.0 && extent[1] > MANY_SIZES * extent[0];
+    let tone = |value: f64| if log { value.log10() } else { value };
+    let range = extent.map(tone);
+    let limits = [[x_edges[0], x_edges[x_edges.len() - 1]], [y_edges[0], y_edges[y_edges.len() - 1]]];
+    let most = (area.height() / (2.6 * style.row)).clamp(2.0, 10.0) as usize;
+    let y_marks = marks(y, limits[1], most);
+    let widest = y_marks.iter().map(|(_, text)| style.width(&painter, text)).fold(0.0, f32::max);
+    let rect = plot(area, style, widest.max(2.0 * style.row) + 8.0, 2.0);
+    let axes = Axes::new(rect, limits[0], limits[1]);
+    axes.canvas(&painter, style);
+    let title = capitalised(&plotted.quantity.label(plotted.sweep.problem()));
+    let title = if log { format!("{title}, logarithmic colours") } else { title };
+    if plotted.rows.iter().any(|row| plotted.sound(row).is_some()) {
+        let nothing = if log { 0.0 } else { NOTHING * (extent[1] - extent[0]) };
+        let written = |end: f64| if end.abs() < nothing { "0".to_owned() } else { digits(end, 3) };
+        let ends = extent.map(written);
+        let above = rect.translate(vec2(0.0, -style.row - 6.0));
+        let ends = ends.each_ref().map(String::as_str);
+        title_with_ends(&painter, style, above, plotted.quantity.words(), [&title, &title], ends);
+    }
+    let corner = pos2(rect.left(), rect.top() - 2.0);
+    let named = style.write(&painter, corner, Align2::LEFT_BOTTOM, &format!("↑ {}", name(y)), style.text);
+    about(style, named, y);
+    marked(&painter, style, rect, named.right(), plotted);
+    draw_x(&painter, style, &axes, x, false);
+    for (at, text) in y_marks {
+        style.write(&painter, pos2(rect.left() - 4.0, axes.py(at)), Align2::RIGHT_CENTER, &text, style.palette.quiet);
+    }
+
+    let inner = painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    let area_of = |(i, j): (usize, usize)| {
+        Rect::from_x_y_ranges(
+            axes.px(x_edges[i])..=axes.px(x_edges[i + 1]),
+            axes.py(y_edges[j + 1])..=axes.py(y_edges[j]),
+        )
+    };
+    let mut values = vec![f64::NAN; xs.len() * ys.len()];
+    let mut mesh = Mesh::default();
+    let colours = field_colours();
+    let per_colour = if range[1] > range[0] { 255.0 / (range[1] - range[0]) } else { 0.0 };
+    for row in plotted.rows {
+        let at = cell(row);
+        if let Some((value, _)) = plotted.sound(row) {
+            let value = tone(value);
+            values[at.0 * ys.len() + at.1] = value;
+            let colour = ((value - range[0]) * per_colour).clamp(0.0, 255.0) as usize;
+            mesh.add_colored_rect(area_of(at), colours[colour]);
+        }
+    }
+    inner.add(Shape::Mesh(Arc::new(mesh)));
+    contours(&inner, style, &axes, [&xs, &ys], &values, (range, log));
+    for row in plotted.rows.iter().filter(|row| plotted.sound(row).is_none()) {
+        cross(&inner, area_of(cell(row)).center(), 4.0, Stroke::new(1.8, style.palette.alarm));
+    }
+    for point in plotted.published {
+        let at = axes.at(place(x, point.values[0]), place(y, point.values[1]));
+        square(&inner, at, Color32::BLACK);
+        inner.rect_stroke(
+            Rect::from_center_size(at, vec2(12.0, 12.0)),
+            0.0,
+            Stroke::new(1.0, Color32::WHITE),
+            StrokeKind::Middle,
+        );
+    }
+    if let Some([px, py]) = plotted.present.and_then(|values| <[f64; 2]>::try_from(values).ok()) {
+        let at = axes.at(place(x, px), place(y, py));
+        inner.circle_stroke(at, RING, Stroke::new(3.5, Color32::BLACK));
+        inner.circle_stroke(at, RING, Stroke::new(1.8, Color32::WHITE));
+    }
+    let pointer = pointer(ui, rect)?;
+    let row = plotted.rows.iter().find(|row| area_of(cell(row)).contains(pointer))?;
+    inner.rect_stroke(area_of(cell(row)), 0.0, Stroke::new(2.0, Color32::WHITE), StrokeKind::Inside);
+    Some(row)
+}
+
+/// Values that get a line: none so near to an end that it would follow what the error is of.
+fn levels(ticks: Ticks, range: [f64; 2], log: bool) -> impl Iterator<Item = f64> {
+    let fraction = move |level: f64| (level - range[0]) / (range[1] - range[0]);
+    let whole = move |level: &f64| !log || (level - level.round()).abs() < 1e-6;
+    ticks.values().filter(move |level| is_contour(fraction(*level))).filter(whole)
+}
+
+/// Lines of equal value where all neighbours are known, each with its value once.
+fn contours(
+    painter: &Painter,
+    style: &PlotStyle,
+    axes: &Axes,
+    [xs, ys]: [&[f64]; 2],
+    values: &[f64],
+    (range, log): ([f64; 2], bool),
+) {
+    let ticks = Ticks::new(range, LEVELS);
+    let mut written: Vec<Rect> = Vec::new();
+    for level in levels(ticks, range, log) {
+        let part = (level - range[0]) / (range[1] - range[0]);
+        let colour = if part > 0.55 { Color32::from_black_alpha(190) } else { Color32::from_white_alpha(190) };
+        let text = if log { short(10f64.powf(level.round())) } else { ticks.format(level) };
+        let size = vec2(style.width(painter, &text) + 4.0, style.row);
+        for piece in contour(xs, ys, values, level) {
+            let points: Vec<Pos2> = piece.iter().map(|[x, y]| axes.at(*x, *y)).collect();
+            let middle = points[points.len() / 2];
+            let length: f32 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            painter.line(points, Stroke::new(1.2, colour));
+            let place = Rect::from_center_size(middle, size);
+            let free =
+                axes.rect.contains_rect(place) && written.iter().all(|other| !other.intersects(place.expand(4.0)));
+            if free && length > 3.0 * size.x {
+                let fill = field_colours()[(255.0 * part).clamp(0.0, 255.0) as usize];
+                painter.rect_filled(place, 2.0, fill);
+                style.write(painter, middle, Align2::CENTER_CENTER, &text, colour.to_opaque());
+                written.push(place);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::sweep::Vary;
+    use crate::scene::presets;
+
+    fn axis(vary: &str) -> Axis {
+        let vary: Vary = vary.parse().unwrap();
+        Axis::new(&presets::find("fundamental").unwrap(), &vary).unwrap()
+    }
+
+    #[test]
+    fn ticks_of_equal_ratios_are_round_whatever_the_range() {
+        let texts = |vary: &str| {
+            let axis = axis(vary);
+            marks(&axis, ends(&axis), 8).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
+        };
+        assert_eq!(texts("film.min_spacing_nm=50:800:9:log"), ["50", "100", "200", "500"]);
+        assert_eq!(texts("stator.frequency_khz=0.01:1000:9:log"), ["0.01", "0.1", "1", "10", "100", "1000"]);
+        assert!(texts("film.min_spacing_nm=100:130:9:log").len() >= 3);
+        assert_eq!(texts("motor.dry_friction=0:1:5"), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    }
+
+    #[test]
+    fn no_line_of_equal_value_follows_what_is_error_alone() {
+        let range = [-1.1e-5, 1.0];
+        let found: Vec<String> =
+            levels(Ticks::new(range, LEVELS), range, false).map(|level| format!("{level:.1}")).collect();
+        assert_eq!(found, ["0.2", "0.4", "0.6", "0.8"]);
+        let range = [-5.2, 0.5];
+        assert_eq!(levels(Ticks::new(range, LEVELS), range, true).count(), 6);
+    }
+
+    #[test]
+    fn cells_touch_and_cover_their_points() {
+        for vary in ["film.min_spacing_nm=400:50:6:log", "stator.teeth_per_wave=5:12:5"] {
+            let (places, edges) = cells(&axis(vary));
+            assert_eq!(edges.len(), places.len() + 1);
+            for (i, place) in places.iter().enumerate() {
+                assert!(edges[i] < *place && *place < edges[i + 1], "{vary}: {places:?} {edges:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The followed tooth: its map, and its gap and loads over the cycle.
+
+use super::field::{self, Stamp};
+use super::map::y_labels;
+use super::motor_frame::MotorFrame;
+use super::series::{Series, Trace};
+use crate::gui::derived::sample;
+use crate::gui::ui::paint::{Axes, PlotStyle};
+use eframe::egui::{Painter, Rect, Ui, pos2};
+
+/// What the row of the followed tooth needs below its plots, and between them.
+pub(super) struct Drawn {
+    /// The two plots over the cycle: x is the phase.
+    pub(super) plots: Vec<Axes>,
+}
+
+/// Draws into `row`: titles, plots and the axes below all inside.
+pub(super) fn draw(
+    ui: &Ui,
+    painter: &Painter,
+    style: &PlotStyle,
+    row: Rect,
+    gutter: f32,
+    shown: &MotorFrame<'_>,
+) -> Drawn {
+    let recording = shown.recording;
+    let mut drawn = Drawn { plots: Vec::new() };
+    let gap = 0.6 * style.row;
+    let cell = (row.width() - 2.0 * gap) / 3.0;
+    let places: [Rect; 3] = std::array::from_fn(|i| {
+        let left = row.left() + i as f32 * (cell + gap) + gutter;
+        Rect::from_min_max(
+            pos2(left, row.top() + style.row + 4.0),
+            pos2(left + cell - gutter, row.bottom() - style.row - 2.0),
+        )
+    });
+    let reach = recording.map_x.last().copied().unwrap_or(0.0);
+    let half = sample::half_width(recording);
+    let axes = Axes::new(places[0], [-reach, reach], [-half, half]);
+    axes.canvas(painter, style);
+    let stamp =
+        Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
+    field::draw(ui, painter, &axes, recording, "followed tooth", stamp);
+    let long = format!("Tooth {}, x from its middle", shown.tooth);
+    style.title(painter, places[0], "Followed tooth", &[&long, &format!("Tooth {}", shown.tooth)], &[]);
+    y_labels(painter, style, &axes);
+    axes.x_labels(painter, style, 1e-3, "x, mm");
+    let middle = shown.tooth as f64 * recording.pitch;
+    axes.cursor(painter, style, shown.cursor.map(|x| x - middle));
+
+    let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return drawn };
+    let minimum = shown.motor.min_spacing;
+    let text = style.text;
+    let spacing = [Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text }];
+    let [low, high] = curves.thickness.range();
+    let series = Series {
+        title: "Least gap, µm",
+        legend: &[],
+        traces: &spacing,
+        range: [(low - minimum).min(0.0), (high - minimum).max(0.0)],
+        unit: 1e-6,
+        period: recording.period,
+        phase: shown.phase(),
+    };
+    drawn.plots.push(series.draw(painter, style, places[1]));
+    let loads = [
+        Trace { curve: &curves.contact, lag, offset: 0.0, colour: style.palette.contact },
+        Trace { curve: &curves.film, lag, offset: 0.0, colour: style.palette.film },
+    ];
+    let kilo = shown.scales.tooth_load[1] > 2.0;
+    let series = Series {
+        title: if kilo { "Loads, N" } else { "Loads, mN" },
+        legend: &[("contact", style.palette.contact), ("film", style.palette.film)],
+        traces: &loads,
+        range: shown.scales.tooth_load,
+        unit: if kilo { 1.0 } else { 1e-3 },
+        ..series
+    };
+    drawn.plots.push(series.draw(painter, style, places[2]));
+    drawn
+}

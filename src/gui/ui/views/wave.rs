@@ -1,0 +1,134 @@
+//! The stator's travelling wave with its teeth, the rotor's deflected underside, the film between them, and where they
+//! touch. Heights are exaggerated; the factor and a scale bar are given.
+
+use super::motor_frame::MotorFrame;
+use crate::gui::derived::format::times;
+use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar};
+use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2};
+
+/// Part of the height below the lowest stator top, and of the teeth in it.
+const BELOW: f32 = 0.36;
+const TOOTH: f32 = 0.15;
+/// Part of the height above the highest point of the rotor's underside.
+const ABOVE: f32 = 0.16;
+
+/// Draws the wave into `rect`. Returns the axes, whose y is height \[m\].
+pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &MotorFrame<'_>) -> Axes {
+    let minimum = shown.motor.min_spacing;
+    let low = shown.scales.stator[0];
+    let high = (shown.scales.rotor[1] - minimum).max(low);
+    let span = if high > low { high - low } else { 1e-7 };
+    let part = 1.0 - f64::from(BELOW) - f64::from(ABOVE);
+    let bottom = low - span * f64::from(BELOW) / part;
+    let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + span / part]);
+    let scale = f64::from(rect.height()) * part / span;
+    let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
+
+    axes.canvas(painter, style);
+    scale_bar(painter, style, rect, scale);
+    let title = format!("Rotor on the travelling wave, vertical {}", times(scale / along));
+    let legend = [("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
+    let short = format!("Wave, vertical {}", times(scale / along));
+    style.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
+
+    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
+    shown.mark_followed(painter, style, &axes);
+    stator(painter, style, &axes, shown);
+    rotor(painter, style, &axes, shown);
+    touching(painter, style, &axes, shown);
+    axes.cursor(painter, style, shown.cursor);
+    axes
+}
+
+fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
+    let colour = style.palette.stator;
+    let recording = shown.recording;
+    let phase = shown.phase();
+    let depth = TOOTH * axes.rect.height();
+    let body = |x: f64| axes.py(shown.motor.stator_displacement(x, 0.0, phase)) + depth;
+    // The body below the grooves.
+    let samples = 96;
+    let at = |i: usize| axes.x[0] + (axes.x[1] - axes.x[0]) * i as f64 / samples as f64;
+    let fill = style.solid(colour);
+    band(painter, (0..=samples).map(|i| (axes.px(at(i)), body(at(i)), axes.rect.bottom())), fill);
+    let numbered = f64::from(axes.rect.width()) / recording.teeth.max(1) as f64 > 1.6 * f64::from(style.row);
+    painter.line((0..=samples).map(|i| pos2(axes.px(at(i)), body(at(i)))).collect(), Stroke::new(1.0, colour));
+    for tooth in 0..recording.teeth {
+        let middle = tooth as f64 * recording.pitch;
+        let heights = &shown.lines.stator[shown.lines.of(tooth)];
+        let top: Vec<Pos2> = recording.x.iter().zip(heights).map(|(xi, w)| axes.at(middle + xi, *w)).collect();
+        let (Some(first), Some(last)) = (recording.x.first(), recording.x.last()) else { continue };
+        let feet = [body(middle + first), body(middle + last)];
+        // A pixel below the body's edge, so that no seam shows.
+        let foot = feet[0].max(feet[1]) + 2.0;
+        band(painter, top.iter().map(|point| (point.x, point.y, foot.max(point.y))), fill);
+        let followed = tooth == shown.tooth;
+        let stroke = if followed { Stroke::new(2.0, style.palette.accent) } else { Stroke::new(1.0, colour) };
+        let mut outline = Vec::with_capacity(top.len() + 2);
+        outline.push(pos2(axes.px(middle + first), feet[0]));
+        outline.extend_from_slice(&top);
+        outline.push(pos2(axes.px(middle + last), feet[1]));
+        painter.line(outline, stroke);
+        if numbered {
+            let at = pos2(axes.px(middle), axes.rect.bottom() - 2.0);
+            let colour = if followed { style.palette.accent } else { style.palette.canvas };
+            style.write(painter, at, Align2::CENTER_BOTTOM, &tooth.to_string(), colour);
+        }
+    }
+}
+
+fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
+    let recording = shown.recording;
+    let nodes = recording.x.len();
+    let lines = &shown.lines;
+    let height = |index: usize| lines.stator[index] + lines.film_thickness[index] - shown.motor.min_spacing;
+    // The film, where there is any.
+    let film = style.palette.film.gamma_multiply(0.25);
+    let mut underside = Vec::with_capacity(recording.teeth * nodes + 2);
+    underside.push(Pos2::ZERO);
+    for tooth in 0..recording.teeth {
+        let line = lines.of(tooth).start;
+        let middle = tooth as f64 * recording.pitch;
+        let columns = (0..nodes).map(|i| {
+            let at = axes.at(middle + recording.x[i], height(line + i));
+            (at, axes.py(lines.stator[line + i]))
+        });
+        band(painter, columns.clone().map(|(at, stator)| (at.x, at.y, stator)), film);
+        underside.extend(columns.map(|(at, _)| at));
+    }
+    // Half a groove at either end: the wave repeats.
+    let (Some(second), Some(last)) = (underside.get(1).copied(), underside.last().copied()) else { return };
+    let edge = 0.5 * (second.y + last.y);
+    underside[0] = pos2(axes.rect.left(), edge);
+    underside.push(pos2(axes.rect.right(), edge));
+    let colour = style.palette.rotor;
+    band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
+    painter.line(underside, Stroke::new(1.5, colour));
+}
+
+/// A thick line wherever the contact carries load.
+fn touching(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
+    let recording = shown.recording;
+    let nodes = recording.x.len();
+    let stroke = Stroke::new(4.0, style.palette.contact);
+    for tooth in 0..recording.teeth {
+        let line = shown.lines.of(tooth).start;
+        let middle = tooth as f64 * recording.pitch;
+        let mut run: Vec<Pos2> = Vec::new();
+        for i in 0..=nodes {
+            if i < nodes && shown.lines.contact[line + i] > 0.0 {
+                run.push(axes.at(middle + recording.x[i], shown.lines.stator[line + i]));
+                continue;
+            }
+            if let [only] = run[..] {
+                // One node stands for its length of tooth.
+                let half = 0.5 * recording.node_length[i - 1];
+                let reach = ((axes.px(half) - axes.px(0.0)).max(1.0), 0.0).into();
+                run = vec![only - reach, only + reach];
+            }
+            if run.len() > 1 {
+                painter.line(std::mem::take(&mut run), stroke);
+            }
+        }
+    }
+}

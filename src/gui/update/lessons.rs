@@ -1,0 +1,104 @@
+//! What is asked of lessons, carried out.
+
+use super::updater::Updater;
+use crate::gui::command::{HoldCommand, LessonCommand};
+use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::view::Tab;
+use crate::gui::state::window::State;
+use crate::lessons::Act;
+use std::path::Path;
+
+impl Updater {
+    /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
+    pub fn load_lessons(&mut self, folder: &Path) {
+        if self.state.lessons.load(folder) {
+            self.leave_lesson();
+        }
+        self.say_faults();
+    }
+
+    fn say_faults(&mut self) {
+        let text = self.state.lessons.fault_text();
+        if !text.is_empty() {
+            self.state.fail(text);
+        }
+    }
+
+    pub(super) fn teach(&mut self, command: LessonCommand) {
+        let State { document, view, lessons, .. } = &mut self.state;
+        let sets_up = matches!(
+            command,
+            LessonCommand::Open(_) | LessonCommand::Next | LessonCommand::Back | LessonCommand::SetUp
+        );
+        let shows = command == LessonCommand::ShowMe;
+        let replaced = match command {
+            LessonCommand::Open(lesson) => lessons.open(lesson, document, view),
+            LessonCommand::Next => lessons.turn(1, document, view),
+            LessonCommand::Back => lessons.turn(-1, document, view),
+            LessonCommand::Leave => lessons.leave(document, view),
+            LessonCommand::SetUp => lessons.set_up(document, view, true),
+            LessonCommand::ShowMe => lessons.show_me(document),
+            LessonCommand::Predict(prediction) => {
+                if let Some(work) = lessons.work().filter(|work| !work.committed) {
+                    work.prediction = Some(prediction);
+                }
+                false
+            }
+            LessonCommand::Commit => {
+                if let Some(work) = lessons.work().filter(|work| work.prediction.is_some()) {
+                    work.committed = true;
+                }
+                false
+            }
+            LessonCommand::AllResults(all) => {
+                lessons.show_all_results(all);
+                false
+            }
+            LessonCommand::ChooseFolder => return self.ask(Purpose::Lessons, ""),
+            LessonCommand::LoadFolder(folder) => return self.load_lessons(&folder),
+            LessonCommand::Faults => return self.say_faults(),
+        };
+        if replaced {
+            self.scene_replaced();
+        }
+        if sets_up {
+            self.put_to_rest();
+        }
+        if shows {
+            self.state.lessons.acts().into_iter().for_each(|act| self.act(act));
+        }
+    }
+
+    /// A step begins with a plate that was not moved, and with nothing started.
+    fn put_to_rest(&mut self) {
+        if self.state.lessons.is_about(Tab::Hold) {
+            self.hold(HoldCommand::Reset);
+        }
+        if self.state.lessons.is_about(Tab::Startup) {
+            self.state.startup = None;
+        }
+    }
+
+    /// Does in a tab what a lesson shows.
+    fn act(&mut self, act: Act) {
+        match act {
+            Act::Hold(gap) => {
+                self.state.view.tab = Tab::Hold;
+                self.update_hold();
+                self.hold(HoldCommand::To(gap * 1e-6));
+            }
+            Act::StartUp => {
+                self.state.view.tab = Tab::Startup;
+                self.start_from_rest();
+            }
+        }
+    }
+
+    /// Brings the student's own scene back, if a lesson has set it aside.
+    pub(super) fn leave_lesson(&mut self) {
+        let State { document, view, lessons, .. } = &mut self.state;
+        if lessons.leave(document, view) {
+            self.scene_replaced();
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! What is computed while one looks: a start-up, a plate in the hand, and torque over speed.
+
+use super::updater::Updater;
+use crate::analysis::torque::TorqueCurves;
+use crate::fidelity::Fidelity;
+use crate::gui::command::{HoldCommand, StartupCommand};
+use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
+use crate::gui::state::startup::StartupState;
+use crate::gui::state::view::Tab;
+use crate::job;
+use crate::job::hold::{HeldPlate, slowed};
+use crate::job::task::Task;
+use crate::problem::{Problem, Scenario};
+use crate::startup;
+use std::sync::Arc;
+use std::time::Duration;
+
+impl Updater {
+    /// Moves what is animated on by `elapsed` \[s\]; whether anything moves.
+    pub fn animate(&mut self, elapsed: f64) -> bool {
+        let state = &mut self.state;
+        if !state.view.playing || state.on_timeline().is_none() {
+            return false;
+        }
+        let on = state.view.phase + elapsed / state.view.seconds_per_cycle;
+        state.view.phase = on.rem_euclid(1.0);
+        if let (Tab::Startup, Some(startup), true) = (state.view.tab, &mut state.startup, on >= 1.0) {
+            startup.next_cycle();
+        }
+        true
+    }
+
+    /// Computes torque over speed while its tab is shown.
+    pub fn follow_torque(&mut self) {
+        let (Tab::Torque, Some(run)) = (self.state.view.tab, self.state.run.clone()) else { return };
+        if self.state.torque.lacks(&run) {
+            let theirs = Arc::clone(&run);
+            let task = Task::start("torque", self.wake(Duration::ZERO), move |cancel, _: &(dyn Fn(()) + Sync)| {
+                TorqueCurves::of_solve(&theirs.problem, theirs.fidelity, &theirs.solution, cancel)
+                    .map_err(|error| format!("without film, {error}"))
+                    .transpose()
+            });
+            self.state.torque.begin(&run, task);
+        }
+    }
+
+    /// Takes what the held plate did, and takes another one in hand if the scene is another.
+    pub(super) fn update_hold(&mut self) {
+        let state = &mut self.state;
+        let scene = state.document.scene();
+        if state.hold.as_ref().is_some_and(|hold| hold.stale(scene)) {
+            state.hold = None;
+        }
+        if let (Tab::Hold, None, Ok(Scenario::Plate(plate))) =
+            (state.view.tab, &state.hold, Problem::new(scene).map(|problem| problem.scenario))
+        {
+            let wake = self.ctx.clone();
+            let slow = slowed(&plate, FIRST_SECONDS);
+            match HeldPlate::start(plate.clone(), slow, self.platform.now, move || wake.request_repaint()) {
+                Ok(job) => state.hold = Some(HoldState::new(job, scene.clone(), plate)),
+                Err(error) => {
+                    state.view.tab = Tab::Motion;
+                    state.fail(format!("The plate cannot be held: {error}"));
+                }
+            }
+        }
+        if let Some(hold) = &mut state.hold {
+            hold.drain();
+        }
+    }
+
+    pub(super) fn hold(&mut self, command: HoldCommand) {
+        let Some(hold) = &mut self.state.hold else { return };
+        let mean_gap = hold.plate().mean_gap;
+        match command {
+            HoldCommand::To(gap) => hold.move_to(gap),
+            HoldCommand::By(share) => hold.move_to(hold.target() + share * mean_gap),
+            HoldCommand::LetGo => hold.move_to(mean_gap),
+            HoldCommand::Reset => hold.reset(),
+            HoldCommand::Seconds(seconds) => hold.set_seconds(seconds),
+        }
+    }
+
+    pub(super) fn start_up(&mut self, command: StartupCommand) {
+        if command == StartupCommand::Start {
+            self.start_from_rest();
+        }
+        let Some(startup) = &mut self.state.startup else { return };
+        match command {
+            StartupCommand::Start => {}
+            StartupCommand::Cancel => startup.cancel(),
+            StartupCommand::Choose(number) => startup.stay_at(number),
+            StartupCommand::Follow(follow) => startup.follow(follow),
+            StartupCommand::Replay => {
+                startup.stay_at(1);
+                self.state.view.phase = 0.0;
+                self.state.view.playing = true;
+            }
+        }
+    }
+
+    pub(super) fn start_from_rest(&mut self) {
+        let Some(problem) = self.problem() else { return };
+        // Three grids of every tooth: a finer one takes minutes.
+        let fidelity = self.state.document.target().min(Fidelity::Standard);
+        let settings = startup::Settings { fidelity, ..startup::Settings::default() };
+        // One at a time: the last one is ended first.
+        let count = self.state.startup.take().map_or(0, |last| last.count() + 1);
+        let scene = self.state.document.scene().clone();
+        match job::startup::start(problem.clone(), settings, self.wake(Duration::ZERO)) {
+            Ok(task) => self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count)),
+            Err(error) => self.state.fail(format!("The start-up cannot be started: {error}")),
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! How commands, background work and time change the state. Nothing is drawn here.
+
+pub mod dialogs;
+mod exports;
+mod lessons;
+mod live;
+mod pictures;
+mod pins;
+pub mod platform;
+mod run;
+mod scene;
+mod sweep;
+mod tradeoff;
+pub mod updater;

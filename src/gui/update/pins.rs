@@ -1,0 +1,73 @@
+//! What is asked of the pins, carried out.
+
+use super::updater::Updater;
+use crate::analysis::compare::{Run, runs};
+use crate::fidelity::Fidelity;
+use crate::gui::command::PinCommand;
+use crate::gui::state::pins::{PinTask, to_compare};
+use crate::job::task::Task;
+use crate::scene::{Scene, presets};
+use crate::solve::Settings;
+use std::time::Duration;
+
+impl Updater {
+    pub(super) fn pin(&mut self, command: PinCommand) {
+        match command {
+            PinCommand::Shown => {
+                if let Some(run) = &self.state.run {
+                    let label = run.scene.title(self.state.document.saved());
+                    self.state.pins.add(Run { label, ..to_compare(run) });
+                }
+            }
+            PinCommand::Preset(name) => self.pin_preset(name),
+            PinCommand::Forget(id) => self.state.pins.forget(id),
+            PinCommand::Rename(id, name) => self.state.pins.rename(id, &name),
+            PinCommand::Remove(id) => self.state.pins.remove(id),
+            PinCommand::Clear => self.state.pins.clear(),
+            PinCommand::Open(id) => {
+                if let Some(scene) = self.state.pins.run(id).map(|run| run.scene.clone()) {
+                    self.change_scene(scene);
+                }
+            }
+            PinCommand::Look(page) => self.state.pins.page = page,
+            PinCommand::AllParameters(all) => self.state.pins.all_parameters = all,
+        }
+    }
+
+    fn pin_preset(&mut self, name: &'static str) {
+        let scene = match presets::find(name) {
+            Ok(scene) => scene,
+            Err(error) => return self.state.fail(error),
+        };
+        let fidelity = self.state.document.target();
+        match self.solve_pin(scene.clone(), fidelity) {
+            Ok(task) => self.state.pins.wait(scene, fidelity, task),
+            Err(error) => self.state.fail(format!("The preset cannot be solved: {error}")),
+        }
+    }
+
+    /// Solves again what was pinned in the last window: one after the other, and not before the scene on screen.
+    pub(super) fn solve_pins(&mut self) {
+        if self.state.awaits_result() || self.state.activity.running.is_some() {
+            return;
+        }
+        let Some((id, scene, fidelity)) = self.state.pins.turn() else { return };
+        match self.solve_pin(scene.clone(), fidelity) {
+            Ok(task) => self.state.pins.begin(id, task),
+            Err(error) => {
+                self.state.pins.forget(id);
+                self.state.fail(format!("A pinned run cannot be solved again: {error}"));
+            }
+        }
+    }
+
+    /// Solves a scene to be pinned, in the background.
+    fn solve_pin(&self, scene: Scene, fidelity: Fidelity) -> std::io::Result<PinTask> {
+        let settings = Settings { fidelity, ..Settings::default() };
+        Task::start("pin", self.wake(Duration::ZERO), move |cancel, _| {
+            // Every scene is solved by this method, and a run that was cancelled has nobody who waits for it.
+            let solved = runs(&[scene], &settings, cancel, &|_| ()).ok().filter(|_| !cancel.is_cancelled());
+            solved.and_then(|solved| solved.into_iter().next())
+        })
+    }
+}

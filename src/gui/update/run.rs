@@ -1,0 +1,168 @@
+//! One place where every command is carried out, and one where all that has happened is taken.
+
+use super::pictures::PICTURE_NAME;
+use super::updater::Updater;
+use crate::analysis::tradeoff::Wish;
+use crate::gui::command::Command;
+use crate::gui::state::dialogs::{Answer, Purpose};
+use crate::gui::state::document::Document;
+use crate::gui::state::edits::Change;
+use crate::gui::state::modal::{Modal, PathPrompt};
+use crate::gui::state::view::Tab;
+use crate::job::Event;
+
+impl Updater {
+    /// Changes the state as `command` says.
+    pub fn carry_out(&mut self, command: Command) {
+        let state = &mut self.state;
+        match command {
+            Command::Set { key, value, dragging } => self.edit(key, dragging, Change::Value(value)),
+            Command::SetText { key, text } => self.edit(key, false, Change::Text(text)),
+            Command::Reset { key } => self.reset(key),
+            Command::Use { target, numerics } => self.use_setting(target, numerics),
+            Command::Undo => self.step_history(Document::undo),
+            Command::Redo => self.step_history(Document::redo),
+            Command::Proceed(next) => self.proceed(next),
+            Command::OpenDialog => self.ask(Purpose::Open, ""),
+            Command::OpenPathPrompt => {
+                let prompt = PathPrompt::asked(&[Purpose::Open, Purpose::Save], state.suggested_name());
+                state.modal = Some(Modal::Path(prompt));
+            }
+            Command::Save => self.save(),
+            Command::SaveAs => self.save_as(),
+            Command::SavePath(path) => self.save_to(&path),
+            Command::SaveThen(next) => {
+                self.after_save = Some(next);
+                self.save();
+            }
+            Command::DiscardThen(next) => self.discard_then(next),
+            Command::Dismissed => {
+                self.after_save = None;
+                self.picture = None;
+            }
+            Command::CloseModal => state.modal = None,
+            Command::TypePath(path) => {
+                if let Some(Modal::Path(prompt)) = &mut state.modal {
+                    (prompt.path, prompt.fresh) = (path, false);
+                }
+            }
+            Command::WritePicture(path) => self.write_picture(&path),
+            Command::Refine(fidelity) => self.solve(&[fidelity]),
+            Command::CancelSolve => {
+                self.solver.cancel();
+                state.activity.running = None;
+            }
+            Command::Show(tab) => state.view.tab = tab,
+            Command::Pin(command) => self.pin(command),
+            Command::Sweep(command) => self.sweep(command),
+            Command::Hold(command) => self.hold(command),
+            Command::Startup(command) => self.start_up(command),
+            Command::Lesson(command) => self.teach(command),
+            Command::Measure => self.measure(),
+            Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.cancel()),
+            Command::Wish(Wish::Accuracy(share)) => state.view.accuracy = share,
+            Command::Wish(Wish::Budget(seconds)) => state.view.budget = seconds,
+            Command::Export(export) => self.ask(Purpose::Export(export), export.file_name()),
+            Command::WriteExport(export, path) => self.export(export, &path),
+            Command::CancelExport => state.exports.cancel(),
+            Command::CloseExportNote => state.exports.close(),
+            Command::TogglePlay => state.view.playing = !state.view.playing,
+            Command::StepFrames(by) => {
+                if let Some(phase) = state.on_timeline().map(|recording| state.view.stepped(recording, by)) {
+                    state.view.playing = false;
+                    state.view.phase = phase;
+                }
+            }
+            Command::Hover(x) => state.view.cursor_x = x,
+            Command::Seek(phase) => {
+                state.view.playing = false;
+                state.view.phase = phase.rem_euclid(1.0);
+            }
+            Command::SecondsPerCycle(seconds) => state.view.seconds_per_cycle = seconds,
+            Command::FollowTooth(tooth) => state.view.tooth = tooth,
+            Command::NextTooth(by) => {
+                if let Some(teeth) = state.on_timeline().map(|recording| recording.teeth.max(1) as i64) {
+                    state.view.tooth = (state.view.tooth as i64 + by).rem_euclid(teeth) as usize;
+                }
+            }
+            Command::ToggleTheme => {
+                state.dark = !state.dark;
+                self.apply_theme();
+            }
+            Command::ToggleLecture => {
+                state.lecture = !state.lecture;
+                self.apply_theme();
+            }
+            Command::Screenshot => self.take_picture(),
+            Command::ToggleParameters => state.view.parameters = !state.view.parameters,
+            Command::ToggleResults => state.view.results = !state.view.results,
+            Command::ToggleShortcuts => state.shortcuts = !state.shortcuts,
+            Command::Tour(stop) => state.lessons.show_tour(stop, &mut state.view),
+            Command::Glossary(shown) => state.lessons.glossary = shown.then(String::new),
+            Command::SearchGlossary(query) => state.lessons.glossary = Some(query),
+        }
+    }
+
+    /// Takes what background work and dialogs have told.
+    pub fn drain(&mut self) {
+        let state = &mut self.state;
+        for event in self.solver.drain() {
+            match event {
+                Event::Progress { number, fidelity, progress } if number == state.activity.number => {
+                    state.activity.advance(fidelity, &progress);
+                }
+                // A result of an edit that is already history is still newer than what is shown.
+                Event::Solved(run) if state.run.as_ref().is_none_or(|shown| run.number >= shown.number) => {
+                    if run.scene == *state.document.scene() {
+                        state.switches.solved(&run);
+                    }
+                    state.view.tooth = state.view.tooth.min(run.solution.recording.teeth.saturating_sub(1));
+                    state.run = Some(run);
+                }
+                Event::Failed { number, message } if number == state.activity.number => {
+                    state.activity.failure = Some(message);
+                }
+                Event::Done { number, .. } if number == state.activity.number => state.activity.running = None,
+                _ => {}
+            }
+        }
+        state.tradeoff.iter_mut().for_each(|measured| measured.drain());
+        if let Some(error) = state.exports.drain() {
+            state.fail(error);
+        }
+        state.pins.drain();
+        self.solve_pins();
+        let state = &mut self.state;
+        state.sweep.drain();
+        if state.view.tab == Tab::Sweep {
+            state.sweep.review(state.document.scene());
+        }
+        state.torque.drain();
+        if let Some(startup) = &mut state.startup {
+            startup.drain();
+            if startup.stale(state.document.scene()) {
+                startup.cancel();
+            }
+        }
+        let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
+        answers.into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
+        self.receive_pictures();
+        self.update_hold();
+    }
+
+    fn answered(&mut self, purpose: Purpose, answer: Answer) {
+        match answer {
+            Answer::Path(path) => self.carry_out(Command::with_path(purpose, path)),
+            Answer::Cancelled => self.carry_out(Command::Dismissed),
+            Answer::NoDialog => {
+                let path = match purpose {
+                    Purpose::Open | Purpose::Lessons => String::new(),
+                    Purpose::Save => self.state.suggested_name(),
+                    Purpose::Screenshot => PICTURE_NAME.to_owned(),
+                    Purpose::Export(export) => export.file_name().to_owned(),
+                };
+                self.state.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Edits of the scene, and scenes opened and saved.
+
+use super::updater::Updater;
+use crate::fidelity::Fidelity;
+use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::document::{Document, Next};
+use crate::gui::state::edits::Change;
+use crate::gui::state::modal::Modal;
+use crate::problem::Numerics;
+use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
+use eframe::egui;
+use std::path::{Path, PathBuf};
+
+impl Updater {
+    /// An edit: the scene changes, everything depending on it is solved again.
+    pub(super) fn edit(&mut self, key: &'static str, dragging: bool, change: Change) {
+        match change.applied(self.state.document.scene(), key) {
+            Ok(next) => {
+                self.state.rejected.accept(key);
+                let changed = next != *self.state.document.scene();
+                self.state.document.edit(next, key, dragging);
+                if changed {
+                    if is_switch(key) {
+                        self.state.switches.switched(key);
+                    } else {
+                        self.state.switches.edited();
+                    }
+                    self.state.rejected.review(self.state.document.scene());
+                    self.refine();
+                }
+            }
+            Err(error) => self.state.rejected.reject(key, change, error.to_string()),
+        }
+    }
+
+    pub(super) fn reset(&mut self, key: &'static str) {
+        let Some(parameter) = Parameter::find(key) else { return };
+        if parameter.absent.is_some() {
+            self.edit(key, false, Change::Unset);
+            return;
+        }
+        let default = match self.state.document.scene().kind {
+            Kind::Motor { .. } => Scene::motor(),
+            Kind::Plate { .. } => Scene::plate(),
+        };
+        if let Some(value) = default.get(key) {
+            self.edit(key, false, Change::Value(value));
+        }
+    }
+
+    /// Other numerics and another fidelity, as one edit.
+    pub(super) fn use_setting(&mut self, target: Fidelity, numerics: Numerics) {
+        let next = Scene { numerics, ..self.state.document.scene().clone() };
+        match next.check() {
+            Ok(()) => {
+                if self.state.document.change(next, target) {
+                    self.state.switches.edited();
+                    self.state.rejected.review(self.state.document.scene());
+                    self.refine();
+                }
+            }
+            Err(error) => self.state.fail(error),
+        }
+    }
+
+    /// Takes edits back, or makes them again.
+    pub(super) fn step_history(&mut self, step: fn(&mut Document) -> bool) {
+        if step(&mut self.state.document) {
+            self.scene_replaced();
+        }
+    }
+
+    /// Opens a preset, or closes the window; asks first if that would lose unsaved changes.
+    pub(super) fn proceed(&mut self, next: Next) {
+        // A file that cannot be opened takes nothing away, and a lesson goes on.
+        let loses = match &next {
+            Next::Preset(_) | Next::Quit => true,
+            Next::File(path) => Scene::load(path).is_ok(),
+        };
+        if loses {
+            self.leave_lesson();
+            if self.state.document.is_dirty() && !self.state.quitting {
+                let name = self.state.document.scene().name.clone();
+                self.state.modal = Some(Modal::Unsaved { name, next });
+                return;
+            }
+        }
+        self.proceed_now(next);
+    }
+
+    /// The same without a question.
+    pub(super) fn proceed_now(&mut self, next: Next) {
+        match next {
+            Next::Preset(name) => self.open(presets::find(name), None),
+            Next::File(path) => self.open(Scene::load(&path), Some(path)),
+            Next::Quit => {
+                self.state.quitting = true;
+                self.ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+        }
+    }
+
+    fn open(&mut self, loaded: Result<Scene, SceneError>, path: Option<PathBuf>) {
+        match loaded {
+            Ok(scene) => {
+                if let Some(path) = &path {
+                    self.state.remember(path);
+                }
+                self.state.document = Document::opened(scene, path).with_target(self.state.document.target());
+                self.scene_replaced();
+            }
+            Err(error) => self.state.fail(error),
+        }
+    }
+
+    /// Saves to the scene's file, or asks for one.
+    pub(super) fn save(&mut self) {
+        match self.state.document.path().map(Path::to_path_buf) {
+            Some(path) => self.save_to(&path),
+            None => self.save_as(),
+        }
+    }
+
+    /// Asks for a file and saves there.
+    pub(super) fn save_as(&mut self) {
+        let name = self.state.suggested_name();
+        let name = Path::new(&name).file_name().map(|name| name.to_string_lossy().into_owned());
+        self.ask(Purpose::Save, &name.unwrap_or_default());
+    }
+
+    /// Saves to this file, and goes on with what waited for it.
+    pub(super) fn save_to(&mut self, path: &Path) {
+        let next = self.after_save.take();
+        match self.state.document.save(path) {
+            Ok(()) => {
+                self.state.remember(path);
+                next.into_iter().for_each(|next| self.proceed_now(next));
+            }
+            Err(error) => self.state.fail(error),
+        }
+    }
+
+    /// Gives unsaved changes up, then goes on.
+    pub(super) fn discard_then(&mut self, next: Next) {
+        self.after_save = None;
+        if next == Next::Quit {
+            // The next window begins with what is saved. A file that is opened replaces the scene only if it is good.
+            let document = &self.state.document;
+            let (saved, path) = (document.saved().clone(), document.path().map(Path::to_path_buf));
+            self.state.document = Document::opened(saved, path).with_target(document.target());
+        }
+        self.proceed_now(next);
+    }
+}
+
+/// Whether a key is one of the model's switches.
+fn is_switch(key: &str) -> bool {
+    Parameter::find(key)
+        .is_some_and(|found| found.table() == "numerics" && matches!(found.kind, ParameterKind::Choice { .. }))
+}

@@ -1,0 +1,77 @@
+//! What is asked of the sweep, carried out.
+
+use super::updater::Updater;
+use crate::analysis::sweep::{Row, Sweep};
+use crate::gui::command::SweepCommand;
+use crate::job::task::Task;
+use crate::solve::Settings;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Points are drawn as they come, but at most this often.
+const REDRAW: Duration = Duration::from_millis(100);
+
+impl Updater {
+    pub(super) fn sweep(&mut self, command: SweepCommand) {
+        match command {
+            SweepCommand::Start => self.start_sweep(),
+            SweepCommand::Cancel => self.state.sweep.cancel(),
+            SweepCommand::Continue => {
+                if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running()) {
+                    let (sweep, rows) = (Arc::clone(swept.sweep()), swept.rows().to_vec());
+                    self.run_sweep(sweep, rows);
+                }
+            }
+            SweepCommand::Open(point) => {
+                // Every point is a scene: the sweep has made them all.
+                let scene = self.state.sweep.swept().and_then(|swept| swept.sweep().scene_at(point).ok());
+                if let Some(mut scene) = scene {
+                    // A sweep says in its name what was changed; the present scene keeps its own.
+                    let present = self.state.document.scene();
+                    (scene.name, scene.about) = (present.name.clone(), present.about.clone());
+                    self.change_scene(scene);
+                }
+            }
+            SweepCommand::Draw(quantity) => self.state.sweep.draw(quantity),
+            SweepCommand::Choose(axis, key) => {
+                let scene = self.state.document.scene();
+                self.state.sweep.edit(|form| form.choose(scene, axis, key));
+            }
+            SweepCommand::From(axis, text) => self.state.sweep.edit(|form| form.axis(axis).from = text),
+            SweepCommand::To(axis, text) => self.state.sweep.edit(|form| form.axis(axis).to = text),
+            SweepCommand::Count(axis, text) => self.state.sweep.edit(|form| form.axis(axis).count = text),
+            SweepCommand::Log(axis, log) => self.state.sweep.edit(|form| form.axis(axis).log = log),
+            SweepCommand::Second(second) => self.state.sweep.edit(|form| form.set_second(second)),
+            SweepCommand::Fidelity(fidelity) => self.state.sweep.edit(|form| form.fidelity = fidelity),
+        }
+    }
+
+    fn start_sweep(&mut self) {
+        let scene = self.state.document.scene();
+        let fidelity = self.state.sweep.form().map(|form| form.fidelity).unwrap_or_default();
+        // What is wrong with an axis is said at the axis.
+        let Ok(vary) = self.state.sweep.asked(scene) else { return };
+        let mut swept = scene.clone();
+        swept.retitle(self.state.document.saved());
+        match Sweep::new(&swept, &vary, &Settings { fidelity, ..Settings::default() }) {
+            Ok(sweep) => self.run_sweep(Arc::new(sweep), Vec::new()),
+            Err(error) => self.state.sweep.refuse(&error),
+        }
+    }
+
+    fn run_sweep(&mut self, sweep: Arc<Sweep>, done: Vec<Row>) {
+        let (theirs, before) = (Arc::clone(&sweep), done.clone());
+        let task = Task::start("sweep", self.wake(REDRAW), move |cancel, tell| {
+            let solve = || theirs.run(&before, cancel, &|row| tell(row.clone()));
+            // A pool of its own: an export or another task need not wait until this is done.
+            match rayon::ThreadPoolBuilder::new().build() {
+                Ok(pool) => pool.install(solve),
+                Err(_) => solve(),
+            }
+        });
+        match task {
+            Ok(task) => self.state.sweep.begin(sweep, done, task, self.now()),
+            Err(error) => self.state.fail(format!("The sweep cannot be started: {error}")),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! What carries commands out: the state that they change, the solver, the file dialogs, and the way to be drawn again.
+
+use super::dialogs::Dialogs;
+use super::platform::Platform;
+use crate::fidelity::Fidelity;
+use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::document::Next;
+use crate::gui::state::window::State;
+use crate::job::{Request, Solver};
+use crate::problem::Problem;
+use crate::scene::Scene;
+use eframe::egui;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// Changes the state: by commands, by what background work tells, and by time.
+#[derive(Debug)]
+pub struct Updater {
+    /// All that the window knows.
+    pub state: State,
+    /// The clock, the file dialogs and the effort of measurements.
+    pub platform: Platform,
+    pub(super) ctx: egui::Context,
+    pub(super) solver: Solver,
+    pub(super) dialogs: Dialogs,
+    pub(super) pictures: (Sender<Arc<egui::ColorImage>>, Receiver<Arc<egui::ColorImage>>),
+    /// A picture of the window that waits for its file.
+    pub(super) picture: Option<Arc<egui::ColorImage>>,
+    /// What to do after a save that a question led to.
+    pub(super) after_save: Option<Next>,
+}
+
+impl Updater {
+    /// Begins with `state`, and starts to solve its scene.
+    ///
+    /// # Errors
+    /// If the solver's thread cannot be started.
+    pub fn start(ctx: &egui::Context, state: State, platform: Platform) -> std::io::Result<Self> {
+        let wake = ctx.clone();
+        let solver = Solver::start_with_clock(platform.now, move || wake.request_repaint())?;
+        let dialogs = Dialogs::new(platform.ask);
+        let (ctx, pictures) = (ctx.clone(), channel());
+        let mut updater = Self { state, platform, ctx, solver, dialogs, pictures, picture: None, after_save: None };
+        updater.apply_theme();
+        updater.refine();
+        Ok(updater)
+    }
+
+    /// The present moment.
+    pub fn now(&self) -> Instant {
+        (self.platform.now)()
+    }
+
+    /// Draws the window again when background work has told something, but not more often than `every`; at its end at once.
+    pub(super) fn wake(&self, every: Duration) -> impl Fn(bool) + Send + Sync + 'static {
+        let ctx = self.ctx.clone();
+        move |ended: bool| if ended { ctx.request_repaint() } else { ctx.request_repaint_after(every) }
+    }
+
+    /// The scene in SI units; what is wrong with it is said.
+    pub(super) fn problem(&mut self) -> Option<Problem> {
+        Problem::new(self.state.document.scene()).map_err(|error| self.state.fail(error)).ok()
+    }
+
+    /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted.
+    pub(super) fn refine(&mut self) {
+        let target = self.state.document.target();
+        let fidelities: Vec<Fidelity> = Fidelity::ALL.into_iter().filter(|fidelity| *fidelity <= target).collect();
+        self.solve(&fidelities);
+    }
+
+    /// Asks for the present scene at these fidelities.
+    pub(super) fn solve(&mut self, fidelities: &[Fidelity]) {
+        let State { document, activity, .. } = &mut self.state;
+        match Problem::new(document.scene()) {
+            Ok(problem) => {
+                let scene = document.scene().clone();
+                activity.number = self.solver.submit(Request { scene, problem, fidelities: fidelities.to_vec() });
+                activity.failure = None;
+            }
+            Err(error) => activity.failure = Some(error.to_string()),
+        }
+    }
+
+    /// Another scene is on the table.
+    pub(super) fn scene_replaced(&mut self) {
+        self.state.rejected.clear();
+        self.state.switches.edited();
+        self.refine();
+    }
+
+    /// Another scene, as one edit.
+    pub(super) fn change_scene(&mut self, next: Scene) {
+        let document = &mut self.state.document;
+        if document.change(next, document.target()) {
+            self.scene_replaced();
+        }
+    }
+
+    /// Asks for a file or a folder, with a name to begin with.
+    pub(super) fn ask(&mut self, purpose: Purpose, name: &str) {
+        let wake = self.ctx.clone();
+        if let Err(error) = self.dialogs.show(purpose, name, move || wake.request_repaint()) {
+            self.state.fail(format!("The file dialog cannot be shown: {error}"));
+        }
+    }
+
+    pub(super) fn apply_theme(&self) {
+        self.ctx.set_theme(if self.state.dark { egui::Theme::Dark } else { egui::Theme::Light });
+        self.ctx.set_zoom_factor(if self.state.lecture { LECTURE_ZOOM } else { 1.0 });
+    }
+}
+
+/// Zoom of the lecture size.
+const LECTURE_ZOOM: f32 = 1.35;

@@ -1,0 +1,69 @@
+//! The measurement of error against solve time, in the background.
+
+use super::task::Task;
+use crate::analysis::tradeoff::{self, Candidate, Effort, Run};
+use crate::problem::Problem;
+use std::time::Instant;
+
+/// How far a measurement is: all settings with what was measured of them so far, and the share of the work that is done,
+/// 0 to 1.
+pub type Progress = (Vec<Run>, f64);
+
+/// Starts to measure `candidates` on `problem` by the clock `now`. It returns all settings with what was measured.
+///
+/// # Errors
+/// If the thread cannot be started.
+pub fn measure(
+    problem: Problem,
+    candidates: Vec<Candidate>,
+    effort: Effort,
+    now: fn() -> Instant,
+    wake: impl Fn(bool) + Send + Sync + 'static,
+) -> std::io::Result<Task<Progress, Vec<Run>>> {
+    Task::start("measure", wake, move |cancel, tell| {
+        let started = now();
+        let clock = || now().duration_since(started).as_secs_f64();
+        let mut each = |runs: &[Run], share| tell((runs.to_vec(), share));
+        tradeoff::measure(&problem, candidates, &effort, &clock, cancel, &mut each)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::task::to_the_end;
+    use super::*;
+    use crate::analysis::tradeoff::{Ended, candidates};
+    use crate::fidelity::Fidelity;
+    use crate::scene::presets;
+
+    fn start(fidelity: Fidelity, repeats: usize, now: fn() -> Instant) -> Task<Progress, Vec<Run>> {
+        let problem = Problem::new(&presets::find("fundamental").unwrap()).unwrap();
+        let mut all = candidates(&problem);
+        all.retain(|candidate| candidate.name == fidelity.name());
+        let effort = Effort { repeats: Some(repeats), ..Effort::default() };
+        measure(problem, all, effort, now, |_| ()).unwrap()
+    }
+
+    #[test]
+    fn it_measures_and_says_when_it_has_ended() {
+        let (told, end) = to_the_end(&start(Fidelity::Draft, 3, Instant::now));
+        let runs = end.unwrap();
+        assert_eq!((runs[0].times.len(), told.last().unwrap().1), (3, 1.0));
+        assert_eq!(runs[0].ended, Ended::Converged);
+    }
+
+    #[test]
+    fn cancelling_and_dropping_end_a_long_one() {
+        let measurement = start(Fidelity::Reference, 1000, Instant::now);
+        measurement.cancel();
+        let (told, end) = to_the_end(&measurement);
+        assert!(end.is_ok() && told.last().is_none_or(|(_, share)| *share < 1.0));
+        drop(start(Fidelity::Reference, 1000, Instant::now));
+    }
+
+    #[test]
+    fn a_panic_ends_it_with_its_text() {
+        let (_, end) = to_the_end(&start(Fidelity::Draft, 3, || panic!("the clock is broken")));
+        assert_eq!(end.unwrap_err(), "the clock is broken");
+    }
+}
