@@ -21,6 +21,7 @@
 //! s₀ ≤ 1, so that the torque has a bound, the paper's maximum operating torque μ_d N waves r. A motor that is pressed so
 //! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
 
+use crate::digits::with_error;
 use crate::estimate::Estimate;
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
@@ -260,10 +261,10 @@ pub struct Scaled<'a> {
 impl<'a> Scaled<'a> {
     /// With the film, from a solve.
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
-        let loads = recording.line_loads();
+        let loads = &recording.lines;
         Self {
             motor,
-            drive: Drive::new(&loads),
+            drive: Drive::new(loads),
             others: recording.yardsticks.iter().map(Drive::new).collect(),
             judge: |found, others| match *others {
                 // Contact edges are irregular: all of the larger difference, not the share of it that is calibrated for α.
@@ -276,7 +277,7 @@ impl<'a> Scaled<'a> {
                 value: (1.0 - result.alpha).max(0.0) * motor.load,
                 error: result.alpha_error * motor.load,
             },
-            film_power: given(motor, &loads),
+            film_power: given(motor, loads),
         }
     }
 
@@ -299,18 +300,18 @@ impl<'a> Scaled<'a> {
 
     /// Speed at which the torque vanishes \[m/s\].
     pub fn no_load_speed(&self) -> Option<f64> {
-        Some(self.drive.no_load()? * surface_speed(self.motor))
+        Some(self.drive.no_load()? * self.motor.surface_speed())
     }
 
     /// μ_d waves N r \[N m\].
     fn torque(&self) -> Estimate {
-        let scale = self.motor.dry_friction * f64::from(self.motor.waves) * self.motor.contact_radius;
-        Estimate { value: scale * self.load.value, error: scale * self.load.error }
+        let [value, error] = [self.load.value, self.load.error].map(|load| self.motor.friction_torque(load));
+        Estimate { value, error }
     }
 
     /// The film's share of the stator's power, in μ_d N V₀.
     fn loss(&self) -> f64 {
-        let spent = self.torque().value * surface_speed(self.motor) / self.motor.contact_radius;
+        let spent = self.torque().value * self.motor.surface_speed() / self.motor.contact_radius;
         if spent > 0.0 { self.film_power.max(0.0) / spent } else { 0.0 }
     }
 
@@ -322,7 +323,7 @@ impl<'a> Scaled<'a> {
     }
 
     fn point(&self, speed: f64, loss: f64) -> Point {
-        let v0 = surface_speed(self.motor);
+        let v0 = self.motor.surface_speed();
         if v0 == 0.0 && speed == 0.0 {
             // Nothing slides.
             return Point::default();
@@ -346,7 +347,7 @@ impl<'a> Scaled<'a> {
     /// All of it, with a curve at these speeds \[m/s\].
     pub fn performance(&self, speeds: &[f64]) -> Performance {
         let exactly = |value: f64| Estimate { value, error: 0.0 };
-        let (speed, loss) = (surface_speed(self.motor), self.loss());
+        let (speed, loss) = (self.motor.surface_speed(), self.loss());
         let (unit, v0) = (self.torque(), exactly(speed));
         let per_radius = speed / self.motor.contact_radius;
         let power = Estimate { value: unit.value * per_radius, error: unit.error * per_radius };
@@ -379,31 +380,15 @@ impl<'a> Scaled<'a> {
 
 /// The warning of a motor whose teeth touch all round the wave, so that it gives less than the bound.
 pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Option<String> {
-    let stated = |Estimate { value, error }: Estimate| {
-        let smallest = if error > 0.0 && error.is_finite() { error } else { value.abs().max(f64::MIN_POSITIVE) };
-        let places = (1.0 - smallest.log10().floor()).clamp(0.0, 9.0) as usize;
-        let error = if error.is_finite() { format!(" ± {error:.places$}") } else { String::new() };
-        format!("{value:.places$}{error} N·m")
-    };
     (result.teeth_in_contact >= motor.teeth as f64).then(|| {
         format!(
             "all {} teeth of each wave touch the rotor at all times, so parts of the contact always brake: held at rest the motor \
-             gives {}, not the maximum operating torque μ_d (1 − α) waves L r = {}, which is a bound",
+             gives {} N·m, not the maximum operating torque μ_d (1 − α) waves L r = {} N·m, which is a bound",
             motor.teeth,
-            stated(found.stall_torque),
-            stated(found.max_torque),
+            with_error(found.stall_torque.value, found.stall_torque.error),
+            with_error(found.max_torque.value, found.max_torque.error),
         )
     })
-}
-
-/// V₀ = 2πf B_S \[m/s\].
-pub fn surface_speed(motor: &Motor) -> f64 {
-    TAU * motor.frequency * motor.tangential_amplitude
-}
-
-/// A surface speed of the rotor \[m/s\] as rotations in a minute.
-pub fn rpm(motor: &Motor, speed: f64) -> f64 {
-    60.0 * speed / (TAU * motor.contact_radius)
 }
 
 /// The stored lines, tooth by tooth and frame by frame: φ of the tooth's middle, and where the line begins.
@@ -424,7 +409,7 @@ pub(crate) fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
 /// ⟨−∫ film ∂h/∂t⟩. The difference of the two is part of the stated error.
 pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
     let given = recording.estimate(|loads| given(motor, loads));
-    let loads = &recording.line_loads();
+    let loads = &recording.lines;
     let (frames, nodes) = (loads.frames, loads.x.len());
     let mut taken = 0.0;
     for (line, (_, at)) in lines(loads).enumerate() {

@@ -14,8 +14,8 @@ pub struct Estimate {
     pub error: f64,
 }
 
-/// Share of the spread of two extrapolations that is taken as error where the grids come closer at least as fast as an error of second
-/// order would (calibrated, as all of these: docs/validation.md).
+/// Share of |e₂₃ − e₁₂| that is taken as the error where the results converge at second order or faster (calibrated, as are all
+/// constants here: docs/validation.md).
 const SPREAD: f64 = 0.25;
 /// Least share of the last correction that is taken as error.
 const CORRECTION: f64 = 0.35;

@@ -46,7 +46,7 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`numerics`] | five-point systems, graded nodes, Anderson acceleration; no physics |
-//! | [`control`] | cancellation and progress |
+//! | [`control`], [`digits`] | cancellation and progress; numbers for people |
 //! | [`problem`] | what is to be solved: checked, in SI units |
 //! | [`scene`] | what a person edits: files, units, ranges, presets |
 //! | [`dimensionless`] | σ, Λ and Kn without solving |
@@ -70,6 +70,7 @@ pub mod analysis;
 pub mod cli;
 pub mod contact;
 pub mod control;
+pub mod digits;
 pub mod dimensionless;
 pub mod drive;
 pub mod estimate;

@@ -36,27 +36,106 @@ impl Grid {
     }
 }
 
-/// What was decided about one part of the model, and why.
-#[derive(Clone, Debug, PartialEq)]
+/// What was decided about one part of the model; `analysis::decision` says it, and why, in words.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decision {
-    /// The part: "wedge term".
-    pub term: &'static str,
-    /// The key that overrules it, if there is one: "numerics.wedge".
-    pub key: Option<&'static str>,
-    /// The value that key would need for the same decision: "off".
-    pub chosen: &'static str,
+    /// The part, and how it is solved.
+    pub chosen: Choice,
     /// Whether the scene overruled what the plan would have done.
     pub overruled: bool,
     /// Bound of what it changes, relative to α; 0 is exact.
     pub effect: f64,
-    /// What and why, in words.
-    pub words: String,
+    /// What speaks for and against leaving the part out; `None` if nothing had to be weighed.
+    pub weighed: Option<Weighed>,
+}
+
+/// A part of the model, and how it is solved. None of the switches is ever `Auto`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    /// Leaking of the gas in time.
+    Time(Time),
+    /// Directions in which the film flows.
+    Flow(Flow),
+    /// The wedge term.
+    Wedge(Wedge),
+    /// No wedge term, because the scene says `shear = false`.
+    NoShear,
+    /// Teeth whose film is solved, of so many.
+    Teeth(Teeth, usize),
+    /// Width of the film.
+    Width(Width),
+    /// The finest grid of a motor.
+    MotorGrid {
+        /// Intervals along a tooth, intervals or nodes across half the width, steps in a cycle.
+        grid: Grid,
+        /// Boundary layer of the film \[m\].
+        layer: f64,
+        /// First interval along, as a share of that layer.
+        edge_fraction: f64,
+        /// The intervals along are densest in the middle, where the crown is highest.
+        middle: bool,
+        /// Across the width a field is a polynomial.
+        spectral: bool,
+    },
+    /// The finest grid of a plate; across half the width `None` of a strip.
+    PlateGrid {
+        /// Intervals along half the length.
+        along: usize,
+        /// Intervals across half the width.
+        across: Option<usize>,
+    },
+    /// Steps in a cycle of a plate.
+    Steps(usize),
+}
+
+/// What speaks for and against leaving out a part of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weighed {
+    /// How the part is solved if it is left out.
+    pub reduced: Choice,
+    /// The number that decides: Λ/σ of the wedge term; otherwise the film's boundary layer over the side of a tooth that the gas
+    /// would have to leak out along, of the leaking in time the shorter one.
+    pub number: f64,
+    /// Whether the scene says so.
+    pub asked: bool,
+    /// Bound of what leaving it out changes, relative to α.
+    pub effect: f64,
+    /// Bound of what solving it costs, because the grid is too coarse for it, relative to α.
+    pub unresolved: f64,
+    /// The fidelity, and the error of α that it aims at, relative.
+    pub fidelity: Fidelity,
+    /// See `fidelity`.
+    pub aim: f64,
 }
 
 impl Decision {
-    /// The sentence for the user.
-    pub fn sentence(&self) -> String {
-        format!("{}: {}", self.term, self.words)
+    /// Of what is exact, and what nothing overrules.
+    fn exact(chosen: Choice) -> Self {
+        Self { chosen, overruled: false, effect: 0.0, weighed: None }
+    }
+
+    /// The key that overrules it, if there is one: "numerics.wedge".
+    pub fn key(&self) -> Option<&'static str> {
+        match self.chosen {
+            Choice::Time(_) => Some("numerics.time"),
+            Choice::Flow(_) => Some("numerics.flow"),
+            Choice::Wedge(_) => Some("numerics.wedge"),
+            Choice::Teeth(..) => Some("numerics.teeth"),
+            Choice::Width(_) => Some("numerics.width"),
+            Choice::NoShear | Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(_) => None,
+        }
+    }
+
+    /// The value that key would need for the same decision: "off"; empty if there is no key for the part.
+    pub fn value(&self) -> &'static str {
+        match self.chosen {
+            Choice::Time(time) => time.name(),
+            Choice::Flow(flow) => flow.name(),
+            Choice::Wedge(wedge) => wedge.name(),
+            Choice::Teeth(teeth, _) => teeth.name(),
+            Choice::Width(width) => width.name(),
+            Choice::NoShear | Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(_) => "",
+        }
     }
 }
 
@@ -122,8 +201,8 @@ const UPWINDING_UNEVEN: f64 = 0.1;
 const LEAK_EFFECT: f64 = 1.2;
 /// Share of the fidelity's aim that may be left out with each term.
 const SHARE: f64 = 0.2;
-/// Intervals along a tooth for each factor of e between those in the middle of a crown and uniform ones, over those of a flat
-/// tooth.
+/// Intervals that a crowned tooth gets beyond those of a flat one, as a multiple of them, for each factor of e by which the
+/// intervals in its middle are shorter than uniform ones.
 const MIDDLE: f64 = 1.0;
 /// Boundary layer over half the width down to which a polynomial across is used: a thinner one asks for so strong a stretching that
 /// the nodes in between no longer tell what the last one changes.
@@ -172,44 +251,28 @@ impl Plan {
         let time = time(numerics, &numbers, motor, fidelity, spec);
         let flow = flow(numerics, &numbers, motor, fidelity, spec);
         let wedge = wedge(numerics, &numbers, motor, along, fidelity, spec);
-        let trapped = time.chosen == Time::Trapped.name();
+        let trapped = time.chosen == Choice::Time(Time::Trapped);
         let half_width = numerics.width != Width::Full;
         let every_tooth = numerics.teeth == Teeth::All;
-        let grid = Decision {
-            term: "grid",
-            key: None,
-            chosen: "",
-            overruled: custom(numerics),
-            effect: 0.0,
-            words: format!(
-                "{along} intervals along a tooth, the first {} of the film's boundary layer of {:.3} µm{}; across half the width {}; {steps} steps a cycle; two coarser grids for the error \
-                 estimate, and finer ones while it is more than was asked for",
-                spec.edge_fraction,
-                layer * 1e6,
-                if middle { ", all of them densest where the crown is highest" } else { "" },
-                if spectral {
-                    format!("a polynomial with {across} nodes or more")
-                } else {
-                    format!("{across} finite volumes, since the layer is thin")
-                }
-            ),
-        };
+        let finest = Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction };
+        let grid = Choice::MotorGrid { grid: finest, layer, edge_fraction: spec.edge_fraction, middle, spectral };
+        let grid = Decision { overruled: custom(numerics), ..Decision::exact(grid) };
         let decisions = vec![time, flow, wedge, teeth(numerics, motor), width(numerics), grid];
         // What the trapped limit leaves out, it leaves out once.
-        let moving = |decision: &&Decision| !trapped || decision.key == Some("numerics.time");
+        let moving = |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_));
         Self {
             fidelity: name(fidelity, numerics),
-            grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, spectral),
+            grids: nested(finest, spectral),
             clustering_along,
             clustering_across,
             spectral,
             half_width,
             every_tooth,
-            shear: !trapped && decisions[2].chosen == Wedge::On.name(),
-            flow: [Flow::Across, Flow::Along]
-                .into_iter()
-                .find(|flow| flow.name() == decisions[1].chosen)
-                .unwrap_or(Flow::Plane),
+            shear: !trapped && wedge.chosen == Choice::Wedge(Wedge::On),
+            flow: match flow.chosen {
+                Choice::Flow(flow) => flow,
+                _ => Flow::Plane,
+            },
             trapped,
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
             most_harmonics: spec.most_harmonics,
@@ -239,11 +302,6 @@ impl Plan {
     pub fn on_one_grid(&self) -> Self {
         let grids = self.grids.last().copied().into_iter().collect();
         Self { grids, most_grids: 1, accuracy: 0.0, ..self.clone() }
-    }
-
-    /// A sentence for each decision.
-    pub fn why(&self) -> Vec<String> {
-        self.decisions.iter().map(Decision::sentence).collect()
     }
 
     /// The plan of a plate at a fidelity; `numerics` overrules grid sizes.
@@ -276,27 +334,8 @@ impl Plan {
         let narrowest = (2.0 * (1.0 - excursion)).sqrt().max(NARROWEST_PEAK);
         let follow = (STEPS_IN_PEAK * std::f64::consts::TAU / narrowest) as usize;
         let steps = round_up(numerics.steps_per_cycle.unwrap_or(spec.plate_steps.max(follow)));
-        let exact = |term: &'static str, words: String| Decision {
-            term,
-            key: None,
-            chosen: "",
-            overruled: false,
-            effect: 0.0,
-            words,
-        };
-        let decisions = vec![
-            match plate.width {
-                Some(_) => exact(
-                    "plate",
-                    format!("a quarter of it solved, {along} × {across} intervals, and mirrored (exact)"),
-                ),
-                None => exact(
-                    "strip",
-                    format!("one line across half its length solved, {along} intervals, and mirrored (exact)"),
-                ),
-            },
-            exact("time", format!("{steps} steps a cycle; two coarser grids for the error estimate")),
-        ];
+        let grid = Choice::PlateGrid { along, across: plate.width.map(|_| across) };
+        let decisions = vec![Decision::exact(grid), Decision::exact(Choice::Steps(steps))];
         Self {
             fidelity: name(fidelity, numerics),
             grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, spectral),
@@ -325,54 +364,31 @@ impl Plan {
 
 /// A decision to leave a term out, if what that changes is small enough and the switch allows it.
 struct Reduction {
-    term: &'static str,
-    key: &'static str,
-    /// Values of the switch: for the whole model, and for the reduced one.
-    values: [&'static str; 2],
+    /// For the whole model, and for the reduced one.
+    choices: [Choice; 2],
     /// What the switch says, `None` if it is left to the plan.
     asked: Option<bool>,
-    /// Bound of what the reduction changes, relative to α.
+    /// As of [`Weighed`].
     effect: f64,
-    /// Bound of what solving it costs, because the grid is too coarse for it, relative to α.
     unresolved: f64,
-    /// Words for the whole model and for the reduced one, and the number that decides.
-    words: [&'static str; 2],
-    because: String,
+    number: f64,
 }
 
 impl Reduction {
     fn decide(self, fidelity: Fidelity, spec: &Spec) -> Decision {
-        let allowed = self.effect <= SHARE * spec.aim || self.effect < self.unresolved;
-        let reduced = self.asked.unwrap_or(allowed);
-        let overruled = self.asked.is_some_and(|asked| asked != allowed);
-        let may = if reduced { "changes α by less than" } else { "would change α by up to" };
-        let asked = if self.asked.is_some() { "as asked; " } else { "" };
+        let Self { choices, asked, effect, unresolved, number } = self;
+        let allowed = effect <= SHARE * spec.aim || effect < unresolved;
+        let left_out = asked.unwrap_or(allowed);
+        let [_, reduced] = choices;
+        let aim = spec.aim;
+        let weighed = Weighed { reduced, number, asked: asked.is_some(), effect, unresolved, fidelity, aim };
         Decision {
-            term: self.term,
-            key: Some(self.key),
-            chosen: self.values[usize::from(reduced)],
-            overruled,
-            effect: if reduced { self.effect } else { self.unresolved },
-            words: format!(
-                "{}: {asked}{}, leaving it out {may} {} of itself, and {fidelity} aims at {}{}",
-                self.words[usize::from(reduced)],
-                self.because,
-                percent(self.effect),
-                percent(spec.aim),
-                if self.unresolved > 0.0 {
-                    format!("; this grid is too coarse for it, solving it errs by up to {}", percent(self.unresolved))
-                } else {
-                    String::new()
-                }
-            ),
+            chosen: choices[usize::from(left_out)],
+            overruled: asked.is_some_and(|asked| asked != allowed),
+            effect: if left_out { effect } else { unresolved },
+            weighed: Some(weighed),
         }
     }
-}
-
-/// A share in per cent, two digits.
-fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    if value >= 0.0995 { format!("{value:.1} %") } else { format!("{value:.0e} %") }
 }
 
 fn wedge(
@@ -384,19 +400,10 @@ fn wedge(
     spec: &Spec,
 ) -> Decision {
     if !motor.shear {
-        return Decision {
-            term: "wedge term",
-            key: None,
-            chosen: Wedge::Off.name(),
-            overruled: false,
-            effect: 0.0,
-            words: "left out: the scene says shear = false".to_owned(),
-        };
+        return Decision::exact(Choice::NoShear);
     }
     Reduction {
-        term: "wedge term",
-        key: "numerics.wedge",
-        values: [Wedge::On.name(), Wedge::Off.name()],
+        choices: [Wedge::On, Wedge::Off].map(Choice::Wedge),
         asked: match numerics.wedge {
             Wedge::Auto => None,
             Wedge::On => Some(false),
@@ -404,8 +411,7 @@ fn wedge(
         },
         effect: wedge_effect(numbers, motor),
         unresolved: upwinding(numbers, motor, along),
-        words: ["solved", "left out"],
-        because: format!("Λ/σ = {:.1e}", numbers.bearing_to_squeeze),
+        number: numbers.bearing_to_squeeze,
     }
     .decide(fidelity, spec)
 }
@@ -413,9 +419,7 @@ fn wedge(
 fn time(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: Fidelity, spec: &Spec) -> Decision {
     let layer = numbers.boundary_layer;
     Reduction {
-        term: "leaking",
-        key: "numerics.time",
-        values: [Time::March.name(), Time::Trapped.name()],
+        choices: [Time::March, Time::Trapped].map(Choice::Time),
         asked: match numerics.time {
             Time::Auto => None,
             Time::March => Some(false),
@@ -427,11 +431,7 @@ fn time(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
             + yielding(motor, layer)
             + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 },
         unresolved: 0.0,
-        words: ["marched in time", "none, the gas is trapped (σ → ∞)"],
-        because: format!(
-            "the boundary layer is {} of the shorter side",
-            percent(layer / motor.tooth_width.min(motor.contact_width))
-        ),
+        number: layer / motor.tooth_width.min(motor.contact_width),
     }
     .decide(fidelity, spec)
 }
@@ -454,9 +454,7 @@ fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
         Flow::Auto | Flow::Plane => motor.contact_width > motor.tooth_width,
     };
     Reduction {
-        term: "flow",
-        key: "numerics.flow",
-        values: [Flow::Plane.name(), if along { Flow::Along.name() } else { Flow::Across.name() }],
+        choices: [Flow::Plane, if along { Flow::Along } else { Flow::Across }].map(Choice::Flow),
         asked: match numerics.flow {
             Flow::Auto => None,
             Flow::Plane => Some(false),
@@ -464,19 +462,7 @@ fn flow(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
         },
         effect: if along { sides } else { ends },
         unresolved: 0.0,
-        words: [
-            "in the plane of the film",
-            if along {
-                "along the tooth only, none at its sides"
-            } else {
-                "across the width only, none at the tooth's ends"
-            },
-        ],
-        because: if along {
-            format!("the boundary layer is {} of the contact width", percent(layer / motor.contact_width))
-        } else {
-            format!("the boundary layer is {} of the tooth width", percent(layer / motor.tooth_width))
-        },
+        number: layer / if along { motor.contact_width } else { motor.tooth_width },
     }
     .decide(fidelity, spec)
 }
@@ -533,7 +519,7 @@ fn diffusivity(numbers: &Dimensionless, motor: &Motor) -> f64 {
 /// Effect of the upwinding that the wedge term needs on a grid of so many intervals along a tooth, relative to α. None below a
 /// cell Péclet number U Δ/(2D) of 1, where exponential fitting is of second order.
 fn upwinding(numbers: &Dimensionless, motor: &Motor, along: usize) -> f64 {
-    let speed = motor.rotor_speed.abs() + std::f64::consts::TAU * motor.frequency * motor.tangential_amplitude;
+    let speed = motor.rotor_speed.abs() + motor.surface_speed();
     let peclet = 0.5 * speed * motor.tooth_width / (along as f64 * diffusivity(numbers, motor));
     let each = UPWINDING + UPWINDING_UNEVEN * unevenness(motor) * end_share(motor);
     (each * (peclet - 1.0)).clamp(0.0, 1.0)
@@ -554,9 +540,9 @@ fn unevenness(motor: &Motor) -> f64 {
     crown(motor) / (crown(motor) + motor.normal_amplitude + motor.min_spacing)
 }
 
-/// What the rotor's yielding to the film itself changes, relative to α: in the layer at a tooth's ends the pressure falls to
-/// that of the room, the gap with it, and so the gas that the layer lets stay. How much of the mean gap that is, times the
-/// force of the compressed gas over the load.
+/// Bound of what the rotor's deflection under the film's own pressure changes, relative to α. In the boundary layer at the ends
+/// of a tooth the pressure falls to ambient. The rotor deflects less there, so the gap is smaller and holds less gas. The bound
+/// is twice that change of the gap over the mean gap, times the force of the compressed gas over the load if that exceeds 1.
 fn yielding(motor: &Motor, layer: f64) -> f64 {
     let pressure = motor.gas.ambient_pressure * motor.contact_width;
     let bulge = motor.rotor.at(1.0 / layer) * pressure / (motor.normal_amplitude + motor.min_spacing);
@@ -572,39 +558,14 @@ fn active_length(motor: &Motor) -> f64 {
 
 fn teeth(numerics: &Numerics, motor: &Motor) -> Decision {
     let all = numerics.teeth == Teeth::All;
-    Decision {
-        term: "teeth",
-        key: Some("numerics.teeth"),
-        chosen: if all { Teeth::All.name() } else { Teeth::One.name() },
-        overruled: all,
-        effect: 0.0,
-        words: if all {
-            format!("all {} solved, as asked", motor.teeth)
-        } else if motor.teeth == 1 {
-            "the wave has one tooth, and it is solved".to_owned()
-        } else {
-            format!(
-                "one of {} solved; in the steady state tooth k at time t is tooth 0 at t + kT/{} (exact)",
-                motor.teeth, motor.teeth
-            )
-        },
-    }
+    let teeth = if all { Teeth::All } else { Teeth::One };
+    Decision { overruled: all, ..Decision::exact(Choice::Teeth(teeth, motor.teeth)) }
 }
 
 fn width(numerics: &Numerics) -> Decision {
     let full = numerics.width == Width::Full;
-    Decision {
-        term: "width",
-        key: Some("numerics.width"),
-        chosen: if full { Width::Full.name() } else { Width::Half.name() },
-        overruled: full,
-        effect: 0.0,
-        words: if full {
-            "all of it solved, as asked".to_owned()
-        } else {
-            "half of it solved; the gap does not depend on y, so the other half is its mirror (exact)".to_owned()
-        },
-    }
+    let width = if full { Width::Full } else { Width::Half };
+    Decision { overruled: full, ..Decision::exact(Choice::Width(width)) }
 }
 
 fn custom(numerics: &Numerics) -> bool {

@@ -135,6 +135,17 @@ impl Motor {
         1.0 / self.frequency
     }
 
+    /// Torque μ_d waves N r \[N m\] on the whole ring of a contact load N of `load` \[N\] on one wavelength, if all of it drags
+    /// one way: with N = L that of the motor without air, with N = (1 − α) L the paper's maximum operating torque.
+    pub fn friction_torque(&self, load: f64) -> f64 {
+        self.dry_friction * f64::from(self.waves) * load * self.contact_radius
+    }
+
+    /// Greatest tangential speed of the stator's surface V₀ = 2πf B_S \[m/s\].
+    pub fn surface_speed(&self) -> f64 {
+        std::f64::consts::TAU * self.frequency * self.tangential_amplitude
+    }
+
     /// Normal displacement of the stator W_S \[m\] at `x` \[m\] along the wave, on a tooth whose middle is `xi` \[m\]
     /// away, at phase `t_over_period` of the cycle: A_S cos 2π(t/T + x/λ) − ξ²/(2R).
     pub fn stator_displacement(&self, x: f64, xi: f64, t_over_period: f64) -> f64 {
@@ -146,9 +157,13 @@ impl Motor {
     /// `t_over_period`; V_St = 2πf B_S cos 2π(t/T + x/λ).
     pub fn sliding_speed(&self, x: f64, t_over_period: f64) -> f64 {
         let tau = std::f64::consts::TAU;
-        self.rotor_speed
-            - tau * self.frequency * self.tangential_amplitude * (tau * (t_over_period + x / self.wavelength())).cos()
+        self.rotor_speed - self.surface_speed() * (tau * (t_over_period + x / self.wavelength())).cos()
     }
+}
+
+/// A surface speed \[m/s\] at `radius` \[m\] as rotations in a minute.
+pub fn rpm(speed: f64, radius: f64) -> f64 {
+    60.0 * speed / (std::f64::consts::TAU * radius)
 }
 
 /// A flat plate vibrating rigidly above a flat wall: the gap is h = mean_gap + amplitude·cos ωt everywhere.

@@ -3,6 +3,7 @@
 use crate::estimate::Estimate;
 use crate::plan::Decision;
 use crate::recording::Recording;
+use serde::Serialize;
 
 /// How a solve ended. None of these is an error: what was reached is always reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,7 +165,7 @@ pub enum Outcome {
 }
 
 /// What the solve cost, counted; no clock in here.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Stats {
     /// Time steps of one tooth's film.
     pub film_steps: u64,
@@ -181,6 +182,7 @@ pub struct Stats {
     /// Newton iterations (or active-set changes) in them.
     pub contact_iterations: u64,
     /// Steps of a start-up in which film and contact did not agree to the tolerance within their rounds.
+    #[serde(skip)]
     pub unsettled_steps: u64,
     /// Film nodes of one tooth as stored.
     pub film_nodes: usize,
@@ -203,9 +205,9 @@ pub struct Model {
     pub half_width: bool,
     /// Whether the wedge term was solved.
     pub shear: bool,
-    /// A sentence for each decision.
-    pub why: Vec<String>,
-    /// The decisions of our own method.
+    /// What the paper's method has to say of itself, in sentences.
+    pub remarks: Vec<String>,
+    /// The decisions of our own method; `analysis::decision` says them in words.
     pub decisions: Vec<Decision>,
 }
 

@@ -220,7 +220,7 @@ fn model(plan: &Plan, teeth_solved: usize) -> Model {
         teeth_solved,
         half_width: plan.half_width,
         shear: plan.shear,
-        why: plan.why(),
+        remarks: Vec::new(),
         decisions: plan.decisions.clone(),
     }
 }

@@ -17,7 +17,7 @@ use squeezefilm::gui::state::lessons::StepWork;
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
-use squeezefilm::lessons::{self, Act, Doing, Known, Prediction, Step, text};
+use squeezefilm::lessons::{self, Act, Doing, Prediction, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -315,12 +315,12 @@ walks![
 #[test]
 fn every_built_in_lesson_is_read_listed_and_walked() {
     let places = squeezefilm::gui::state::lessons::PLACES;
-    let (read, faults) = lessons::built_in(Known { tabs: TABS, places });
+    let (read, faults) = lessons::built_in(WindowNames { tabs: TABS, places });
     assert!(faults.is_empty(), "{faults:?}");
     assert_eq!((read.len(), WALKED), (lessons::BUILT_IN.len(), lessons::BUILT_IN.len()));
     assert!(read.len() >= 8);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
-    let (from_disk, faults) = lessons::load(&folder, Known { tabs: TABS, places });
+    let (from_disk, faults) = lessons::load(&folder, WindowNames { tabs: TABS, places });
     assert!(faults.is_empty(), "{faults:?}");
     assert_eq!(from_disk, read, "built in are all that are there, in the order of their names");
     for lesson in &read {
@@ -565,7 +565,7 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
     }
     // The numbers beside a lesson's text too.
     let places = squeezefilm::gui::state::lessons::PLACES;
-    for lesson in lessons::built_in(Known { tabs: TABS, places }).0 {
+    for lesson in lessons::built_in(WindowNames { tabs: TABS, places }).0 {
         for name in lesson.steps.iter().flat_map(|step| &step.show) {
             assert!(lessons::glossary::find(&name.words()).is_some(), "{}", name.words());
         }
@@ -644,7 +644,7 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
 
 #[test]
 fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
-    let known = Known { tabs: TABS, places: squeezefilm::gui::state::lessons::PLACES };
+    let known = WindowNames { tabs: TABS, places: squeezefilm::gui::state::lessons::PLACES };
     let line_of = |part: &str| GOOD.lines().position(|line| line.contains(part)).unwrap() + 1;
     let mutations: &[(&str, &str, usize, &[&str])] = &[
         (

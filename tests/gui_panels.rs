@@ -6,6 +6,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use squeezefilm::analysis::decision::{term, words};
 use squeezefilm::analysis::validity::outside;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
@@ -361,7 +362,7 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     let run = run("fundamental");
     let Outcome::Motor(result) = run.solution.outcome else { panic!("a motor") };
     let harness = shown(run, 300.0, 1.0);
-    let alpha = squeezefilm::export::digits::with_error(result.alpha, result.alpha_error);
+    let alpha = squeezefilm::digits::with_error(result.alpha, result.alpha_error);
     harness.get_by_label_contains(&alpha);
     harness.get_by_label("share of the load carried by air");
     for name in
@@ -378,11 +379,11 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     // Every decision is there: those with a switch as a combo box, the others in words.
     let decisions = harness.state().solution.model.decisions.clone();
     for decision in decisions {
-        let (first, rest) = decision.term.split_at(1);
+        let (first, rest) = term(&decision).split_at(1);
         let term = first.to_uppercase() + rest;
-        match decision.key {
+        match decision.key() {
             Some(_) => drop(harness.get_by_role_and_label(Role::ComboBox, &term)),
-            None => drop(harness.get_by_label_contains(&decision.words[1..])),
+            None => drop(harness.get_by_label_contains(&words(&decision)[1..])),
         }
     }
 }
@@ -426,7 +427,7 @@ fn a_plate_shows_its_load_and_ratio() {
     let run = run("plate-crossover");
     let Outcome::Plate(result) = run.solution.outcome else { panic!("a plate") };
     let harness = shown(run, 300.0, 1.0);
-    let load = squeezefilm::export::digits::with_error(result.film_load, result.film_load_error);
+    let load = squeezefilm::digits::with_error(result.film_load, result.film_load_error);
     harness.get_by_label_contains(&format!("{load} N/m"));
     harness.get_by_label("Load / (p_a · length)");
     assert!(harness.query_by_label("Contact load").is_none());

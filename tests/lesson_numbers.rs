@@ -3,7 +3,7 @@
 
 use squeezefilm::analysis::exact as exact_of_runs;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
-use squeezefilm::analysis::torque::Merit;
+use squeezefilm::analysis::torque::TorqueCurves;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact;
@@ -258,7 +258,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
         let problem = problem(preset, set);
         let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
-        Merit::of_solve(&problem, Fidelity::Fine, &solution, &Cancel::new()).unwrap().unwrap()
+        TorqueCurves::of_solve(&problem, Fidelity::Fine, &solution, &Cancel::new()).unwrap().unwrap()
     };
     let usual = merit("fundamental", &[]);
     let idle = |of: &Performance| usual.rpm(of.no_load_speed.unwrap().value);

@@ -186,7 +186,7 @@ fn teeth_off_the_contact_nodes_and_extreme_meshes() {
     let (solution, result) = solve(&eight, &short);
     assert_eq!(solution.status, Status::Converged, "{:?}", solution.warnings);
     assert!((result.film_load + result.contact_load - 2.45).abs() < 5e-3 * 2.45);
-    assert!(solution.model.why.iter().any(|why| why.contains("whole number")));
+    assert!(solution.model.remarks.iter().any(|remark| remark.contains("whole number")));
 
     let touching = Motor { tooth_width: fundamental().pitch(), ..fundamental() };
     let ring = Motor { teeth: 1, tooth_width: fundamental().wavelength(), ..fundamental() };

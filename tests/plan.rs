@@ -38,7 +38,7 @@ const WHOLE: Numerics = Numerics {
 };
 
 fn decision<'a>(plan: &'a Plan, key: &str) -> &'a Decision {
-    plan.decisions.iter().find(|decision| decision.key == Some(key)).unwrap()
+    plan.decisions.iter().find(|decision| decision.key() == Some(key)).unwrap()
 }
 
 /// α and its numerical error: the stated one without what was left out on purpose.
@@ -523,9 +523,9 @@ fn measure(preset: &str, changes: Changes, fidelity: Fidelity) -> Vec<Measured> 
         }
         let auto = |fidelity| {
             let plan = Plan::motor(&motor, fidelity, &Numerics::default());
-            plan.decisions.iter().any(|other| other.key == Some(key) && other.chosen == decision.chosen)
+            plan.decisions.iter().any(|other| other.key() == Some(key) && other.chosen == decision.chosen)
         };
-        let what = format!("{preset} {changes:?} {key} = {}", decision.chosen);
+        let what = format!("{preset} {changes:?} {key} = {}", decision.value());
         let (Some((full, e1)), Some((found, e2))) = (alpha(&motor, &plan(&whole)), alpha(&motor, &reduced)) else {
             println!("not converged: {what}");
             continue;
@@ -614,7 +614,7 @@ fn the_plan_leaves_out_only_what_is_below_its_share() {
             let coarse = solved > share && !plan.trapped;
             for decision in &plan.decisions {
                 assert!(!decision.overruled, "{changes:?} {fidelity}: {decision:?}");
-                let wedge = coarse && decision.key == Some("numerics.wedge");
+                let wedge = coarse && decision.key() == Some("numerics.wedge");
                 assert!(wedge || decision.effect <= share, "{changes:?} {fidelity}: {decision:?}");
             }
             assert!(coarse || plan.left_out <= 3.0 * share, "{changes:?} {fidelity}: {}", plan.left_out);
@@ -654,9 +654,9 @@ fn a_switch_overrules_the_plan_and_is_marked() {
     ] {
         let plan = Plan::motor(&motor, Fidelity::Standard, &numerics);
         let asked = decision(&plan, key);
-        assert_eq!(asked.chosen, value);
-        assert_eq!(asked.overruled, value != decision(&auto, key).chosen, "{asked:?}");
-        for other in plan.decisions.iter().filter(|other| other.key != Some(key)) {
+        assert_eq!(asked.value(), value);
+        assert_eq!(asked.overruled, value != decision(&auto, key).value(), "{asked:?}");
+        for other in plan.decisions.iter().filter(|other| other.key() != Some(key)) {
             assert!(!other.overruled, "{value}: {other:?}");
         }
         // What was left out on request is part of the stated error.

@@ -1,9 +1,9 @@
 //! Torque, power and efficiency of solved motors: balances that hold whatever the contact is, limits, honest errors.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use squeezefilm::analysis::torque::Merit;
+use squeezefilm::analysis::torque::TorqueCurves;
 use squeezefilm::control::Cancel;
-use squeezefilm::drive::{Drive, film_power, surface_speed};
+use squeezefilm::drive::{Drive, film_power};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::without_film;
 use squeezefilm::plan::Plan;
@@ -18,7 +18,7 @@ struct Solved {
     motor: Motor,
     result: MotorResult,
     recording: Recording,
-    merit: Merit,
+    merit: TorqueCurves,
 }
 
 fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Method) -> Solved {
@@ -31,7 +31,8 @@ fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Met
         panic!("a motor")
     };
     let recording = solution.recording;
-    let merit = Merit::of(&motor, &problem.numerics, fidelity, &result, &recording, &Cancel::new()).unwrap().unwrap();
+    let merit =
+        TorqueCurves::of(&motor, &problem.numerics, fidelity, &result, &recording, &Cancel::new()).unwrap().unwrap();
     Solved { motor, result, recording, merit }
 }
 
@@ -60,7 +61,7 @@ fn heat_node_by_node(solved: &Solved, speed: f64) -> f64 {
 fn what_the_stator_gives_is_what_the_rotor_and_the_heat_take() {
     let solved = solved("fundamental", &[], Fidelity::Fine);
     let merit = &solved.merit;
-    let v0 = surface_speed(&solved.motor);
+    let v0 = solved.motor.surface_speed();
     assert!((v0 - TAU * 30e3 * 1e-6).abs() < 1e-12);
     // The curve is scaled to the extrapolated contact load, the sums are of the finest grid.
     let share = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
@@ -237,7 +238,7 @@ fn stated_errors_hold_against_the_reference() {
 #[test]
 fn another_rotor_speed_changes_the_torque_by_less_than_is_said() {
     let still = solved("fundamental", &[("numerics.wedge", "on")], Fidelity::Fine);
-    let top = still.merit.rpm(surface_speed(&still.motor)).to_string();
+    let top = still.merit.rpm(still.motor.surface_speed()).to_string();
     let turning = solved("fundamental", &[("numerics.wedge", "on"), ("motor.rotor_speed_rpm", &top)], Fidelity::Fine);
     let change = (turning.result.max_torque / still.result.max_torque - 1.0).abs();
     assert!(change <= still.merit.speed_effect, "{change} {}", still.merit.speed_effect);
@@ -278,7 +279,7 @@ fn one_tooth_stands_for_all() {
 #[test]
 fn the_shapes_are_those_of_the_recorded_contact() {
     let solved = solved("fundamental", &[], Fidelity::Draft);
-    let drive = Drive::new(&solved.recording.line_loads());
+    let drive = Drive::new(&solved.recording.lines);
     let mean = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
     assert!((drive.load() / mean - 1.0).abs() < 1e-12);
     assert_eq!(film_power(&solved.motor, &solved.recording), solved.merit.film_power);

@@ -5,6 +5,7 @@
 
 pub mod attempt;
 pub mod compare;
+pub mod decision;
 pub mod exact;
 pub mod quantity;
 pub mod regime;

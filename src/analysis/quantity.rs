@@ -1,9 +1,8 @@
 //! The numbers of one solve under their names in JSON and CSV, so that any of them can be put on an axis.
 
 use crate::dimensionless::Dimensionless;
-use crate::drive::rpm;
 use crate::estimate::Estimate;
-use crate::problem::{Problem, Scenario};
+use crate::problem::{Problem, Scenario, rpm};
 use crate::scene::Belongs;
 use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Solution, Status};
 
@@ -235,10 +234,9 @@ impl Numbers {
         }
         match (&problem.scenario, &solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
-                let dry = motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius;
-                numbers.motor(result, motor.load, dry);
+                numbers.motor(result, motor.load, motor.friction_torque(motor.load));
                 if let Some(found) = &solution.performance {
-                    numbers.performance(found, |speed| rpm(motor, speed));
+                    numbers.performance(found, |speed| rpm(speed, motor.contact_radius));
                 }
             }
             (Scenario::Plate(plate), Outcome::Plate(result)) => {

@@ -1,6 +1,7 @@
 //! What the dimensionless numbers of a scene say about its film, and whether the film matters, in words.
 
 use super::validity::mach;
+use crate::digits::rounded;
 use crate::dimensionless::Dimensionless;
 use crate::problem::{Problem, Scenario};
 use crate::solution::{Outcome, PlateResult};
@@ -35,7 +36,7 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
         // A solver answers in kind.
         _ => return String::new(),
     };
-    let percent = format!("{} %", rounded(100.0 * share.abs()));
+    let percent = format!("{} %", rounded(100.0 * share.abs(), 2));
     match share {
         _ if !share.is_finite() => "what it carries here is not known".to_owned(),
         _ if sucks(share, error) => {
@@ -54,11 +55,6 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
 /// Whether a film load is truly negative: beyond its error, and by more than round-off.
 pub fn sucks(load: f64, error: f64) -> bool {
     load + error.abs() < -NOTHING
-}
-
-/// To two digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// What the bearing number Λ says, beside the squeeze number.

@@ -1,7 +1,7 @@
 //! Where a method solves, and where it does not: maps of a motor's parameters to the edges of their ranges.
 //!
 //! Each cell of a map is one scene, solved by itself and judged: what a solver says of itself (converged or not), and
-//! what physics says of its numbers ([`Fault`]). Cells are solved on rayon's pool and do not depend on its threads.
+//! what physics says of its numbers ([`Violation`]). Cells are solved on rayon's pool and do not depend on its threads.
 
 use super::attempt::attempt;
 use super::quantity::Numbers;
@@ -153,7 +153,7 @@ pub const VERDICTS: [&str; 5] = ["solved", "not converged", "non-physical", "fai
 
 /// What cannot be.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
+pub enum Violation {
     /// A result that is no number.
     #[error("{0} is not a finite number")]
     NotFinite(&'static str),
@@ -192,9 +192,9 @@ const SHARE: f64 = 1e-6;
 const BALANCE: f64 = 2e-3;
 
 /// What cannot be of a motor's solution.
-pub fn faults(motor: &Motor, solution: &Solution) -> Vec<Fault> {
-    let Outcome::Motor(result) = &solution.outcome else { return vec![Fault::NotFinite("α")] };
-    let mut faults = Vec::new();
+pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
+    let Outcome::Motor(result) = &solution.outcome else { return vec![Violation::NotFinite("α")] };
+    let mut violations = Vec::new();
     for (name, value) in [
         ("α", result.alpha),
         ("the error of α", result.alpha_error),
@@ -205,12 +205,12 @@ pub fn faults(motor: &Motor, solution: &Solution) -> Vec<Fault> {
         ("the highest pressure", result.max_pressure),
     ] {
         if !value.is_finite() {
-            faults.push(Fault::NotFinite(name));
+            violations.push(Violation::NotFinite(name));
         }
     }
     let (alpha, error) = (result.alpha, result.alpha_error);
     if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
-        faults.push(Fault::Share { alpha, error });
+        violations.push(Violation::Share { alpha, error });
     }
     let recording = &solution.recording;
     // One NaN makes the least value NaN, which is at fault everywhere.
@@ -218,15 +218,15 @@ pub fn faults(motor: &Motor, solution: &Solution) -> Vec<Fault> {
         |values: &[f64]| values.iter().copied().fold(f64::INFINITY, |a, b| if a.is_nan() || b >= a { a } else { b });
     let pressure = least(&recording.pressure);
     if pressure <= 0.0 || pressure.is_nan() {
-        faults.push(Fault::Pressure(pressure));
+        violations.push(Violation::Pressure(pressure));
     }
     let thickness = least(&[least(&recording.film_thickness), result.min_gap]);
     if thickness < motor.min_spacing * (1.0 - ROUND_OFF) || thickness.is_nan() {
-        faults.push(Fault::Overlap { thickness, spacing: motor.min_spacing });
+        violations.push(Violation::Overlap { thickness, spacing: motor.min_spacing });
     }
     let contact = least(&recording.contact);
     if contact < -ROUND_OFF * motor.load / motor.wavelength() || contact.is_nan() {
-        faults.push(Fault::Pull(contact));
+        violations.push(Violation::Pull(contact));
     }
     let missed = recording
         .film_load
@@ -235,26 +235,26 @@ pub fn faults(motor: &Motor, solution: &Solution) -> Vec<Fault> {
         .map(|(film, contact)| ((film + contact) / motor.load - 1.0).abs())
         .fold(0.0, |a: f64, b| if a.is_nan() || b <= a { a } else { b });
     if missed > error + BALANCE || missed.is_nan() {
-        faults.push(Fault::Balance(missed));
+        violations.push(Violation::Balance(missed));
     }
-    faults
+    violations
 }
 
 /// What a solve comes to, and what about it cannot be.
-pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<Fault>) {
+pub fn judge(motor: &Motor, solved: &Result<Solution, String>) -> (Verdict, Vec<Violation>) {
     match solved {
         Err(reason) => (Verdict::Failed(reason.clone()), Vec::new()),
         Ok(solution) => {
-            let faults = faults(motor, solution);
+            let violations = violations(motor, solution);
             let verdict = match solution.status {
-                Status::Converged if faults.is_empty() => Verdict::Solved,
+                Status::Converged if violations.is_empty() => Verdict::Solved,
                 Status::Converged => Verdict::NonPhysical,
                 // That nothing is told is told: the numbers are within their errors.
-                Status::NotResolved { .. } if faults.is_empty() => Verdict::Solved,
+                Status::NotResolved { .. } if violations.is_empty() => Verdict::Solved,
                 Status::NotResolved { .. } => Verdict::NonPhysical,
                 Status::NotConverged { .. } | Status::Cancelled => Verdict::NotConverged,
             };
-            (verdict, faults)
+            (verdict, violations)
         }
     }
 }
@@ -273,7 +273,7 @@ pub struct Cell {
     /// What became of it.
     pub verdict: Verdict,
     /// What about its numbers cannot be.
-    pub faults: Vec<Fault>,
+    pub violations: Vec<Violation>,
     /// Its numbers; none if it failed or was refused.
     pub numbers: Numbers,
 }
@@ -342,7 +342,7 @@ fn places(scene: &Scene, maps: &[&'static Map], methods: &[Method], count: usize
                         place: [i, j],
                         changes: map.changes([*x, *y]),
                         verdict: Verdict::Refused(String::new()),
-                        faults: Vec::new(),
+                        violations: Vec::new(),
                         numbers: Numbers::default(),
                     });
                 }
@@ -382,7 +382,7 @@ fn solve_cell(scene: &Scene, mut cell: Cell, settings: &Settings, cancel: &Cance
     if cancel.is_cancelled() {
         return None;
     }
-    (cell.verdict, cell.faults) = judge(motor, &solved);
+    (cell.verdict, cell.violations) = judge(motor, &solved);
     if let Ok(solution) = &solved {
         cell.numbers = Numbers::of(&problem, solution);
     }
@@ -408,7 +408,7 @@ fn most_cycles(problem: &Problem) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::Recording;
+    use crate::recording::{LineLoads, Recording};
     use crate::solution::{Model, MotorResult, Stats};
 
     fn motor() -> Motor {
@@ -429,9 +429,8 @@ mod tests {
             ..MotorResult::default()
         };
         let recording = Recording {
+            lines: LineLoads { film_thickness: vec![2e-7, 1e-6], contact: vec![0.0, 100.0], ..LineLoads::default() },
             pressure: vec![1e5, 5e5],
-            film_thickness: vec![2e-7, 1e-6],
-            contact: vec![0.0, 100.0],
             film_load: vec![0.6, 0.625],
             contact_load: vec![1.85, 1.825],
             ..Recording::default()
@@ -462,26 +461,26 @@ mod tests {
         assert_eq!(verdict(Err("no".to_owned())), (Verdict::Failed("no".to_owned()), vec![]));
         // Within its error, a share may be a little out of range.
         assert_eq!(verdict(solution(|_, r| r.alpha = 1.0005)).0, Verdict::Solved);
-        let share = |alpha: f64| Fault::Share { alpha, error: 1e-3 };
+        let share = |alpha: f64| Violation::Share { alpha, error: 1e-3 };
         type Change = fn(&mut Solution, &mut MotorResult);
-        let wrong: [(Change, Fault); 9] = [
+        let wrong: [(Change, Violation); 9] = [
             (|_, r| r.alpha = 1.2, share(1.2)),
             (|_, r| r.alpha = -0.2, share(-0.2)),
-            (|_, r| r.max_torque = f64::NAN, Fault::NotFinite("the torque")),
-            (|_, r| r.alpha_error = f64::INFINITY, Fault::NotFinite("the error of α")),
-            (|s, _| s.recording.pressure[1] = -3.0, Fault::Pressure(-3.0)),
-            (|s, _| s.recording.film_thickness[1] = 1e-7, Fault::Overlap { thickness: 1e-7, spacing: 2e-7 }),
-            (|_, r| r.min_gap = 0.0, Fault::Overlap { thickness: 0.0, spacing: 2e-7 }),
-            (|s, _| s.recording.contact[0] = -1.0, Fault::Pull(-1.0)),
-            (|s, _| s.recording.contact_load[1] = 4.275, Fault::Balance(1.0)),
+            (|_, r| r.max_torque = f64::NAN, Violation::NotFinite("the torque")),
+            (|_, r| r.alpha_error = f64::INFINITY, Violation::NotFinite("the error of α")),
+            (|s, _| s.recording.pressure[1] = -3.0, Violation::Pressure(-3.0)),
+            (|s, _| s.recording.film_thickness[1] = 1e-7, Violation::Overlap { thickness: 1e-7, spacing: 2e-7 }),
+            (|_, r| r.min_gap = 0.0, Violation::Overlap { thickness: 0.0, spacing: 2e-7 }),
+            (|s, _| s.recording.contact[0] = -1.0, Violation::Pull(-1.0)),
+            (|s, _| s.recording.contact_load[1] = 4.275, Violation::Balance(1.0)),
         ];
         for (change, expected) in wrong {
             assert_eq!(verdict(solution(change)), (Verdict::NonPhysical, vec![expected]));
         }
-        let (verdict, faults) = verdict(solution(|s, _| s.recording.pressure[0] = f64::NAN));
+        let (verdict, violations) = verdict(solution(|s, _| s.recording.pressure[0] = f64::NAN));
         assert!(
-            verdict == Verdict::NonPhysical && matches!(faults[..], [Fault::Pressure(p)] if p.is_nan()),
-            "{faults:?}"
+            verdict == Verdict::NonPhysical && matches!(violations[..], [Violation::Pressure(p)] if p.is_nan()),
+            "{violations:?}"
         );
     }
 

@@ -1,15 +1,15 @@
 //! What a designer wants of a motor: torque, power and efficiency over the rotor's speed ([`crate::drive`]), with the film and
 //! without it.
 //!
-//! The pressures are those of the scene's rotor speed; what another speed changes is bounded ([`Merit::speed_effect`]).
+//! The pressures are those of the scene's rotor speed; what another speed changes is bounded ([`TorqueCurves::speed_effect`]).
 
 use crate::control::Cancel;
-use crate::drive::{Scaled, film_power, lines, ring, surface_speed};
+use crate::drive::{Scaled, film_power, lines, ring};
 use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
 use crate::motor::{MotorError, without_film};
 use crate::plan::{Plan, wedge_bound};
-use crate::problem::{Motor, Numerics, Problem, Scenario};
+use crate::problem::{Motor, Numerics, Problem, Scenario, rpm};
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Outcome, Performance, Solution};
 use std::f64::consts::TAU;
@@ -19,7 +19,7 @@ const SPEEDS: usize = 121;
 
 /// What a designer wants of a motor; the whole ring.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Merit {
+pub struct TorqueCurves {
     /// With the film.
     pub with_film: Performance,
     /// The same motor in a vacuum: contact solved without gas.
@@ -39,7 +39,7 @@ pub struct Merit {
     pub speed_effect: f64,
 }
 
-impl Merit {
+impl TorqueCurves {
     /// From a solve of `motor`, and the contact without film, which is solved here on the grids that `fidelity` and
     /// `numerics` ask for. `None` if cancelled.
     ///
@@ -81,7 +81,7 @@ impl Merit {
         let with_film = Scaled::with_film(motor, result, recording);
         let without_film = Scaled::without_film(motor, dry);
         let share = (1.0 - result.alpha).max(0.0);
-        let v0 = surface_speed(motor);
+        let v0 = motor.surface_speed();
         let mut speeds: Vec<f64> = if v0 > 0.0 {
             let marked = [with_film.no_load_speed(), without_film.no_load_speed(), Some(motor.rotor_speed)];
             let even = (0..SPEEDS).map(|i| v0 * i as f64 / (SPEEDS - 1) as f64);
@@ -109,24 +109,24 @@ impl Merit {
 
     /// A surface speed \[m/s\] as rotations in a minute.
     pub fn rpm(&self, speed: f64) -> f64 {
-        60.0 * speed / (TAU * self.radius)
+        rpm(speed, self.radius)
     }
 }
 
 /// Torque of the shear in the film, μU/h on the teeth, of the whole ring \[N m\]: the greatest from rest to the stator's
 /// greatest speed. Slip lowers it; it is left out here.
 fn viscous_drag(motor: &Motor, recording: &Recording) -> f64 {
-    let loads = recording.line_loads();
-    let v0 = surface_speed(motor);
+    let loads = &recording.lines;
+    let v0 = motor.surface_speed();
     let (mut still, mut slope) = (0.0, 0.0);
-    for (phase, line) in lines(&loads) {
+    for (phase, line) in lines(loads) {
         for (i, (x, length)) in loads.x.iter().zip(&loads.node_length).enumerate() {
             let per_speed = motor.gas.viscosity * motor.contact_width * length / recording.film_thickness[line + i];
             still += per_speed * v0 * (TAU * (phase + x / loads.length)).cos();
             slope += per_speed;
         }
     }
-    let scale = ring(motor, &loads) * motor.contact_radius / loads.frames.max(1) as f64;
+    let scale = ring(motor, loads) * motor.contact_radius / loads.frames.max(1) as f64;
     let [at_rest, at_speed] = [scale * still, scale * (still - slope * v0)];
     if at_rest.abs() > at_speed.abs() { at_rest } else { at_speed }
 }

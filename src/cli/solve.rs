@@ -6,7 +6,7 @@ use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::{summary, terminal};
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::{Summary, force_unit};
 use crate::fidelity::Fidelity;
@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         return Ok(Exit::Other);
     }
     let mut result = Summary::new(&problem, &solution, wall_s, command);
-    let merit = result.add_merit(Merit::of_solve(&problem, settings.fidelity, &solution, &cancel));
+    let torque = result.add_torque(TorqueCurves::of_solve(&problem, settings.fidelity, &solution, &cancel));
     for warning in &result.warnings {
         terminal::warning(warning);
     }
@@ -97,8 +97,13 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         summary::text(&scene, &problem, &solution.outcome, &result)
     })?;
     if let Some(folder) = &arguments.output.out {
-        let solved =
-            Solved { scene: &scene, problem: &problem, solution: &solution, history: &history, merit: merit.as_ref() };
+        let solved = Solved {
+            scene: &scene,
+            problem: &problem,
+            solution: &solution,
+            history: &history,
+            torque: torque.as_ref(),
+        };
         if let Some(text) = announced(folder, files::expected_size(&problem, &solution.recording)) {
             terminal::note(&text);
         }

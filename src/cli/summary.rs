@@ -3,15 +3,17 @@
 use super::columns::{Columns, paragraph};
 use crate::analysis::regime;
 use crate::analysis::validity::Excess;
+use crate::digits::{as_given, percent, significant, with_error};
 use crate::dimensionless::Dimensionless;
-use crate::export::digits::{significant, with_error};
 use crate::export::exact::{ExactObject, units};
 use crate::export::json::{Summary, beside_limit};
-use crate::export::merit::{MeritObject, PerformanceObject};
+use crate::export::torque::{PerformanceObject, TorqueObject};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::Scene;
 use crate::solution::Outcome;
 use std::fmt::Write as _;
+
+pub(super) use crate::digits::duration;
 
 /// Significant digits of numbers without an error of their own.
 const DIGITS: usize = 4;
@@ -29,10 +31,10 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
         Scenario::Plate(plate) => plate_rows(&mut columns, plate, summary),
     }
     text.push_str(&columns.text("  ", &[]));
-    if let (Some(merit), Scenario::Motor(motor)) = (&summary.merit, &problem.scenario) {
+    if let (Some(torque), Scenario::Motor(motor)) = (&summary.torque, &problem.scenario) {
         text.push('\n');
         let mut columns = Columns::new();
-        merit_rows(&mut columns, motor, merit);
+        torque_rows(&mut columns, motor, torque);
         text.push_str(&columns.text("  ", &[]));
     }
     text.push('\n');
@@ -71,8 +73,8 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     let error = or_nan(summary.alpha_error);
     let dry = or_nan(summary.dry_torque_nm);
     let negative = regime::sucks(or_nan(summary.alpha), error);
-    let without = summary.merit.as_ref().map_or_else(String::new, |merit| {
-        let dry = &merit.without_film;
+    let without = summary.torque.as_ref().map_or_else(String::new, |torque| {
+        let dry = &torque.without_film;
         format!("; {} without film", stated(dry.stall_torque_nm, dry.stall_torque_error_nm, 1.0, "N·m"))
     });
     columns.row([
@@ -80,7 +82,7 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
         &with_error(or_nan(summary.alpha), error),
         &format!(
             "of the {} N pressed on one wavelength{}",
-            plain(motor.load),
+            as_given(motor.load),
             if negative { "; the film sucks" } else { "" }
         ),
     ]);
@@ -114,13 +116,13 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
         Some(false) => ["levitated", "no", "teeth touch the rotor"],
         None => ["levitated", "unknown", ""],
     });
-    let spacing = format!("the minimum spacing of {} nm included", plain(motor.min_spacing * 1e9));
+    let spacing = format!("the minimum spacing of {} nm included", as_given(motor.min_spacing * 1e9));
     extremes(columns, summary, &spacing, motor.gas.ambient_pressure);
 }
 
 /// Torque, power and efficiency over speed; the last column is the same motor in a vacuum.
-fn merit_rows(columns: &mut Columns, motor: &Motor, merit: &MeritObject) {
-    let (wet, dry) = (&merit.with_film, &merit.without_film);
+fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueObject) {
+    let (wet, dry) = (&torque.with_film, &torque.without_film);
     let without = |text: String| format!("{text} without film");
     let mut row = |name: &str, value: &dyn Fn(&PerformanceObject) -> String| {
         columns.row([name, &value(wet), &without(value(dry))]);
@@ -131,18 +133,18 @@ fn merit_rows(columns: &mut Columns, motor: &Motor, merit: &MeritObject) {
     row("greatest efficiency", &|of| stated(of.max_efficiency, of.max_efficiency_error, 100.0, "%"));
     row("  at", &|of| stated(of.max_efficiency_speed_rpm, of.max_efficiency_speed_error_rpm, 1.0, "rpm"));
     if motor.rotor_speed != 0.0 {
-        let speed = format!("torque at {} rpm", plain(or_nan(wet.present.speed_rpm)));
+        let speed = format!("torque at {} rpm", as_given(or_nan(wet.present.speed_rpm)));
         row(&speed, &|of| stated(of.present.torque_nm, of.present.torque_error_nm, 1.0, "N·m"));
     }
     columns.row([
         "power lost in the film",
-        &stated(merit.film_power_w, merit.film_power_error_w, 1.0, "W"),
+        &stated(torque.film_power_w, torque.film_power_error_w, 1.0, "W"),
         "squeezed by the stator, mean over the cycle",
     ]);
     columns.row([
         "friction of a dry model",
-        stated(merit.dry_equivalent_friction, merit.dry_equivalent_friction_error, 1.0, "").trim_end(),
-        &format!("has the same maximum operating torque as {} with the film", plain(motor.dry_friction)),
+        stated(torque.dry_equivalent_friction, torque.dry_equivalent_friction_error, 1.0, "").trim_end(),
+        &format!("has the same maximum operating torque as {} with the film", as_given(motor.dry_friction)),
     ]);
 }
 
@@ -165,7 +167,7 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
     if let Some(exact) = &summary.exact {
         exact_rows(columns, exact, units(plate));
     }
-    let mean = format!("the mean gap is {} nm", plain(plate.mean_gap * 1e9));
+    let mean = format!("the mean gap is {} nm", as_given(plate.mean_gap * 1e9));
     extremes(columns, summary, &mean, plate.gas.ambient_pressure);
 }
 
@@ -208,7 +210,7 @@ fn exact_rows(columns: &mut Columns, exact: &ExactObject, [stiffness, damping]: 
     if let Some(deviation) = exact.invariant_deviation {
         columns.row([
             "invariant of the cycle",
-            &format!("{} %", significant(100.0 * deviation, 2)),
+            &percent(deviation),
             "greatest deviation at any point, exactly 0 for every σ",
         ]);
     }
@@ -272,7 +274,7 @@ fn limits(validity: &[Excess]) -> String {
 
 /// `Cost: 42.6 ms for …`
 fn cost(summary: &Summary) -> String {
-    let stats = &summary.stats;
+    let stats = &summary.stats.counted;
     let mut parts = vec![format!("{} film steps", stats.film_steps)];
     if stats.coupling_iterations > 0 {
         parts.push(format!("{} rounds of film and contact", stats.coupling_iterations));
@@ -280,38 +282,20 @@ fn cost(summary: &Summary) -> String {
     } else {
         parts.push(format!("{} cycles", stats.cycles));
     }
-    let relative = |value: f64| format!("{} %", significant(100.0 * value, 2));
     if let (Some(asked), Some(stated)) = (summary.accuracy_asked, summary.accuracy_stated) {
         let why = match summary.stopped_by {
             "budget" => ", the time allowed was up",
             "limit" => ", no finer grid was tried",
             _ => "",
         };
-        parts.push(format!("stated error {} of {} asked for{why}", relative(stated), relative(asked)));
+        parts.push(format!("stated error {} of {} asked for{why}", percent(stated), percent(asked)));
     }
     let grid = format!("finest grid {} film nodes × {} steps a cycle", stats.film_nodes, stats.steps_per_cycle);
-    paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(stats.wall_s)), parts.join(", ")), "\n", "  ")
-}
-
-/// A wall time with its unit.
-pub(super) fn duration(seconds: f64) -> String {
-    if seconds < 1.0 {
-        format!("{} ms", significant(seconds * 1e3, 3))
-    } else if seconds < 120.0 {
-        format!("{} s", significant(seconds, 3))
-    } else {
-        format!("{} min", significant(seconds / 60.0, 3))
-    }
+    paragraph(&format!("Cost: {}: {}; {grid}", duration(or_nan(summary.stats.wall_s)), parts.join(", ")), "\n", "  ")
 }
 
 fn shown(value: f64) -> String {
     significant(value, DIGITS)
-}
-
-/// A number of the scene, with the digits it was given in: conversions to SI leave a last bit that nobody wrote.
-fn plain(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    format!("{rounded}")
 }
 
 /// What is null in the object is unknown here.
@@ -339,13 +323,5 @@ mod tests {
         let shown = text(&scene, &problem, &solution.outcome, &summary);
         assert!(shown.starts_with("Plate, viscous: NOT CONVERGED (the last round still changed by 2.0e-3"), "{shown}");
         assert!(shown.contains("N/m") && shown.contains("12.3 ms"), "{shown}");
-    }
-
-    #[test]
-    fn durations_have_a_unit() {
-        assert_eq!(
-            (duration(0.0426), duration(5.0), duration(300.0)),
-            ("42.6 ms".into(), "5.00 s".into(), "5.00 min".into())
-        );
     }
 }

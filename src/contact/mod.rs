@@ -20,7 +20,7 @@
 
 mod modes;
 
-pub use modes::{Modes, cutoff};
+pub use modes::{Modes, Shape, cutoff};
 
 use crate::numerics::dot;
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -44,28 +44,6 @@ pub struct Contact {
     s: Vec<f64>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
-}
-
-/// The unknowns of one instant, kept as the start of the next solve.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Shape {
-    /// z₀ \[m\], then the scaled cosine and sine amplitudes; empty before the first solve.
-    amplitudes: Vec<f64>,
-}
-
-impl Shape {
-    /// Nothing known yet.
-    pub fn unknown() -> Self {
-        Self { amplitudes: Vec::new() }
-    }
-
-    /// The same shape with another number of modes.
-    pub fn resized(&self, modes: &Modes) -> Self {
-        if self.amplitudes.is_empty() {
-            return Self::unknown();
-        }
-        modes.resize(&self.amplitudes)
-    }
 }
 
 /// Fields of one instant at the nodes.

@@ -7,7 +7,6 @@
 //! stiffness: what is solved is then not a minimum but a saddle point, convex in all other unknowns and concave in this one. There is
 //! still exactly one, because the whole compliance, C_n > 0, is positive.
 
-use super::Shape;
 use crate::numerics::dot;
 use crate::problem::RotorCompliance;
 use nalgebra::DMatrix;
@@ -27,6 +26,28 @@ pub struct Modes {
     cosines: Vec<f64>,
     /// sin(k_n x_i), `[n][i]`.
     sines: Vec<f64>,
+}
+
+/// The unknowns of one instant, kept as the start of the next solve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// z₀ \[m\], then the scaled cosine and sine amplitudes; empty before the first solve.
+    pub(super) amplitudes: Vec<f64>,
+}
+
+impl Shape {
+    /// Nothing known yet.
+    pub fn unknown() -> Self {
+        Self { amplitudes: Vec::new() }
+    }
+
+    /// The same shape with another number of modes.
+    pub fn resized(&self, modes: &Modes) -> Self {
+        if self.amplitudes.is_empty() {
+            return Self::unknown();
+        }
+        modes.resize(&self.amplitudes)
+    }
 }
 
 /// How many harmonics N a rotor needs: the first from which on all differ by at most `fraction` from the local compliance that they

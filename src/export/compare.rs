@@ -3,17 +3,18 @@
 //! Numbers are written with the fewest digits that read back to the same bits.
 
 use super::animation::{AnimationError, Movie, Options};
-use super::digits::{significant, with_error};
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
 use super::json::{beside_limit, status_name};
 use crate::analysis::compare::{ParameterRow, ResultCell, ResultRow, Run, parameters, results};
+use crate::analysis::decision::sentences;
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
 use crate::analysis::sweep::Ending;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
+use crate::digits::{significant, with_error};
 use crate::problem::Scenario;
 use crate::scene::Value;
 use crate::solution::Status;
@@ -106,7 +107,7 @@ impl Serialize for RunObject<'_> {
             .collect();
         map.serialize_entry("difference_percent", &differences)?;
         let solution = self.run.solved.as_ref().ok();
-        map.serialize_entry("why", &solution.map(|solution| &solution.model.why))?;
+        map.serialize_entry("why", &solution.map(|solution| sentences(&solution.model)))?;
         map.serialize_entry("validity", &solution.map(|solution| outside(&self.run.problem, Some(solution))))?;
         map.serialize_entry("warnings", &solution.map(|solution| &solution.warnings))?;
         map.serialize_entry("scene_toml", &self.run.scene.to_toml())?;
@@ -444,7 +445,7 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
         }
         match &run.solved {
             Ok(solution) => {
-                page.list(&solution.model.why);
+                page.list(&sentences(&solution.model));
                 page.text(&format!("The film: {}.", regime::weight(&run.problem, &solution.outcome)));
                 limits(&mut page, &outside(&run.problem, Some(solution)));
                 solution.warnings.iter().for_each(|warning| page.warning(warning));

@@ -6,10 +6,10 @@ use super::compare::{self, Report, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::folder::{Staged, WriteError, write_file};
 use super::json::{self, Summary};
-use super::{csv, figures, merit, npz, sweep};
+use super::{csv, figures, npz, sweep, torque};
 use crate::analysis::compare::Run;
 use crate::analysis::sweep::{Row, Sweep};
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::control::{Cancel, Progress};
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
@@ -81,7 +81,7 @@ pub struct Solved<'a> {
     /// The rounds, if they were kept.
     pub history: &'a [Progress],
     /// Torque over speed, of a motor.
-    pub merit: Option<&'a Merit>,
+    pub torque: Option<&'a TorqueCurves>,
 }
 
 /// Stages a figure under a name, once in each format.
@@ -134,8 +134,8 @@ pub fn solve(
     staged.add("fields.csv", |out| csv::fields(problem, &solution.recording, out))?;
     staged.add("pressure.csv", |out| csv::pressure(&solution.recording, out))?;
     staged.add("fields.npz", |out| npz::write(scene, problem, solution, out))?;
-    if let Some(merit) = solved.merit {
-        staged.add("torque.csv", |out| merit::write_csv(merit, out))?;
+    if let Some(curves) = solved.torque {
+        staged.add("torque.csv", |out| torque::write_csv(curves, out))?;
     }
     add_figures(&mut staged, solved, formats, control)?;
     control.check()?;
@@ -169,8 +169,8 @@ fn add_figures(
         return Ok(());
     }
     let mut figures = figures::of(solved.problem, solved.solution, solved.history);
-    if let Some(merit) = solved.merit {
-        let torque = figures::torque::torque(merit);
+    if let Some(curves) = solved.torque {
+        let torque = figures::torque::torque(curves);
         figures.push(("torque", figures::dressed(solved.problem, solved.solution, torque)));
     }
     let files: Vec<_> = figures.iter().flat_map(|figure| formats.iter().map(move |format| (figure, *format))).collect();

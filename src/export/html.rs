@@ -5,6 +5,8 @@
 //! decided here, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
 //! the contact's, grey), tables with rules but no boxes, wide enough for a projector and quiet enough for paper.
 
+pub use super::figure::escaped;
+
 use super::figure::{Figure, to_svg};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -261,23 +263,6 @@ impl Page {
             escaped(foot),
         )
     }
-}
-
-/// Text for HTML and XML; characters that neither may hold are replaced.
-pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' | '\t' => out.push(c),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 /// A command line as a shell takes it.

@@ -1,14 +1,15 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
+use crate::analysis::decision::sentences;
 use crate::analysis::exact::Comparison;
 pub use crate::analysis::quantity::force_unit;
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
+use crate::digits::{short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::export::digits::significant;
 use crate::export::exact::ExactObject;
-use crate::export::merit::MeritObject;
+use crate::export::torque::TorqueObject;
 use crate::motor::MotorError;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Model, MotorResult, Outcome, Performance, PlateResult, Solution, Stats, Status};
@@ -98,7 +99,8 @@ pub struct Summary {
     /// Kn.
     pub knudsen_number: Option<f64>,
     /// Torque, power and efficiency (motor), if they were asked for.
-    pub merit: Option<MeritObject>,
+    #[serde(rename = "merit")]
+    pub torque: Option<TorqueObject>,
     /// What is known exactly beside what was computed (plate).
     pub exact: Option<ExactObject>,
     /// Cost.
@@ -120,26 +122,9 @@ pub struct Summary {
 pub struct StatsObject {
     /// Wall time of the solve alone \[s\].
     pub wall_s: Option<f64>,
-    /// Time steps of one tooth's film.
-    pub film_steps: u64,
-    /// Linear solves of those steps.
-    pub film_solves: u64,
-    /// Steps that positivity made locally first-order.
-    pub limited_steps: u64,
-    /// Cycles of the vibration marched.
-    pub cycles: u64,
-    /// Rounds of the film–contact coupling.
-    pub coupling_iterations: u64,
-    /// Contact problems solved.
-    pub contact_solves: u64,
-    /// Newton iterations in them.
-    pub contact_iterations: u64,
-    /// Film nodes of one tooth.
-    pub film_nodes: usize,
-    /// Contact nodes in one wavelength.
-    pub contact_nodes: usize,
-    /// Time steps in a cycle.
-    pub steps_per_cycle: usize,
+    /// What was counted.
+    #[serde(flatten)]
+    pub counted: Stats,
 }
 
 /// What was modelled.
@@ -177,11 +162,11 @@ impl Numbers {
 
 impl Summary {
     /// Adds torque over speed, or the warning that it is not known, and returns it.
-    pub fn add_merit(&mut self, found: Result<Option<Merit>, MotorError>) -> Option<Merit> {
+    pub fn add_torque(&mut self, found: Result<Option<TorqueCurves>, MotorError>) -> Option<TorqueCurves> {
         match found {
-            Ok(merit) => {
-                self.merit = merit.as_ref().map(MeritObject::new);
-                merit
+            Ok(curves) => {
+                self.torque = curves.as_ref().map(TorqueObject::new);
+                curves
             }
             Err(error) => {
                 self.warnings.push(format!("torque over speed is not known: without film, {error}"));
@@ -207,7 +192,7 @@ impl Summary {
             accuracy_asked: (solution.accuracy.asked > 0.0).then_some(solution.accuracy.asked),
             accuracy_stated: numbers.take("accuracy_stated", solution.accuracy.stated),
             stopped_by: solution.accuracy.stopped_by.name(),
-            stats: StatsObject::new(&solution.stats, numbers.take("stats.wall_s", wall_s)),
+            stats: StatsObject { wall_s: numbers.take("stats.wall_s", wall_s), counted: solution.stats },
             model: ModelObject::new(&solution.model),
             validity: validity::outside(problem, Some(solution)),
             version: env!("CARGO_PKG_VERSION"),
@@ -256,7 +241,7 @@ impl Summary {
         self.min_gap_error_nm = numbers.take("min_gap_error_nm", result.min_gap_error * 1e9);
         self.contact_load_n = numbers.take("contact_load_n", result.contact_load);
         self.max_torque_nm = numbers.take("max_torque_nm", result.max_torque);
-        self.dry_torque_nm = numbers.take("dry_torque_nm", dry_torque(motor));
+        self.dry_torque_nm = numbers.take("dry_torque_nm", motor.friction_torque(motor.load));
         self.teeth_in_contact = numbers.take("teeth_in_contact", result.teeth_in_contact);
         self.levitated = Some(result.levitated);
         self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
@@ -300,14 +285,7 @@ pub fn text(object: &impl Serialize) -> String {
 /// `348, limit 0.1`
 pub fn beside_limit(excess: &Excess) -> String {
     let unit = if excess.unit.is_empty() { String::new() } else { format!(" {}", excess.unit) };
-    let limit = significant(excess.limit, 3);
-    // A limit of two digits has no third.
-    let limit = if limit.contains('.') && !limit.contains('e') {
-        limit.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &limit
-    };
-    format!("{}{unit}, limit {limit}{unit}", significant(excess.value, 3))
+    format!("{}{unit}, limit {}{unit}", significant(excess.value, 3), short(excess.limit, 3))
 }
 
 /// How a solve ended, in a word.
@@ -320,24 +298,6 @@ pub fn status_name(status: &Status) -> &'static str {
     }
 }
 
-impl StatsObject {
-    fn new(stats: &Stats, wall_s: Option<f64>) -> Self {
-        Self {
-            wall_s,
-            film_steps: stats.film_steps,
-            film_solves: stats.film_solves,
-            limited_steps: stats.limited_steps,
-            cycles: stats.cycles,
-            coupling_iterations: stats.coupling_iterations,
-            contact_solves: stats.contact_solves,
-            contact_iterations: stats.contact_iterations,
-            film_nodes: stats.film_nodes,
-            contact_nodes: stats.contact_nodes,
-            steps_per_cycle: stats.steps_per_cycle,
-        }
-    }
-}
-
 impl ModelObject {
     fn new(model: &Model) -> Self {
         Self {
@@ -346,14 +306,9 @@ impl ModelObject {
             teeth_solved: model.teeth_solved,
             half_width: model.half_width,
             shear: model.shear,
-            why: model.why.clone(),
+            why: sentences(model),
         }
     }
-}
-
-/// The paper's maximum operating torque of the whole ring if there were no air film, μ_d waves L r \[N m\].
-pub fn dry_torque(motor: &Motor) -> f64 {
-    motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius
 }
 
 #[cfg(test)]

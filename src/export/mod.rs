@@ -1,10 +1,11 @@
 //! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports, and how
 //! files get into a folder.
 
+pub use crate::digits;
+
 pub mod animation;
 pub mod compare;
 pub mod csv;
-pub mod digits;
 pub mod exact;
 pub mod figure;
 pub mod figures;
@@ -12,7 +13,7 @@ pub mod files;
 pub mod folder;
 pub mod html;
 pub mod json;
-pub mod merit;
+
 mod mp4;
 pub mod npz;
 pub mod reproduce;
@@ -20,5 +21,6 @@ pub mod stability;
 pub mod startup;
 pub mod sweep;
 pub mod table1;
+pub mod torque;
 pub mod tradeoff;
 mod video;

@@ -2,6 +2,7 @@
 
 use crate::analysis::quantity::Quantity;
 use crate::analysis::stability::{Cell, Edge, VERDICTS, Verdict};
+use crate::digits::as_given;
 use crate::export::figure::{Axis, Categories, Colour, Figure, Legend, Panel, Provenance, Width};
 use crate::fidelity::Fidelity;
 use crate::scene::{Parameter, Scale};
@@ -104,7 +105,7 @@ impl CellObject {
 
 /// Why a cell is not solved, and what about its numbers cannot be.
 pub fn detail(cell: &Cell) -> String {
-    let mut reasons: Vec<String> = cell.faults.iter().map(ToString::to_string).collect();
+    let mut reasons: Vec<String> = cell.violations.iter().map(ToString::to_string).collect();
     match &cell.verdict {
         Verdict::Failed(reason) | Verdict::Refused(reason) => reasons.insert(0, reason.clone()),
         Verdict::NotConverged => reasons.insert(
@@ -198,14 +199,9 @@ fn places(edge: Edge, values: impl Iterator<Item = (usize, f64)>) -> (Axis, Vec<
             // Decades from the first of the others, which keep their values.
             let decades = (0..=values.len()).map(|decade| first * 10f64.powi(decade as i32));
             let last = values.iter().copied().fold(first, f64::max) * (1.0 + 1e-9);
-            axis.names.extend(decades.take_while(|at| *at <= last).map(|at| (at, short(at))));
+            axis.names.extend(decades.take_while(|at| *at <= last).map(|at| (at, as_given(at).to_string())));
             values[0] = stand_in;
         }
     }
     (axis, values)
-}
-
-/// Without what rounding left.
-fn short(value: f64) -> String {
-    format!("{value:.9e}").parse::<f64>().unwrap_or(value).to_string()
 }

@@ -127,7 +127,8 @@ struct Face {
     coefficient: f64,
     /// Half the gaps before and behind it \[m\]: the weights of their pressures in Z_f.
     weights: [f64; 2],
-    /// Share of the pressure on the other side below which the pressure before and behind it chokes.
+    /// Of the nodes before and behind it: the share of the other node's pressure below which the flux no longer depends on the
+    /// node's own pressure, because the face is choked.
     choke: [f64; 2],
 }
 
@@ -478,8 +479,8 @@ impl Film {
         }
     }
 
-    /// Newton's method for the step. `careful`: damped by pseudo-time, the matrix's inertia raised until no pressure
-    /// moves by more than a factor, for the rare step on which plain Newton runs away.
+    /// Newton's method for the step. `careful`, for the rare step on which plain Newton diverges: what the fluxes add to the
+    /// diagonal of the matrix is raised until no pressure changes by more than a factor, and lowered again from there.
     fn newton<L: Mobility>(
         &mut self,
         law: L,

@@ -14,7 +14,7 @@ pub struct LessonError {
     /// Line in the file, from 1.
     pub line: Option<usize>,
     /// What is wrong.
-    pub what: What,
+    pub kind: LessonErrorKind,
 }
 
 impl fmt::Display for LessonError {
@@ -23,7 +23,7 @@ impl fmt::Display for LessonError {
         if let Some(line) = self.line {
             write!(f, "{line}:")?;
         }
-        write!(f, " {}", self.what)
+        write!(f, " {}", self.kind)
     }
 }
 
@@ -31,7 +31,7 @@ impl std::error::Error for LessonError {}
 
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum What {
+pub enum LessonErrorKind {
     /// The file or folder cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(String),

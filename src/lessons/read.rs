@@ -1,10 +1,10 @@
 //! `lesson.md` to a [`Lesson`]: headings, text, and blocks of TOML in fences. All faults of a file are found at once.
 
 use super::check::{Check, Name, name};
-use super::error::{LessonError, What};
+use super::error::{LessonError, LessonErrorKind};
+use super::lesson::{Act, Answer, Changes, Doing, Lesson, Question, Step, Task, WindowNames};
 use super::live::Live;
 use super::text::{self, Block, Inline};
-use super::{Act, Answer, Changes, Doing, Known, Lesson, Question, Step, Task};
 use crate::analysis::quantity::Quantity;
 use crate::scene::{Parameter, Scene, SceneError, presets};
 use std::path::Path;
@@ -33,10 +33,10 @@ pub(super) fn lesson(
     id: &str,
     source: &str,
     origin: &Path,
-    known: Known<'_>,
+    names: WindowNames<'_>,
     beside: Beside<'_>,
 ) -> Result<Lesson, Vec<LessonError>> {
-    let mut reader = Reader { origin, known, beside, faults: Vec::new(), scene: None };
+    let mut reader = Reader { origin, names, beside, faults: Vec::new(), scene: None };
     let lesson = reader.lesson(id, source);
     match lesson {
         Some(lesson) if reader.faults.is_empty() => Ok(lesson),
@@ -63,7 +63,7 @@ struct Raw {
 
 struct Reader<'a> {
     origin: &'a Path,
-    known: Known<'a>,
+    names: WindowNames<'a>,
     beside: Beside<'a>,
     faults: Vec<LessonError>,
     /// The scene of a student who has come this far.
@@ -71,8 +71,8 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn fault(&mut self, line: usize, what: What) {
-        self.faults.push(LessonError { origin: self.origin.to_owned(), line: Some(line), what });
+    fn fault(&mut self, line: usize, kind: LessonErrorKind) {
+        self.faults.push(LessonError { origin: self.origin.to_owned(), line: Some(line), kind });
     }
 
     fn lesson(&mut self, id: &str, source: &str) -> Option<Lesson> {
@@ -83,7 +83,7 @@ impl Reader<'_> {
         while let Some((number, line)) = lines.next() {
             if let Some(heading) = line.strip_prefix("## ").or_else(|| (line.trim() == "##").then_some("")) {
                 if heading.trim().is_empty() {
-                    self.fault(number, What::EmptyHeading);
+                    self.fault(number, LessonErrorKind::EmptyHeading);
                 }
                 let title = heading.trim().to_owned();
                 steps.push(Raw { line: number, title, body: Vec::new(), blocks: Vec::new() });
@@ -101,17 +101,17 @@ impl Reader<'_> {
                     piece.text.push('\n');
                 }
                 if !closed {
-                    self.fault(number, What::OpenBlock(kind.trim().to_owned()));
+                    self.fault(number, LessonErrorKind::OpenBlock(kind.trim().to_owned()));
                     continue;
                 }
                 let Some(kind) = [SETUP, QUESTION, TASK].into_iter().find(|known| *known == kind.trim()) else {
-                    self.fault(number, What::UnknownBlock { found: kind.trim().to_owned() });
+                    self.fault(number, LessonErrorKind::UnknownBlock { found: kind.trim().to_owned() });
                     continue;
                 };
                 match steps.last_mut() {
-                    None => self.fault(number, What::BlockOutside(kind)),
+                    None => self.fault(number, LessonErrorKind::BlockOutside(kind)),
                     Some(step) if step.blocks.iter().any(|(other, _)| *other == kind) => {
-                        self.fault(number, What::BlockTwice(kind));
+                        self.fault(number, LessonErrorKind::BlockTwice(kind));
                     }
                     Some(step) => step.blocks.push((kind, piece)),
                 }
@@ -128,10 +128,10 @@ impl Reader<'_> {
             }
         }
         if title.is_empty() {
-            self.fault(1, What::NoTitle);
+            self.fault(1, LessonErrorKind::NoTitle);
         }
         if steps.is_empty() {
-            self.fault(1, What::NoSteps);
+            self.fault(1, LessonErrorKind::NoSteps);
         }
         let about = self.text(&about);
         let steps: Vec<Option<Step>> = steps.iter().map(|step| self.step(step)).collect();
@@ -161,7 +161,7 @@ impl Reader<'_> {
             if setup.faulty {
                 return None;
             }
-            self.fault(raw.line, What::NoScene);
+            self.fault(raw.line, LessonErrorKind::NoScene);
             return None;
         }
         let scene = self.scene.clone()?;
@@ -190,8 +190,9 @@ impl Reader<'_> {
                 for key in tree.get_ref().keys() {
                     let name = key.get_ref().as_ref();
                     if !keys.contains(&name) {
-                        let what = What::UnknownKey { block, key: name.to_owned(), allowed: keys.join(", ") };
-                        self.fault(table.line(key.span().start), what);
+                        let kind =
+                            LessonErrorKind::UnknownKey { block, key: name.to_owned(), allowed: keys.join(", ") };
+                        self.fault(table.line(key.span().start), kind);
                     }
                 }
                 read(self, &table);
@@ -199,7 +200,7 @@ impl Reader<'_> {
             Err(error) => {
                 let line = piece.line + error.span().map_or(0, |span| newlines(&piece.text, span.start));
                 let message = error.message().lines().next().unwrap_or_default().to_owned();
-                self.fault(line, What::Syntax(message));
+                self.fault(line, LessonErrorKind::Syntax(message));
             }
         }
     }
@@ -215,13 +216,13 @@ impl Reader<'_> {
             let built_in = || presets::BUILT_IN.iter().find(|preset| preset.name == name).map(|preset| preset.scene());
             match (self.beside)(&name).or_else(built_in) {
                 Some(Ok(scene)) => self.scene = Some(scene),
-                Some(Err(error)) => self.fault(line, What::Scene { block: SETUP, key: "preset", error }),
-                None => self.fault(line, What::NoPreset { name }),
+                Some(Err(error)) => self.fault(line, LessonErrorKind::Scene { block: SETUP, key: "preset", error }),
+                None => self.fault(line, LessonErrorKind::NoPreset { name }),
             }
         }
         if let Some(mut scene) = self.scene.clone() {
             if let Err(error) = scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
-                self.fault(table.line_of("set"), What::Scene { block: SETUP, key: "set", error });
+                self.fault(table.line_of("set"), LessonErrorKind::Scene { block: SETUP, key: "set", error });
             }
             self.scene = Some(scene);
         }
@@ -233,27 +234,27 @@ impl Reader<'_> {
                 (_, Some(scene)) => {
                     let allowed: Vec<&str> = scene.parameters().map(|parameter| parameter.key).collect();
                     let allowed = allowed.join(", ");
-                    self.fault(line, What::NotOneOf { block: SETUP, key: "light", found: key, allowed });
+                    self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "light", found: key, allowed });
                 }
                 (_, None) => {}
             }
         }
         for (place, line) in self.strings(table, "look") {
-            if self.known.places.contains(&place.as_str()) {
+            if self.names.places.contains(&place.as_str()) {
                 setup.look.push(place);
             } else {
-                let allowed = self.known.places.join(", ");
-                self.fault(line, What::NotOneOf { block: SETUP, key: "look", found: place, allowed });
+                let allowed = self.names.places.join(", ");
+                self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "look", found: place, allowed });
             }
         }
         if let Some((tab, line)) = self.string(table, "tab") {
             let plate = self.scene.as_ref().is_some_and(|scene| scene.scene() == "plate");
-            let tabs = self.known.tabs[usize::from(plate)];
+            let tabs = self.names.tabs[usize::from(plate)];
             if tabs.iter().any(|known| known.eq_ignore_ascii_case(&tab)) {
                 setup.tab = Some(tab);
             } else {
                 let allowed = tabs.join(", ");
-                self.fault(line, What::NotOneOf { block: SETUP, key: "tab", found: tab, allowed });
+                self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "tab", found: tab, allowed });
             }
         }
         for (shown, line) in self.strings(table, "show") {
@@ -264,7 +265,7 @@ impl Reader<'_> {
                     let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
                     let allowed: Vec<&str> = results.collect();
                     let allowed = format!("{}, or a key of this scene", allowed.join(", "));
-                    self.fault(line, What::NotOneOf { block: SETUP, key: "show", found: shown, allowed });
+                    self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "show", found: shown, allowed });
                 }
             }
         }
@@ -276,14 +277,14 @@ impl Reader<'_> {
         let ask = self.blocks(table, "ask", Some("what is asked"));
         let why = self.blocks(table, "why", Some("what is said once the prediction is made"));
         let choices = self.strings(table, "choices");
-        let missing = |why| What::Missing { block: QUESTION, key: "answer", why };
+        let missing = |why| LessonErrorKind::Missing { block: QUESTION, key: "answer", why };
         let answer = if table.get("choices").is_some() {
             let read: Vec<Option<Vec<Inline>>> = choices
                 .iter()
                 .map(|(choice, line)| match text::inline(choice) {
                     Ok(inline) => Some(inline),
                     Err(error) => {
-                        self.fault(*line, What::TextIn { block: QUESTION, key: "choices", error });
+                        self.fault(*line, LessonErrorKind::TextIn { block: QUESTION, key: "choices", error });
                         None
                     }
                 })
@@ -298,7 +299,7 @@ impl Reader<'_> {
             if !right || choices.len() < 2 {
                 let allowed = format!("1 to {}, of at least 2 choices", choices.len());
                 let found = answer.to_string();
-                self.fault(line, What::OutOfRange { block: QUESTION, key: "answer", found, allowed });
+                self.fault(line, LessonErrorKind::OutOfRange { block: QUESTION, key: "answer", found, allowed });
                 return None;
             }
             Answer::Choice { choices, right: answer as usize - 1 }
@@ -311,7 +312,7 @@ impl Reader<'_> {
             let (within, line) = self.number(table, "within").unwrap_or((WITHIN, table.first_line()));
             if !(within > 0.0 && within <= 1.0) {
                 let (found, allowed) = (within.to_string(), "above 0 to 1, relative to the answer".to_owned());
-                self.fault(line, What::OutOfRange { block: QUESTION, key: "within", found, allowed });
+                self.fault(line, LessonErrorKind::OutOfRange { block: QUESTION, key: "within", found, allowed });
             }
             Answer::Number { value, unit, within }
         };
@@ -327,14 +328,14 @@ impl Reader<'_> {
         let Some((source, line)) = self.string(table, "check") else {
             if table.get("check").is_none() {
                 let why = "what the run is checked for, as alpha > 1.5 * start.alpha";
-                self.fault(table.first_line(), What::Missing { block: TASK, key: "check", why });
+                self.fault(table.first_line(), LessonErrorKind::Missing { block: TASK, key: "check", why });
             }
             return None;
         };
         match Check::parse(&source, scene) {
             Ok(check) => Some(Task { ask, check, hint, example, wrong, then }),
             Err(error) => {
-                self.fault(line, What::Check { block: TASK, key: "check", source_text: source, error });
+                self.fault(line, LessonErrorKind::Check { block: TASK, key: "check", source_text: source, error });
                 None
             }
         }
@@ -358,7 +359,7 @@ impl Reader<'_> {
         }
         let mut changed = scene.clone();
         if let Err(error) = changed.set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
-            self.fault(table.line_of(key), What::Scene { block: TASK, key, error });
+            self.fault(table.line_of(key), LessonErrorKind::Scene { block: TASK, key, error });
         }
         doing
     }
@@ -371,7 +372,7 @@ impl Reader<'_> {
     /// Reads `key = value`.
     fn change(&mut self, table: &Table<'_>, key: &'static str, text: &str, line: usize) -> Option<(String, String)> {
         let Some((name, value)) = text.split_once('=') else {
-            self.fault(line, What::NoChange { block: table.block, key, found: text.to_owned() });
+            self.fault(line, LessonErrorKind::NoChange { block: table.block, key, found: text.to_owned() });
             return None;
         };
         let value = value.trim();
@@ -382,14 +383,14 @@ impl Reader<'_> {
     fn blocks(&mut self, table: &Table<'_>, key: &'static str, needed: Option<&'static str>) -> Vec<Block> {
         let Some((text, line)) = self.string(table, key) else {
             if let (Some(why), None) = (needed, table.get(key)) {
-                self.fault(table.first_line(), What::Missing { block: table.block, key, why });
+                self.fault(table.first_line(), LessonErrorKind::Missing { block: table.block, key, why });
             }
             return Vec::new();
         };
         match text::blocks(&text) {
             Ok(blocks) => blocks,
             Err((_, error)) => {
-                self.fault(line, What::TextIn { block: table.block, key, error });
+                self.fault(line, LessonErrorKind::TextIn { block: table.block, key, error });
                 Vec::new()
             }
         }
@@ -452,7 +453,10 @@ impl Reader<'_> {
     ) {
         const LONGEST: usize = 60;
         let found: String = table.piece.text[value.span()].chars().take(LONGEST).collect();
-        self.fault(table.line(value.span().start), What::WrongType { block: table.block, key, found, expected });
+        self.fault(
+            table.line(value.span().start),
+            LessonErrorKind::WrongType { block: table.block, key, found, expected },
+        );
     }
 }
 

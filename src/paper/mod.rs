@@ -109,11 +109,11 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
 
     let mut march = March::new(motor, nx, ny, n, steps, knudsen);
     let mut recorder = Recorder::new(&march);
-    let mut run = Run::default();
-    let status = run.cycles(&mut march, &mut recorder, observer, cancel, &mut warnings);
+    let mut counts = Counts::default();
+    let status = counts.cycles(&mut march, &mut recorder, observer, cancel, &mut warnings);
 
     // Of a state that is not one, the residual is the only measure there is.
-    let astray = if let Status::NotConverged { residual, .. } = status { residual } else { run.limit_cycle };
+    let astray = if let Status::NotConverged { residual, .. } = status { residual } else { counts.limit_cycle };
     let relative_error = discretisation_error(nx, ny, n) + astray;
     let recording = recorder.finish();
     let film_load = mean(&recording.film_load);
@@ -130,17 +130,13 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         min_gap_error: relative_error * (most(&recording.min_film_thickness) - motor.min_spacing),
         teeth_in_contact_error: motor.teeth as f64 / steps as f64,
         alpha,
-        alpha_error: run.alpha_remaining + relative_error * alpha.abs(),
+        alpha_error: counts.alpha_remaining + relative_error * alpha.abs(),
         film_load,
         film_load_min,
         film_load_max,
         contact_load,
         // A film that carries more than the load leaves nothing to rub.
-        max_torque: motor.dry_friction
-            * (1.0 - alpha).max(0.0)
-            * f64::from(motor.waves)
-            * motor.load
-            * motor.contact_radius,
+        max_torque: motor.friction_torque((1.0 - alpha).max(0.0) * motor.load),
         teeth_in_contact: touching as f64 / steps as f64,
         levitated: touching == 0,
         min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
@@ -148,10 +144,10 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
     };
     let teeth = motor.teeth as u64;
     let stats = Stats {
-        film_steps: run.steps * teeth,
+        film_steps: counts.steps * teeth,
         film_solves: march.rounds * teeth,
         limited_steps: 0,
-        cycles: run.cycles,
+        cycles: counts.cycles,
         coupling_iterations: march.rounds,
         contact_solves: march.contact_solves,
         contact_iterations: march.contact.rounds,
@@ -186,7 +182,7 @@ fn discretisation_error(nx: usize, ny: usize, n: usize) -> f64 {
 }
 
 fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March<'_>) -> Model {
-    let mut why = vec![
+    let mut remarks = vec![
         format!(
             "The paper's literal algorithm: every tooth, full width, {nx} × {ny} uniform film nodes, {nodes} contact \
              nodes, marched from ambient pressure with contact and film in turn."
@@ -198,12 +194,12 @@ fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March
         ),
     ];
     if motor.shear {
-        why.push("The wedge term is solved, with the sliding speed of each point of a tooth.".to_owned());
+        remarks.push("The wedge term is solved, with the sliding speed of each point of a tooth.".to_owned());
     } else {
-        why.push("The wedge term is left out, as the scene asks.".to_owned());
+        remarks.push("The wedge term is left out, as the scene asks.".to_owned());
     }
     if !march.meshes.alike {
-        why.push(
+        remarks.push(
             "The pitch is not a whole number of contact spacings, so the teeth carry different nodes; the recorded \
              lines are interpolated to those of tooth 0."
                 .to_owned(),
@@ -215,7 +211,7 @@ fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March
         teeth_solved: motor.teeth,
         half_width: false,
         shear: motor.shear,
-        why,
+        remarks,
         decisions: Vec::new(),
     }
 }
@@ -226,14 +222,14 @@ fn mean(values: &[f64]) -> f64 {
 
 /// Counts of the march, and how far α still has to go.
 #[derive(Clone, Copy, Debug, Default)]
-struct Run {
+struct Counts {
     steps: u64,
     cycles: u64,
     alpha_remaining: f64,
     limit_cycle: f64,
 }
 
-impl Run {
+impl Counts {
     /// Marches until the cycle repeats.
     fn cycles(
         &mut self,

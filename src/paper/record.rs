@@ -6,7 +6,7 @@
 
 use super::march::March;
 use super::mesh::Between;
-use crate::recording::Recording;
+use crate::recording::{LineLoads, Recording};
 
 /// Fills a [`Recording`] frame by frame; every cycle overwrites the last.
 #[derive(Clone, Debug)]
@@ -42,17 +42,21 @@ impl Recorder {
             .collect();
         let lines = teeth * frames * nodes;
         let recording = Recording {
+            lines: LineLoads {
+                frames,
+                length: motor.wavelength(),
+                teeth,
+                stored_teeth: teeth,
+                pitch: motor.pitch(),
+                x,
+                node_length: vec![meshes.spacing; nodes],
+                contact: vec![0.0; lines],
+                film: vec![0.0; lines],
+                film_thickness: vec![0.0; lines],
+                ..LineLoads::default()
+            },
             period: motor.period(),
-            frames,
-            length: motor.wavelength(),
-            teeth,
-            stored_teeth: teeth,
-            pitch: motor.pitch(),
-            node_length: vec![meshes.spacing; nodes],
-            film_thickness: vec![0.0; lines],
             stator: vec![0.0; lines],
-            contact: vec![0.0; lines],
-            film: vec![0.0; lines],
             map_x: (0..nx).map(|i| b * (i as f64 / (nx - 1) as f64 - 0.5)).collect(),
             map_y: (0..ny).map(|j| w * (j as f64 / (ny - 1) as f64 - 0.5)).collect(),
             half_width: false,
@@ -63,7 +67,6 @@ impl Recorder {
             teeth_in_contact: vec![0; frames],
             min_film_thickness: vec![0.0; frames],
             max_pressure: vec![0.0; frames],
-            x,
             ..Recording::default()
         };
         let mut recorder = Self { recording, places, shares, touched: vec![false; teeth] };
@@ -95,7 +98,7 @@ impl Recorder {
         let forces = contact.force.iter().zip(&march.nodal);
         for ((top, share), (&contact, &film)) in meshes.tops.iter().zip(&self.shares).zip(forces) {
             let at = recording.line_offset(top.tooth, frame) + share.at;
-            for (line, force) in [(&mut recording.contact, contact), (&mut recording.film, film)] {
+            for (line, force) in [(&mut recording.lines.contact, contact), (&mut recording.lines.film, film)] {
                 line[at] += (1.0 - share.weight) * force / meshes.spacing;
                 if share.weight > 0.0 {
                     line[at + 1] += share.weight * force / meshes.spacing;

@@ -139,7 +139,7 @@ impl Recording {
         mut pressure: Vec<f64>,
         y: Range<usize>,
     ) -> Self {
-        let (lines, yardsticks) = match coarser {
+        let (mut lines, yardsticks) = match coarser {
             [.., first, second] => {
                 (finest.extrapolated(second, balance), vec![second.extrapolated(first, balance), finest.clone()])
             }
@@ -155,23 +155,10 @@ impl Recording {
             }
         }
         let other_pressure = pressure.split_off(size.min(pressure.len()));
-        let mut recording = Self {
-            frames: lines.frames,
-            length: lines.length,
-            teeth: lines.teeth,
-            stored_teeth: lines.stored_teeth,
-            pitch: lines.pitch,
-            x: lines.x,
-            node_length: lines.node_length,
-            film_thickness: lines.film_thickness,
-            contact: lines.contact,
-            film: lines.film,
-            pressure,
-            other_pressure,
-            yardsticks,
-            ..self
-        };
-        recording.fill_series(&lines.peak);
+        let peak = std::mem::take(&mut lines.peak);
+        lines.ambient = Vec::new();
+        let mut recording = Self { lines, pressure, other_pressure, yardsticks, ..self };
+        recording.fill_series(&peak);
         recording
     }
 }

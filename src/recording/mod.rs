@@ -5,6 +5,7 @@ mod extrapolated;
 pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
+use std::ops::{Deref, DerefMut};
 
 /// Error of a greatest pressure over that of a load which differs as much from grid to grid: it is found where contact begins, or between
 /// nodes, and comes closer with the first order only.
@@ -17,39 +18,22 @@ fn offset([stored, teeth, frames, nodes]: [usize; 4], tooth: usize, frame: usize
     (tooth * frames + frame) * nodes
 }
 
-/// Fields of one cycle of the periodic state, every array flat and in SI units.
+/// Fields of one cycle of the periodic state, every array flat and in SI units: its [`LineLoads`], to which it dereferences, and
+/// what belongs to them.
 ///
 /// Frame `m` is at t = m T/frames. Lines are stored `[tooth][frame][node]` for `stored_teeth` teeth: with lag
 /// symmetry one tooth is stored, and tooth k at frame m is tooth 0 at frame m + k·frames/teeth (the wave travels
 /// towards −x). The pressure map is tooth 0's, `[frame][ix][iy]`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
+    /// Grid, contact, film and film thickness, without `peak` and `ambient`.
+    pub lines: LineLoads,
     /// Period \[s\].
     pub period: f64,
     /// One cycle of a transient: after its last frame comes another cycle, and no tooth is another one at another time.
     pub transient: bool,
-    /// Frames in the cycle.
-    pub frames: usize,
-    /// Length along x of one period of the scene: the wavelength, or the plate's length \[m\].
-    pub length: f64,
-    /// Teeth in a wavelength (1 for a plate).
-    pub teeth: usize,
-    /// Teeth stored: 1 (lag symmetry) or `teeth`.
-    pub stored_teeth: usize,
-    /// Pitch of the teeth \[m\].
-    pub pitch: f64,
-    /// Node positions from the tooth's middle \[m\], ascending, `nodes`.
-    pub x: Vec<f64>,
-    /// Length of tooth that each node stands for \[m\], `nodes`: forces are line load × length.
-    pub node_length: Vec<f64>,
-    /// Film thickness h = gap + H_m \[m\].
-    pub film_thickness: Vec<f64>,
     /// Stator's normal displacement W_S \[m\] (zero for a plate).
     pub stator: Vec<f64>,
-    /// Contact line load \[N/m\].
-    pub contact: Vec<f64>,
-    /// Film's net gauge line load \[N/m\] (for a strip: gauge pressure × 1 m of width).
-    pub film: Vec<f64>,
     /// x of the pressure map, from the tooth's middle \[m\].
     pub map_x: Vec<f64>,
     /// y of the pressure map, from the middle of the width \[m\]; only y ≥ 0 when `half_width`; `[0]` for a strip.
@@ -88,23 +72,23 @@ pub struct Recording {
 pub struct LineLoads {
     /// Frames in the cycle.
     pub frames: usize,
-    /// Length along x of one period of the scene, the wavelength \[m\].
+    /// Length along x of one period of the scene: the wavelength, or the plate's length \[m\].
     pub length: f64,
-    /// Teeth in a wavelength.
+    /// Teeth in a wavelength (1 for a plate).
     pub teeth: usize,
     /// Teeth stored: 1 (lag symmetry) or `teeth`.
     pub stored_teeth: usize,
     /// Pitch of the teeth \[m\].
     pub pitch: f64,
-    /// Node positions from the tooth's middle \[m\], `nodes`.
+    /// Node positions from the tooth's middle \[m\], ascending, `nodes`.
     pub x: Vec<f64>,
-    /// Length of tooth that each node stands for \[m\], `nodes`.
+    /// Length of tooth that each node stands for \[m\], `nodes`: forces are line load × length.
     pub node_length: Vec<f64>,
     /// Contact line load \[N/m\], `[tooth][frame][node]` over the stored teeth.
     pub contact: Vec<f64>,
-    /// Film's net gauge line load \[N/m\], likewise; zero without film.
+    /// Film's net gauge line load \[N/m\], likewise (of a strip: gauge pressure × 1 m of width); zero without film.
     pub film: Vec<f64>,
-    /// Film thickness \[m\], likewise; empty without film.
+    /// Film thickness h = gap + H_m \[m\], likewise; empty without film.
     pub film_thickness: Vec<f64>,
     /// Greatest pressure across the width \[Pa\], likewise; empty without film.
     pub peak: Vec<f64>,
@@ -112,15 +96,24 @@ pub struct LineLoads {
     pub ambient: Vec<f64>,
 }
 
-impl Recording {
-    /// Offset of tooth `tooth`, frame `frame` in the line arrays; `nodes` = `x.len()` values follow it.
-    pub fn line_offset(&self, tooth: usize, frame: usize) -> usize {
-        offset([self.stored_teeth, self.teeth, self.frames, self.x.len()], tooth, frame)
-    }
+impl Deref for Recording {
+    type Target = LineLoads;
 
+    fn deref(&self) -> &LineLoads {
+        &self.lines
+    }
+}
+
+impl DerefMut for Recording {
+    fn deref_mut(&mut self) -> &mut LineLoads {
+        &mut self.lines
+    }
+}
+
+impl Recording {
     /// What follows from the lines, with its error: from how it differs on those that this recording is judged by.
     pub fn estimate(&self, value: impl Fn(&LineLoads) -> f64) -> Estimate {
-        let found = value(&self.line_loads());
+        let found = value(&self.lines);
         match &self.yardsticks[..] {
             [before, finest] => judged(found, value(before), value(finest)),
             _ => Estimate { value: found, error: f64::INFINITY },
@@ -188,24 +181,6 @@ impl Recording {
         let there = found.iter().position(|v| *v == value).and_then(|frame| errors.get(frame)).copied();
         // Extremes between two frames: the change from twice the steps counts in full.
         (value - extreme(&series(before))).abs().max(there.unwrap_or(0.0)).max((value - extreme(&series(finest))).abs())
-    }
-
-    /// Contact and film alone.
-    pub fn line_loads(&self) -> LineLoads {
-        LineLoads {
-            frames: self.frames,
-            length: self.length,
-            teeth: self.teeth,
-            stored_teeth: self.stored_teeth,
-            pitch: self.pitch,
-            x: self.x.clone(),
-            node_length: self.node_length.clone(),
-            contact: self.contact.clone(),
-            film: self.film.clone(),
-            film_thickness: self.film_thickness.clone(),
-            peak: Vec::new(),
-            ambient: Vec::new(),
-        }
     }
 
     /// Time of a frame \[s\].

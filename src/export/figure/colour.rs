@@ -1,7 +1,5 @@
 //! Colours of figures: few, with a meaning, told apart with the common colour deficiencies.
 
-use super::description::Scale;
-use super::scale::Scaled;
 use serde::{Deserialize, Serialize};
 
 /// Red, green, blue.
@@ -70,13 +68,5 @@ impl Colours {
         let fraction = if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 };
         let colour = gradient.eval_continuous(if self == Self::Signed { 1.0 - fraction } else { fraction });
         Colour(colour.r, colour.g, colour.b)
-    }
-
-    /// The colour of a value over a range; none for what cannot be shown on it.
-    pub(super) fn of(self, value: f64, range: &Scaled) -> Option<Colour> {
-        if !value.is_finite() || (range.scale == Scale::Log && value <= 0.0) {
-            return None;
-        }
-        Some(self.at(range.fraction(value)))
     }
 }

@@ -1,8 +1,11 @@
 //! A drawing as SVG, PNG and PDF, in memory and as a file.
 
+use super::description::Figure;
+use super::drawing::Drawing;
+use super::placed::MM;
 use super::svg::{Picture, Rect, coordinate, escaped};
 use super::text::{FALLBACK, FAMILIES, SANS, plain};
-use super::{Drawing, Figure};
+
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Ref, TextStr};
@@ -221,7 +224,7 @@ impl Drawing {
     /// The SVG; without background and pictures for those who put them under it themselves.
     fn svg(&self, figure: &Figure, whole: bool) -> String {
         let [width, height] = self.size;
-        let millimetres = |points: f64| coordinate(points / super::layout::MM);
+        let millimetres = |points: f64| coordinate(points / MM);
         // Writing to a String cannot fail.
         let mut svg = String::with_capacity(self.body.len() + 2000);
         let _ = writeln!(

@@ -1,74 +1,31 @@
 //! Where everything stands on the paper: plotting areas that line up, with room for what is round them.
 
-use super::description::{Axis, Figure, Layer, Legend, Map, Panel, Scale, Shading};
-use super::legend::{self, Entry};
+use super::axis::{Axis, Scale};
+use super::description::{Figure, Legend, Panel};
+use super::layers::{Layer, Shading};
+use super::legend;
+use super::placed::{
+    BAR, Bar, FOOT, GAP, HEAD, LABEL, LEADING, MAJOR, MM, NOTE, Placed, TICK, TITLE, axis_label, fills, first_map,
+    map_range,
+};
 use super::plane;
-use super::scale::{Scaled, Ticks, power};
+use super::scale::{Scaled, Tick, Ticks};
 use super::svg::Rect;
 use super::text;
 
-/// Points in a millimetre.
-pub(super) const MM: f64 = 72.0 / 25.4;
-/// Sizes of type \[pt\].
-pub(super) const TITLE: f64 = 9.5;
-pub(super) const HEAD: f64 = 8.5;
-pub(super) const LABEL: f64 = 8.5;
-pub(super) const TICK: f64 = 8.0;
-pub(super) const NOTE: f64 = 7.5;
-pub(super) const FOOT: f64 = 6.0;
-/// Height of a line, of its type's size.
-pub(super) const LEADING: f64 = 1.25;
-/// Length of a major and of a minor tick.
-pub(super) const MAJOR: f64 = 2.8;
-pub(super) const MINOR: f64 = 1.6;
-/// Gap between a tick and its label.
-pub(super) const GAP: f64 = 2.2;
 /// Round the figure.
 const MARGIN: f64 = 3.0;
 /// Between rows and between columns of panels.
 const ROW_GAP: f64 = 9.0;
 const COLUMN_GAP: f64 = 11.0;
-/// Width of an upright colour bar, and what is between it and the map.
-pub(super) const BAR: f64 = 7.0;
-pub(super) const BAR_GAP: f64 = 6.0;
+/// Between a map and its upright colour bar.
+const BAR_GAP: f64 = 6.0;
 /// Maps lower than this \[pt\] have their colour bar above.
 const LOW: f64 = 75.0;
 /// Height that a colour bar takes above a map.
-pub(super) const BAR_ABOVE: f64 = 19.0;
+const BAR_ABOVE: f64 = 19.0;
 /// Never smaller than this: a panel too narrow for its labels is still a panel.
 const LEAST: f64 = 24.0;
-
-/// A colour bar's place.
-#[derive(Clone, Debug)]
-pub(super) struct Bar {
-    pub(super) rect: Rect,
-    pub(super) upright: bool,
-    pub(super) range: Scaled,
-    pub(super) ticks: Ticks,
-    pub(super) label: String,
-}
-
-/// A panel's place.
-#[derive(Clone, Debug)]
-pub(super) struct Placed {
-    pub(super) rect: Rect,
-    pub(super) x: Scaled,
-    pub(super) y: Scaled,
-    pub(super) right: Option<Scaled>,
-    pub(super) x_ticks: Ticks,
-    pub(super) y_ticks: Ticks,
-    pub(super) right_ticks: Ticks,
-    /// Whether labels stand below the x axis.
-    pub(super) x_labels: bool,
-    /// How far the labels of the y axes reach out, for the quantity beyond them.
-    pub(super) y_reach: f64,
-    pub(super) right_reach: f64,
-    pub(super) bar: Option<Bar>,
-    pub(super) legend: Vec<(Entry, [f64; 2])>,
-    /// A legend inside has a background.
-    pub(super) legend_box: Option<Rect>,
-    pub(super) title: Option<[f64; 2]>,
-}
 
 /// A figure's place for everything.
 #[derive(Clone, Debug)]
@@ -78,17 +35,6 @@ pub(super) struct Layout {
     pub(super) title: Vec<([f64; 2], String)>,
     pub(super) panels: Vec<Placed>,
     pub(super) foot: Vec<([f64; 2], String)>,
-}
-
-/// `gap (10^{−9} m)`
-pub(super) fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
-    let factor = if exponent == 0 { String::new() } else { power(exponent) };
-    let gap = if factor.is_empty() || unit.is_empty() { "" } else { " " };
-    match (label.is_empty(), factor.is_empty() && unit.is_empty()) {
-        (_, true) => label.to_owned(),
-        (true, false) => format!("{factor}{gap}{unit}"),
-        (false, false) => format!("{label} ({factor}{gap}{unit})"),
-    }
 }
 
 impl Layout {
@@ -169,11 +115,6 @@ fn ranges(figure: &Figure, columns: usize) -> Vec<Ranges> {
     figure.panels.iter().enumerate().map(of).collect()
 }
 
-/// Whether a panel is a map, whose axes end where it ends.
-pub(super) fn fills(panel: &Panel) -> bool {
-    panel.layers.iter().any(|layer| matches!(layer, Layer::Map(_) | Layer::Categories(_)))
-}
-
 fn x_values(panel: &Panel, scale: Scale, values: &mut Vec<f64>) {
     let log = scale == Scale::Log;
     for layer in &panel.layers {
@@ -209,25 +150,12 @@ fn y_values(panel: &Panel, scale: Scale, right: bool, values: &mut Vec<f64>) {
     }
 }
 
-/// The map whose colours the bar explains.
-pub(super) fn first_map(panel: &Panel) -> Option<&Map> {
-    panel.layers.iter().find_map(|layer| match layer {
-        Layer::Map(map) => Some(map),
-        _ => None,
-    })
-}
-
-/// The range of a map's colours.
-pub(super) fn map_range(map: &Map) -> Scaled {
-    Scaled::new(&map.range, map.scale, map.grid.values.iter().copied(), false)
-}
-
 fn ticks(axis: &Axis, range: &Scaled, most: usize) -> Ticks {
     if axis.names.is_empty() {
         return Ticks::new(range, most, axis.whole);
     }
     let named = axis.names.iter().filter(|(at, _)| range.holds(*at));
-    let ticks = named.map(|(at, name)| super::scale::Tick { at: *at, label: Some(name.clone()) }).collect();
+    let ticks = named.map(|(at, name)| Tick { at: *at, label: Some(name.clone()) }).collect();
     Ticks { ticks, power: 0 }
 }
 

@@ -1,51 +1,19 @@
 //! The names of the layers: which there are, and where they stand.
 
-use super::colour::Colour;
-use super::description::{Band, Layer, Legend, Line, Marker, Panel, Style};
-use super::layout::{LEADING, MAJOR, NOTE, Placed, fills};
+use super::description::{Legend, Panel};
+use super::geometry::clipped_line;
+use super::layers::{Band, Layer, Line};
+use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills, mark_ends};
 use super::scale::Scaled;
 use super::svg::Rect;
 use super::text;
 
-/// Length of the sample of a line.
-pub(super) const SAMPLE: f64 = 17.0;
-/// Between a sample and its name, and between names in a row.
-pub(super) const SPACE: f64 = 3.5;
+/// Between names in a row.
 const APART: f64 = 10.0;
 /// Between the axes and a legend inside.
 const INSET: f64 = 4.0;
 /// A legend inside may cover this part of the plotting area.
 const MOST: f64 = 0.45;
-
-/// What stands for a layer in the legend.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Sign {
-    Line(Style),
-    Patch(Colour, f64),
-    Point(Marker, Colour),
-}
-
-/// One name.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
-    pub(super) sign: Sign,
-    pub(super) name: String,
-}
-
-impl Entry {
-    /// Width of its sign.
-    pub(super) fn sample(&self) -> f64 {
-        match self.sign {
-            Sign::Line(_) => SAMPLE,
-            Sign::Patch(..) => 9.0,
-            Sign::Point(..) => 6.0,
-        }
-    }
-
-    fn width(&self) -> f64 {
-        self.sample() + SPACE + text::width(&self.name, NOTE)
-    }
-}
 
 /// The names of a panel, in the order of its layers.
 pub(super) fn entries(panel: &Panel) -> Vec<Entry> {
@@ -120,7 +88,7 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) ->
         [area.x + placed.x.fraction(p[0]) * area.width, area.bottom() - y.fraction(p[1]) * area.height]
     };
     let mut path = |line: &mut dyn Iterator<Item = [f64; 2]>| {
-        for part in super::geometry::clipped_line(line, area) {
+        for part in clipped_line(line, area) {
             for pair in part.windows(2) {
                 let length = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
                 let steps = (length / 3.0).ceil().max(1.0);
@@ -156,7 +124,7 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) ->
                 path(&mut [[x, y], [x + width, y]].into_iter());
             }
             Layer::Mark(mark) if marks => {
-                let [from, to] = super::panel::mark_ends(placed, mark, area);
+                let [from, to] = mark_ends(placed, mark, area);
                 path(&mut [from, to].into_iter());
             }
             _ => {}

@@ -18,12 +18,12 @@
 //!
 //! | step | where |
 //! | --- | --- |
-//! | description | `description`, `colour` |
+//! | description | `colour`, `style`, `axis`, `layers`, `provenance`, `description` |
 //! | values to places, ticks | `scale` |
-//! | plotting areas that line up, legends | `layout`, `legend` |
+//! | plotting areas that line up, legends | `placed`, `legend`, `layout` |
 //! | lines, areas, contours, cut to the axes | `geometry`, `isoline` |
 //! | fields as pictures | `plane` |
-//! | one panel as SVG | `panel`, `svg`, `text` |
+//! | one panel as SVG, all of them | `svg`, `text`, `panel`, `drawing` |
 //! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `files` |
 //!
 //! The SVG is written here because no library drew what a journal prints: kuva 0.6 neither lines up the axes of panels, nor
@@ -31,59 +31,35 @@
 //! coordinates. Coordinates are in points; every panel carries the place and the range of its axes as attributes
 //! (`data-area`, `data-x`, `data-y`), so that a reader of the file can get back to the values.
 
+mod axis;
 mod colour;
 mod description;
+mod drawing;
 mod files;
 mod geometry;
 mod isoline;
+mod layers;
 mod layout;
 mod legend;
 mod panel;
+mod placed;
 mod plane;
+mod provenance;
 mod scale;
+mod style;
 mod svg;
 mod text;
 
+pub use axis::{Axis, Range, Scale};
 pub use colour::{Colour, Colours};
-pub use description::{
-    Anchor, Axis, Band, Categories, Contours, Dash, Direction, Figure, Grid, Layer, Legend, Line, Map, Mark, Marker,
-    Panel, Points, Provenance, Range, Scale, Shading, Shape, Style, Text, Width,
-};
+pub use description::{Figure, Legend, Panel, Width};
 pub use files::{FigureError, Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
+pub use layers::{Anchor, Band, Categories, Contours, Direction, Grid, Layer, Line, Map, Mark, Points, Shading, Text};
+pub use provenance::Provenance;
+pub use style::{Dash, Marker, Shape, Style};
+pub use svg::escaped;
 
 #[cfg(feature = "gui")]
 pub(crate) use geometry::{contour, is_contour};
 
 pub(super) use files::{Pixels, pixels, png_bytes};
-
-use layout::{FOOT, Layout, TITLE};
-use svg::{Picture, Svg, Type};
-
-/// A figure as it is drawn: what the formats have in common.
-struct Drawing {
-    /// Width and height \[pt\].
-    size: [f64; 2],
-    /// Under everything else.
-    pictures: Vec<Picture>,
-    /// The elements of an SVG, without its root.
-    body: String,
-}
-
-impl Drawing {
-    fn new(figure: &Figure) -> Self {
-        let layout = Layout::new(figure);
-        let mut svg = Svg::default();
-        let mut pictures = Vec::new();
-        for (at, line) in &layout.title {
-            svg.text(*at, line, &Type::new(TITLE, "start"));
-        }
-        for (placed, panel) in layout.panels.iter().zip(&figure.panels) {
-            pictures.extend(panel::pictures(placed, panel));
-            panel::draw(&mut svg, placed, panel);
-        }
-        for (at, line) in &layout.foot {
-            svg.text(*at, line, &Type { colour: Colour::QUIET, ..Type::new(FOOT, "start") });
-        }
-        Self { size: [layout.width, layout.height], pictures, body: svg.body }
-    }
-}

@@ -1,17 +1,19 @@
 //! One panel drawn at its place: layers, axes, legend, colour bar.
 
-use super::colour::{Colour, Colours};
-use super::description::{
-    Anchor, Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Panel, Points, Scale, Style,
-};
+use super::axis::{Range, Scale};
+use super::colour::Colour;
+use super::description::Panel;
 use super::geometry::{clipped_area, clipped_line, contour, is_contour};
 use super::isoline::{self, Isoline};
-use super::layout::{
-    BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, TICK, axis_label, fills, first_map, map_range,
+use super::layers::{Anchor, Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points, Text};
+use super::legend::{drawn, is_free};
+use super::placed::{
+    BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, SPACE, Sign, TICK, axis_label, fills, first_map, map_range,
+    mark_ends,
 };
-use super::legend::Sign;
 use super::plane;
 use super::scale::{Scaled, Ticks, round_step, short};
+use super::style::Style;
 use super::svg::{Pen, Picture, Rect, Svg, Type, escaped};
 use super::text;
 
@@ -207,14 +209,14 @@ impl On<'_> {
             }
         };
         let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
-        let drawn = super::legend::drawn(self.placed, self.panel, area, false);
+        let drawn = drawn(self.placed, self.panel, area, false);
         let corners = legend.flat_map(|r| [[r.x, r.y], [r.right(), r.y], [r.x, r.bottom()], [r.right(), r.bottom()]]);
         let taken: Vec<[f64; 2]> = drawn.into_iter().chain(corners).collect();
-        let found = places.iter().filter(inside).find(|rect| super::legend::is_free(rect, &taken));
+        let found = places.iter().filter(inside).find(|rect| is_free(rect, &taken));
         found.or_else(|| places.iter().find(inside)).or(places.first()).copied().unwrap_or_default()
     }
 
-    fn text(&self, svg: &mut Svg, words: &super::description::Text) {
+    fn text(&self, svg: &mut Svg, words: &Text) {
         let at = self.at(words.at, false);
         if !self.placed.rect.holds(at) {
             return;
@@ -324,7 +326,7 @@ impl On<'_> {
                 }
                 Sign::Point(marker, colour) => svg.marker([x + 0.5 * sample, *y], marker, *colour),
             }
-            let at = [x + sample + super::legend::SPACE, y + HALF_HEIGHT * NOTE];
+            let at = [x + sample + SPACE, y + HALF_HEIGHT * NOTE];
             svg.text(at, &entry.name, &Type::new(NOTE, "start"));
         }
         svg.close();
@@ -339,20 +341,6 @@ fn named(class: &str, name: &str) -> String {
 fn pen(style: &Style) -> Pen {
     let width = if style.width.is_finite() { style.width.clamp(0.1, 20.0) } else { 1.0 };
     Pen { colour: style.colour, width, dash: style.dash }
-}
-
-/// The ends of a mark across `rect`.
-pub(super) fn mark_ends(placed: &Placed, mark: &Mark, rect: &Rect) -> [[f64; 2]; 2] {
-    match mark.direction {
-        Direction::Vertical => {
-            let x = rect.x + placed.x.fraction(mark.at) * rect.width;
-            [[x, rect.bottom()], [x, rect.y]]
-        }
-        Direction::Horizontal => {
-            let y = rect.bottom() - placed.y.fraction(mark.at) * rect.height;
-            [[rect.x, y], [rect.right(), y]]
-        }
-    }
 }
 
 /// All of a few points; of many, some at equal lengths along the line, at other places on every curve.
@@ -428,7 +416,7 @@ fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
     }
     let values = finite(&contours.grid.values);
     let scale = map.map_or(Scale::Linear, |map| map.scale);
-    let range = Scaled::new(&super::description::Range::Auto, scale, values.into_iter(), false);
+    let range = Scaled::new(&Range::Auto, scale, values.into_iter(), false);
     let ticks = Ticks::new(&range, 10, false).ticks;
     let labelled = ticks.into_iter().filter(|tick| tick.label.is_some()).map(|tick| tick.at);
     let labelled = labelled.filter(|at| is_contour(range.fraction(*at))).collect();
@@ -437,7 +425,7 @@ fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
 
 /// Black or white, whichever shows on the map's colour of a value.
 fn contrast(map: Option<&Map>, value: f64) -> Colour {
-    let under = map.and_then(|map| Colours::of(map.colours, value, &map_range(map)));
+    let under = map.and_then(|map| map_range(map).colour(map.colours, value));
     if under.is_some_and(|colour| colour.lightness() < 0.55) { Colour::WHITE } else { Colour::BLACK }
 }
 

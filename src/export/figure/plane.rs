@@ -1,7 +1,7 @@
 //! Fields over a plane as pictures: from nodes to pixels.
 
 use super::colour::{Colour, Colours};
-use super::description::{Categories, Grid, Map, Shading};
+use super::layers::{Categories, Grid, Map, Shading};
 use super::scale::Scaled;
 use super::svg::{Picture, Rect};
 
@@ -126,7 +126,7 @@ pub(super) fn bar(colours: Colours, rect: &Rect, upright: bool) -> Picture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::figure::description::Scale;
+    use crate::export::figure::axis::Scale;
 
     const UNIT: Scaled = Scaled { from: 0.0, to: 1.0, scale: Scale::Linear };
     const RECT: Rect = Rect { x: 0.0, y: 0.0, width: 24.0, height: 12.0 };

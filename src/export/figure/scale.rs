@@ -1,7 +1,8 @@
 //! From values to places along an axis, and the ticks of an axis: steps of 1, 2 and 5 when linear, decades when
 //! logarithmic.
 
-use super::description::{Range, Scale};
+use super::axis::{Range, Scale};
+use super::colour::{Colour, Colours};
 
 /// Part of the data's span that is added at either end of an axis that shows curves.
 const MARGIN: f64 = 0.05;
@@ -96,6 +97,12 @@ impl Scaled {
     pub(super) fn holds(&self, value: f64) -> bool {
         let fraction = self.fraction(value);
         (-1e-9..=1.0 + 1e-9).contains(&fraction)
+    }
+
+    /// The colour of a value over the range; none for what cannot be shown on it.
+    pub(super) fn colour(&self, colours: Colours, value: f64) -> Option<Colour> {
+        let shown = value.is_finite() && (self.scale == Scale::Linear || value > 0.0);
+        shown.then(|| colours.at(self.fraction(value)))
     }
 }
 

@@ -1,8 +1,8 @@
 //! An SVG as it grows: lines, areas, text and pictures, in points from the upper left corner.
 
 use super::colour::Colour;
-use super::description::{Dash, Marker, Shape};
-use super::text::{Level, SMALL, pieces, plain};
+use super::style::{Dash, Marker, Shape};
+use super::text::{SMALL, Script, pieces, plain};
 use std::fmt::Write as _;
 
 /// A rectangle \[pt\].
@@ -82,8 +82,8 @@ pub(super) fn coordinate(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text for XML.
-pub(super) fn escaped(text: &str) -> String {
+/// Text for HTML and XML; characters that neither may hold are replaced.
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -91,7 +91,8 @@ pub(super) fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            c if (c.is_control() && c != '\n') || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            '\n' | '\t' => out.push(c),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
             c => out.push(c),
         }
     }
@@ -240,13 +241,13 @@ impl Svg {
         self.body.push('>');
         // dy moves all that follows: every piece is told its distance from the one before.
         let mut at = 0.0;
-        for (level, piece) in pieces {
-            let (shift, size) = match level {
-                Level::Normal => (0.0, style.size),
-                Level::Raised => (-0.36 * style.size, SMALL * style.size),
-                Level::Lowered => (0.18 * style.size, SMALL * style.size),
+        for (script, piece) in pieces {
+            let (shift, size) = match script {
+                Script::Normal => (0.0, style.size),
+                Script::Raised => (-0.36 * style.size, SMALL * style.size),
+                Script::Lowered => (0.18 * style.size, SMALL * style.size),
             };
-            if shift == at && level == Level::Normal {
+            if shift == at && script == Script::Normal {
                 self.body.push_str(&escaped(&piece));
             } else {
                 let (dy, size) = (coordinate(shift - at), coordinate(size));

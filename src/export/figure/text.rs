@@ -14,49 +14,49 @@ pub(super) const SMALL: f64 = 0.72;
 
 /// How a piece of text stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Level {
+pub(super) enum Script {
     Normal,
     Raised,
     Lowered,
 }
 
-/// Text in pieces, each on one level: `^{…}`, `_{…}` and the raised and lowered characters of Unicode.
-pub(super) fn pieces(text: &str) -> Vec<(Level, String)> {
-    let mut pieces: Vec<(Level, String)> = Vec::new();
-    let mut push = |level: Level, c: char| match pieces.last_mut() {
-        Some((last, piece)) if *last == level => piece.push(c),
-        _ => pieces.push((level, c.to_string())),
+/// Text in pieces, each on one script: `^{…}`, `_{…}` and the raised and lowered characters of Unicode.
+pub(super) fn pieces(text: &str) -> Vec<(Script, String)> {
+    let mut pieces: Vec<(Script, String)> = Vec::new();
+    let mut push = |script: Script, c: char| match pieces.last_mut() {
+        Some((last, piece)) if *last == script => piece.push(c),
+        _ => pieces.push((script, c.to_string())),
     };
     let mut rest = text.chars().peekable();
     while let Some(c) = rest.next() {
-        let level = match c {
-            '^' => Level::Raised,
-            '_' => Level::Lowered,
-            _ => Level::Normal,
+        let script = match c {
+            '^' => Script::Raised,
+            '_' => Script::Lowered,
+            _ => Script::Normal,
         };
-        if level != Level::Normal && rest.peek() == Some(&'{') {
+        if script != Script::Normal && rest.peek() == Some(&'{') {
             rest.next();
             for c in rest.by_ref().take_while(|c| *c != '}') {
-                push(level, c);
+                push(script, c);
             }
             continue;
         }
         match shifted(c) {
-            Some((level, plain)) => push(level, plain),
+            Some((script, plain)) => push(script, plain),
             // Neither XML nor a font knows what to do with these.
-            None if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => push(Level::Normal, ' '),
-            None => push(Level::Normal, c),
+            None if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => push(Script::Normal, ' '),
+            None => push(Script::Normal, c),
         }
     }
     pieces
 }
 
-fn shifted(c: char) -> Option<(Level, char)> {
+fn shifted(c: char) -> Option<(Script, char)> {
     const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻";
     const LOWERED: &str = "₀₁₂₃₄₅₆₇₈₉₊₋";
     const PLAIN: &str = "0123456789+−";
     let find = |set: &str| set.chars().position(|x| x == c).and_then(|i| PLAIN.chars().nth(i));
-    find(RAISED).map(|p| (Level::Raised, p)).or_else(|| find(LOWERED).map(|p| (Level::Lowered, p)))
+    find(RAISED).map(|p| (Script::Raised, p)).or_else(|| find(LOWERED).map(|p| (Script::Lowered, p)))
 }
 
 /// The text without marks for raised and lowered parts.
@@ -68,8 +68,8 @@ pub(super) fn plain(text: &str) -> String {
 pub(super) fn width(text: &str, size: f64) -> f64 {
     pieces(text)
         .iter()
-        .map(|(level, piece)| {
-            let size = if *level == Level::Normal { size } else { size * SMALL };
+        .map(|(script, piece)| {
+            let size = if *script == Script::Normal { size } else { size * SMALL };
             piece.chars().map(advance).sum::<f64>() * size
         })
         .sum()
@@ -107,8 +107,8 @@ mod tests {
 
     #[test]
     fn raised_and_lowered_parts_are_found() {
-        assert_eq!(pieces("m²"), [(Level::Normal, "m".into()), (Level::Raised, "2".into())]);
-        assert_eq!(pieces("10^{−3}")[1], (Level::Raised, "−3".into()));
+        assert_eq!(pieces("m²"), [(Script::Normal, "m".into()), (Script::Raised, "2".into())]);
+        assert_eq!(pieces("10^{−3}")[1], (Script::Raised, "−3".into()));
         assert_eq!(plain("p_{a} min_spacing 10⁻³"), "pa min_spacing 10−3");
         assert_eq!(pieces("^{open").len(), 1);
         assert!(pieces("").is_empty());

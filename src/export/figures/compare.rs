@@ -2,8 +2,9 @@
 //! phase of the cycle, and axes cover the whole cycle of every run.
 
 use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span, pressure_unit};
+use super::plate;
+use super::series::{mirrored, over_cycle, phase as phase_of, rest, span, tooth_map, with_margin};
 use super::unit::prefixed;
-use super::{mirrored, over_cycle, plate, rest, span, with_margin};
 use crate::export::figure::{Axis, Figure, Grid, Layer, Legend, Line, Map, Panel, Range, Style, Width};
 use crate::problem::{Motor, Plate};
 use crate::recording::Recording;
@@ -46,7 +47,7 @@ const MOVING_MAPS: usize = 4;
 pub fn motors(runs: &[MotorRun<'_>]) -> Vec<(&'static str, Figure)> {
     let Some(first) = runs.first() else { return Vec::new() };
     let frame = crest_in_the_middle(first.recording);
-    let phase = super::phase(first.recording, frame);
+    let phase = phase_of(first.recording, frame);
     vec![
         ("waves", waves(runs, phase)),
         ("loads", loads(runs)),
@@ -227,9 +228,8 @@ pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
 
 /// The film's pressure under the tooth in the middle of every run, with one scale of colours.
 pub fn teeth(runs: &[MotorRun<'_>], phase: f64) -> Figure {
-    let maps = runs
-        .iter()
-        .map(|run| super::tooth_map(run.recording, run.recording.teeth / 2, nearest_frame(run.recording, phase)));
+    let maps =
+        runs.iter().map(|run| tooth_map(run.recording, run.recording.teeth / 2, nearest_frame(run.recording, phase)));
     let [low, high] = maps.fold([f64::INFINITY, f64::NEG_INFINITY], |all, map| {
         map.iter().fold(all, |all, p| [all[0].min(*p), all[1].max(*p)])
     });
@@ -360,7 +360,7 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
         let values = x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect();
         let grid = Grid {
             x: x.iter().map(|(x, _)| x / run.plate.length).collect(),
-            y: (0..=frames).map(|m| super::phase(recording, m)).collect(),
+            y: (0..=frames).map(|m| phase_of(recording, m)).collect(),
             values,
         };
         let map = Map {

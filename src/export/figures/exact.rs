@@ -1,8 +1,8 @@
 //! A plate beside what is known exactly.
 
 use super::plate::force;
+use super::series::{over_cycle, rest, span, with_margin};
 use super::unit::prefixed;
-use super::{over_cycle, rest, span, with_margin};
 use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Legend, Line, Mark, Marker, Panel, Points, Shape, Style};
 use crate::problem::Plate;
@@ -22,7 +22,7 @@ pub fn exact(plate: &Plate, found: &Comparison, recording: &Recording) -> Figure
         "Spring and damping of the film, parts of the load in phase with the approach and with its speed over p_a · area · ε, for \
          small amplitudes over the squeeze number (a) with those of this solve as points, ε = {}; load over one cycle with \
          those of gas that cannot leave (Boyle) and of gas that is not compressed (b).",
-        crate::export::digits::significant(plate.amplitude / plate.mean_gap, 3)
+        crate::digits::significant(plate.amplitude / plate.mean_gap, 3)
     );
     figure
 }

@@ -1,7 +1,7 @@
 //! Figures of a motor. Axes cover the whole cycle, so that figures of several instants can be laid side by side.
 
+use super::series::{mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
 use super::unit::prefixed;
-use super::{mirrored, over_cycle, phase, rest, span, tooth_map, with_margin};
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Dash, Figure, Grid, Legend, Line, Map, Mark, Panel, Range, Style, Width,
 };
@@ -198,7 +198,7 @@ pub fn loads(motor: &Motor, recording: &Recording) -> Figure {
 
 fn period(recording: &Recording) -> String {
     let (unit, scale) = prefixed(recording.period, "s");
-    format!("{} {unit}", crate::export::digits::significant(recording.period * scale, 4))
+    format!("{} {unit}", crate::digits::significant(recording.period * scale, 4))
 }
 
 /// The film's pressure under all teeth, absolute.
@@ -288,7 +288,7 @@ pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
          crest is (b); colours of (a) cover the whole cycle. Teeth are {} mm wide along x.",
         phase(recording, frame),
         recording.teeth,
-        crate::export::digits::significant(motor.tooth_width * 1e3, 4)
+        crate::digits::significant(motor.tooth_width * 1e3, 4)
     );
     figure
 }

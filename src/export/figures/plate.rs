@@ -1,7 +1,7 @@
 //! Figures of a plate.
 
+use super::series::{mirrored, over_cycle, phase, rest, span};
 use super::unit::prefixed;
-use super::{mirrored, over_cycle, phase, rest, span};
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Dash, Figure, Grid, Line, Map, Mark, Marker, Panel, Points, Shape, Style, Width,
 };

@@ -1,31 +1,31 @@
 //! Torque, power and efficiency of a motor over the speed of its rotor.
 
-use super::rest;
+use super::series::rest;
 use super::unit::prefixed;
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Style};
 use crate::solution::{Performance, Point};
 
 /// Torque–speed curves with the film and without, power and heat, efficiency; the rotor speed of the scene is marked.
-pub fn torque(merit: &Merit) -> Figure {
-    let (wet, dry) = (&merit.with_film, &merit.without_film);
+pub fn torque(curves: &TorqueCurves) -> Figure {
+    let (wet, dry) = (&curves.with_film, &curves.without_film);
     let most = |value: fn(&Point) -> f64| {
         wet.curve.iter().chain(&dry.curve).map(value).filter(|value| value.is_finite()).fold(0.0, f64::max)
     };
     let greatest = wet.max_torque.value.max(dry.max_torque.value);
     let (torque_unit, torques) = prefixed(greatest, "N·m");
     let (power_unit, powers) = prefixed(most(|point| point.output.max(point.friction)), "W");
-    let fastest = merit.rpm(merit.surface_speed).max(f64::MIN_POSITIVE);
+    let fastest = curves.rpm(curves.surface_speed).max(f64::MIN_POSITIVE);
     let x = || Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
     // What brakes the rotor is below the axes.
     let curve = |of: &Performance, value: &dyn Fn(&Point) -> f64| -> Vec<[f64; 2]> {
-        of.curve.iter().map(|point| [merit.rpm(point.speed), value(point)]).collect()
+        of.curve.iter().map(|point| [curves.rpm(point.speed), value(point)]).collect()
     };
     let wet_style = Style::solid(Colour::FILM);
     let dry_style = Style::solid(Colour::CONTACT).dash(Dash::Dashed);
     let errors = wet.curve.iter().filter(|point| point.torque.error.is_finite()).map(|point| {
         let Point { torque, speed, .. } = point;
-        [merit.rpm(*speed), (torque.value - torque.error) * torques, (torque.value + torque.error) * torques]
+        [curves.rpm(*speed), (torque.value - torque.error) * torques, (torque.value + torque.error) * torques]
     });
     let top = |value: f64| if value > 0.0 { 1.08 * value } else { 1.0 };
     let mut first =
@@ -46,7 +46,7 @@ pub fn torque(merit: &Merit) -> Figure {
     let mut third = Panel::new("(c) efficiency", x(), Axis::new("efficiency", "%").fixed(0.0, 100.0))
         .layer(Line::new("without film", curve(dry, &percent), dry_style))
         .layer(Line::new("with film", curve(wet, &percent), wet_style));
-    let present = merit.rpm(wet.present.speed);
+    let present = curves.rpm(wet.present.speed);
     for panel in [&mut first, &mut second, &mut third] {
         panel.legend = Legend::Above;
         panel.layers.insert(0, rest(0.0, "").into());
@@ -64,9 +64,9 @@ pub fn torque(merit: &Merit) -> Figure {
          rotor, with the air film and without it, for Coulomb friction at every point of contact. The stator's surface reaches \
          {} rpm. The pressures are those of the scene's rotor speed, {} rpm, marked by the thin line; what another speed changes \
          of the torque is below {} %.",
-        crate::export::digits::significant(fastest, 4),
-        crate::export::digits::significant(present, 4),
-        crate::export::digits::significant(100.0 * merit.speed_effect, 2)
+        crate::digits::significant(fastest, 4),
+        crate::digits::significant(present, 4),
+        crate::digits::significant(100.0 * curves.speed_effect, 2)
     );
     figure
 }

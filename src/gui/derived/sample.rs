@@ -256,6 +256,7 @@ pub fn middle_pressure(recording: &Recording, tooth: usize, xi: f64, place: f64)
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::LineLoads;
 
     #[test]
     fn a_linear_function_is_read_exactly_on_a_graded_grid() {
@@ -294,7 +295,8 @@ mod tests {
                 pressure.extend(map_y.iter().map(|y| frame as f64 + 10.0 * x + 100.0 * y));
             }
         }
-        Recording { frames, teeth, map_x, map_y, pressure, half_width: true, half_length: half, ..Recording::default() }
+        let lines = LineLoads { frames, teeth, ..LineLoads::default() };
+        Recording { lines, map_x, map_y, pressure, half_width: true, half_length: half, ..Recording::default() }
     }
 
     #[test]
@@ -333,17 +335,18 @@ mod tests {
             [(wave, 10.0 * wave), (2.0 * wave, 20.0 * wave)]
         };
         let lines = || (0..stored_teeth).flat_map(|t| (0..frames).flat_map(move |m| line(t, m)));
-        Recording {
+        let stator = lines().map(|(wave, _)| -wave).collect();
+        let lines = LineLoads {
             frames,
             teeth,
             stored_teeth,
             x: vec![-1.0, 1.0],
             film_thickness: lines().map(|(wave, _)| 0.5 + wave.max(0.0)).collect(),
             contact: lines().map(|(_, load)| (-load).max(0.0)).collect(),
-            stator: lines().map(|(wave, _)| -wave).collect(),
             film: lines().map(|(_, load)| load).collect(),
-            ..Recording::default()
-        }
+            ..LineLoads::default()
+        };
+        Recording { lines, stator, ..Recording::default() }
     }
 
     #[test]

@@ -200,23 +200,25 @@ pub fn common(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::LineLoads;
 
     fn recording(stored_teeth: usize) -> Recording {
         let (teeth, frames) = (3, 6);
         let line = |tooth: usize, frame: usize| ((frame + 2 * tooth) % frames) as f64;
         let film = (0..stored_teeth).flat_map(|t| (0..frames).flat_map(move |m| [line(t, m); 2])).collect::<Vec<_>>();
-        Recording {
+        let stator = vec![0.0; film.len()];
+        let lines = LineLoads {
             frames,
             teeth,
             stored_teeth,
             x: vec![-1.0, 1.0],
             node_length: vec![1.0, 1.0],
             contact: vec![0.0; film.len()],
-            stator: vec![0.0; film.len()],
             film_thickness: film.clone(),
             film,
-            ..Recording::default()
-        }
+            ..LineLoads::default()
+        };
+        Recording { lines, stator, ..Recording::default() }
     }
 
     #[test]
@@ -236,8 +238,8 @@ mod tests {
 
     #[test]
     fn cycles_of_a_transient_have_axes_in_common_and_do_not_run_back() {
-        let (small, large) = (recording(3), recording(3));
-        let large = Recording { film: large.film.iter().map(|film| 2.0 * film - 1.0).collect(), ..large };
+        let (small, mut large) = (recording(3), recording(3));
+        large.film.iter_mut().for_each(|film| *film = 2.0 * *film - 1.0);
         let both = Ranges::of(&small).and(Ranges::of(&large));
         assert_eq!(both.loads, [-1.0, 9.0]);
         assert_eq!(both, both.and(Ranges::of(&small)));

@@ -111,9 +111,9 @@ pub fn choice<'a>(key: &str, name: &'a str) -> &'a str {
 
 /// As [`choice`]; of what is left to the plan, also what `plan` has chosen: "Auto: left out".
 pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
-    let found = plan.iter().find(|decision| decision.key == Some(key) && !decision.chosen.is_empty());
+    let found = plan.iter().find(|decision| decision.key() == Some(key));
     match found {
-        Some(decision) if name == AUTO_NAME => automatic(key, decision.chosen),
+        Some(decision) if name == AUTO_NAME => automatic(key, decision.value()),
         _ => choice(key, name).to_owned(),
     }
 }
@@ -174,6 +174,8 @@ fn short(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Choice;
+    use crate::problem::Wedge;
     use crate::scene::{PARAMETERS, ParameterKind};
 
     #[test]
@@ -194,14 +196,7 @@ mod tests {
 
     #[test]
     fn what_is_left_to_the_plan_says_what_the_plan_chose() {
-        let plan = [Decision {
-            term: "wedge term",
-            key: Some("numerics.wedge"),
-            chosen: "off",
-            overruled: false,
-            effect: 1e-3,
-            words: String::new(),
-        }];
+        let plan = [Decision { chosen: Choice::Wedge(Wedge::Off), overruled: false, effect: 1e-3, weighed: None }];
         assert_eq!(chosen("numerics.wedge", "auto", &plan), "Auto: left out");
         assert_eq!(chosen("numerics.wedge", "on", &plan), "Solved");
         assert_eq!(chosen("numerics.time", "auto", &plan), "Automatic");

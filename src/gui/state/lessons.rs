@@ -12,9 +12,9 @@ use crate::analysis::exact;
 use crate::analysis::quantity::Numbers;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::lessons::check::{Ran, Verdict};
+use crate::lessons::check::Ran;
 use crate::lessons::live::{Live, Readings};
-use crate::lessons::{self, Act, Known, Lesson, LessonError, Prediction, Step};
+use crate::lessons::{self, Act, Lesson, LessonError, Prediction, Step, WindowNames};
 use crate::problem::{Plate, Scenario};
 use crate::scene::Scene;
 use crate::solution::{Outcome, PlateResult, Status};
@@ -399,10 +399,8 @@ impl LessonState {
         work.tried = run.scene != start.scene
             || task.check.live().any(|live| live.is_done_by_hand() && now.get(live) != start.live.get(live));
         let now = Ran { scene: &run.scene, numbers: &numbers, live: now };
-        match task.check.verdict(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &start.live }) {
-            Verdict::Holds => (work.fulfilled, work.unmet) = (true, None),
-            Verdict::Not(why) => work.unmet = Some(why),
-        }
+        work.unmet = task.check.unmet(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &start.live });
+        work.fulfilled |= work.unmet.is_none();
     }
 }
 
@@ -469,12 +467,12 @@ fn tab(name: &str) -> Option<Tab> {
 }
 
 /// Calls `read` with what the window has.
-fn with_known<R>(read: impl FnOnce(Known<'_>) -> R) -> R {
+fn with_known<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
     let labels = |plate| -> Vec<&str> {
         Tab::ALL.iter().filter(|(tab, _)| tab.is_of(plate)).map(|(tab, _)| tab.label(plate)).collect()
     };
     let (motor, plate) = (labels(false), labels(true));
-    read(Known { tabs: [&motor, &plate], places: PLACES })
+    read(WindowNames { tabs: [&motor, &plate], places: PLACES })
 }
 
 fn read_progress(text: &str) -> BTreeMap<String, Progress> {

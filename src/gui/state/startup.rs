@@ -54,8 +54,8 @@ impl KeptCycles {
 
 /// Memory of a recording's fields \[bytes\].
 fn bytes(recording: &Recording) -> usize {
-    let Recording { film_thickness, stator, contact, film, pressure, other_pressure, film_load, .. } = recording;
-    let fields = film_thickness.len() + stator.len() + contact.len() + film.len();
+    let Recording { lines, stator, pressure, other_pressure, film_load, .. } = recording;
+    let fields = lines.film_thickness.len() + stator.len() + lines.contact.len() + lines.film.len();
     let maps = pressure.len() + other_pressure.len();
     8 * (fields + maps + 5 * film_load.len())
 }

@@ -92,7 +92,7 @@ impl SwitchHistory {
         let before = before.iter().find(|old| old.fidelity == after.fidelity)?;
         // Each states what it leaves out; between two reductions both count.
         let effect = |sample: &Sample| {
-            let decided = sample.decisions.iter().find(|decision| decision.key == Some(*key));
+            let decided = sample.decisions.iter().find(|decision| decision.key() == Some(*key));
             decided.map_or(0.0, |decision| decision.effect)
         };
         Some(SwitchEffect {
@@ -109,18 +109,13 @@ impl SwitchHistory {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Choice;
+    use crate::problem::Wedge;
 
     const KEY: &str = "numerics.wedge";
 
     fn sample(fidelity: Fidelity, alpha: f64, effect: f64) -> Sample {
-        let decision = Decision {
-            term: "wedge term",
-            key: Some(KEY),
-            chosen: "off",
-            overruled: false,
-            effect,
-            words: String::new(),
-        };
+        let decision = Decision { chosen: Choice::Wedge(Wedge::Off), overruled: false, effect, weighed: None };
         Sample { fidelity, alpha, error: 1e-4, decisions: vec![decision] }
     }
 

@@ -1,6 +1,6 @@
 //! Torque over speed of the run on screen: computed in the background while its tab is shown, and kept.
 
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
 use crate::job::task::Task;
@@ -10,14 +10,14 @@ use crate::problem::Scenario;
 type Key = (u64, Fidelity);
 
 /// The computation: curves, or why there are none; nothing if it was cancelled.
-pub type TorqueTask = Task<(), Option<Result<Merit, String>>>;
+pub type TorqueTask = Task<(), Option<Result<TorqueCurves, String>>>;
 
 /// What is known, and what is being computed.
 #[derive(Debug, Default)]
 pub struct TorqueState {
     asked: Option<Key>,
     task: Option<TorqueTask>,
-    found: Option<(Key, Result<Merit, String>)>,
+    found: Option<(Key, Result<TorqueCurves, String>)>,
 }
 
 impl TorqueState {
@@ -49,12 +49,12 @@ impl TorqueState {
     }
 
     /// The newest that is known.
-    pub fn found(&self) -> Option<&Result<Merit, String>> {
+    pub fn found(&self) -> Option<&Result<TorqueCurves, String>> {
         self.found.as_ref().map(|(_, found)| found)
     }
 
     /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
-    pub fn of(&self, run: &SolvedScene) -> Option<&Merit> {
+    pub fn of(&self, run: &SolvedScene) -> Option<&TorqueCurves> {
         let good = run.fidelity.min(Fidelity::Standard);
         let (_, found) = self.found.as_ref().filter(|((number, found), _)| *number == run.number && *found >= good)?;
         found.as_ref().ok()

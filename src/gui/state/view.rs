@@ -118,11 +118,12 @@ impl View {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::LineLoads;
 
     #[test]
     fn steps_land_on_frames() {
         for frames in [1, 7, 72, 180, 49] {
-            let recording = Recording { frames, ..Recording::default() };
+            let recording = Recording { lines: LineLoads { frames, ..LineLoads::default() }, ..Recording::default() };
             let mut view = View::default();
             for by in [1, 1, -3, 5, -1] {
                 let before = view.place(&recording);
@@ -132,7 +133,7 @@ mod tests {
                 assert_eq!(view.place(&recording), expected as f64, "{frames}");
             }
         }
-        let recording = Recording { frames: 10, ..Recording::default() };
+        let recording = Recording { lines: LineLoads { frames: 10, ..LineLoads::default() }, ..Recording::default() };
         let between = View { phase: 0.34, ..View::default() };
         assert!((between.place(&recording) - 3.4).abs() < 1e-12);
         assert_eq!([between.stepped(&recording, -1), between.stepped(&recording, 1)], [0.3, 0.4]);

@@ -2,7 +2,7 @@
 
 use super::updater::Updater;
 use crate::analysis::compare;
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
 use crate::export::animation::Options;
 use crate::export::figure::{Format, to_bytes};
@@ -71,8 +71,8 @@ impl Updater {
                 let (run, named) = self.named()?;
                 Box::new(move |control| {
                     let mut summary = Summary::new(&named.1, &run.solution, run.wall_s, &[]);
-                    let merit = summary.add_merit(merit(&run, control.cancel));
-                    let solved = Solved { merit: merit.as_ref(), ..solved(&run, &named) };
+                    let merit = summary.add_torque(merit(&run, control.cancel));
+                    let solved = Solved { torque: merit.as_ref(), ..solved(&run, &named) };
                     files::solve(&path, &solved, &summary, &BESIDE_DATA, control)
                 })
             }
@@ -81,7 +81,7 @@ impl Updater {
                 Box::new(move |control| {
                     // Without it the other figures are still worth having.
                     let merit = merit(&run, control.cancel).ok().flatten();
-                    let solved = Solved { merit: merit.as_ref(), ..solved(&run, &named) };
+                    let solved = Solved { torque: merit.as_ref(), ..solved(&run, &named) };
                     files::solve_figures(&path, &solved, &Format::ALL, control)
                 })
             }
@@ -136,11 +136,11 @@ impl Updater {
 
 fn solved<'a>(run: &'a SolvedScene, (scene, problem): &'a (Scene, Problem)) -> Solved<'a> {
     let SolvedScene { solution, history, .. } = run;
-    Solved { scene, problem, solution, history, merit: None }
+    Solved { scene, problem, solution, history, torque: None }
 }
 
-fn merit(run: &SolvedScene, cancel: &Cancel) -> Result<Option<Merit>, MotorError> {
-    Merit::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
+fn merit(run: &SolvedScene, cancel: &Cancel) -> Result<Option<TorqueCurves>, MotorError> {
+    TorqueCurves::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
 }
 
 /// Settings of runs at these fidelities: of several, the coarsest.

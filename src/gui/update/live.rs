@@ -1,7 +1,7 @@
 //! What is computed while one looks: a start-up, a plate in the hand, and torque over speed.
 
 use super::updater::Updater;
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
@@ -36,7 +36,7 @@ impl Updater {
         if self.state.torque.lacks(&run) {
             let theirs = Arc::clone(&run);
             let task = Task::start("torque", self.wake(Duration::ZERO), move |cancel, _: &(dyn Fn(()) + Sync)| {
-                Merit::of_solve(&theirs.problem, theirs.fidelity, &theirs.solution, cancel)
+                TorqueCurves::of_solve(&theirs.problem, theirs.fidelity, &theirs.solution, cancel)
                     .map_err(|error| format!("without film, {error}"))
                     .transpose()
             });

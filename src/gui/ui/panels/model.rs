@@ -1,6 +1,7 @@
 //! The plan in the window: what was decided about each part of the model, what that changes at most, and a switch to decide
 //! otherwise. After a switch, what it changed.
 
+use crate::analysis::decision;
 use crate::export::digits::significant;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
@@ -33,7 +34,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let row = Row { run, columns, cx };
     row.target(ui);
     for decision in decisions {
-        ui.push_id(decision.term, |ui| match decision.key.and_then(Parameter::find) {
+        ui.push_id(decision::term(decision), |ui| match decision.key().and_then(Parameter::find) {
             Some(parameter) => row.switch(ui, decision, parameter),
             None => row.fixed(ui, decision),
         });
@@ -102,7 +103,7 @@ fn at_most(share: f64) -> String {
 
 /// What a decision leaves out at most; nothing of a grid, whose error is stated elsewhere.
 fn bound(decision: &Decision) -> String {
-    if decision.key.is_none() && decision.effect == 0.0 {
+    if decision.key().is_none() && decision.effect == 0.0 {
         return String::new();
     }
     if decision.effect > 0.0 { format!("≤ {}", at_most(decision.effect)) } else { "exact".to_owned() }
@@ -129,8 +130,8 @@ impl Columns {
     fn of(ui: &egui::Ui, decisions: &[Decision]) -> Self {
         let widest =
             |texts: &mut dyn Iterator<Item = String>| texts.map(|text| text_width(ui, &text)).fold(0.0, f32::max);
-        let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key?)?)));
-        let term = widest(&mut switches().map(|(decision, _)| capitalised(decision.term)));
+        let switches = || decisions.iter().filter_map(|decision| Some((decision, Parameter::find(decision.key()?)?)));
+        let term = widest(&mut switches().map(|(decision, _)| capitalised(decision::term(decision))));
         // As if anything were decided: rows must not jump when something is.
         let bound = widest(&mut [0.06, 6e-4].into_iter().map(|share| format!("≤ {}", at_most(share))));
         let wide = widest(&mut switches().flat_map(|(_, parameter)| {
@@ -186,7 +187,7 @@ impl Row<'_> {
 
     /// A decision that can be overruled.
     fn switch(&self, ui: &mut egui::Ui, decision: &Decision, parameter: &'static Parameter) {
-        let explanation = capitalised(&decision.words);
+        let explanation = capitalised(&decision::words(decision));
         let height = ui.spacing().interact_size.y;
         if self.columns.one_line {
             ui.horizontal(|ui| {
@@ -212,7 +213,7 @@ impl Row<'_> {
     fn fixed(&self, ui: &mut egui::Ui, decision: &Decision) {
         ui.add_space(2.0);
         self.heading(ui, decision);
-        self.cx.note(ui, capitalised(&decision.words));
+        self.cx.note(ui, capitalised(&decision::words(decision)));
         if decision.overruled {
             let numerics = Numerics {
                 film_nodes_along: None,
@@ -235,7 +236,7 @@ impl Row<'_> {
     }
 
     fn term(&self, ui: &mut egui::Ui, decision: &Decision) -> egui::Response {
-        ui.add(egui::Label::new(capitalised(decision.term)).extend())
+        ui.add(egui::Label::new(capitalised(decision::term(decision))).extend())
     }
 
     fn bound(&self, ui: &mut egui::Ui, decision: &Decision) {
@@ -289,7 +290,7 @@ impl Row<'_> {
             };
             ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
             let button = ui.small_button("Back to auto").hint("Leaves this to the program again");
-            if button.accessible_name(format!("{} back to auto", capitalised(decision.term))).clicked() {
+            if button.accessible_name(format!("{} back to auto", capitalised(decision::term(decision)))).clicked() {
                 self.cx.push(back);
             }
         });

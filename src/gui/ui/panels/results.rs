@@ -6,7 +6,7 @@ use crate::analysis::regime;
 use crate::analysis::validity::Excess;
 use crate::dimensionless::Dimensionless;
 use crate::export::digits::significant;
-use crate::export::json::{beside_limit, dry_torque, force_unit};
+use crate::export::json::{beside_limit, force_unit};
 use crate::gui::derived::format::{capitalised, uncertain, with_minus};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
@@ -86,7 +86,7 @@ fn motor_numbers(
     cx.mark(ui, "headline", headline);
     ui.add_space(4.0);
     let force_error = result.alpha_error * motor.load;
-    let torque_error = result.alpha_error * dry_torque(motor);
+    let torque_error = result.alpha_error * motor.friction_torque(motor.load);
     number(ui, cx, "Film load", &uncertain(result.film_load, force_error), "N");
     number(ui, cx, "Over the cycle", &span(result.film_load_min, result.film_load_max), "N");
     number(ui, cx, "Contact load", &uncertain(result.contact_load, force_error), "N");
@@ -96,7 +96,7 @@ fn motor_numbers(
         number(ui, cx, "Stall torque", &uncertain(stall_torque.value, stall_torque.error), "N·m");
     }
     number(ui, cx, "Maximum operating torque", &uncertain(result.max_torque, torque_error), "N·m");
-    number(ui, cx, "The same without air", &shown(dry_torque(motor)), "N·m");
+    number(ui, cx, "The same without air", &shown(motor.friction_torque(motor.load)), "N·m");
     section(ui, "Extremes");
     extremes(ui, cx, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
 }

@@ -1,7 +1,7 @@
 //! Torque, power and efficiency of a motor over the speed of its rotor, with the film and without it, and what a designer
 //! reads off them.
 
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::estimate::Estimate;
 use crate::export::digits::significant;
 use crate::gui::derived::format::{digits, uncertain};
@@ -49,7 +49,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     });
 }
 
-fn found(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, height: f32, cx: &DrawContext<'_>) {
+fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx: &DrawContext<'_>) {
     if merit.surface_speed <= 0.0 {
         cx.note(ui, "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.");
         return;
@@ -123,7 +123,7 @@ fn panel(
     lines: &[(Vec<[f64; 2]>, Color32, LineStyle)],
     top: Option<f64>,
     bottom: bool,
-    merit: &Merit,
+    merit: &TorqueCurves,
     cx: &DrawContext<'_>,
 ) -> Option<f64> {
     let fastest = merit.rpm(merit.surface_speed);
@@ -154,7 +154,7 @@ fn panel(
 }
 
 /// The values at the speed under the pointer.
-fn readout(ui: &mut egui::Ui, merit: &Merit, pointed: Option<f64>, cx: &DrawContext<'_>) {
+fn readout(ui: &mut egui::Ui, merit: &TorqueCurves, pointed: Option<f64>, cx: &DrawContext<'_>) {
     let Some(speed) = pointed else {
         cx.note(ui, "Point at a chart to read its values");
         return;
@@ -176,7 +176,7 @@ fn readout(ui: &mut egui::Ui, merit: &Merit, pointed: Option<f64>, cx: &DrawCont
 }
 
 /// The numbers, with the film and without it.
-fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, cx: &DrawContext<'_>) {
+fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContext<'_>) {
     let (with, without) = (&merit.with_film, &merit.without_film);
     let speed = |found: Option<Estimate>| {
         let rpm = |found: Estimate| Estimate { value: merit.rpm(found.value), error: merit.rpm(found.error) };
@@ -227,7 +227,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, cx: &DrawContext<'_>) 
 }
 
 /// What else follows, in sentences.
-fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &Merit, cx: &DrawContext<'_>) {
+fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContext<'_>) {
     let drag = significant(1e6 * merit.viscous_drag.abs(), 2);
     cx.note(ui, &format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")));
     cx.note(ui, &format!("The film's own viscous drag, not counted here, is at most {drag} µN·m."));

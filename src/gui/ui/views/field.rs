@@ -89,15 +89,12 @@ fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::LineLoads;
 
     #[test]
     fn grooves_are_transparent_and_the_width_is_mirrored() {
         let recording = Recording {
-            frames: 2,
-            teeth: 2,
-            stored_teeth: 1,
-            pitch: 1.0,
-            length: 2.0,
+            lines: LineLoads { frames: 2, teeth: 2, stored_teeth: 1, pitch: 1.0, length: 2.0, ..LineLoads::default() },
             map_x: vec![-0.25, 0.0, 0.25],
             map_y: vec![0.0, 0.5],
             half_width: true,

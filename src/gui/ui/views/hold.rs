@@ -12,7 +12,7 @@ use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, scale_bar, shaded, title_with_bar};
 use crate::hold::Reading;
-use crate::recording::Recording;
+use crate::recording::{LineLoads, Recording};
 use eframe::egui::epaint::Shape;
 use eframe::egui::{self, Align2, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
@@ -238,12 +238,9 @@ fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFr
     let half = now.y.last().copied().unwrap_or(0.0);
     let axes = Axes::new(rect, [-shown.half, shown.half], [-half, half]);
     axes.canvas(painter, style);
+    let length = 2.0 * shown.half;
     let recording = Recording {
-        frames: 1,
-        length: 2.0 * shown.half,
-        teeth: 1,
-        stored_teeth: 1,
-        pitch: 2.0 * shown.half,
+        lines: LineLoads { frames: 1, length, teeth: 1, stored_teeth: 1, pitch: length, ..LineLoads::default() },
         map_x: now.x.clone(),
         map_y: now.y.clone(),
         half_width: true,

@@ -105,7 +105,8 @@ mod tests {
     fn extremes_do_not_disturb_it() {
         let mut still = run("levitating", &[], Method::Auto);
         let nothing = &mut still.solution.recording;
-        for field in [&mut nothing.stator, &mut nothing.contact, &mut nothing.film, &mut nothing.film_thickness] {
+        let lines = &mut nothing.lines;
+        for field in [&mut nothing.stator, &mut lines.contact, &mut lines.film, &mut lines.film_thickness] {
             field.fill(0.0);
         }
         nothing.pressure.fill(101_325.0);

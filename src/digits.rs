@@ -1,4 +1,4 @@
-//! Numbers for people: as many digits as the error justifies.
+//! Numbers for people: as many digits as the error justifies. Whatever is written for a person to read gets its digits here.
 
 /// Below this size numbers are written with an exponent.
 const SMALL: f64 = 1e-4;
@@ -19,6 +19,41 @@ pub fn significant(value: f64, digits: usize) -> String {
         return format!("{value:.*e}", digits - 1);
     }
     format!("{value:.*}", decimals(size, digits))
+}
+
+/// As [`significant`], without zeros at the end that say nothing: `0.1`, `250`.
+pub fn short(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// A share in per cent, two digits: `5.0 %`.
+pub fn percent(share: f64) -> String {
+    format!("{} %", significant(100.0 * share, 2))
+}
+
+/// `value` rounded to a number of significant digits.
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value)
+}
+
+/// A number of a scene, with the digits in which it was given: conversions to SI leave a last bit that nobody wrote.
+pub fn as_given(value: f64) -> f64 {
+    rounded(value, 10)
+}
+
+/// A time \[s\] in the unit that suits it, three digits: `42.6 ms`.
+pub fn duration(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s < 1.0 => (1e3 * s, "ms"),
+        s if s < 120.0 => (s, "s"),
+        s => (s / 60.0, "min"),
+    };
+    format!("{} {unit}", significant(value, 3))
 }
 
 /// `0.24583 ± 0.00018`: both to the error's second significant digit. An error that is not finite is said to be unknown.
@@ -93,5 +128,13 @@ mod tests {
         ] {
             assert_eq!(significant(value, digits), shown);
         }
+        assert_eq!([short(0.1, 3), short(200.0, 4), short(1.05e-10, 4)], ["0.1", "200", "1.050e-10"]);
+        assert_eq!([percent(0.05), percent(3e-4), percent(1.0)], ["5.0 %", "0.030 %", "100 %"]);
+        assert_eq!((as_given(0.7 + 1e-16), rounded(-1234.0, 2)), (0.7, -1200.0));
+    }
+
+    #[test]
+    fn durations_have_a_unit() {
+        assert_eq!([0.0426, 5.0, 300.0].map(duration), ["42.6 ms", "5.00 s", "5.00 min"]);
     }
 }

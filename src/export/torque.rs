@@ -1,7 +1,7 @@
 //! Torque, power and efficiency as the `merit` object of `solve --json`, and its curves as CSV. Speeds in rotations a
 //! minute, for the whole ring.
 
-use crate::analysis::torque::Merit;
+use crate::analysis::torque::TorqueCurves;
 use crate::estimate::Estimate;
 use crate::solution::{Performance, Point};
 use serde::Serialize;
@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 /// The object. Numbers that are not known are null.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct MeritObject {
+pub struct TorqueObject {
     /// With the film.
     pub with_film: PerformanceObject,
     /// The same motor in a vacuum.
@@ -82,26 +82,26 @@ pub struct PointObject {
     pub efficiency: Option<f64>,
 }
 
-impl MeritObject {
+impl TorqueObject {
     /// Of what was found.
-    pub fn new(merit: &Merit) -> Self {
+    pub fn new(curves: &TorqueCurves) -> Self {
         Self {
-            with_film: PerformanceObject::new(merit, &merit.with_film),
-            without_film: PerformanceObject::new(merit, &merit.without_film),
-            dry_equivalent_friction: finite(merit.dry_equivalent.value),
-            dry_equivalent_friction_error: finite(merit.dry_equivalent.error),
-            film_power_w: finite(merit.film_power.value),
-            film_power_error_w: finite(merit.film_power.error),
-            viscous_drag_nm: finite(merit.viscous_drag),
-            surface_speed_rpm: finite(merit.rpm(merit.surface_speed)),
-            speed_effect: finite(merit.speed_effect),
+            with_film: PerformanceObject::new(curves, &curves.with_film),
+            without_film: PerformanceObject::new(curves, &curves.without_film),
+            dry_equivalent_friction: finite(curves.dry_equivalent.value),
+            dry_equivalent_friction_error: finite(curves.dry_equivalent.error),
+            film_power_w: finite(curves.film_power.value),
+            film_power_error_w: finite(curves.film_power.error),
+            viscous_drag_nm: finite(curves.viscous_drag),
+            surface_speed_rpm: finite(curves.rpm(curves.surface_speed)),
+            speed_effect: finite(curves.speed_effect),
         }
     }
 }
 
 impl PerformanceObject {
-    fn new(merit: &Merit, found: &Performance) -> Self {
-        let rpm = |speed: Estimate| Estimate { value: merit.rpm(speed.value), error: merit.rpm(speed.error) };
+    fn new(curves: &TorqueCurves, found: &Performance) -> Self {
+        let rpm = |speed: Estimate| Estimate { value: curves.rpm(speed.value), error: curves.rpm(speed.error) };
         let [stall_torque_nm, stall_torque_error_nm] = pair(Some(found.stall_torque));
         let [max_torque_nm, max_torque_error_nm] = pair(Some(found.max_torque));
         let [no_load_speed_rpm, no_load_speed_error_rpm] = pair(found.no_load_speed.map(rpm));
@@ -124,15 +124,15 @@ impl PerformanceObject {
             max_efficiency_error,
             max_efficiency_speed_rpm,
             max_efficiency_speed_error_rpm,
-            present: PointObject::new(merit, &found.present),
+            present: PointObject::new(curves, &found.present),
         }
     }
 }
 
 impl PointObject {
-    fn new(merit: &Merit, point: &Point) -> Self {
+    fn new(curves: &TorqueCurves, point: &Point) -> Self {
         Self {
-            speed_rpm: finite(merit.rpm(point.speed)),
+            speed_rpm: finite(curves.rpm(point.speed)),
             torque_nm: finite(point.torque.value),
             torque_error_nm: finite(point.torque.error),
             output_w: finite(point.output),
@@ -154,7 +154,7 @@ fn pair(estimate: Option<Estimate>) -> [Option<f64>; 2] {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_csv(merit: &Merit, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_csv(curves: &TorqueCurves, out: &mut dyn Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let columns = ["torque_nm", "torque_error_nm", "output_w", "friction_w", "efficiency"];
     let mut header = vec!["speed_rpm".to_owned()];
@@ -162,8 +162,8 @@ pub fn write_csv(merit: &Merit, out: &mut dyn Write) -> io::Result<()> {
         header.extend(columns.iter().map(|column| format!("{side}{column}")));
     }
     table.write_record(&header)?;
-    for (wet, dry) in merit.with_film.curve.iter().zip(&merit.without_film.curve) {
-        let mut row = vec![text(Some(merit.rpm(wet.speed)))];
+    for (wet, dry) in curves.with_film.curve.iter().zip(&curves.without_film.curve) {
+        let mut row = vec![text(Some(curves.rpm(wet.speed)))];
         for point in [wet, dry] {
             let numbers = [point.torque.value, point.torque.error, point.output, point.friction].map(Some);
             row.extend(numbers.into_iter().chain([point.efficiency]).map(text));

@@ -1,0 +1,82 @@
+//! Axes: what they show, and over which range.
+
+use serde::{Deserialize, Serialize};
+
+/// One axis.
+///
+/// Labels may raise and lower: `m^{2}`, `p_{a}`; raised and lowered characters of Unicode are set alike.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Axis {
+    /// The quantity.
+    pub label: String,
+    /// Its unit; empty for none.
+    pub unit: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// What it covers.
+    pub range: Range,
+    /// Only whole numbers are labelled: rounds, teeth.
+    pub whole: bool,
+    /// Names at places instead of numbers; empty for numbers.
+    pub names: Vec<(f64, String)>,
+}
+
+impl Axis {
+    /// A linear axis that covers the data.
+    pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self { label: label.into(), unit: unit.into(), ..Self::default() }
+    }
+
+    /// Logarithmic.
+    #[must_use]
+    pub fn log(mut self) -> Self {
+        self.scale = Scale::Log;
+        self
+    }
+
+    /// Only whole numbers are labelled.
+    #[must_use]
+    pub fn whole(mut self) -> Self {
+        self.whole = true;
+        self
+    }
+
+    /// From here to there.
+    #[must_use]
+    pub fn fixed(mut self, from: f64, to: f64) -> Self {
+        self.range = Range::Fixed(from, to);
+        self
+    }
+
+    /// Covers the data and these values.
+    #[must_use]
+    pub fn including(mut self, values: impl IntoIterator<Item = f64>) -> Self {
+        self.range = Range::Including(values.into_iter().collect());
+        self
+    }
+}
+
+/// How values are spread along an axis or over colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scale {
+    /// Evenly.
+    #[default]
+    Linear,
+    /// By their logarithm; values that are not positive are left out.
+    Log,
+}
+
+/// What an axis or a colour bar covers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Range {
+    /// The data.
+    #[default]
+    Auto,
+    /// The data and these values.
+    Including(Vec<f64>),
+    /// From here to there.
+    Fixed(f64, f64),
+}

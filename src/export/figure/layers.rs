@@ -1,0 +1,265 @@
+//! What is drawn in a panel: curves, areas, points, fields, words.
+
+use super::axis::{Range, Scale};
+use super::colour::{Colour, Colours};
+use super::style::{Dash, Marker, Style};
+use serde::{Deserialize, Serialize};
+
+/// One thing in a panel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Layer {
+    /// A curve.
+    Line(Line),
+    /// What lies between two curves.
+    Band(Band),
+    /// Single points, with error bars or without.
+    Points(Points),
+    /// A straight line across the axes.
+    Mark(Mark),
+    /// Values over a plane as colours.
+    Map(Map),
+    /// Lines of equal value over a plane.
+    Contours(Contours),
+    /// Kinds over a plane.
+    Categories(Categories),
+    /// Words at a place.
+    Text(Text),
+}
+
+/// A line with at most this many points has a marker on each.
+pub(super) const MARKED: usize = 24;
+
+/// A curve. Points that are not finite, or not positive on a logarithmic axis, interrupt it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Line {
+    /// Its name in the legend; empty for none.
+    pub name: String,
+    /// `[x, y]`.
+    pub points: Vec<[f64; 2]>,
+    /// How it looks.
+    pub style: Style,
+    /// Read on the right axis.
+    pub right: bool,
+}
+
+impl Line {
+    /// A curve read on the left axis.
+    pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>, style: Style) -> Self {
+        Self { name: name.into(), points: points.into_iter().collect(), style, right: false }
+    }
+
+    /// Whether every point has a marker.
+    pub(super) fn is_marked(&self) -> bool {
+        self.style.marker.is_some() && self.points.len() <= MARKED
+    }
+}
+
+/// The area between two curves of the same x: an error band, or a body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Band {
+    /// Its name in the legend; empty for none.
+    pub name: String,
+    /// `[x, low, high]`; what is not finite interrupts it.
+    pub points: Vec<[f64; 3]>,
+    /// Colour.
+    pub colour: Colour,
+    /// 0 is invisible, 1 is solid.
+    pub opacity: f64,
+    /// Read on the right axis.
+    pub right: bool,
+}
+
+impl Band {
+    /// A pale band read on the left axis.
+    pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 3]>, colour: Colour) -> Self {
+        Self { name: name.into(), points: points.into_iter().collect(), colour, opacity: 0.25, right: false }
+    }
+}
+
+/// Single points.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Points {
+    /// Its name in the legend; empty for none.
+    pub name: String,
+    /// `[x, y]`.
+    pub points: Vec<[f64; 2]>,
+    /// Half the length of each point's error bar along y; shorter than `points`, the rest have none.
+    pub errors: Vec<f64>,
+    /// Colour.
+    pub colour: Colour,
+    /// Shape.
+    pub marker: Marker,
+    /// Read on the right axis.
+    pub right: bool,
+}
+
+impl Points {
+    /// Points without error bars, read on the left axis.
+    pub fn new(
+        name: impl Into<String>,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        colour: Colour,
+        marker: Marker,
+    ) -> Self {
+        Self { name: name.into(), points: points.into_iter().collect(), colour, marker, ..Self::default() }
+    }
+}
+
+/// A straight line across the axes, with words at its end.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Mark {
+    /// Which way it runs.
+    pub direction: Direction,
+    /// The x of a vertical, the y of a horizontal one.
+    pub at: f64,
+    /// Words beside it; may be empty.
+    pub label: String,
+    /// How it looks.
+    pub style: Style,
+}
+
+impl Mark {
+    /// A thin grey line at `x`.
+    pub fn vertical(x: f64, label: impl Into<String>) -> Self {
+        Self { direction: Direction::Vertical, at: x, label: label.into(), style: Style::quiet() }
+    }
+
+    /// A thin grey line at `y`.
+    pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
+        Self { direction: Direction::Horizontal, at: y, label: label.into(), style: Style::quiet() }
+    }
+}
+
+/// Which way a [`Mark`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Direction {
+    /// At one x.
+    Vertical,
+    /// At one y.
+    #[default]
+    Horizontal,
+}
+
+/// Values at the nodes of a plane, as colours. Where a value is not finite nothing is drawn.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Map {
+    /// The quantity, at the colour bar.
+    pub label: String,
+    /// Its unit; empty for none.
+    pub unit: String,
+    /// Where the values are.
+    pub grid: Grid,
+    /// How values become colours.
+    pub colours: Colours,
+    /// Linear or logarithmic colours.
+    pub scale: Scale,
+    /// What the colours cover.
+    pub range: Range,
+    /// Whether colours run from node to node or every node has its cell.
+    pub shading: Shading,
+}
+
+/// Values at the nodes of a plane; the nodes need not be uniform.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Grid {
+    /// Ascending.
+    pub x: Vec<f64>,
+    /// Ascending.
+    pub y: Vec<f64>,
+    /// `[ix][iy]`, flat.
+    pub values: Vec<f64>,
+}
+
+/// How the plane between nodes is filled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shading {
+    /// Linear from node to node: fields.
+    #[default]
+    Smooth,
+    /// A cell round every node: sweeps, where every value is a solve.
+    Cells,
+}
+
+/// Lines of equal value.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Contours {
+    /// Where the values are.
+    pub grid: Grid,
+    /// The values of the lines; empty for up to ten round ones.
+    pub levels: Vec<f64>,
+    /// Whether each line carries its value.
+    pub labels: bool,
+    /// Colour; without one, black or white as the map below asks.
+    pub colour: Option<Colour>,
+    /// Dashes.
+    pub dash: Dash,
+}
+
+/// Kinds over a plane, each node's cell in the colour of its kind.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Categories {
+    /// Ascending.
+    pub x: Vec<f64>,
+    /// Ascending.
+    pub y: Vec<f64>,
+    /// `[ix][iy]`, flat: which of `kinds`; beyond them nothing is drawn.
+    pub values: Vec<usize>,
+    /// Names, in the legend, and colours.
+    pub kinds: Vec<(String, Colour)>,
+}
+
+/// Words at a place.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Text {
+    /// `[x, y]` of the left axis.
+    pub at: [f64; 2],
+    /// The words.
+    pub text: String,
+    /// Which part of the words is there.
+    pub anchor: Anchor,
+    /// Colour.
+    pub colour: Colour,
+}
+
+impl Text {
+    /// Black words that begin at `at`.
+    pub fn new(at: [f64; 2], text: impl Into<String>) -> Self {
+        Self { at, text: text.into(), ..Self::default() }
+    }
+}
+
+/// Which part of a text lies at its place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Anchor {
+    /// Its beginning.
+    #[default]
+    Start,
+    /// Its middle.
+    Middle,
+    /// Its end.
+    End,
+}
+
+macro_rules! layer_from {
+    ($($kind:ident),*) => {
+        $(impl From<$kind> for Layer {
+            fn from(layer: $kind) -> Self {
+                Self::$kind(layer)
+            }
+        })*
+    };
+}
+layer_from!(Line, Band, Points, Mark, Map, Contours, Categories, Text);

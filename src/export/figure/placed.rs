@@ -1,0 +1,138 @@
+//! A panel's place on the paper, with its legend and colour bar, and the sizes that all who place and draw share.
+
+use super::colour::Colour;
+use super::description::Panel;
+use super::layers::{Direction, Layer, Map, Mark};
+use super::scale::{Scaled, Ticks, power};
+use super::style::{Marker, Style};
+use super::svg::Rect;
+use super::text;
+
+/// Points in a millimetre.
+pub(super) const MM: f64 = 72.0 / 25.4;
+/// Sizes of type \[pt\].
+pub(super) const TITLE: f64 = 9.5;
+pub(super) const HEAD: f64 = 8.5;
+pub(super) const LABEL: f64 = 8.5;
+pub(super) const TICK: f64 = 8.0;
+pub(super) const NOTE: f64 = 7.5;
+pub(super) const FOOT: f64 = 6.0;
+/// Height of a line, of its type's size.
+pub(super) const LEADING: f64 = 1.25;
+/// Length of a major and of a minor tick.
+pub(super) const MAJOR: f64 = 2.8;
+pub(super) const MINOR: f64 = 1.6;
+/// Gap between a tick and its label.
+pub(super) const GAP: f64 = 2.2;
+/// Width of an upright colour bar.
+pub(super) const BAR: f64 = 7.0;
+/// Length of the sample of a line.
+const SAMPLE: f64 = 17.0;
+/// Between a sample and its name.
+pub(super) const SPACE: f64 = 3.5;
+
+/// A colour bar's place.
+#[derive(Clone, Debug)]
+pub(super) struct Bar {
+    pub(super) rect: Rect,
+    pub(super) upright: bool,
+    pub(super) range: Scaled,
+    pub(super) ticks: Ticks,
+    pub(super) label: String,
+}
+
+/// A panel's place.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub(super) rect: Rect,
+    pub(super) x: Scaled,
+    pub(super) y: Scaled,
+    pub(super) right: Option<Scaled>,
+    pub(super) x_ticks: Ticks,
+    pub(super) y_ticks: Ticks,
+    pub(super) right_ticks: Ticks,
+    /// Whether labels stand below the x axis.
+    pub(super) x_labels: bool,
+    /// How far the labels of the y axes reach out, for the quantity beyond them.
+    pub(super) y_reach: f64,
+    pub(super) right_reach: f64,
+    pub(super) bar: Option<Bar>,
+    pub(super) legend: Vec<(Entry, [f64; 2])>,
+    /// A legend inside has a background.
+    pub(super) legend_box: Option<Rect>,
+    pub(super) title: Option<[f64; 2]>,
+}
+
+/// What stands for a layer in the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Sign {
+    Line(Style),
+    Patch(Colour, f64),
+    Point(Marker, Colour),
+}
+
+/// One name.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    pub(super) sign: Sign,
+    pub(super) name: String,
+}
+
+impl Entry {
+    /// Width of its sign.
+    pub(super) fn sample(&self) -> f64 {
+        match self.sign {
+            Sign::Line(_) => SAMPLE,
+            Sign::Patch(..) => 9.0,
+            Sign::Point(..) => 6.0,
+        }
+    }
+
+    /// Width of sign and name.
+    pub(super) fn width(&self) -> f64 {
+        self.sample() + SPACE + text::width(&self.name, NOTE)
+    }
+}
+
+/// The ends of a mark across `rect`.
+pub(super) fn mark_ends(placed: &Placed, mark: &Mark, rect: &Rect) -> [[f64; 2]; 2] {
+    match mark.direction {
+        Direction::Vertical => {
+            let x = rect.x + placed.x.fraction(mark.at) * rect.width;
+            [[x, rect.bottom()], [x, rect.y]]
+        }
+        Direction::Horizontal => {
+            let y = rect.bottom() - placed.y.fraction(mark.at) * rect.height;
+            [[rect.x, y], [rect.right(), y]]
+        }
+    }
+}
+
+/// `gap (10^{−9} m)`
+pub(super) fn axis_label(label: &str, unit: &str, exponent: i32) -> String {
+    let factor = if exponent == 0 { String::new() } else { power(exponent) };
+    let gap = if factor.is_empty() || unit.is_empty() { "" } else { " " };
+    match (label.is_empty(), factor.is_empty() && unit.is_empty()) {
+        (_, true) => label.to_owned(),
+        (true, false) => format!("{factor}{gap}{unit}"),
+        (false, false) => format!("{label} ({factor}{gap}{unit})"),
+    }
+}
+
+/// Whether a panel is a map, whose axes end where it ends.
+pub(super) fn fills(panel: &Panel) -> bool {
+    panel.layers.iter().any(|layer| matches!(layer, Layer::Map(_) | Layer::Categories(_)))
+}
+
+/// The map whose colours the bar explains.
+pub(super) fn first_map(panel: &Panel) -> Option<&Map> {
+    panel.layers.iter().find_map(|layer| match layer {
+        Layer::Map(map) => Some(map),
+        _ => None,
+    })
+}
+
+/// The range of a map's colours.
+pub(super) fn map_range(map: &Map) -> Scaled {
+    Scaled::new(&map.range, map.scale, map.grid.values.iter().copied(), false)
+}

@@ -1,0 +1,51 @@
+//! Where the numbers of a figure come from.
+
+use crate::digits::with_error;
+use crate::export::json::{force_unit, status_name};
+use crate::problem::Problem;
+use crate::solution::{Outcome, Solution};
+use serde::{Deserialize, Serialize};
+
+/// Where the numbers of a figure come from. What is empty is left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Provenance {
+    /// The scene's name, or the names of several.
+    pub preset: String,
+    /// Version of this program.
+    pub version: String,
+    /// `draft`, `standard`, …, or `paper mesh`.
+    pub fidelity: String,
+    /// The estimated numerical error, in words with numbers.
+    pub error: String,
+    /// Anything else: `not converged`, the instant shown.
+    pub note: String,
+}
+
+impl Provenance {
+    /// Of one solve.
+    pub fn of(problem: &Problem, solution: &Solution) -> Self {
+        let error = match &solution.outcome {
+            Outcome::Motor(result) => format!("α = {}", with_error(result.alpha, result.alpha_error)),
+            Outcome::Plate(result) => {
+                let unit = force_unit(problem);
+                format!("film load {} {unit}", with_error(result.film_load, result.film_load_error))
+            }
+        };
+        let status = status_name(&solution.status);
+        Self {
+            preset: problem.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            fidelity: solution.model.fidelity.clone(),
+            error,
+            note: if status == "converged" { String::new() } else { status.to_uppercase() },
+        }
+    }
+
+    /// One line for people; empty if nothing is known.
+    pub fn line(&self) -> String {
+        let program = if self.version.is_empty() { String::new() } else { format!("squeezefilm {}", self.version) };
+        let parts = [&self.preset, &self.fidelity, &self.error, &self.note, &program];
+        parts.iter().filter(|part| !part.is_empty()).map(|part| part.as_str()).collect::<Vec<_>>().join(" · ")
+    }
+}

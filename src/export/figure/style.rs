@@ -1,0 +1,126 @@
+//! How lines and points look.
+
+use super::colour::Colour;
+use serde::{Deserialize, Serialize};
+
+/// How a line looks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Style {
+    /// Colour.
+    pub colour: Colour,
+    /// Width \[pt\].
+    pub width: f64,
+    /// Dashes.
+    pub dash: Dash,
+    /// Markers on the line: on every point of a few, on some of many.
+    pub marker: Option<Marker>,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self { colour: Colour::BLACK, width: 1.0, dash: Dash::Solid, marker: None }
+    }
+}
+
+impl Style {
+    /// A solid line of a colour.
+    pub fn solid(colour: Colour) -> Self {
+        Self { colour, ..Self::default() }
+    }
+
+    /// With dashes.
+    #[must_use]
+    pub fn dash(mut self, dash: Dash) -> Self {
+        self.dash = dash;
+        self
+    }
+
+    /// With markers.
+    #[must_use]
+    pub fn marker(mut self, marker: Marker) -> Self {
+        self.marker = Some(marker);
+        self
+    }
+
+    /// A thin grey line for marks.
+    pub fn quiet() -> Self {
+        Self { colour: Colour::QUIET, width: 0.6, dash: Dash::Solid, marker: None }
+    }
+
+    /// The style of curve `index` of several: colour, dashes and marker all differ, so that they can be told apart in grey.
+    pub fn nth(index: usize) -> Self {
+        let dash = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
+        let shape = [Shape::Circle, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Cross];
+        let hollow = (index / shape.len()) % 2 == 1;
+        let marker = Marker { shape: shape[index % shape.len()], hollow, ..Marker::default() };
+        Self {
+            colour: Colour::CYCLE[index % Colour::CYCLE.len()],
+            width: 1.0,
+            dash: dash[index % dash.len()],
+            marker: Some(marker),
+        }
+    }
+}
+
+/// Dashes of a line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Dash {
+    /// None.
+    #[default]
+    Solid,
+    /// Long.
+    Dashed,
+    /// Dots.
+    Dotted,
+    /// Long and dot in turn.
+    DashDot,
+}
+
+/// A point's sign.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Marker {
+    /// Shape.
+    pub shape: Shape,
+    /// Only the outline, filled with white.
+    pub hollow: bool,
+    /// Diameter \[pt\].
+    pub size: f64,
+}
+
+impl Default for Marker {
+    fn default() -> Self {
+        Self { shape: Shape::Circle, hollow: false, size: 4.0 }
+    }
+}
+
+impl Marker {
+    /// A filled marker.
+    pub fn solid(shape: Shape) -> Self {
+        Self { shape, ..Self::default() }
+    }
+
+    /// An outline.
+    pub fn hollow(shape: Shape) -> Self {
+        Self { shape, hollow: true, ..Self::default() }
+    }
+}
+
+/// Shape of a marker.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// A circle.
+    #[default]
+    Circle,
+    /// A square.
+    Square,
+    /// A triangle on its base.
+    Triangle,
+    /// A square on its corner.
+    Diamond,
+    /// Two crossing strokes.
+    Cross,
+}

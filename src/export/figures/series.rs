@@ -1,0 +1,60 @@
+//! Series, maps and nodes of a recording as what figures draw.
+
+use crate::export::figure::{Colour, Mark, Style};
+use crate::recording::Recording;
+
+/// Least and greatest of the finite values, these two included.
+pub(super) fn span(values: impl Iterator<Item = f64>, including: f64) -> [f64; 2] {
+    values
+        .filter(|value| value.is_finite())
+        .fold([including, including], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// A range with a margin at both ends; an end at zero stays there.
+pub(super) fn with_margin([low, high]: [f64; 2], part: f64) -> [f64; 2] {
+    let margin = part * (high - low);
+    [if low == 0.0 { low } else { low - margin }, if high == 0.0 { high } else { high + margin }]
+}
+
+/// A thin line at zero or ambient.
+pub(super) fn rest(at: f64, label: &str) -> Mark {
+    let mut mark = Mark::horizontal(at, label);
+    mark.style = Style { colour: Colour::QUIET, width: 0.4, ..Style::quiet() };
+    mark
+}
+
+/// Phase of a frame, t/T.
+pub(super) fn phase(recording: &Recording, frame: usize) -> f64 {
+    frame as f64 / recording.frames.max(1) as f64
+}
+
+/// A series of one value per frame as a closed curve over 0 ≤ t/T ≤ 1.
+pub(super) fn over_cycle<'a>(series: &'a [f64], scale: f64) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let count = series.len();
+    let at = move |i: usize| [i as f64 / count.max(1) as f64, series[i % count] * scale];
+    (0..if count == 0 { 0 } else { count + 1 }).map(at)
+}
+
+/// The pressure map of tooth `tooth` at a frame, `[ix][iy]` as stored: with lag symmetry that of the first tooth, when it
+/// was where this one is now, between frames if need be.
+pub(super) fn tooth_map(recording: &Recording, tooth: usize, frame: usize) -> Vec<f64> {
+    let (frames, teeth) = (recording.frames.max(1), recording.teeth.max(1));
+    let size = recording.map_x.len() * recording.map_y.len();
+    let shift = tooth * frames;
+    let (first, weight) = ((frame + shift / teeth) % frames, (shift % teeth) as f64 / teeth as f64);
+    let plane = |frame: usize| recording.pressure.get(frame * size..(frame + 1) * size);
+    match (plane(first), plane((first + 1) % frames)) {
+        (Some(now), Some(next)) => now.iter().zip(next).map(|(a, b)| a + weight * (b - a)).collect(),
+        _ => vec![f64::NAN; size],
+    }
+}
+
+/// Nodes over the whole width (or length) from those of one half, and for each the stored node it mirrors.
+pub(super) fn mirrored(nodes: &[f64], half: bool) -> Vec<(f64, usize)> {
+    let all = nodes.iter().copied().enumerate();
+    let stored = all.clone().map(|(i, node)| (node, i));
+    if !half {
+        return stored.collect();
+    }
+    all.rev().filter(|(_, node)| *node > 0.0).map(|(i, node)| (-node, i)).chain(stored).collect()
+}

@@ -1,0 +1,141 @@
+//! The paper's figures, computed anew.
+
+use crate::analysis::reproduce::{Both, FIELDS, Reproduction};
+use crate::export::figure::{
+    Axis, Band, Colour, Dash, Figure, Legend, Line, Marker, Panel, Points, Provenance, Shape, Style, Width,
+};
+use crate::export::figures::compare::{MotorRun, contact_pressures, film_pressures};
+use crate::export::figures::motor::{crest_in_the_middle, surfaces};
+use crate::problem::{Motor, RotorCompliance, Scenario};
+use crate::recording::Recording;
+use crate::solution::Solution;
+
+/// The number of a figure, and the figure; those that could not be solved are left out.
+pub fn figures(all: &Reproduction) -> Vec<(u32, Figure)> {
+    let mut figures = Vec::new();
+    if let Some(figure) = all.row("fundamental").and_then(|row| green(&row.both)) {
+        figures.push((3, figure));
+    }
+    figures.extend(FIELDS.iter().filter_map(|(number, preset, name)| {
+        let row = all.row(preset)?;
+        Some((*number, fields(&row.both, &format!("Fig. {number}: {name}"))?))
+    }));
+    figures.push((10, frequencies(all)));
+    figures.sort_by_key(|(number, _)| *number);
+    for (_, figure) in &mut figures {
+        figure.provenance.version = env!("CARGO_PKG_VERSION").to_owned();
+    }
+    figures
+}
+
+/// Deflection of the rotor under a point load.
+fn green(both: &Both) -> Option<Figure> {
+    let Scenario::Motor(motor) = &both.problem.scenario else { return None };
+    let RotorCompliance::Beam { decay_length, point_compliance, local_compliance } = motor.rotor else { return None };
+    let half = 0.5 * motor.wavelength();
+    let beam = |x: f64| {
+        let s = x.abs() / decay_length;
+        point_compliance * (-s).exp() * (s.cos() + s.sin())
+    };
+    let points = (-200..=200).map(|i| f64::from(i) / 200.0 * half).map(|x| [x * 1e3, beam(x) * 1e6]);
+    let spacing = motor.wavelength() / 180.0;
+    let nodes = (-90..=90).map(|j| (f64::from(j) * spacing, if j == 0 { local_compliance / spacing } else { 0.0 }));
+    let nodes = nodes.map(|(x, local)| [x * 1e3, (beam(x) + local) * 1e6]);
+    let marker = Marker { size: 2.4, ..Marker::solid(Shape::Circle) };
+    let panel = Panel::new(
+        "",
+        Axis::new("x from the load", "mm").fixed(-half * 1e3, half * 1e3),
+        Axis::new("deflection", "µm/N").including([0.0]),
+    )
+    .layer(Points::new("on the 181 nodes, with the local compliance", nodes, Colour::BLACK, marker))
+    .layer(Line::new("beam on an elastic foundation", points, Style::solid(Colour::FILM)))
+    .height(44.0);
+    let mut figure = Figure::new("Fig. 3: deflection of the rotor under a unit point load").panel(panel);
+    figure.panels[0].legend = Legend::Above;
+    figure.width = Width::Millimetres(110.0);
+    figure.caption = "The paper took this Green's function from a finite element model of the rotor (2162 elements) and shows it as a curve, \
+                      which is not known to us. Here it is the beam that was fitted to Table I; the point at the load carries the local \
+                      compliance, spread over one contact spacing."
+        .to_owned();
+    figure.provenance.preset = both.problem.name.clone();
+    Some(figure)
+}
+
+const PAPER: &str = "paper's algorithm";
+const OURS: &str = "converged";
+
+fn recording(solved: &Result<Solution, String>) -> Option<&Recording> {
+    let recording = &solved.as_ref().ok()?.recording;
+    (recording.frames > 0).then_some(recording)
+}
+
+/// Surfaces, contact pressure and film pressure at the crest in the middle, as the paper's figures, by both methods.
+fn fields(both: &Both, title: &str) -> Option<Figure> {
+    let Scenario::Motor(motor) = &both.problem.scenario else { return None };
+    let motor: &Motor = motor;
+    let ours = recording(&both.ours)?;
+    let frame = crest_in_the_middle(ours);
+    let phase = frame as f64 / ours.frames as f64;
+    let run = |name, recording, style| MotorRun { name, motor, recording, style };
+    let mut contact = vec![run(OURS, ours, Style::solid(Colour::CONTACT))];
+    let mut film = vec![run(OURS, ours, Style::solid(Colour::FILM))];
+    if let Some(paper) = recording(&both.paper) {
+        let style = Style { width: 0.8, ..Style::solid(Colour::BLACK).dash(Dash::Dotted) };
+        contact.push(run(PAPER, paper, style));
+        film.push(run(PAPER, paper, style));
+    }
+    let legend = |panel: Panel| Panel { legend: Legend::Above, ..panel };
+    let mut figure = Figure::new(title)
+        .panel(surfaces(motor, ours, frame).height(36.0))
+        .panel(legend(contact_pressures(&contact, phase, "(b) contact pressure").height(28.0)))
+        .panel(legend(film_pressures(&film, phase, "(c) film pressure, gauge").height(28.0)));
+    figure.share_x = true;
+    figure.width = Width::Millimetres(115.0);
+    figure.provenance = match &both.ours {
+        Ok(solution) => Provenance::of(&both.problem, solution),
+        Err(_) => Provenance::default(),
+    };
+    Some(figure)
+}
+
+/// α over the frequency, with the published points.
+fn frequencies(all: &Reproduction) -> Figure {
+    let value = |point: &crate::analysis::reproduce::Point| {
+        point.solved.as_ref().map_or((f64::NAN, f64::NAN), |result| (result.alpha, result.alpha_error))
+    };
+    let band = all.frequencies.iter().map(|point| {
+        let (alpha, error) = value(point);
+        [point.frequency_khz, alpha - error, alpha + error]
+    });
+    let curve = all.frequencies.iter().map(|point| [point.frequency_khz, value(point).0]);
+    let (mut published, mut paper) = (Vec::new(), Vec::new());
+    for row in &all.rows {
+        let name = row.published.preset.as_str();
+        if name != "fundamental" && !name.starts_with("frequency-") {
+            continue;
+        }
+        let Scenario::Motor(motor) = &row.both.problem.scenario else { continue };
+        published.push([motor.frequency * 1e-3, row.published.published_alpha]);
+        if let Some(result) = Both::result(&row.both.paper) {
+            paper.push([motor.frequency * 1e-3, result.alpha]);
+        }
+    }
+    let panel = Panel::new("", Axis::new("frequency of the stator", "kHz").log(), Axis::new("α", "").including([0.0]))
+        .layer(Band::new("stated error", band, Colour::FILM))
+        .layer(Line::new(OURS, curve, Style::solid(Colour::FILM)))
+        .layer(Points::new(
+            "published",
+            published,
+            Colour::CONTACT,
+            Marker { size: 6.0, ..Marker::hollow(Shape::Square) },
+        ))
+        .layer(Points::new(PAPER, paper, Colour::BLACK, Marker { size: 2.6, ..Marker::solid(Shape::Circle) }))
+        .height(52.0);
+    let mut figure = Figure::new("Fig. 10: effect of the stator vibrating frequency").panel(panel);
+    figure.width = Width::Millimetres(110.0);
+    figure.caption = "The ratio α over the frequency, all else as in the fundamental case. Published: the rows of Table I, whose points \
+                      Fig. 10 shows. The stated error is narrower than the line nearly everywhere."
+        .to_owned();
+    figure.provenance.preset = "Fundamental case".to_owned();
+    figure
+}

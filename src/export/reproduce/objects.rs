@@ -1,0 +1,127 @@
+//! The numbers of the paper's tables and figures as JSON and CSV.
+
+use super::statements::{Statement, statements};
+use crate::analysis::reproduce::{Both, Reproduction, Row};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The version of the object and of the columns.
+pub const SCHEMA: u32 = 1;
+
+/// A row of Table I. What was not computed is null.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RowObject {
+    /// Name of the row.
+    pub row: String,
+    /// The built-in preset.
+    pub preset: String,
+    /// Film load as published \[N\].
+    pub published_load_n: f64,
+    /// α as published.
+    pub published_alpha: f64,
+    /// Film load by the paper's algorithm on its own meshes \[N\].
+    pub paper_load_n: Option<f64>,
+    /// α by it.
+    pub paper_alpha: Option<f64>,
+    /// Its estimated error, absolute.
+    pub paper_alpha_error: Option<f64>,
+    /// By how much that load exceeds the published one \[%\].
+    pub paper_difference_percent: Option<f64>,
+    /// Film load, converged \[N\].
+    pub film_load_n: Option<f64>,
+    /// α, converged.
+    pub alpha: Option<f64>,
+    /// Its estimated numerical error, absolute.
+    pub alpha_error: Option<f64>,
+    /// By how much that load exceeds the published one \[%\].
+    pub difference_percent: Option<f64>,
+}
+
+impl RowObject {
+    /// The object of a row.
+    pub fn new(row: &Row) -> Self {
+        let (paper, ours) = (Both::result(&row.both.paper), Both::result(&row.both.ours));
+        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
+        let published = &row.published;
+        let difference = |load: f64| 100.0 * (load / published.published_load_n - 1.0);
+        Self {
+            row: published.row.clone(),
+            preset: published.preset.clone(),
+            published_load_n: published.published_load_n,
+            published_alpha: published.published_alpha,
+            paper_load_n: finite(paper.map(|r| r.film_load)),
+            paper_alpha: finite(paper.map(|r| r.alpha)),
+            paper_alpha_error: finite(paper.map(|r| r.alpha_error)),
+            paper_difference_percent: finite(paper.map(|r| difference(r.film_load))),
+            film_load_n: finite(ours.map(|r| r.film_load)),
+            alpha: finite(ours.map(|r| r.alpha)),
+            alpha_error: finite(ours.map(|r| r.alpha_error)),
+            difference_percent: finite(ours.map(|r| difference(r.film_load))),
+        }
+    }
+}
+
+/// A point of Fig. 10. What was not computed is null.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PointObject {
+    /// Frequency \[kHz\].
+    pub frequency_khz: f64,
+    /// α, converged.
+    pub alpha: Option<f64>,
+    /// Its estimated numerical error, absolute.
+    pub alpha_error: Option<f64>,
+}
+
+/// The object of `--json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Object<'a> {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Of the converged values: `draft`, `standard`, ….
+    pub fidelity: String,
+    /// Table I.
+    pub table1: Vec<RowObject>,
+    /// Fig. 10.
+    pub fig10: Vec<PointObject>,
+    /// What the text says, and what came of it.
+    pub statements: Vec<Statement>,
+    /// Solves that did not converge.
+    pub unsolved: usize,
+    /// Version of this program.
+    pub version: &'static str,
+    /// The command line, word by word; empty if there was none.
+    pub command: &'a [String],
+}
+
+impl<'a> Object<'a> {
+    /// The object of a reproduction.
+    pub fn new(all: &Reproduction, command: &'a [String]) -> Self {
+        let point = |point: &crate::analysis::reproduce::Point| PointObject {
+            frequency_khz: point.frequency_khz,
+            alpha: point.solved.as_ref().ok().map(|result| result.alpha),
+            alpha_error: point.solved.as_ref().ok().map(|result| result.alpha_error),
+        };
+        Self {
+            schema: SCHEMA,
+            fidelity: all.settings.fidelity.to_string(),
+            table1: all.rows.iter().map(RowObject::new).collect(),
+            fig10: all.frequencies.iter().map(point).collect(),
+            statements: statements(all),
+            unsolved: all.unsolved(),
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+        }
+    }
+}
+
+/// Writes Table I as CSV, the header first; what was not computed is empty.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_table1_csv(all: &Reproduction, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    for row in &all.rows {
+        writer.serialize(RowObject::new(row))?;
+    }
+    writer.flush()
+}

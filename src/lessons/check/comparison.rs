@@ -1,0 +1,138 @@
+//! Comparisons of a check, and what they say of a run.
+
+use super::name::{Name, Ran};
+use crate::digits::short;
+use crate::lessons::live::Live;
+use crate::scene::Value;
+
+/// How near `about` is, relative.
+pub const ABOUT: f64 = 0.05;
+/// How near `=` is for numbers, relative: what a person typed.
+const SAME: f64 = 1e-9;
+/// Digits in a hint.
+const DIGITS: usize = 3;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Comparison {
+    pub(super) left: Expression,
+    pub(super) operator: Operator,
+    pub(super) right: Expression,
+    /// The left side as written.
+    pub(super) words: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Operator {
+    Less,
+    AtMost,
+    More,
+    AtLeast,
+    Equal,
+    About,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Expression {
+    Number(f64),
+    Text(String),
+    Name { name: Name, start: bool },
+    Negative(Box<Self>),
+    Absolute(Box<Self>),
+    Pair(char, Box<Self>, Box<Self>),
+}
+
+impl Comparison {
+    /// In words why it does not hold.
+    pub(super) fn unmet(&self, now: Ran<'_>, start: Ran<'_>) -> Option<String> {
+        let subject = match &self.left {
+            Expression::Name { name, start: false } => capitalised(&name.words()),
+            _ => self.words.clone(),
+        };
+        if let (Expression::Name { name: Name::Key(key), .. }, Expression::Text(wanted)) = (&self.left, &self.right) {
+            let present = match now.scene.get(key.key) {
+                Some(Value::Text(text)) => text,
+                Some(other) => other.to_string(),
+                None => "none".to_owned(),
+            };
+            return (present != *wanted).then(|| format!("{subject} is {present}, and should be {wanted}"));
+        }
+        let (Some(left), Some(right)) = (self.left.value(now, start), self.right.value(now, start)) else {
+            let tab = match &self.left {
+                Expression::Name { name: Name::Live(live), .. } => format!("yet: see the tab {}", live.tab()),
+                _ => "for this scene".to_owned(),
+            };
+            return Some(format!("{subject} is not known {tab}"));
+        };
+        let unit = match &self.left {
+            Expression::Name { name, .. } => format!(" {}", name.unit(now.scene)).trim_end().to_owned(),
+            _ => String::new(),
+        };
+        let shown = |value: f64| short(value, DIGITS).replace('-', "−");
+        let words = match self.operator {
+            Operator::Less => "below",
+            Operator::AtMost => "at most",
+            Operator::More => "above",
+            Operator::AtLeast => "at least",
+            Operator::Equal => "",
+            Operator::About => "about",
+        };
+        let space = if words.is_empty() { "" } else { " " };
+        let (is, wanted) = (shown(left), shown(right));
+        (!self.operator.holds(left, right))
+            .then(|| format!("{subject} is {is}{unit}, and should be {words}{space}{wanted}{unit}"))
+    }
+}
+
+impl Operator {
+    fn holds(self, left: f64, right: f64) -> bool {
+        let off = (left - right).abs();
+        match self {
+            Self::Less => left < right,
+            Self::AtMost => left <= right * (1.0 + SAME.copysign(right)),
+            Self::More => left > right,
+            Self::AtLeast => left >= right * (1.0 - SAME.copysign(right)),
+            Self::Equal => off <= SAME * right.abs().max(f64::MIN_POSITIVE),
+            Self::About => off <= ABOUT * right.abs(),
+        }
+    }
+}
+
+impl Expression {
+    /// What is read off tabs in it.
+    pub(super) fn live(&self, found: &mut Vec<Live>) {
+        match self {
+            Self::Number(_) | Self::Text(_) => {}
+            Self::Name { name, .. } => found.extend(if let Name::Live(live) = name { Some(*live) } else { None }),
+            Self::Negative(inside) | Self::Absolute(inside) => inside.live(found),
+            Self::Pair(_, left, right) => {
+                left.live(found);
+                right.live(found);
+            }
+        }
+    }
+
+    fn value(&self, now: Ran<'_>, begun: Ran<'_>) -> Option<f64> {
+        let value = match self {
+            Self::Number(number) => *number,
+            Self::Text(_) => return None,
+            Self::Name { name, start } => name.number(if *start { begun } else { now })?,
+            Self::Negative(inside) => -inside.value(now, begun)?,
+            Self::Absolute(inside) => inside.value(now, begun)?.abs(),
+            Self::Pair(operator, left, right) => {
+                let (left, right) = (left.value(now, begun)?, right.value(now, begun)?);
+                match operator {
+                    '+' => left + right,
+                    '-' => left - right,
+                    '*' => left * right,
+                    _ => left / right,
+                }
+            }
+        };
+        value.is_finite().then_some(value)
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}

@@ -1,0 +1,118 @@
+//! Names in a check: results, what is read off a tab, keys of the scene.
+
+use crate::analysis::quantity::{Numbers, Quantity};
+use crate::lessons::live::{Live, Readings};
+use crate::problem::Problem;
+use crate::scene::{PARAMETERS, Parameter, Scene};
+
+/// What a name in a check stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Name {
+    /// A result.
+    Quantity(Quantity),
+    /// What is read off a tab.
+    Live(Live),
+    /// A key of the scene.
+    Key(&'static Parameter),
+}
+
+/// A run to check: what was solved, and its numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Ran<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its results.
+    pub numbers: &'a Numbers,
+    /// What is read off the tabs.
+    pub live: &'a Readings,
+}
+
+/// A name that is neither a result nor a key.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name} is neither a result nor a key of the scene{}", suggestion(nearest.as_deref()))]
+pub struct UnknownName {
+    /// As written.
+    pub name: String,
+    /// The nearest name.
+    pub nearest: Option<String>,
+}
+
+fn suggestion(nearest: Option<&str>) -> String {
+    nearest.map_or_else(
+        || {
+            "; results are called as in --json (alpha, film_load_n, …), keys as in a preset (film.min_spacing_nm, …)"
+                .to_owned()
+        },
+        |name| format!(": did you mean {name}?"),
+    )
+}
+
+/// The name of a result or a key.
+///
+/// # Errors
+/// If there is none; with the nearest.
+pub fn name(text: &str) -> Result<Name, UnknownName> {
+    if let Some(quantity) = Quantity::all().find(|quantity| quantity.name() == text) {
+        return Ok(Name::Quantity(quantity));
+    }
+    if let Some(live) = Live::all().find(|live| live.name() == text) {
+        return Ok(Name::Live(live));
+    }
+    if let Some(parameter) = Parameter::find(text) {
+        return Ok(Name::Key(parameter));
+    }
+    let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
+    let known = results.chain(PARAMETERS.iter().map(|parameter| parameter.key));
+    let scored = known.map(|known| (strsim::jaro_winkler(text, known), known));
+    let best = scored.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    let nearest = best.filter(|best| best.0 > 0.75).map(|best| best.1.to_owned());
+    Err(UnknownName { name: text.to_owned(), nearest })
+}
+
+impl Name {
+    /// As it is written in a check.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Quantity(quantity) => quantity.name(),
+            Self::Live(live) => live.name(),
+            Self::Key(parameter) => parameter.key,
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> String {
+        match self {
+            Self::Quantity(quantity) => quantity.words().to_owned(),
+            Self::Live(live) => live.words().to_owned(),
+            Self::Key(parameter) => parameter.words(),
+        }
+    }
+
+    /// Its unit in this scene.
+    pub fn unit(self, scene: &Scene) -> &'static str {
+        match self {
+            Self::Quantity(quantity) => Problem::new(scene).map_or("", |problem| quantity.unit(&problem)),
+            Self::Live(live) => live.unit(),
+            Self::Key(parameter) => parameter.unit,
+        }
+    }
+
+    /// Whether a scene has it.
+    pub fn belongs(self, scene: &Scene) -> bool {
+        let problem = || Problem::new(scene);
+        match self {
+            Self::Quantity(quantity) => problem().is_ok_and(|problem| Quantity::of(&problem).any(|q| q == quantity)),
+            Self::Live(live) => problem().is_ok_and(|problem| live.belongs(&problem.scenario)),
+            Self::Key(parameter) => scene.parameters().any(|other| other.key == parameter.key),
+        }
+    }
+
+    /// Its value in a run; `None` if it has none there.
+    pub(super) fn number(self, ran: Ran<'_>) -> Option<f64> {
+        match self {
+            Self::Quantity(quantity) => ran.numbers.get(quantity),
+            Self::Live(live) => ran.live.get(live),
+            Self::Key(parameter) => ran.scene.get(parameter.key)?.as_number(),
+        }
+    }
+}

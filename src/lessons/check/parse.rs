@@ -1,0 +1,288 @@
+//! From the words of a check to its comparisons.
+
+use super::comparison::{Comparison, Expression, Operator};
+use super::name::{Name, UnknownName, name};
+use crate::scene::{Parameter, ParameterKind, Scene};
+
+/// Levels of brackets.
+const DEEPEST: usize = 32;
+const OPERATORS: &str = "expected one of < <= > >= = about";
+const VALUE: &str = "expected a number, the name of a result, a key of the scene, or a bracket";
+
+/// Why a check cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CheckError {
+    /// A name that is neither a result nor a key.
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
+    /// Something else was expected.
+    #[error("{found} is not expected here: {expected}")]
+    Unexpected {
+        /// What is there.
+        found: String,
+        /// What may be there.
+        expected: &'static str,
+    },
+    /// A result or key that the step's scene does not have.
+    #[error("{name} belongs to another kind of scene; this step's is a {scene}")]
+    NotHere {
+        /// The name.
+        name: &'static str,
+        /// "motor" or "plate".
+        scene: &'static str,
+    },
+    /// A name or flag in a sum, or compared with a number.
+    #[error("{name} is no number: compare it with = and {expected}")]
+    NoNumber {
+        /// The key.
+        name: &'static str,
+        /// What it accepts.
+        expected: String,
+    },
+    /// A text that is not one of the key's names.
+    #[error("\"{value}\" is not a value of {name}: expected {expected}")]
+    NoChoice {
+        /// The key.
+        name: &'static str,
+        /// As written.
+        value: String,
+        /// What it accepts.
+        expected: String,
+    },
+    /// Deeper than any check.
+    #[error("more than {0} levels of brackets")]
+    TooDeep(usize),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    Number(f64, String),
+    Name(String),
+    Text(String),
+    Operator(Operator, &'static str),
+    Sign(char),
+    And,
+}
+
+impl Token {
+    fn text(&self) -> String {
+        match self {
+            Self::Number(_, text) | Self::Name(text) => text.clone(),
+            Self::Text(text) => format!("\"{text}\""),
+            Self::Operator(_, text) => (*text).to_owned(),
+            Self::Sign(sign) => sign.to_string(),
+            Self::And => "and".to_owned(),
+        }
+    }
+}
+
+fn tokens(source: &str) -> Result<Vec<Token>, CheckError> {
+    let chars: Vec<char> = source.chars().collect();
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    let run = |from: usize, inside: &dyn Fn(char, char) -> bool| {
+        let mut to = from + 1;
+        while to < chars.len() && inside(chars[to - 1], chars[to]) {
+            to += 1;
+        }
+        (chars[from..to].iter().collect::<String>(), to)
+    };
+    while at < chars.len() {
+        let first = chars[at];
+        let second = chars.get(at + 1).copied();
+        let mut length = 1;
+        match (first, second) {
+            (space, _) if space.is_whitespace() => {}
+            ('0'..='9', _) => {
+                let (text, to) = run(at, &|before, c| {
+                    c.is_ascii_alphanumeric() || c == '.' || (matches!(before, 'e' | 'E') && matches!(c, '+' | '-'))
+                });
+                let unexpected = || CheckError::Unexpected { found: text.clone(), expected: VALUE };
+                let number = text.parse().map_err(|_| unexpected())?;
+                tokens.push(Token::Number(number, text));
+                length = to - at;
+            }
+            (letter, _) if letter.is_ascii_alphabetic() || letter == '_' => {
+                let (text, to) = run(at, &|_, c| c.is_ascii_alphanumeric() || c == '_' || c == '.');
+                tokens.push(match text.as_str() {
+                    "and" => Token::And,
+                    "about" => Token::Operator(Operator::About, "about"),
+                    _ => Token::Name(text),
+                });
+                length = to - at;
+            }
+            ('"', _) => {
+                let end = chars[at + 1..].iter().position(|c| *c == '"');
+                let Some(end) = end else {
+                    let found: String = chars[at..].iter().collect();
+                    return Err(CheckError::Unexpected { found, expected: "expected a closing quote" });
+                };
+                tokens.push(Token::Text(chars[at + 1..at + 1 + end].iter().collect()));
+                length = end + 2;
+            }
+            ('<', Some('=')) => (tokens.push(Token::Operator(Operator::AtMost, "<=")), length = 2).1,
+            ('>', Some('=')) => (tokens.push(Token::Operator(Operator::AtLeast, ">=")), length = 2).1,
+            ('=', Some('=')) => (tokens.push(Token::Operator(Operator::Equal, "=")), length = 2).1,
+            ('<', _) => tokens.push(Token::Operator(Operator::Less, "<")),
+            ('>', _) => tokens.push(Token::Operator(Operator::More, ">")),
+            ('=', _) => tokens.push(Token::Operator(Operator::Equal, "=")),
+            ('+' | '-' | '*' | '/' | '(' | ')', _) => tokens.push(Token::Sign(first)),
+            _ => return Err(CheckError::Unexpected { found: first.to_string(), expected: VALUE }),
+        }
+        at += length;
+    }
+    Ok(tokens)
+}
+
+/// Reads the comparisons of a check for steps on `scene`.
+pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>, CheckError> {
+    let tokens = tokens(source)?;
+    let mut reader = Reader { tokens: &tokens, at: 0, scene, depth: 0 };
+    let mut comparisons = vec![reader.comparison()?];
+    while reader.takes(&Token::And) {
+        comparisons.push(reader.comparison()?);
+    }
+    if reader.at < tokens.len() {
+        return Err(reader.unexpected("expected and, or the end of the check"));
+    }
+    Ok(comparisons)
+}
+
+struct Reader<'a> {
+    tokens: &'a [Token],
+    at: usize,
+    scene: &'a Scene,
+    depth: usize,
+}
+
+impl Reader<'_> {
+    fn takes(&mut self, token: &Token) -> bool {
+        let takes = self.tokens.get(self.at) == Some(token);
+        self.at += usize::from(takes);
+        takes
+    }
+
+    fn unexpected(&self, expected: &'static str) -> CheckError {
+        let found = self.tokens.get(self.at).map_or_else(|| "the end of the check".to_owned(), Token::text);
+        CheckError::Unexpected { found, expected }
+    }
+
+    fn comparison(&mut self) -> Result<Comparison, CheckError> {
+        let from = self.at;
+        let left = self.sum()?;
+        let words: Vec<String> = self.tokens[from..self.at].iter().map(Token::text).collect();
+        let Some(Token::Operator(operator, _)) = self.tokens.get(self.at) else {
+            return Err(self.unexpected(OPERATORS));
+        };
+        self.at += 1;
+        let right = self.sum()?;
+        let comparison = Comparison { left, operator: *operator, right, words: words.join(" ") };
+        self.types(&comparison)?;
+        Ok(comparison)
+    }
+
+    /// Names and flags are compared with `=` and one of their values; everything else with numbers.
+    fn types(&self, comparison: &Comparison) -> Result<(), CheckError> {
+        let accepted = |parameter: &Parameter| parameter.accepts();
+        if let Expression::Name { name: Name::Key(parameter), start: false } = comparison.left {
+            let is_number = parameter.range().is_some();
+            match (&comparison.right, comparison.operator) {
+                (Expression::Text(value), Operator::Equal) => {
+                    let fits = match parameter.kind {
+                        ParameterKind::Choice { options, .. } => options.contains(&value.as_str()),
+                        ParameterKind::Flag { .. } => ["true", "false"].contains(&value.as_str()),
+                        _ => parameter.absent.is_some() && value == "none",
+                    };
+                    let no_choice = || CheckError::NoChoice {
+                        name: parameter.key,
+                        value: value.clone(),
+                        expected: accepted(parameter),
+                    };
+                    return if fits { Ok(()) } else { Err(no_choice()) };
+                }
+                _ if !is_number => {
+                    return Err(CheckError::NoNumber { name: parameter.key, expected: accepted(parameter) });
+                }
+                _ => {}
+            }
+        }
+        for side in [&comparison.left, &comparison.right] {
+            numeric(side)?;
+        }
+        Ok(())
+    }
+
+    fn sum(&mut self) -> Result<Expression, CheckError> {
+        let mut sum = self.product()?;
+        while let Some(Token::Sign(sign @ ('+' | '-'))) = self.tokens.get(self.at) {
+            self.at += 1;
+            sum = Expression::Pair(*sign, Box::new(sum), Box::new(self.product()?));
+        }
+        Ok(sum)
+    }
+
+    fn product(&mut self) -> Result<Expression, CheckError> {
+        let mut product = self.factor()?;
+        while let Some(Token::Sign(sign @ ('*' | '/'))) = self.tokens.get(self.at) {
+            self.at += 1;
+            product = Expression::Pair(*sign, Box::new(product), Box::new(self.factor()?));
+        }
+        Ok(product)
+    }
+
+    fn factor(&mut self) -> Result<Expression, CheckError> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return Err(CheckError::TooDeep(DEEPEST));
+        }
+        let Some(token) = self.tokens.get(self.at) else { return Err(self.unexpected(VALUE)) };
+        self.at += 1;
+        let factor = match token {
+            Token::Number(number, _) => Expression::Number(*number),
+            Token::Text(text) => Expression::Text(text.clone()),
+            Token::Name(text) if text == "true" || text == "false" => Expression::Text(text.clone()),
+            Token::Name(text) if text == "abs" && self.takes(&Token::Sign('(')) => {
+                let inside = self.sum()?;
+                self.close()?;
+                Expression::Absolute(Box::new(inside))
+            }
+            Token::Name(text) => {
+                let (start, text) = text.strip_prefix("start.").map_or((false, text.as_str()), |rest| (true, rest));
+                let name = name(text)?;
+                if !name.belongs(self.scene) {
+                    return Err(CheckError::NotHere { name: name.text(), scene: self.scene.scene() });
+                }
+                Expression::Name { name, start }
+            }
+            Token::Sign('-') => Expression::Negative(Box::new(self.factor()?)),
+            Token::Sign('(') => {
+                let inside = self.sum()?;
+                self.close()?;
+                inside
+            }
+            Token::Sign(_) | Token::Operator(..) | Token::And => {
+                self.at -= 1;
+                return Err(self.unexpected(VALUE));
+            }
+        };
+        self.depth -= 1;
+        Ok(factor)
+    }
+
+    fn close(&mut self) -> Result<(), CheckError> {
+        if self.takes(&Token::Sign(')')) { Ok(()) } else { Err(self.unexpected("expected )")) }
+    }
+}
+
+fn numeric(expression: &Expression) -> Result<(), CheckError> {
+    match expression {
+        Expression::Number(_) => Ok(()),
+        Expression::Text(text) => Err(CheckError::Unexpected { found: format!("\"{text}\""), expected: VALUE }),
+        Expression::Name { name: Name::Key(parameter), .. } if parameter.range().is_none() => {
+            Err(CheckError::NoNumber { name: parameter.key, expected: parameter.accepts() })
+        }
+        Expression::Name { .. } => Ok(()),
+        Expression::Negative(inside) | Expression::Absolute(inside) => numeric(inside),
+        Expression::Pair(_, left, right) => numeric(left).and_then(|()| numeric(right)),
+    }
+}

@@ -1,0 +1,151 @@
+//! A lesson as data: its steps, questions and tasks.
+
+use super::check::{Check, Name};
+use super::text::{Block, Inline};
+use crate::scene::{Parameter, Scene};
+
+/// What a lesson may name in the window.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WindowNames<'a> {
+    /// Names of the tabs in the middle that a motor has, and that a plate has.
+    pub tabs: [&'a [&'a str]; 2],
+    /// Names of what can be lit.
+    pub places: &'a [&'a str],
+}
+
+/// A lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lesson {
+    /// The name of its folder: what its progress is kept under.
+    pub id: String,
+    /// Its title.
+    pub title: String,
+    /// A line or two on what it is about.
+    pub about: Vec<Block>,
+    /// Its steps, at least one.
+    pub steps: Vec<Step>,
+}
+
+/// One step of a lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Its heading.
+    pub title: String,
+    /// What it says.
+    pub body: Vec<Block>,
+    /// The scene of a student who comes straight here.
+    pub scene: Scene,
+    /// Whether the scene is set up anew; otherwise the step goes on with what is there.
+    pub sets: bool,
+    /// Parameters that are lit.
+    pub light: Vec<&'static Parameter>,
+    /// Parts of the window that are lit.
+    pub look: Vec<String>,
+    /// The tab that is brought forward.
+    pub tab: Option<String>,
+    /// Results and keys that are shown beside the text.
+    pub show: Vec<Name>,
+    /// What is asked before anything is tried.
+    pub question: Option<Question>,
+    /// What is to be done.
+    pub task: Option<Task>,
+}
+
+/// A question, answered before the answer is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// What is asked.
+    pub ask: Vec<Block>,
+    /// The answer.
+    pub answer: Answer,
+    /// Why it is so.
+    pub why: Vec<Block>,
+}
+
+/// The answer to a question.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// One of several.
+    Choice {
+        /// All.
+        choices: Vec<Vec<Inline>>,
+        /// The right one.
+        right: usize,
+    },
+    /// A number.
+    Number {
+        /// The right one.
+        value: f64,
+        /// Its unit; empty for a pure number.
+        unit: String,
+        /// How far a good prediction may be off, relative.
+        within: f64,
+    },
+}
+
+/// Changes of a scene, by key, as after `--set`.
+pub type Changes = Vec<(String, String)>;
+
+/// What a student does in a tab, which leaves the scene as it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Act {
+    /// Moves the held plate to this gap \[µm\].
+    Hold(f64),
+    /// Starts from rest.
+    StartUp,
+}
+
+/// What does a task, or does not do it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Doing {
+    /// Changes of the scene.
+    pub changes: Changes,
+    /// And in a tab.
+    pub acts: Vec<Act>,
+}
+
+impl Doing {
+    /// Whether there is nothing to do.
+    pub fn is_empty(&self) -> bool {
+        self.changes.is_empty() && self.acts.is_empty()
+    }
+}
+
+/// What is to be done, and how it is seen that it was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// In words.
+    pub ask: Vec<Block>,
+    /// What the student's run is checked for.
+    pub check: Check,
+    /// Help while it does not hold.
+    pub hint: Vec<Block>,
+    /// What would do, shown on request.
+    pub example: Doing,
+    /// What would not do: for tests.
+    pub wrong: Doing,
+    /// What is said once it holds.
+    pub then: Vec<Block>,
+}
+
+impl Answer {
+    /// Whether a prediction is right.
+    pub fn is_right(&self, prediction: Prediction) -> bool {
+        match (self, prediction) {
+            (Self::Choice { right, .. }, Prediction::Choice(choice)) => *right == choice,
+            (Self::Number { value, within, .. }, Prediction::Number(number)) => {
+                (number - value).abs() <= within * value.abs() * (1.0 + 1e-9)
+            }
+            _ => false,
+        }
+    }
+}
+
+/// What a student predicts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Prediction {
+    /// One of several.
+    Choice(usize),
+    /// A number, in the unit of the question.
+    Number(f64),
+}
