@@ -8,11 +8,12 @@
 
 use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
-use super::folder::{Staged, WriteError, write_file};
 use super::{mp4, video};
+use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
+use crate::scene::show_text;
 use crate::solution::Solution;
 use color_quant::NeuQuant;
 use rayon::prelude::*;
@@ -135,8 +136,11 @@ pub fn cycle(
             Scenario::Motor(motor) => figures::motor::moving(motor, recording, frame),
             Scenario::Plate(plate) => figures::plate::moving(plate, recording, frame),
         };
-        figure.title =
-            format!("{} · t/T = {:.2} · {slower}", problem.name, frame as f64 / recording.frames.max(1) as f64);
+        figure.title = format!(
+            "{} · t/T = {:.2} · {slower}",
+            show_text(&problem.name),
+            frame as f64 / recording.frames.max(1) as f64
+        );
         figure.provenance = Provenance::of(problem, solution);
         figure
     };

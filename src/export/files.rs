@@ -4,12 +4,12 @@
 use super::animation::{AnimationError, Movie, Options, cycle, frames};
 use super::compare::{self, Report, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
-use super::folder::{Staged, WriteError, write_file};
 use super::json::{self, Summary};
 use super::{csv, figures, merit, npz, sweep};
 use crate::analysis::compare::Run;
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::Merit;
+use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::{Cancel, Progress};
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;

@@ -6,6 +6,7 @@
 //! the contact's, grey), tables with rules but no boxes, wide enough for a projector and quiet enough for paper.
 
 use super::figure::{Figure, to_svg};
+use crate::scene::escaped as shown;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
@@ -263,21 +264,13 @@ impl Page {
     }
 }
 
-/// Text for HTML and XML; characters that neither may hold are replaced.
+/// Text for HTML and XML. Control characters and marks of direction are shown as escapes.
 pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' | '\t' => out.push(c),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
+    let marked = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    marked.split_inclusive(['\n', '\t']).fold(String::with_capacity(text.len()), |out, part| {
+        let words = part.trim_end_matches(['\n', '\t']);
+        out + &shown(words) + &part[words.len()..]
+    })
 }
 
 /// A command line as a shell takes it.
@@ -388,7 +381,7 @@ mod tests {
             [[0.0, 1.0], [1.0, 2.0]],
             Style::nth(0),
         ));
-        let mut page = Page::new("report", "A & B <i>\u{1}", "lead");
+        let mut page = Page::new("report", "A & B <i>\u{1}\u{202e}", "lead");
         page.highlights([("1", "one")]);
         for section in ["one", "two", "three"] {
             page.section(section);
@@ -411,7 +404,7 @@ mod tests {
             3
         );
         let h1 = read.descendants().find(|node| node.tag_name().name() == "h1").unwrap();
-        assert_eq!(h1.text(), Some("A & B <i>\u{fffd}"));
+        assert_eq!(h1.text(), Some("A & B <i>\\u{1}\\u{202e}"));
         assert!(!STYLE.contains(['<', '&']) && !STYLE.contains("]]") && !STYLE.contains("url("));
     }
 

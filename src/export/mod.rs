@@ -9,7 +9,6 @@ pub mod exact;
 pub mod figure;
 pub mod figures;
 pub mod files;
-pub mod folder;
 pub mod html;
 pub mod json;
 pub mod merit;
@@ -22,3 +21,5 @@ pub mod sweep;
 pub mod table1;
 pub mod tradeoff;
 mod video;
+
+pub use crate::atomic as folder;
