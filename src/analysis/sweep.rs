@@ -605,7 +605,7 @@ mod tests {
             (&["scene=1:2:3"], "scene cannot be changed"),
             (&["plate.length_mm=1:2:3"], "plate.length_mm belongs to scene = \"plate\""),
             (&["motor.waves=1.5:3:2"], "motor.waves = 1.5 is of the wrong type"),
-            (&["stator.tooth_width_mm=2.5,3"], "stator.tooth_width_mm = 2.5 is out of range"),
+            (&["stator.tooth_width_mm=2.95,3"], "stator.tooth_width_mm = 2.95 is out of range"),
             (&["motor.waves=1:4:2", "motor.waves=1:4:2"], "given twice"),
             (&[], "0 keys given"),
             (&["motor.load_per_wave_n=1:2:400", "film.min_spacing_nm=10:20:400"], "160000 points"),

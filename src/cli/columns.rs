@@ -59,7 +59,7 @@ mod tests {
         let mut columns = Columns::new();
         columns.row(["超音波", "1"]);
         columns.row(["a\u{202e}\nb", "2"]);
-        assert_eq!(columns.text("", &[]), "超音波         1\na\\u{202e}\\nb  2\n");
+        assert_eq!(columns.text("", &[]), "超音波        1\na\\u{202e}\\nb  2\n");
     }
 
     #[test]

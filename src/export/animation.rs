@@ -13,6 +13,7 @@ use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
+use crate::recording::sample::Touching;
 use crate::scene::show_text;
 use crate::solution::Solution;
 use color_quant::NeuQuant;
@@ -127,7 +128,50 @@ pub fn cycle(
     done: &(dyn Fn() + Sync),
     cancel: &Cancel,
 ) -> Result<Movie, AnimationError> {
-    let recording = &solution.recording;
+    moving(problem, solution, &solution.recording, options, done, cancel)
+}
+
+/// The same with at least [`SMOOTH`] frames a second on screen: where the solve has too few time steps, between them. If the
+/// options ask for fewer than the usual number of frames, as [`cycle`].
+///
+/// # Errors
+/// Those of [`cycle`].
+pub fn smooth_cycle(
+    problem: &Problem,
+    solution: &Solution,
+    options: &Options,
+    done: &(dyn Fn() + Sync),
+    cancel: &Cancel,
+) -> Result<Movie, AnimationError> {
+    let (recording, count) = (&solution.recording, smooth_frames(&solution.recording, options));
+    if count == frames(recording, options.frames) {
+        return cycle(problem, solution, options, done, cancel);
+    }
+    let touching = match &problem.scenario {
+        Scenario::Motor(motor) => Touching::of(motor),
+        Scenario::Plate(_) => Touching::default(),
+    };
+    let options = Options { frames: count, ..*options };
+    moving(problem, solution, &recording.resampled(count, touching), &options, done, cancel)
+}
+
+/// How many frames [`smooth_cycle`] has.
+pub fn smooth_frames(recording: &Recording, options: &Options) -> usize {
+    let (count, enough) = (frames(recording, options.frames), (SMOOTH * options.seconds).ceil() as usize);
+    if count == 0 || options.frames < Options::default().frames { count } else { count.max(enough) }
+}
+
+/// Frames a second that look like motion.
+pub const SMOOTH: f64 = 24.0;
+
+fn moving(
+    problem: &Problem,
+    solution: &Solution,
+    recording: &Recording,
+    options: &Options,
+    done: &(dyn Fn() + Sync),
+    cancel: &Cancel,
+) -> Result<Movie, AnimationError> {
     let count = frames(recording, options.frames);
     let slower = slow_motion(recording, options.seconds);
     let figure = |frame: usize| {

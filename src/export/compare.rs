@@ -490,9 +490,10 @@ fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow
     let mut table = Table::new("").heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
     for row in rows {
         let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
-        let kind = if row.differs() { Kind::Strong } else { Kind::Number };
+        // What differs from the first run is marked.
         let values = row.values.iter().map(|value| match value {
-            Some(value) => (kind, value.to_string()),
+            Some(shown) if *value == row.values[0] => (Kind::Number, shown.to_string()),
+            Some(shown) => (Kind::Strong, shown.to_string()),
             None => (Kind::Quiet, row.parameter.absent.map_or("–", |_| "none").to_owned()),
         });
         table.row([(Kind::Words, format!("{}{unit}", row.parameter.key))].into_iter().chain(values));

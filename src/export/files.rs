@@ -1,7 +1,7 @@
 //! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
-use super::animation::{AnimationError, Movie, Options, cycle, frames};
+use super::animation::{AnimationError, Movie, Options, cycle, frames, smooth_cycle, smooth_frames};
 use super::compare::{self, Report, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
@@ -210,11 +210,20 @@ pub fn animation(
 ) -> Result<Vec<PathBuf>, ExportError> {
     // A wrong extension is told before the work, not after it.
     let format = super::animation::Format::of(path)?;
-    let all = frames(&solved.solution.recording, options.frames) * format.passes();
+    let all = animated_frames(solved.solution, options, format) * format.passes();
     control.counted(all, |done| {
-        let movie = cycle(solved.problem, solved.solution, options, done, control.cancel)?;
+        let draw = if format == super::animation::Format::Mp4 { smooth_cycle } else { cycle };
+        let movie = draw(solved.problem, solved.solution, options, done, control.cancel)?;
         Ok(movie.write(path, done, control.cancel)?)
     })
+}
+
+/// How many frames [`animation`] draws.
+pub fn animated_frames(solution: &Solution, options: &Options, format: super::animation::Format) -> usize {
+    match format {
+        super::animation::Format::Mp4 => smooth_frames(&solution.recording, options),
+        _ => frames(&solution.recording, options.frames),
+    }
 }
 
 /// Animations of several runs as GIF, each with its name.

@@ -555,7 +555,7 @@ mod tests {
             (",1,", ",0,"),
         ] {
             let fault = read_saved(&ours, &text.replacen(from, to, 1)).unwrap_err();
-            assert!(fault.to_string().contains("line 2: the row was changed"), "{from}: {fault}");
+            assert!(fault.to_string().contains("the row was changed after it was saved"), "{from}: {fault}");
         }
     }
 }

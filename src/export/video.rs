@@ -74,6 +74,27 @@ pub(super) fn encode(
     // Measured: without blocks of 64 it is a tenth faster, and the file no larger.
     settings.speed_settings.partition.partition_range =
         PartitionRange::new(BlockSize::BLOCK_8X8, BlockSize::BLOCK_32X32);
+    let env = |n: &str, d: usize| std::env::var(n).ok().and_then(|v| v.parse().ok()).unwrap_or(d);
+    if std::env::var("SQ").is_ok() {
+        use rav1e::prelude::*;
+        let keep = settings.speed_settings.clone();
+        settings.speed_settings = rav1e::config::SpeedSettings::from_preset(env("SQ_SPEED", 8) as u8);
+        settings.speed_settings.scene_detection_mode = keep.scene_detection_mode;
+        let b = |n: usize| {
+            [BlockSize::BLOCK_8X8, BlockSize::BLOCK_16X16, BlockSize::BLOCK_32X32, BlockSize::BLOCK_64X64][n]
+        };
+        settings.speed_settings.partition.partition_range =
+            PartitionRange::new(b(env("SQ_MIN", 0)), b(env("SQ_MAX", 2)));
+        if env("SQ_PSNR", 0) == 1 {
+            settings.tune = Tune::Psnr;
+        }
+        settings.speed_settings.rdo_lookahead_frames = env("SQ_LOOK", settings.speed_settings.rdo_lookahead_frames);
+        settings.speed_settings.cdef = env("SQ_CDEF", 1) == 1;
+        settings.speed_settings.motion.use_satd_subpel = env("SQ_SATD", 1) == 1;
+        settings.quantizer = env("SQ_Q", QUANTIZER);
+        settings.tiles = env("SQ_TILES", TILES);
+        settings.speed_settings.transform.enable_inter_tx_split = env("SQ_SPLIT", 0) == 1;
+    }
     let mut context: Context<u8> =
         Config::new().with_encoder_config(settings).new_context().map_err(io::Error::other)?;
     let mut packets = Vec::with_capacity(frames.len());
@@ -167,6 +188,28 @@ fn planes(rgb: &[u8], [across, down]: [usize; 2], [width, height]: [usize; 2]) -
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[ignore]
+    fn timing() {
+        let mut frames = Vec::new();
+        let mut size = [0; 2];
+        let mut names: Vec<_> = std::fs::read_dir("/tmp/stm/frames").unwrap().map(|e| e.unwrap().path()).collect();
+        names.sort();
+        for name in names {
+            let mut reader =
+                png::Decoder::new(std::io::BufReader::new(std::fs::File::open(name).unwrap())).read_info().unwrap();
+            let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+            let info = reader.next_frame(&mut bytes).unwrap();
+            size = [info.width, info.height];
+            frames.push(bytes);
+        }
+        let started = std::time::Instant::now();
+        let video = encode(&frames, size, [4000, 1000 * frames.len() as u32], &|| (), &Cancel::new()).unwrap();
+        let total: usize = video.packets.iter().map(Vec::len).sum();
+        eprintln!("{:?} {total} bytes, first {}", started.elapsed(), video.packets[0].len());
+        std::fs::write("/tmp/stm/out.obu", video.packets.concat()).unwrap();
+    }
 
     #[test]
     fn colours_are_those_of_bt_709() {
