@@ -82,7 +82,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
     let count = files::animated_frames(&solution, &options, format);
-    let bar = Bar::frames(count * format.passes());
+    let bar = Bar::frames(count);
     let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], merit: None };
     let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
     let written = files::animation(&arguments.out, &solved, &options, &control);

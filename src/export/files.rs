@@ -1,7 +1,7 @@
 //! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
-use super::animation::{AnimationError, Movie, Options, cycle, frames, smooth_cycle, smooth_frames};
+use super::animation::{AnimationError, Movie, Options, cycle, frames, video_frames, write_video};
 use super::compare::{self, Report, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
@@ -210,18 +210,21 @@ pub fn animation(
 ) -> Result<Vec<PathBuf>, ExportError> {
     // A wrong extension is told before the work, not after it.
     let format = super::animation::Format::of(path)?;
-    let all = animated_frames(solved.solution, options, format) * format.passes();
-    control.counted(all, |done| {
-        let draw = if format == super::animation::Format::Mp4 { smooth_cycle } else { cycle };
-        let movie = draw(solved.problem, solved.solution, options, done, control.cancel)?;
-        Ok(movie.write(path, done, control.cancel)?)
+    let all = animated_frames(solved.solution, options, format);
+    let Solved { problem, solution, .. } = *solved;
+    control.counted(all, |done| match format {
+        super::animation::Format::Mp4 => {
+            write_video(path, problem, solution, options, done, control.cancel)?;
+            Ok(vec![path.to_owned()])
+        }
+        _ => Ok(cycle(problem, solution, options, done, control.cancel)?.write(path, done, control.cancel)?),
     })
 }
 
 /// How many frames [`animation`] draws.
 pub fn animated_frames(solution: &Solution, options: &Options, format: super::animation::Format) -> usize {
     match format {
-        super::animation::Format::Mp4 => smooth_frames(&solution.recording, options),
+        super::animation::Format::Mp4 => video_frames(&solution.recording, options),
         _ => frames(&solution.recording, options.frames),
     }
 }
