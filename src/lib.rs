@@ -47,6 +47,7 @@
 //! | --- | --- |
 //! | [`numerics`] | five-point systems, graded nodes, Anderson acceleration; no physics |
 //! | [`control`], [`digits`] | cancellation and progress; numbers for people |
+//! | [`atomic`] | files that appear whole or not at all; locks between processes |
 //! | [`problem`] | what is to be solved: checked, in SI units |
 //! | [`scene`] | what a person edits: files, units, ranges, presets |
 //! | [`dimensionless`] | σ, Λ and Kn without solving |
@@ -67,6 +68,7 @@
 //! The equations with their derivation are in `docs/theory.md`, measured errors in `docs/validation.md`.
 
 pub mod analysis;
+pub mod atomic;
 pub mod cli;
 pub mod contact;
 pub mod control;

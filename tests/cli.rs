@@ -277,7 +277,13 @@ fn bad_input_is_named_and_exits_with_2() {
     refused(&sweep("film.min_spacing_nm=100:200"), 2, &["--vary", "key=from:to:count"]);
     refused(&sweep("film.min_spacing_nm=100:200:1"), 2, &["count = 1", "2 to 10000"]);
     refused(&sweep("film.slip=0:1:2"), 2, &["film.slip", "only a number"]);
-    refused(&sweep("stator.tooth_width_mm=1:3:5"), 2, &["stator.tooth_width_mm", "= 3", "tooth pitch"]);
+    refused(&sweep("stator.tooth_width_mm=2.95:3:2"), 2, &["stator.tooth_width_mm", "= 2.95", "tooth pitch"]);
+    refused(&sweep("film.slip=none,second"), 2, &["film.slip", "second-order"]);
+    let four =
+        ["film.slip=none,first-order", "motor.waves=7,8", "film.min_spacing_nm=100,200", "film.shear=true,false"];
+    let four: Vec<&str> =
+        ["sweep", "fundamental"].into_iter().chain(four.iter().flat_map(|vary| ["--vary", vary])).collect();
+    refused(&four, 2, &["4 keys given", "1 to 3"]);
     refused(&["sweep", "fundamental"], 2, &["--vary"]);
     refused(&["sweep", "plate-viscous", "--vary=plate.length_mm=1:2:2", "--method=paper"], 2, &["paper", "motors"]);
     refused(&["presets", "--set", "film.min_spacing_nm=100"], 2, &["PRESET"]);
@@ -497,18 +503,132 @@ fn a_cycle_is_animated() {
 }
 
 #[test]
-fn an_unwritable_folder_is_named_and_the_result_still_printed() {
+fn an_unwritable_folder_is_named_before_anything_is_solved() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("file");
     fs::write(&file, "mine").unwrap();
     for path in [file.clone(), file.join("below")] {
-        let output = run(&["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path.to_str().unwrap()]);
-        assert_eq!(output.status.code(), Some(1));
-        assert!(err(&output).contains(path.to_str().unwrap()), "{}", err(&output));
-        assert_eq!(serde_json::from_slice::<Value>(&output.stdout).unwrap()["converged"], true);
+        let path = path.to_str().unwrap();
+        refused(&["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path], 1, &[path]);
+        refused(&["table1", "--converged", "--fidelity", "draft", "--out", path], 1, &[path]);
     }
     assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_file_that_cannot_be_replaced_leaves_all_others_as_they_were() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("summary.json"), "older").unwrap();
+    fs::create_dir(folder.path().join("series.csv")).unwrap();
+    let path = folder.path().to_str().unwrap();
+    let output = run(&["solve", "plate-viscous", "--fidelity", "draft", "--json", "--out", path]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("series.csv: cannot be written: is a directory"), "{}", err(&output));
+    assert_eq!(serde_json::from_slice::<Value>(&output.stdout).unwrap()["converged"], true);
+    assert_eq!(fs::read_to_string(folder.path().join("summary.json")).unwrap(), "older");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+}
+
+#[test]
+fn several_presets_are_solved_each_into_its_own_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let mine = folder.path().join("plate-viscous.toml");
+    fs::write(&mine, &run(&["presets", "plate-viscous"]).stdout).unwrap();
+    let out_dir = folder.path().join("out");
+    let presets = ["plate-viscous", mine.to_str().unwrap(), "rotor-width-0.6mm"];
+    let rest = ["--fidelity", "draft", "--figures", "none", "--quiet", "--out", out_dir.to_str().unwrap()];
+    let output = run(&[&["solve", "--json"], &presets[..], &rest].concat());
+    assert_eq!((output.status.code(), err(&output)), (Some(0), ""));
+    let all: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(all.len(), 3);
+    for (name, object) in ["plate-viscous", "plate-viscous (2)", "rotor-width-0.6mm"].iter().zip(&all) {
+        let summary = fs::read(out_dir.join(name).join("summary.json")).unwrap();
+        assert_eq!(&serde_json::from_slice::<Value>(&summary).unwrap(), object, "{name}");
+    }
+    let output = run(&[&["solve"], &presets[..2], &["--fidelity", "draft"]].concat());
+    assert_eq!(out(&output).matches("Plate, viscous: converged").count(), 2, "{}", out(&output));
+    refused(&["solve", "fundamental", "plate-viscous", "--method", "paper"], 2, &["motors"]);
+    refused(&["solve", "fundamental", "fundamentl"], 2, &["did you mean fundamental?"]);
+}
+
+#[test]
+fn a_preset_is_read_from_standard_input() {
+    let with_input = |arguments: &[&str], text: &[u8]| {
+        let mut command = squeezefilm(arguments);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        std::io::Write::write_all(&mut child.stdin.take().unwrap(), text).unwrap();
+        child.wait_with_output().unwrap()
+    };
+    let toml = run(&["presets", "fundamental", "--set", "film.min_spacing_nm=100"]).stdout;
+    let output = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &toml);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let piped: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(piped["film_load_n"], solved(&["fundamental", "--set", "film.min_spacing_nm=100"])["film_load_n"]);
+    let output = with_input(&["compare", "-"], b"schema = 2\n");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("standard input:1: schema"), "{}", err(&output));
+}
+
+/// A name that is a formula to a spreadsheet, moves the cursor of a terminal, turns the direction of text, and is long.
+const HOSTILE: &str = "name==HYPERLINK(1)\u{1b}[2J\u{202e}\u{9b}1m";
+
+#[test]
+fn names_do_nothing_to_terminals_spreadsheets_and_reports() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let name = format!("{HOSTILE}{}", "x".repeat(5000));
+    let rest = ["--set", &name, "--fidelity", "draft", "--out", path, "--figures", "svg"];
+    let harmless = |text: &str| !text.chars().any(|c| (c.is_control() && c != '\n') || c == '\u{202e}');
+    for command in [&["compare", "plate-viscous", "plate-crossover"][..], &["solve", "plate-viscous"]] {
+        let output = run(&[command, &rest].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert!(harmless(out(&output)) && harmless(err(&output)), "{}", out(&output));
+        let title = out(&output).lines().find(|line| line.contains("=HYPERLINK(1)\\u{1b}[2J\\u{202e}")).unwrap();
+        assert!(title.contains("xxx…") && title.chars().count() < 150, "{title}");
+    }
+    for name in ["report.html", "loads.svg"] {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(harmless(&text.replace("\t", "")) && text.contains("=HYPERLINK(1)"), "{name}");
+    }
+    for name in ["compare.csv", "parameters.csv"] {
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(folder.path().join(name)).unwrap();
+        let cells: Vec<String> =
+            reader.records().flat_map(|row| row.unwrap().iter().map(str::to_owned).collect::<Vec<_>>()).collect();
+        assert!(cells.iter().any(|cell| cell.starts_with("'=HYPERLINK")), "{name}");
+        let formula = |cell: &&String| cell.starts_with(['=', '+', '-', '@']) && cell.parse::<f64>().is_err();
+        assert_eq!(cells.iter().find(formula), None, "{name}");
+    }
+}
+
+#[test]
+fn words_and_three_keys_are_swept_and_points_that_are_no_scene_are_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let vary = [
+        "--vary=film.slip=first-order,fukui-kaneko",
+        "--vary=motor.waves=8:20:2",
+        "--vary=film.min_spacing_nm=100,200",
+    ];
+    let output = run(&[&["sweep", "fundamental", "--fidelity=draft", "--json", "--out", path], &vary[..]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(
+        (&object["axes"][0]["values"][1], &object["axes"][0]["scale"]),
+        (&"fukui-kaneko".into(), &"list".into())
+    );
+    let rows = object["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        let sound = row["motor.waves"] == 8.0;
+        assert_eq!(row["status"] == "converged", sound, "{row}");
+        assert!(sound || row["status"].as_str().unwrap().contains("tooth pitch"), "{row}");
+    }
+    let text = fs::read_to_string(folder.path().join("sweep.csv")).unwrap();
+    assert!(text.lines().nth(5).unwrap().contains(",4,fukui-kaneko,8.0,100.0,converged,"), "{text}");
+    let svg = fs::read_to_string(folder.path().join("sweep.svg")).unwrap();
+    assert_eq!(svg.matches("data-area").count(), 2);
+    assert!(err(&output).contains("film.slip = first-order, motor.waves = 20"), "{}", err(&output));
 }
 
 #[test]
@@ -563,13 +683,17 @@ fn table_1_has_14_rows_each_near_the_published_one() {
 }
 
 #[test]
-fn a_reader_that_leaves_is_no_failure() {
-    for arguments in [&["presets"][..], &["solve", "plate-viscous", "--fidelity", "draft", "--json"], &["--help"]] {
+fn a_reader_that_leaves_is_told_by_the_status_and_costs_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let solve = ["solve", "plate-viscous", "--fidelity", "draft", "--figures", "none", "--quiet", "--out", path];
+    for (arguments, status) in [(&["presets"][..], 141), (&solve, 141), (&["--help"], 0)] {
         let mut child = squeezefilm(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         let output = child.wait_with_output().unwrap();
-        assert_eq!((output.status.code(), err(&output)), (Some(0), ""), "{arguments:?}");
+        assert_eq!((output.status.code(), err(&output)), (Some(status), ""), "{arguments:?}");
     }
+    assert!(folder.path().join("summary.json").is_file() && folder.path().join("fields.npz").is_file());
 }
 
 /// A solve that takes minutes.

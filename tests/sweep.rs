@@ -4,8 +4,9 @@
 use serde_json::Value;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::sweep::{Ending, Row, Sweep, Vary};
+use squeezefilm::atomic::Lock;
 use squeezefilm::control::Cancel;
-use squeezefilm::export::sweep::{read_csv, write_csv};
+use squeezefilm::export::sweep::{read_saved, write_csv, write_saved};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets;
@@ -96,7 +97,9 @@ fn a_cancelled_sweep_gone_on_with_equals_an_unbroken_one() {
         });
         assert!((after..sweep.len()).contains(&some.len()), "{}", some.len());
         // By way of the file.
-        let kept = read_csv(&sweep, &csv_of(&sweep, &some)).unwrap();
+        let mut saved = Vec::new();
+        write_saved(&sweep, &some, &mut saved).unwrap();
+        let kept = read_saved(&sweep, &String::from_utf8(saved).unwrap()).unwrap();
         assert_eq!(kept, some);
         let told = AtomicUsize::new(0);
         let rest = sweep.run(&kept, &Cancel::new(), &|_| {
@@ -184,21 +187,53 @@ fn files_and_json_agree_and_are_gone_on_with() {
     let again = parent.path().join("again");
     fs::create_dir(&again).unwrap();
     let left = again.join("sweep.incomplete.csv");
-    let some: Vec<&str> = text.lines().take(3).collect();
-    fs::write(&left, some.join("\n") + "\n").unwrap();
+    let ours = sweep("fundamental", &["stator.frequency_khz=10:50:5"]);
+    let mut saved = Vec::new();
+    write_saved(&ours, &with_threads(2, &ours)[..2], &mut saved).unwrap();
+    fs::write(&left, &saved).unwrap();
     let output = run(&COMMAND, Some(&again));
     assert_eq!(output.status.code(), Some(0));
     assert!(String::from_utf8_lossy(&output.stderr).contains("2 of 5 points were solved before"));
     assert_eq!(fs::read_to_string(again.join("sweep.csv")).unwrap(), text);
     assert!(!left.exists());
     // What belongs to another sweep is neither used nor lost.
-    fs::write(&left, some.join("\n") + "\n").unwrap();
+    fs::write(&left, &saved).unwrap();
     let other = [&COMMAND[..], &["--set=motor.load_per_wave_n=2"]].concat();
     let output = run(&other, Some(&again));
     assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]));
     assert!(String::from_utf8_lossy(&output.stderr).contains("--restart") && left.exists());
     assert_eq!(run(&[&other[..], &["--restart"]].concat(), Some(&again)).status.code(), Some(0));
     assert!(!left.exists());
+    // What somebody has changed is not taken for a result.
+    let changed = String::from_utf8(saved).unwrap().replacen(",converged,0.", ",converged,1.", 1);
+    fs::write(&left, &changed).unwrap();
+    let output = run(&COMMAND, Some(&again));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("line 2: the row was changed after it was saved"), "{said}");
+    assert_eq!(fs::read_to_string(&left).unwrap(), changed);
+}
+
+#[test]
+fn two_sweeps_into_one_folder_do_not_destroy_each_other() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("out");
+    fs::create_dir(&folder).unwrap();
+    let lock = Lock::of(&folder, "sweep").unwrap();
+    let other = ["sweep", "fundamental", "--fidelity=draft", "--vary=motor.load_per_wave_n=1:2:2"];
+    for command in [&COMMAND[..], &other, &["sweep", "fundamental", "--restart", "--vary=motor.load_per_wave_n=1:2:2"]]
+    {
+        let output = run(command, Some(&folder));
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]), "{said}");
+        assert!(said.contains("another sweep is being saved into this folder"), "{said}");
+    }
+    // Without it the folder is free, and nothing of the lock is left.
+    drop(lock);
+    assert_eq!(run(&[&other[..], &["--figures=none"]].concat(), Some(&folder)).status.code(), Some(0));
+    let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["scene.toml", "sweep.csv", "sweep.json"]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::attempt::attempt;
 use super::quantity::{Numbers, Quantity, labelled};
 use crate::control::Cancel;
 use crate::problem::Problem;
-use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value};
+use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value, show_text};
 use crate::solution::{Solution, Status};
 use crate::solve::{Settings, SolveError, check};
 use rayon::prelude::*;
@@ -82,10 +82,10 @@ fn labels(scenes: &[Scene]) -> Vec<String> {
     labels
 }
 
-/// `name`, numbered from 2 if it is taken.
+/// `name` as it is shown, a long one cut, numbered from 2 if it is taken.
 pub fn unique(name: &str, taken: impl Fn(&str) -> bool) -> String {
-    let name = if name.trim().is_empty() { "unnamed scene" } else { name.trim() };
-    let mut label = name.to_owned();
+    let name = if name.trim().is_empty() { "unnamed scene".to_owned() } else { show_text(name.trim()) };
+    let mut label = name.clone();
     let mut count = 1;
     while taken(&label) {
         count += 1;

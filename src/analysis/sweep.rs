@@ -1,4 +1,4 @@
-//! One scene over a range of one key, or of two: numbers only, no fields are kept.
+//! One scene over values of one key, of two or of three: numbers only, no fields are kept.
 //!
 //! The points of a sweep are solved on rayon's pool, a chunk of neighbours at a time. Chunks follow from the points
 //! alone, so that the results do not depend on the number of threads, to the last bit, and each equals a single solve of
@@ -8,12 +8,12 @@
 //! as one that was never cancelled. [`Sweep::fingerprint`] tells whether rows on disk are of the same sweep.
 
 use super::attempt::attempt_from;
-use super::quantity::{Numbers, Quantity};
+use super::quantity::{Numbers, Quantity, force_unit};
 use super::table1::{Published, published_at};
 use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
-use crate::scene::{Fault, Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use crate::solution::Status;
 use crate::solve::{Method, Record, Settings, SolveError, check};
 use rayon::prelude::*;
@@ -24,22 +24,36 @@ use std::str::FromStr;
 pub const MOST_VALUES: usize = 10_000;
 /// Most points of a sweep.
 pub const MOST_POINTS: usize = 100_000;
+/// Most keys that are varied at once.
+pub const MOST_KEYS: usize = 3;
 /// Neighbours along the last axis that one thread solves one after the other.
 const CHUNK: usize = 4;
 
-/// What to vary: `key=from:to:count` or `key=from:to:count:log`.
+/// What to vary: `key=from:to:count`, `key=from:to:count:log` or `key=value,value,…`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vary {
     /// Dotted key, as in `--set`.
     pub key: String,
-    /// First value, in the unit of the key.
-    pub from: f64,
-    /// Last value, in the unit of the key.
-    pub to: f64,
-    /// How many values, both ends counted.
-    pub count: usize,
-    /// Equal steps or equal ratios.
-    pub scale: Scale,
+    /// Its values.
+    pub values: Values,
+}
+
+/// The values of a key that is varied.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Numbers from one end to the other.
+    Range {
+        /// First value, in the unit of the key.
+        from: f64,
+        /// Last value, in the unit of the key.
+        to: f64,
+        /// How many values, both ends counted.
+        count: usize,
+        /// Equal steps or equal ratios.
+        scale: Scale,
+    },
+    /// Each as in `--set`.
+    List(Vec<String>),
 }
 
 impl FromStr for Vary {
@@ -47,8 +61,15 @@ impl FromStr for Vary {
 
     fn from_str(text: &str) -> Result<Self, SweepError> {
         let syntax = || SweepError::Syntax { found: text.to_owned() };
-        let (key, range) = text.split_once('=').ok_or_else(syntax)?;
-        let parts: Vec<&str> = range.split(':').map(str::trim).collect();
+        let (key, values) = text.split_once('=').ok_or_else(syntax)?;
+        let key = key.trim().to_owned();
+        if !values.contains(':') {
+            return Ok(Self {
+                key,
+                values: Values::List(values.split(',').map(|word| word.trim().to_owned()).collect()),
+            });
+        }
+        let parts: Vec<&str> = values.split(':').map(str::trim).collect();
         let (ends, scale) = match parts[..] {
             [from, to, count] | [from, to, count, "lin"] => ([from, to, count], Scale::Linear),
             [from, to, count, "log"] => ([from, to, count], Scale::Log),
@@ -56,9 +77,8 @@ impl FromStr for Vary {
         };
         let number = |text: &str| text.parse::<f64>().map_err(|_| syntax());
         let (from, to) = (number(ends[0])?, number(ends[1])?);
-        let key = key.trim().to_owned();
         let count = ends[2].parse().map_err(|_| SweepError::Count { key: key.clone(), found: ends[2].to_owned() })?;
-        Ok(Self { key, from, to, count, scale })
+        Ok(Self { key, values: Values::Range { from, to, count, scale } })
     }
 }
 
@@ -67,8 +87,10 @@ impl FromStr for Vary {
 pub struct Axis {
     /// The key.
     pub parameter: &'static Parameter,
-    /// Its values in the unit of the key, in the order they were asked for.
+    /// Its values in the unit of the key, in the order they were asked for; of words their places in `words`.
     pub values: Vec<f64>,
+    /// The values if they are not all numbers, as in `--set`; otherwise empty.
+    pub words: Vec<String>,
     /// Equal steps or equal ratios.
     pub scale: Scale,
 }
@@ -79,7 +101,7 @@ impl Axis {
     /// # Errors
     /// [`SweepError`], which names the key, the value and what is allowed.
     pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, SweepError> {
-        let Vary { key, from, to, count, scale } = vary;
+        let key = &vary.key;
         let parameter = match Parameter::find(key) {
             Some(parameter) => parameter,
             // Setting it tells what is wrong with it.
@@ -90,29 +112,62 @@ impl Axis {
                 };
             }
         };
-        let whole = match parameter.kind {
-            ParameterKind::Number { .. } => false,
-            ParameterKind::Whole { .. } => true,
-            _ => return Err(SweepError::NotANumber { parameter }),
+        let count = match &vary.values {
+            Values::Range { count, .. } => *count,
+            Values::List(words) => words.len(),
         };
-        for end in [from, to] {
-            scene.clone().set_value(key, Value::Number(*end))?;
+        let allowed = (2..=MOST_VALUES).contains(&count);
+        match &vary.values {
+            Values::List(words) => {
+                for (i, word) in words.iter().enumerate() {
+                    scene.clone().set(key, word)?;
+                    if words[..i].contains(word) {
+                        return Err(SweepError::Repeated { key: key.clone(), value: word.clone() });
+                    }
+                }
+                if !allowed {
+                    return Err(SweepError::Syntax { found: format!("{key}={}", words.join(",")) });
+                }
+                let numbers: Result<Vec<f64>, _> = words.iter().map(|word| word.parse()).collect();
+                Ok(match numbers {
+                    Ok(values) => Self { parameter, values, words: Vec::new(), scale: Scale::Linear },
+                    Err(_) => {
+                        let values = (0..count).map(|place| place as f64).collect();
+                        Self { parameter, values, words: words.clone(), scale: Scale::Linear }
+                    }
+                })
+            }
+            Values::Range { from, to, scale, .. } => {
+                let whole = match parameter.kind {
+                    ParameterKind::Number { .. } => false,
+                    ParameterKind::Whole { .. } => true,
+                    _ => return Err(SweepError::NotANumber { parameter }),
+                };
+                for end in [from, to] {
+                    scene.clone().set_value(key, Value::Number(*end))?;
+                }
+                if !allowed {
+                    return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
+                }
+                if from == to {
+                    return Err(SweepError::Nothing { key: key.clone(), at: *from });
+                }
+                if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
+                    return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
+                }
+                let mut values = spaced(*from, *to, count, *scale);
+                if whole {
+                    values.iter_mut().for_each(|value| *value = value.round());
+                    values.dedup();
+                }
+                Ok(Self { parameter, values, words: Vec::new(), scale: *scale })
+            }
         }
-        if !(2..=MOST_VALUES).contains(count) {
-            return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
-        }
-        if from == to {
-            return Err(SweepError::Nothing { key: key.clone(), at: *from });
-        }
-        if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
-            return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
-        }
-        let mut values = spaced(*from, *to, *count, *scale);
-        if whole {
-            values.iter_mut().for_each(|value| *value = value.round());
-            values.dedup();
-        }
-        Ok(Self { parameter, values, scale: *scale })
+    }
+
+    /// A value as it is written in `--set`.
+    pub fn text(&self, value: f64) -> String {
+        self.words.get(value as usize).cloned().unwrap_or_else(|| value.to_string())
     }
 }
 
@@ -121,7 +176,8 @@ impl Axis {
 pub enum SweepError {
     /// Not of the form asked for.
     #[error(
-        "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log"
+        "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log, or a list of two \
+         values or more, as in film.slip=none,first-order"
     )]
     Syntax {
         /// What was given.
@@ -154,19 +210,27 @@ pub enum SweepError {
         to: f64,
     },
     /// A key whose values are not numbers.
-    #[error("vary {}: it accepts {}, and only a number can be varied", parameter.key, parameter.accepts())]
+    #[error("vary {}: it accepts {}, and only a number has a range; list its values, divided by commas", parameter.key, parameter.accepts())]
     NotANumber {
         /// The key.
         parameter: &'static Parameter,
     },
-    /// No axis, or more than two.
-    #[error("vary: {found} keys given: allowed 1 or 2")]
+    /// A list with the same value twice.
+    #[error("vary {key}: {value} is listed twice")]
+    Repeated {
+        /// The key.
+        key: String,
+        /// The value.
+        value: String,
+    },
+    /// No axis, or more than [`MOST_KEYS`].
+    #[error("vary: {found} keys given: allowed 1 to {MOST_KEYS}")]
     Axes {
         /// How many.
         found: usize,
     },
     /// Two axes with one key.
-    #[error("vary {key}: given twice: the two keys have to differ")]
+    #[error("vary {key}: given twice: the keys have to differ")]
     Twice {
         /// The key.
         key: String,
@@ -209,40 +273,66 @@ pub struct Row {
     pub numbers: Numbers,
 }
 
-/// A sweep, checked: every point is a scene that can be solved.
+/// A sweep, checked: at least one of its points is a scene that can be solved.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     scene: Scene,
     settings: Settings,
     axes: Vec<Axis>,
-    points: Vec<(Vec<f64>, Problem)>,
+    points: Vec<Point>,
+    /// The first point that can be solved.
+    first: Problem,
+}
+
+/// The value of each axis, and what is to be solved there, or why nothing can be.
+#[derive(Clone, Debug)]
+struct Point {
+    values: Vec<f64>,
+    problem: Result<Problem, String>,
 }
 
 impl Sweep {
-    /// A sweep of `scene` over one key or two. A key of whole numbers takes the nearest ones, each once.
+    /// A sweep of `scene` over one key, two or three. A key of whole numbers takes the nearest ones, each once. Points that break
+    /// a rule between keys become rows that say so.
     ///
     /// # Errors
-    /// [`SweepError`], which names the key, the value and what is allowed; of the points, for the first that is not.
+    /// [`SweepError`], which names the key, the value and what is allowed; if no point can be solved, that of the first.
     pub fn new(scene: &Scene, vary: &[Vary], settings: &Settings) -> Result<Self, SweepError> {
-        if !(1..=2).contains(&vary.len()) {
+        if !(1..=MOST_KEYS).contains(&vary.len()) {
             return Err(SweepError::Axes { found: vary.len() });
         }
         let axes = vary.iter().map(|vary| Axis::new(scene, vary)).collect::<Result<Vec<_>, _>>()?;
-        if axes.len() == 2 && axes[0].parameter.key == axes[1].parameter.key {
-            return Err(SweepError::Twice { key: vary[0].key.clone() });
+        for (i, axis) in axes.iter().enumerate() {
+            if axes[..i].iter().any(|other| other.parameter.key == axis.parameter.key) {
+                return Err(SweepError::Twice { key: axis.parameter.key.to_owned() });
+            }
         }
-        let count: usize = axes.iter().map(|axis| axis.values.len()).product();
+        let count = axes.iter().fold(1_usize, |count, axis| count.saturating_mul(axis.values.len()));
         if count > MOST_POINTS {
             return Err(SweepError::Points { found: count });
         }
-        let mut points = Vec::with_capacity(count);
-        for point in 0..count {
-            let values = values_at(&axes, point);
-            let problem = Problem::new(&varied(scene, &axes, &values)?)?;
-            check(&problem, &Settings { record: Record::Numbers, ..*settings })?;
-            points.push((values, problem));
-        }
-        Ok(Self { scene: scene.clone(), settings: *settings, axes, points })
+        let numbers = Settings { record: Record::Numbers, ..*settings };
+        let solvable = |values: &[f64]| -> Result<Problem, SweepError> {
+            let problem = Problem::new(&varied(scene, &axes, values)?)?;
+            check(&problem, &numbers)?;
+            Ok(problem)
+        };
+        let values = (0..count).map(|point| values_at(&axes, point));
+        let mut all: Vec<_> = values.map(|values| (solvable(&values), values)).collect();
+        let Some(first) = all.iter().find_map(|(problem, _)| problem.as_ref().ok()).cloned() else {
+            return Err(all.swap_remove(0).0.err().unwrap_or(SweepError::Axes { found: 0 }));
+        };
+        let unit = force_unit(&first);
+        let points = all.into_iter().map(|(problem, values)| {
+            let problem = match problem {
+                Ok(problem) if force_unit(&problem) != unit => {
+                    Err(format!("its forces are in {}, those of the other points in {unit}", force_unit(&problem)))
+                }
+                problem => problem.map_err(|error| error.to_string()),
+            };
+            Point { values, problem }
+        });
+        Ok(Self { scene: scene.clone(), settings: *settings, points: points.collect(), axes, first })
     }
 
     /// The axes; the last varies fastest.
@@ -260,9 +350,9 @@ impl Sweep {
         &self.settings
     }
 
-    /// The problem of its first point: all are of one kind.
+    /// The problem of the first point that can be solved: all are of one kind.
     pub fn problem(&self) -> &Problem {
-        &self.points[0].1
+        &self.first
     }
 
     /// Number of points.
@@ -277,13 +367,13 @@ impl Sweep {
 
     /// The value of each axis at a point.
     pub fn values(&self, point: usize) -> &[f64] {
-        &self.points[point].0
+        &self.points[point].values
     }
 
     /// The scene of a point, for solving it alone.
     ///
     /// # Errors
-    /// None: [`Sweep::new`] has made every one of them.
+    /// The point breaks a rule between keys.
     pub fn scene_at(&self, point: usize) -> Result<Scene, SceneError> {
         varied(&self.scene, &self.axes, self.values(point))
     }
@@ -309,6 +399,7 @@ impl Sweep {
         for axis in &self.axes {
             hash.text(axis.parameter.key);
             axis.values.iter().for_each(|value| hash.bytes(&value.to_bits().to_le_bytes()));
+            axis.words.iter().for_each(|word| hash.text(word));
         }
         format!("{:016x}", hash.0)
     }
@@ -316,6 +407,9 @@ impl Sweep {
     /// Published points of Table I whose scene is one of this sweep's but for the keys that are varied, at any value of
     /// those.
     pub fn published(&self) -> Vec<Published> {
+        if self.axes.iter().any(|axis| !axis.words.is_empty()) {
+            return Vec::new();
+        }
         let keys: Vec<&str> = self.axes.iter().map(|axis| axis.parameter.key).collect();
         published_at(&self.scene, &keys)
     }
@@ -376,9 +470,13 @@ impl Sweep {
             if cancel.is_cancelled() {
                 break;
             }
-            let (values, problem) = &self.points[point];
-            let (ending, numbers) = match attempt_from(&mut warm, problem, &settings, &mut (), cancel) {
-                Ok(solution) => {
+            let Point { values, problem } = &self.points[point];
+            let solved = problem
+                .as_ref()
+                .map_err(Clone::clone)
+                .and_then(|problem| Ok((problem, attempt_from(&mut warm, problem, &settings, &mut (), cancel)?)));
+            let (ending, numbers) = match solved {
+                Ok((problem, solution)) => {
                     let ending = match solution.status {
                         Status::Converged => Ending::Converged,
                         Status::NotConverged { .. } | Status::NotResolved { .. } => Ending::NotConverged,
@@ -428,16 +526,16 @@ fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
 /// The scene with the varied keys at these values.
 fn varied(scene: &Scene, axes: &[Axis], values: &[f64]) -> Result<Scene, SceneError> {
     let mut scene = scene.clone();
-    let mut faults: Vec<Fault> = Vec::new();
-    for (axis, value) in axes.iter().zip(values) {
-        if let Err(error) = scene.set_value(axis.parameter.key, Value::Number(*value)) {
-            faults.extend_from_slice(error.faults());
-        }
-    }
-    match faults.into_iter().next() {
-        Some(fault) => Err(fault.into()),
-        None => Ok(scene),
-    }
+    let texts: Vec<String> = axes.iter().zip(values).map(|(axis, value)| axis.text(*value)).collect();
+    scene.set_all(axes.iter().zip(&texts).map(|(axis, text)| (axis.parameter.key, text.as_str())))?;
+    Ok(scene)
+}
+
+/// Sixteen digits that differ if one of the texts does.
+pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
+    let mut hash = Fnv::default();
+    texts.into_iter().for_each(|text| hash.text(text));
+    format!("{:016x}", hash.0)
 }
 
 /// The hash FNV-1a of 64 bits: the same on every machine and in every version of the compiler.
@@ -499,11 +597,15 @@ mod tests {
             (&["film.min_spacing_nm=100:100:3"], "the ends have to differ"),
             (&["stator.normal_amplitude_um=0:1:3:log"], "both ends have to be above 0"),
             (&["film.slip=0:1:3"], "film.slip: it accepts one of \"none\""),
+            (&["film.slip=none"], "a list of two values or more"),
+            (&["film.slip=none,second"], "film.slip"),
+            (&["film.slip=none,none"], "none is listed twice"),
+            (&["film.min_spacing_nm=100,3"], "film.min_spacing_nm = 3 is out of range"),
             (&["film.min_spacing=100:200:3"], "did you mean film.min_spacing_nm?"),
             (&["scene=1:2:3"], "scene cannot be changed"),
             (&["plate.length_mm=1:2:3"], "plate.length_mm belongs to scene = \"plate\""),
             (&["motor.waves=1.5:3:2"], "motor.waves = 1.5 is of the wrong type"),
-            (&["stator.tooth_width_mm=1:3:3"], "stator.tooth_width_mm = 3 is out of range"),
+            (&["stator.tooth_width_mm=2.95,3"], "stator.tooth_width_mm = 2.95 is out of range"),
             (&["motor.waves=1:4:2", "motor.waves=1:4:2"], "given twice"),
             (&[], "0 keys given"),
             (&["motor.load_per_wave_n=1:2:400", "film.min_spacing_nm=10:20:400"], "160000 points"),
@@ -511,6 +613,36 @@ mod tests {
             let error = sweep("fundamental", vary).unwrap_err().to_string();
             assert!(error.contains(words), "{vary:?}: {error}");
         }
+    }
+
+    #[test]
+    fn words_and_numbers_are_listed_and_three_keys_make_a_grid() {
+        let slip = sweep("fundamental", &["film.slip=first-order,fukui-kaneko"]).unwrap();
+        assert_eq!((slip.len(), slip.axes()[0].text(1.0).as_str()), (2, "fukui-kaneko"));
+        assert_eq!(slip.scene_at(1).unwrap().get("film.slip").unwrap().to_string(), "fukui-kaneko");
+        let spacing = sweep("fundamental", &["film.min_spacing_nm=300,100,200"]).unwrap();
+        assert_eq!((&spacing.axes()[0].values[..], spacing.axes()[0].words.len()), (&[300.0, 100.0, 200.0][..], 0));
+        // An optional key may be absent.
+        let crown = sweep("fundamental", &["stator.tooth_radius_m=none,3"]).unwrap();
+        let radius = |point: usize| crown.scene_at(point).unwrap().get("stator.tooth_radius_m");
+        assert_eq!((radius(0), radius(1)), (None, Some(Value::Number(3.0))));
+        assert_ne!(slip.fingerprint(), sweep("fundamental", &["film.slip=first-order,none"]).unwrap().fingerprint());
+        let three = ["film.slip=none,first-order", "motor.waves=7:8:2", "film.min_spacing_nm=100:150:3"];
+        let three = sweep("fundamental", &three).unwrap();
+        assert_eq!((three.len(), three.values(10)), (12, &[1.0, 8.0, 125.0][..]));
+    }
+
+    #[test]
+    fn points_that_break_a_rule_between_keys_are_marked() {
+        let sweep = sweep("fundamental", &["motor.waves=8:20:3"]).unwrap();
+        let rows = sweep.run(&[], &Cancel::new(), &|_| ());
+        let Ending::Failed(reason) = &rows[2].ending else { panic!("{rows:?}") };
+        assert!(reason.contains("stator.tooth_width_mm = 1.7353 is out of range"), "{reason}");
+        assert_eq!((rows.len(), &rows[0].ending), (3, &Ending::Converged));
+        // A strip's forces are per metre: they do not stand in one column with those of a plate.
+        let strip = super::tests::sweep("plate-crossover", &["plate.width_mm=none,1"]).unwrap();
+        let rows = strip.run(&[], &Cancel::new(), &|_| ());
+        assert_eq!(rows[1].ending, Ending::Failed("its forces are in N, those of the other points in N/m".to_owned()));
     }
 
     #[test]

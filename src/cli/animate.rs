@@ -5,7 +5,8 @@ use super::interrupt::cancel_on_interrupt;
 use super::options::{SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
-use crate::export::animation::{AnimationError, Format, Options, cycle, frames};
+use crate::export::animation::{Format, Options};
+use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::force_unit;
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
@@ -40,7 +41,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SECONDS", default_value_t = Options::default().seconds, value_parser = seconds)]
     seconds: f64,
 
-    /// At most this many frames, so that they divide the solve's time steps evenly
+    /// At most this many frames, so that they divide the solve's time steps evenly; an MP4 has at least 24 a second, between
+    /// time steps if need be, unless fewer than 60 are asked for
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u16).range(2..=1000))]
     frames: u16,
 
@@ -79,15 +81,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     solution.warnings.iter().for_each(|warning| terminal::warning(warning));
 
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };
-    let bar = Bar::frames(frames(&solution.recording, options.frames) * format.passes());
-    let done = || bar.row_done("");
-    let written = cycle(&problem, &solution, &options, &done, &cancel)
-        .and_then(|movie| movie.write(&arguments.out, &done, &cancel).map(|_| movie.len()));
+    let count = files::animated_frames(&solution, &options, format);
+    let bar = Bar::frames(count);
+    let solved = Solved { scene: &scene, problem: &problem, solution: &solution, history: &[], torque: None };
+    let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
+    let written = files::animation(&arguments.out, &solved, &options, &control);
     drop(bar);
     match written {
-        Ok(frames) => terminal::note(&format!("wrote {}: {frames} frames", arguments.out.display())),
-        Err(AnimationError::Cancelled) => {
-            terminal::note(&AnimationError::Cancelled.to_string());
+        Ok(_) => terminal::note(&format!("wrote {}: {count} frames", arguments.out.display())),
+        Err(ExportError::Cancelled) => {
+            terminal::note(&ExportError::Cancelled.to_string());
             return Ok(Exit::Other);
         }
         Err(error) => return Err(error.into()),

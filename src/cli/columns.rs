@@ -1,49 +1,34 @@
-//! Text in columns and paragraphs.
+//! Text in columns and paragraphs. What comes from a file is escaped: a name may hold anything.
 
-use std::fmt::Write as _;
+use crate::scene::escaped;
+use comfy_table::{CellAlignment, Table};
+use textwrap::{Options, WordSplitter};
 
 /// Rows of cells; every column is as wide as its widest cell.
 #[derive(Default)]
-pub(super) struct Columns {
-    rows: Vec<Vec<String>>,
-}
+pub(super) struct Columns(Table);
 
 impl Columns {
     /// No rows yet.
     pub(super) fn new() -> Self {
-        Self::default()
+        let mut table = Table::new();
+        table.load_style(comfy_table::presets::NOTHING);
+        Self(table)
     }
 
     /// Adds a row.
     pub(super) fn row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = S>) {
-        self.rows.push(cells.into_iter().map(Into::into).collect());
+        self.0.add_row(cells.into_iter().map(|cell| escaped(&cell.into())).collect::<Vec<_>>());
     }
 
     /// The rows, each on a line begun with `indent`, cells two spaces apart; the columns listed in `right` are
     /// aligned to the right.
-    pub(super) fn text(&self, indent: &str, right: &[usize]) -> String {
-        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let width = |column: usize| {
-            self.rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
-        };
-        let widths: Vec<usize> = (0..columns).map(width).collect();
-        let mut text = String::new();
-        for row in &self.rows {
-            let mut line = indent.to_owned();
-            for (column, cell) in row.iter().enumerate() {
-                let gap = if column == 0 { "" } else { "  " };
-                let width = widths[column];
-                // Writing to a String cannot fail.
-                let _ = if right.contains(&column) {
-                    write!(line, "{gap}{cell:>width$}")
-                } else {
-                    write!(line, "{gap}{cell:<width$}")
-                };
-            }
-            text.push_str(line.trim_end());
-            text.push('\n');
+    pub(super) fn text(mut self, indent: &str, right: &[usize]) -> String {
+        for (i, column) in self.0.column_iter_mut().enumerate() {
+            column.set_padding((0, 2));
+            column.set_cell_alignment(if right.contains(&i) { CellAlignment::Right } else { CellAlignment::Left });
         }
-        text
+        self.0.lines().map(|line| format!("{indent}{line}").trim_end().to_owned() + "\n").collect()
     }
 }
 
@@ -52,26 +37,9 @@ const WIDTH: usize = 100;
 
 /// A paragraph, broken at spaces, its first line begun with `first` and the others with `rest`.
 pub(super) fn paragraph(words: &str, first: &str, rest: &str) -> String {
-    let mut text = String::new();
-    let mut line = first.to_owned();
-    let mut empty = true;
-    for word in words.split_whitespace() {
-        if !empty && line.chars().count() + 1 + word.chars().count() > WIDTH {
-            text.push_str(&line);
-            text.push('\n');
-            line = rest.to_owned();
-            empty = true;
-        }
-        if !empty {
-            line.push(' ');
-        }
-        // A name in a file may hold anything, control sequences of a terminal included.
-        line.extend(word.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }));
-        empty = false;
-    }
-    text.push_str(line.trim_end());
-    text.push('\n');
-    text
+    let words = words.split_whitespace().map(escaped).collect::<Vec<_>>().join(" ");
+    let options = Options::new(WIDTH).initial_indent(first).subsequent_indent(rest).break_words(false);
+    textwrap::fill(&words, options.word_splitter(WordSplitter::NoHyphenation)) + "\n"
 }
 
 #[cfg(test)]
@@ -87,10 +55,20 @@ mod tests {
     }
 
     #[test]
+    fn names_of_any_script_keep_the_columns_and_escape_what_cannot_be_seen() {
+        let mut columns = Columns::new();
+        columns.row(["超音波", "1"]);
+        columns.row(["a\u{202e}\nb", "2"]);
+        assert_eq!(columns.text("", &[]), "超音波        1\na\\u{202e}\\nb  2\n");
+    }
+
+    #[test]
     fn paragraphs_are_broken_at_spaces() {
         let text = paragraph(&"word ".repeat(50), "- ", "  ");
         assert!(text.lines().all(|line| line.chars().count() <= WIDTH));
         assert!(text.starts_with("- word") && text.lines().nth(1).unwrap().starts_with("  word"));
         assert_eq!(text.split_whitespace().count(), 51);
+        let long = "min-spacing-".repeat(20);
+        assert_eq!(paragraph(&format!("a  {long}\u{1b}[1m"), "", ""), format!("a\n{long}\\u{{1b}}[1m\n"));
     }
 }

@@ -10,11 +10,9 @@ use super::solve::written;
 use super::summary::duration;
 use super::terminal;
 use crate::analysis::compare::{Run, results, runs};
-use crate::analysis::sweep::Ending;
 use crate::export::animation::Options;
 use crate::export::compare::{Object, difference_text, ending, frames, parameter_rows, status, value_text};
 use crate::export::files::{self, Control, ExportError};
-use crate::export::folder::Staged;
 use crate::export::json;
 use crate::fidelity::Fidelity;
 use crate::scene::{Scene, Value};
@@ -72,10 +70,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scenes =
         arguments.presets.iter().map(|preset| arguments.scene.scene(preset)).collect::<Result<Vec<Scene>, _>>()?;
-    if let Some(folder) = &arguments.output.out {
-        // Finds out whether it can be written before anything is solved.
-        Staged::new(folder)?.add("report.html", |_| Ok(()))?;
-    }
+    let folder = arguments.output.folder()?;
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
     let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
@@ -98,10 +93,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
     }
     let object = || json::text(&Object::new(&runs, &settings, command));
-    terminal::data(&if arguments.output.json { object() } else { text(&runs, &settings, arguments.all) })?;
+    terminal::result(arguments.output.json, object, || text(&runs, &settings, arguments.all));
     let presets = if runs.len() == 1 { "preset" } else { "presets" };
     terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
-    if let Some(folder) = &arguments.output.out {
+    if let Some(folder) = folder {
         let bar = Bar::frames(frames(&runs, Options::default().frames));
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
         let how = (&settings, arguments.all, command);
@@ -115,19 +110,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             paths => terminal::note(&written(folder, &paths?)),
         }
     }
-    Ok(exit(&runs))
-}
-
-/// The worst of the runs decides.
-fn exit(runs: &[Run]) -> Exit {
-    let endings: Vec<Ending> = runs.iter().map(ending).collect();
-    if endings.iter().any(|ending| matches!(ending, Ending::Failed(_))) {
-        Exit::Other
-    } else if endings.contains(&Ending::NotConverged) {
-        Exit::NotConverged
-    } else {
-        Exit::Solved
-    }
+    Ok(Exit::worst(runs.iter().map(|run| Exit::from(&ending(run)))))
 }
 
 /// The tables for people. Runs are lettered, so that long names do not widen them.

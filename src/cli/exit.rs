@@ -1,11 +1,11 @@
 //! Exit status, and what ends a command early.
 
 use crate::analysis::compare::CompareError;
-use crate::analysis::sweep::SweepError;
+use crate::analysis::sweep::{Ending, SweepError};
+use crate::atomic::WriteError;
 use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
 use crate::export::files::ExportError;
-use crate::export::folder::WriteError;
 use crate::export::sweep::ReadError;
 use crate::scene::SceneError;
 use crate::solution::Status;
@@ -25,6 +25,8 @@ pub(super) enum Exit {
     BadInput,
     /// Not converged.
     NotConverged,
+    /// Nobody reads standard output any more.
+    Unread,
 }
 
 impl Exit {
@@ -44,7 +46,15 @@ impl Exit {
             Self::Other => 1,
             Self::BadInput => 2,
             Self::NotConverged => 3,
+            // As a shell reports a program that is ended by the signal of a closed pipe.
+            Self::Unread => 141,
         })
+    }
+
+    /// What several lead to: the worst of them.
+    pub(super) fn worst(all: impl IntoIterator<Item = Self>) -> Self {
+        let order = [Self::Solved, Self::NotConverged, Self::BadInput, Self::Other, Self::Unread];
+        all.into_iter().max_by_key(|exit| order.iter().position(|other| other == exit)).unwrap_or(Self::Solved)
     }
 }
 
@@ -70,6 +80,12 @@ pub(super) enum CliError {
         path: PathBuf,
         /// What is wrong with it.
         source: ReadError,
+    },
+    /// Another sweep has the folder.
+    #[error("{}: another sweep is being saved into this folder; give another folder, or wait for it", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
     },
     /// Options that do not go together.
     #[error("{0}")]
@@ -100,21 +116,42 @@ pub(super) enum CliError {
         "no window can be opened here: {0}\nwithout one: squeezefilm solve fundamental, or squeezefilm --help\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)"
     )]
     Window(String),
+    /// A preset on standard input.
+    #[error("standard input: cannot be read: {0}")]
+    Input(io::Error),
     /// Standard output.
     #[error("standard output: cannot be written: {0}")]
     Output(io::Error),
 }
 
+impl From<&Ending> for Exit {
+    fn from(ending: &Ending) -> Self {
+        match ending {
+            Ending::Converged => Self::Solved,
+            Ending::NotConverged => Self::NotConverged,
+            Ending::Failed(_) => Self::Other,
+        }
+    }
+}
+
 impl CliError {
+    /// Whether nothing is to be said of it: whoever left a pipe knows.
+    pub(super) fn is_silent(&self) -> bool {
+        matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Solve(error) if error.is_bad_input() => Exit::BadInput,
+            Self::Output(_) if self.is_silent() => Exit::Unread,
             Self::Scene(_)
             | Self::Sweep(_)
             | Self::Compare(_)
             | Self::Resume { .. }
+            | Self::Busy { .. }
             | Self::Usage(_)
+            | Self::Input(_)
             | Self::Figure(FigureError::Extension { .. })
             | Self::Animation(AnimationError::Extension { .. }) => Exit::BadInput,
             #[cfg(feature = "gui")]

@@ -1,9 +1,9 @@
 //! Figures among the files of `--out`.
 
 use super::options::{FigureFormat, figure_format};
+use crate::atomic::{Staged, WriteError};
 use crate::export::figure::{Figure, Format};
 use crate::export::files::stage_figure;
-use crate::export::folder::{Staged, WriteError};
 use clap::Args;
 
 /// Which formats figures are written in.

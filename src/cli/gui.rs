@@ -1,7 +1,7 @@
 //! `squeezefilm gui`, and the program without a command: the window.
 
 use super::exit::{CliError, Exit};
-use super::options::{MemoryOptions, SceneOptions};
+use super::options::{MemoryOptions, STANDARD_INPUT, SceneOptions};
 use crate::gui;
 use crate::scene::presets::BUILT_IN;
 use clap::Args;
@@ -33,7 +33,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let opened = match &arguments.preset {
         Some(preset) => {
             let built_in = BUILT_IN.iter().any(|built_in| built_in.name == preset);
-            Some((arguments.scene.scene(preset)?, (!built_in).then(|| PathBuf::from(preset))))
+            let is_file = !built_in && preset != STANDARD_INPUT;
+            Some((arguments.scene.scene(preset)?, is_file.then(|| PathBuf::from(preset))))
         }
         None if !arguments.scene.changes.is_empty() => {
             return Err(CliError::Usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));

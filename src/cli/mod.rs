@@ -36,6 +36,10 @@ use std::process::ExitCode;
 #[cfg_attr(not(feature = "gui"), command(arg_required_else_help = true, subcommand_required = true))]
 #[command(after_help = AFTER)]
 struct Cli {
+    /// Nothing on standard error but warnings and errors
+    #[arg(long, global = true)]
+    quiet: bool,
+
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -67,12 +71,14 @@ Examples:
   squeezefilm startup fundamental
   squeezefilm animate fundamental --out wave.gif
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
+  squeezefilm presets fundamental --set film.slip=none | squeezefilm solve -
 
 Exit status:
   0  solved
   2  bad input: the key, its value and the allowed range are named
   3  not converged: what was reached is reported, and marked
-  1  anything else, Ctrl-C included";
+  1  anything else, Ctrl-C included
+141  standard output was closed before all was written; the files of --out are complete";
 
 /// Runs the program with its arguments, the program's name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -86,6 +92,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));
         }
     };
+    if cli.quiet {
+        terminal::be_quiet();
+    }
     let ended = match cli.command {
         #[cfg(feature = "gui")]
         Some(Command::Gui(arguments)) => gui::run(&arguments),
@@ -105,10 +114,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
     };
-    match ended {
+    match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),
         Err(error) => {
-            terminal::error(&error.to_string());
+            if !error.is_silent() {
+                terminal::error(&error.to_string());
+            }
             error.exit().code()
         }
     }

@@ -2,6 +2,7 @@
 
 use super::exit::CliError;
 use super::terminal;
+use crate::atomic::check_writable;
 use crate::control::Cancel;
 use crate::export::figure::Format;
 use crate::fidelity::{Fidelity, parse_accuracy};
@@ -10,7 +11,8 @@ use crate::scene::{Scene, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
-use std::path::PathBuf;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Changes to a scene.
@@ -27,7 +29,7 @@ pub(super) struct SceneOptions {
 impl SceneOptions {
     /// The scene of a PRESET argument with the changes made, and a name that says so.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
-        let original = presets::find(preset)?;
+        let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };
         let mut scene = original.clone();
         scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
         // What was changed is no longer what the preset's name and description claim.
@@ -42,6 +44,20 @@ impl SceneOptions {
             command.push_str(&format!(" --set {}", quoted(&format!("{key}={value}"))));
         }
         command
+    }
+}
+
+/// The PRESET argument that stands for standard input.
+pub(super) const STANDARD_INPUT: &str = "-";
+/// Most bytes of a preset on standard input.
+const LARGEST: u64 = 16 << 20;
+
+fn from_standard_input() -> Result<Scene, CliError> {
+    let mut text = String::new();
+    match io::stdin().lock().take(LARGEST + 1).read_to_string(&mut text) {
+        Ok(bytes) if bytes as u64 > LARGEST => Err(CliError::Input(io::ErrorKind::FileTooLarge.into())),
+        Ok(_) => Ok(Scene::from_toml(&text, "standard input")?),
+        Err(error) => Err(CliError::Input(error)),
     }
 }
 
@@ -162,6 +178,14 @@ pub(super) struct OutputOptions {
     /// Writes files into this folder, made if need be; files of the same name are replaced
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+}
+
+impl OutputOptions {
+    /// The folder of `--out`: found out, before anything is solved, to be one that can be written into.
+    pub(super) fn folder(&self) -> Result<Option<&Path>, CliError> {
+        self.out.as_deref().map(check_writable).transpose()?;
+        Ok(self.out.as_deref())
+    }
 }
 
 /// A format of figures, or that there are to be none.

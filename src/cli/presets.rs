@@ -69,9 +69,11 @@ fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
         _ => scene.to_toml(),
     };
     if arguments.json {
-        return terminal::data(&json::text(&Object::new(preset, &scene, Some(&toml))));
+        terminal::data(&json::text(&Object::new(preset, &scene, Some(&toml))));
+    } else {
+        terminal::data(&toml);
     }
-    terminal::data(&toml)
+    Ok(())
 }
 
 fn print_all(as_json: bool) -> Result<(), CliError> {
@@ -79,7 +81,8 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
     let scenes = BUILT_IN.iter().map(read).collect::<Result<Vec<_>, SceneError>>()?;
     if as_json {
         let objects: Vec<_> = scenes.iter().map(|(preset, scene)| Object::new(preset, scene, None)).collect();
-        return terminal::data(&json::text(&objects));
+        terminal::data(&json::text(&objects));
+        return Ok(());
     }
     // One set of columns for all groups, so that they line up; the headings go in between.
     let mut columns = Columns::new();
@@ -97,7 +100,8 @@ fn print_all(as_json: bool) -> Result<(), CliError> {
         text.push_str(line);
         text.push('\n');
     }
-    terminal::data(&text)
+    terminal::text(&text);
+    Ok(())
 }
 
 /// The group a preset is listed in.

@@ -1,6 +1,7 @@
 //! Progress on standard error, only if that is a terminal.
 
 use super::summary::duration;
+use super::terminal;
 use crate::control::{Observer, Progress};
 use crate::export::digits::significant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -72,7 +73,7 @@ impl Bar {
     }
 
     fn new(length: u64, template: &str, unit: &'static str) -> Self {
-        let bar = if stderr().is_terminal() {
+        let bar = if stderr().is_terminal() && !terminal::is_quiet() {
             let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
             if let Ok(style) = ProgressStyle::with_template(template) {
                 bar.set_style(style.progress_chars("━╸─"));

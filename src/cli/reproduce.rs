@@ -10,10 +10,10 @@ use super::solve::written;
 use super::summary::duration;
 use super::terminal;
 use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
+use crate::atomic::{Staged, WriteError, check_writable};
 use crate::control::Cancel;
 use crate::export::animation::{AnimationError, Options, cycle, frames};
 use crate::export::digits::with_error;
-use crate::export::folder::{Staged, WriteError};
 use crate::export::json;
 use crate::export::reproduce::{Object, RowObject, figures, report, write_table1_csv};
 use crate::fidelity::Fidelity;
@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         return Err(CliError::Usage("reproduce solves by both methods: leave --method out"));
     }
     // Finds out whether it can be written before anything is solved.
-    Staged::new(&arguments.out)?.add("report.html", |_| Ok(()))?;
+    check_writable(&arguments.out)?;
     let settings = arguments.solve.prepare(Fidelity::Fine, Method::Auto)?;
     let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     let started = Instant::now();
@@ -73,7 +73,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note("cancelled; no file was written");
         return Ok(Exit::Other);
     };
-    terminal::data(&if arguments.json { json::text(&Object::new(&all, command)) } else { text(&all) })?;
+    terminal::result(arguments.json, || json::text(&Object::new(&all, command)), || text(&all));
     terminal::note(&written(&arguments.out, &paths));
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",

@@ -3,17 +3,21 @@
 use super::exit::{CliError, Exit};
 use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::{OutputOptions, STANDARD_INPUT, SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::{summary, terminal};
+use crate::analysis::compare::unique;
 use crate::analysis::torque::TorqueCurves;
+use crate::control::Cancel;
 use crate::export::files::{self, Control, ExportError, Solved};
-use crate::export::json::{Summary, force_unit};
+use crate::export::json::{self, Summary, force_unit};
 use crate::fidelity::Fidelity;
 use crate::memory;
 use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::scene::presets::BUILT_IN;
 use crate::solution::Status;
-use crate::solve::{Method, solve};
+use crate::solve::{Method, Settings, check, solve};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -23,7 +27,8 @@ Examples:
   squeezefilm solve fundamental
   squeezefilm solve fundamental --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3
   squeezefilm solve my.toml --fidelity fine --json | jq .alpha
-  squeezefilm solve levitating --out results";
+  squeezefilm solve fundamental levitating plate-mems --out results
+  squeezefilm presets fundamental --set film.slip=none | squeezefilm solve -";
 
 const FILES: &str = "\
 Files of --out, with the unit in every column's name:
@@ -47,13 +52,14 @@ Files of --out, with the unit in every column's name:
 Of a symmetric film only the half that was solved is there: y_m >= 0,
 and of a plate x_m >= 0 as well.";
 
-/// Solves a preset for its periodic steady state and prints a summary
+/// Solves presets for their periodic steady state and prints a summary of each
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
-    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
-    #[arg(value_name = "PRESET")]
-    preset: String,
+    /// Built-in presets (see: squeezefilm presets), paths of TOML files, or - for standard input; of several, --json prints an
+    /// array, and each has a folder of its own in --out
+    #[arg(value_name = "PRESET", required = true, num_args = 1..)]
+    presets: Vec<String>,
 
     #[command(flatten)]
     scene: SceneOptions,
@@ -69,14 +75,61 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.scene.scene(&arguments.preset)?;
-    let problem = Problem::new(&scene)?;
+    let scenes =
+        arguments.presets.iter().map(|preset| arguments.scene.scene(preset)).collect::<Result<Vec<Scene>, _>>()?;
+    let problems = scenes.iter().map(Problem::new).collect::<Result<Vec<_>, _>>()?;
+    let folder = arguments.output.folder()?;
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    problems.iter().try_for_each(|problem| check(problem, &settings))?;
     let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
-    let mut bar = Bar::solve(force_unit(&problem));
+    let several = scenes.len() > 1;
+    let (mut exits, mut objects, mut names) = (Vec::new(), Vec::new(), Vec::new());
+    for ((preset, scene), problem) in arguments.presets.iter().zip(&scenes).zip(&problems) {
+        let folder =
+            folder.map(|folder| if several { folder.join(own(preset, &mut names)) } else { folder.to_owned() });
+        if several {
+            terminal::note(&format!("{preset}:"));
+            if !exits.is_empty() && !arguments.output.json {
+                terminal::text("\n");
+            }
+        }
+        match one(arguments, scene, problem, &settings, &cancel, folder.as_deref(), command) {
+            Ok((exit, object)) => {
+                exits.push(exit);
+                objects.extend(object);
+            }
+            // The others are solved all the same.
+            Err(error) if several => {
+                terminal::error(&format!("{preset}: {error}"));
+                exits.push(error.exit());
+            }
+            Err(error) => return Err(error),
+        }
+        if cancel.is_cancelled() {
+            break;
+        }
+    }
+    if several && arguments.output.json {
+        terminal::data(&json::text(&objects));
+    }
+    Ok(Exit::worst(exits))
+}
+
+/// Solves one preset, prints its result and writes its files. The object of `--json` is printed only if it is alone; it is
+/// returned unless the solve was cancelled.
+fn one(
+    arguments: &Arguments,
+    scene: &Scene,
+    problem: &Problem,
+    settings: &Settings,
+    cancel: &Cancel,
+    folder: Option<&Path>,
+    command: &[String],
+) -> Result<(Exit, Option<Summary>), CliError> {
+    let mut bar = Bar::solve(force_unit(problem));
     let started = Instant::now();
-    let solved = solve(&problem, &settings, &mut bar, &cancel);
+    let solved = solve(problem, settings, &mut bar, cancel);
     let wall_s = started.elapsed().as_secs_f64();
     let (reached, history) = (bar.reached(), bar.history().to_vec());
     drop(bar);
@@ -84,39 +137,47 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if solution.status == Status::Cancelled {
         // The fields are of a cycle cut short; the last complete round is what there is to tell.
         terminal::note(&format!("cancelled {reached}"));
-        return Ok(Exit::Other);
+        return Ok((Exit::Other, None));
     }
-    let mut result = Summary::new(&problem, &solution, wall_s, command);
-    let torque = result.add_torque(TorqueCurves::of_solve(&problem, settings.fidelity, &solution, &cancel));
+    let mut result = Summary::new(problem, &solution, wall_s, command);
+    let torque = result.add_torque(TorqueCurves::of_solve(problem, settings.fidelity, &solution, cancel));
     for warning in &result.warnings {
         terminal::warning(warning);
     }
-    terminal::data(&if arguments.output.json {
-        result.to_text()
-    } else {
-        summary::text(&scene, &problem, &solution.outcome, &result)
-    })?;
-    if let Some(folder) = &arguments.output.out {
-        let solved = Solved {
-            scene: &scene,
-            problem: &problem,
-            solution: &solution,
-            history: &history,
-            torque: torque.as_ref(),
-        };
-        if let Some(text) = announced(folder, files::expected_size(&problem, &solution.recording)) {
+    if !arguments.output.json {
+        terminal::text(&summary::text(scene, problem, &solution.outcome, &result));
+    } else if arguments.presets.len() == 1 {
+        terminal::data(&result.to_text());
+    }
+    let mut exit = Exit::of(&solution.status);
+    if let Some(folder) = folder {
+        let solved = Solved { scene, problem, solution: &solution, history: &history, torque: torque.as_ref() };
+        if let Some(text) = announced(folder, files::expected_size(problem, &solution.recording)) {
             terminal::note(&text);
         }
-        let control = Control { cancel: &cancel, drawn: &|_, _| () };
+        let control = Control { cancel, drawn: &|_, _| () };
         match files::solve(folder, &solved, &result, &arguments.figures.formats(), &control) {
             Err(ExportError::Cancelled) => {
                 terminal::note(&ExportError::Cancelled.to_string());
-                return Ok(Exit::Other);
+                exit = Exit::Other;
             }
             paths => terminal::note(&written(folder, &paths?)),
         }
     }
-    Ok(Exit::of(&solution.status))
+    Ok((exit, Some(result)))
+}
+
+/// The folder of one preset among several: its name, or that of its file, once.
+fn own(preset: &str, names: &mut Vec<String>) -> String {
+    let built_in = BUILT_IN.iter().any(|built_in| built_in.name == preset);
+    let name = match Path::new(preset).file_stem() {
+        _ if preset == STANDARD_INPUT => "standard-input".to_owned(),
+        Some(stem) if !built_in => stem.to_string_lossy().into_owned(),
+        _ => preset.to_owned(),
+    };
+    let name = unique(&name, |name| names.iter().any(|other| other == name));
+    names.push(name.clone());
+    name
 }
 
 /// Bytes above which it is told beforehand how much will be written.

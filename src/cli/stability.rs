@@ -10,11 +10,12 @@ use super::solve::written;
 use super::summary::duration;
 use super::terminal;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
-use crate::export::folder::Staged;
+use crate::atomic::Staged;
 use crate::export::json;
 use crate::export::stability::{Object, detail, figure, write_csv};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
+use crate::scene::show_text;
 use crate::solve::Method;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
@@ -69,10 +70,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if matches!(Problem::new(&scene)?.scenario, Scenario::Plate(_)) {
         return Err(CliError::Usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
-    if let Some(folder) = &arguments.output.out {
-        // Finds out whether it can be written before minutes are spent.
-        Staged::new(folder)?.add("stability.csv", |_| Ok(()))?;
-    }
+    let folder = arguments.output.folder()?;
     let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
     let methods = arguments.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
     let maps: Vec<&'static Map> =
@@ -95,12 +93,12 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let complete = cells.len() == total;
     if complete {
         let object = || Object::new(&scene.name, settings.fidelity, &cells, command);
-        terminal::data(&if arguments.output.json { json::text(&object()) } else { human })?;
+        terminal::result(arguments.output.json, || json::text(&object()), || human);
         terminal::note(&format!("{total} cells in {}", duration(wall_s)));
     } else {
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
     }
-    match &arguments.output.out {
+    match folder {
         Some(folder) if !cells.is_empty() => {
             let mut staged = Staged::new(folder)?;
             // What was cancelled does not pass for a map.
@@ -125,7 +123,10 @@ fn text(
     cells: &[Cell],
     alone: &str,
 ) -> String {
-    let title = format!("{name}: where it is solved, to the edges of the ranges; method auto at fidelity {fidelity}");
+    let title = format!(
+        "{}: where it is solved, to the edges of the ranges; method auto at fidelity {fidelity}",
+        show_text(name)
+    );
     let mut text = paragraph(&title, "", "");
     text.push('\n');
     let mut columns = Columns::new();

@@ -9,13 +9,13 @@ use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
 use super::terminal;
+use crate::atomic::Staged;
 use crate::export::digits::{significant, with_error};
-use crate::export::folder::Staged;
 use crate::export::json::{self, force_unit};
 use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, unsettled, write_csv};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
-use crate::scene::Scene;
+use crate::scene::{Scene, show_text};
 use crate::solution::Status;
 use crate::solve::{Method, Record, Settings, solve};
 use crate::startup::{self, Cycle, Startup};
@@ -82,10 +82,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if chosen.method == Method::Paper {
         return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
-    if let Some(folder) = &arguments.output.out {
-        // Finds out whether it can be written before anything is solved.
-        Staged::new(folder)?.add("startup.csv", |_| Ok(()))?;
-    }
+    let folder = arguments.output.folder()?;
     let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     let settings = startup::Settings {
         fidelity: chosen.fidelity,
@@ -141,9 +138,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::warning(&warning);
     }
     let human = text(&scene, &problem, &rows, &ended, steady);
-    terminal::data(&if arguments.output.json { json::text(&object) } else { human })?;
+    terminal::result(arguments.output.json, || json::text(&object), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
-    if let Some(folder) = &arguments.output.out {
+    if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
         staged.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
         staged.add("startup.json", |out| out.write_all(json::text(&object).as_bytes()))?;
@@ -182,7 +179,7 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
         Status::NotConverged { .. } | Status::NotResolved { .. } => format!("NOT REPEATING after {}", ended.cycles),
         Status::Cancelled => format!("CANCELLED after {}", ended.cycles),
     };
-    let mut text = paragraph(&format!("{}, start-up from rest: {how}", scene.name), "", "");
+    let mut text = paragraph(&format!("{}, start-up from rest: {how}", show_text(&scene.name)), "", "");
     text.push('\n');
     let motor = scene.scene() == "motor";
     let unit = force_unit(problem);

@@ -9,7 +9,7 @@ use crate::export::exact::{ExactObject, units};
 use crate::export::json::{Summary, beside_limit};
 use crate::export::torque::{PerformanceObject, TorqueObject};
 use crate::problem::{Motor, Plate, Problem, Scenario};
-use crate::scene::Scene;
+use crate::scene::{Scene, show_text};
 use crate::solution::Outcome;
 use std::fmt::Write as _;
 
@@ -52,8 +52,8 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
     text
 }
 
-fn name(scene: &Scene) -> &str {
-    if scene.name.is_empty() { "unnamed scene" } else { &scene.name }
+fn name(scene: &Scene) -> String {
+    if scene.name.is_empty() { "unnamed scene".to_owned() } else { show_text(&scene.name) }
 }
 
 fn status(summary: &Summary) -> String {

@@ -1,4 +1,4 @@
-//! `squeezefilm sweep`: one key of a scene varied, or two.
+//! `squeezefilm sweep`: up to three keys of a scene varied.
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
@@ -11,12 +11,13 @@ use super::summary::duration;
 use super::terminal;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
+use crate::atomic::{Lock, WriteError, check_writable, write_file};
 use crate::export::digits::{significant, with_error};
 use crate::export::files;
-use crate::export::folder::{Staged, WriteError};
 use crate::export::json;
-use crate::export::sweep::{Object, ReadError, read_csv, write_csv};
+use crate::export::sweep::{Object, ReadError, read_saved, write_saved};
 use crate::fidelity::Fidelity;
+use crate::scene::show_text;
 use crate::solve::Method;
 use clap::Args;
 use std::io::ErrorKind;
@@ -29,21 +30,23 @@ Examples:
   squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
   squeezefilm sweep fundamental --vary film.min_spacing_nm=20:500:30:log --fidelity fine --out results
   squeezefilm sweep fundamental --vary motor.load_per_wave_n=0.5:5:12 --vary film.min_spacing_nm=50:400:12:log --out map
+  squeezefilm sweep fundamental --vary film.slip=first-order,fukui-kaneko,none --vary film.min_spacing_nm=50,100,200
   squeezefilm sweep plate-crossover --vary plate.frequency_khz=0.1:1000:40:log --json";
 
 const FILES: &str = "\
 Files of --out:
   sweep.csv   a row for each point: its keys, its status and its numbers
   sweep.json  what --json prints
-  sweep.svg   curves, or a map with contours; and sweep.png
+  sweep.svg   curves, or a map with contours, of three keys a map for
+              each value of the first (twelve at most); and sweep.png
   scene.toml  the scene that is varied: a preset again
 A sweep that is cancelled (Ctrl-C), or killed, leaves sweep.incomplete.csv
 instead; the same command goes on from there, to the same result.";
 
-/// Solves a preset over a range of one key, or of two
+/// Solves a preset over values of one key, of two or of three
 ///
-/// All cores are used, and the results do not depend on how many there are. A point that fails or does not converge is
-/// marked, and the others go on.
+/// All cores are used, and the results do not depend on how many there are. A point that fails, does not converge, or breaks a
+/// rule between keys is marked, and the others go on.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -51,11 +54,12 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET")]
     preset: String,
 
-    /// What to vary, in the unit of the key; given twice: a map
+    /// What to vary, in the unit of the key: a range or a list; given twice: a map; three times: maps
     ///
-    /// Any key that is a number, as in the file: --vary film.min_spacing_nm=50:400:8:log has 8 values of equal ratio,
-    /// without :log of equal steps. A key of whole numbers takes the nearest ones.
-    #[arg(long, value_name = "KEY=FROM:TO:COUNT[:log]", required = true)]
+    /// A key that is a number, as in the file, has a range: --vary film.min_spacing_nm=50:400:8:log has 8 values of equal ratio,
+    /// without :log of equal steps. A key of whole numbers takes the nearest ones. Any key has a list:
+    /// --vary film.slip=first-order,fukui-kaneko, with the values of --set.
+    #[arg(long, value_name = "KEY=FROM:TO:COUNT[:log] or KEY=VALUE,VALUE…", required = true)]
     vary: Vec<Vary>,
 
     /// Begins anew: forgets what an earlier sweep, cancelled, left in the folder of --out
@@ -125,29 +129,39 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
     }
     let object = Object::new(&sweep, &rows, command);
-    terminal::data(&if arguments.output.json { json::text(&object) } else { human })?;
+    terminal::result(arguments.output.json, || json::text(&object), || human);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
         terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.figures)?));
     }
-    Ok(exit(&rows))
+    Ok(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))))
 }
 
 /// How often what is solved is saved while the rest goes on.
 const SAVE_EVERY: Duration = Duration::from_secs(5);
 const INCOMPLETE: &str = "sweep.incomplete.csv";
 
-/// The folder of `--out`.
+/// The folder of `--out`, which no other sweep has meanwhile.
 struct Folder<'a> {
     path: &'a Path,
     sweep: &'a Sweep,
+    /// Only dropping takes it.
+    lock: Option<Lock>,
+    /// The folder was made by us, and is removed if nothing comes into it.
+    made: bool,
 }
 
 impl<'a> Folder<'a> {
-    /// Finds out whether it can be written before anything is solved.
-    fn open(path: &'a Path, sweep: &'a Sweep) -> Result<Self, WriteError> {
-        Staged::new(path)?.add("sweep.csv", |_| Ok(()))?;
-        Ok(Self { path, sweep })
+    /// Finds out whether it can be written, and whether another sweep is being saved there, before anything is solved.
+    fn open(path: &'a Path, sweep: &'a Sweep) -> Result<Self, CliError> {
+        let made = !path.exists();
+        check_writable(path)?;
+        let failed = |source| WriteError { path: path.to_owned(), source };
+        std::fs::create_dir_all(path).map_err(failed)?;
+        match Lock::of(path, "sweep").map_err(failed)? {
+            None => Err(CliError::Busy { folder: path.to_owned() }),
+            lock => Ok(Self { path, sweep, lock, made }),
+        }
     }
 
     /// The rows that a cancelled sweep left.
@@ -155,17 +169,16 @@ impl<'a> Folder<'a> {
         let path = self.path.join(INCOMPLETE);
         let fault = |source| CliError::Resume { path: path.clone(), source };
         match std::fs::read_to_string(&path) {
-            Ok(text) => read_csv(self.sweep, &text).map_err(fault),
+            Ok(text) => read_saved(self.sweep, &text).map_err(fault),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
             Err(error) => Err(fault(ReadError::Damaged { line: 1, fault: error.to_string() })),
         }
     }
 
     fn save_incomplete(&self, rows: &[Row]) -> Result<PathBuf, WriteError> {
-        let mut staged = Staged::new(self.path)?;
-        staged.add(INCOMPLETE, |out| write_csv(self.sweep, rows, out))?;
-        staged.commit()?;
-        Ok(self.path.join(INCOMPLETE))
+        let path = self.path.join(INCOMPLETE);
+        write_file(&path, |out| write_saved(self.sweep, rows, out))?;
+        Ok(path)
     }
 
     fn save(&self, rows: &[Row], command: &[String], figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
@@ -178,20 +191,19 @@ impl<'a> Folder<'a> {
     }
 }
 
-/// The worst of the rows decides.
-fn exit(rows: &[Row]) -> Exit {
-    if rows.iter().any(|row| matches!(row.ending, Ending::Failed(_))) {
-        Exit::Other
-    } else if rows.iter().any(|row| row.ending == Ending::NotConverged) {
-        Exit::NotConverged
-    } else {
-        Exit::Solved
+impl Drop for Folder<'_> {
+    fn drop(&mut self) {
+        self.lock.take();
+        if self.made {
+            // Only an empty folder is removed.
+            let _ = std::fs::remove_dir(self.path);
+        }
     }
 }
 
 /// `film.min_spacing_nm = 100`: where a row is.
 fn place(sweep: &Sweep, row: &Row) -> String {
-    let at = |(axis, value): (&Axis, &f64)| format!("{} = {value}", axis.parameter.key);
+    let at = |(axis, value): (&Axis, &f64)| format!("{} = {}", axis.parameter.key, axis.text(*value));
     sweep.axes().iter().zip(&row.values).map(at).collect::<Vec<_>>().join(", ")
 }
 
@@ -202,7 +214,7 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
         Method::Auto => format!("fidelity {}", sweep.settings().fidelity),
         Method::Paper => "the paper's algorithm".to_owned(),
     };
-    let title = format!("{}, {} points over {}, {how}", sweep.scene().name, rows.len(), keys.join(" and "));
+    let title = format!("{}, {} points over {}, {how}", show_text(&sweep.scene().name), rows.len(), keys.join(", "));
     let mut text = paragraph(&title, "", "");
     text.push('\n');
     let shown: Vec<Quantity> = SHOWN.into_iter().filter(|shown| sweep.quantities().contains(shown)).collect();
@@ -215,7 +227,8 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
     };
     columns.row(labels(&shown));
     for row in rows {
-        let mut cells: Vec<String> = row.values.iter().map(f64::to_string).collect();
+        let mut cells: Vec<String> =
+            sweep.axes().iter().zip(&row.values).map(|(axis, value)| axis.text(*value)).collect();
         cells.extend(shown.iter().map(|quantity| number(row, *quantity)));
         cells.push(match &row.ending {
             Ending::Converged => String::new(),
@@ -280,11 +293,11 @@ mod tests {
         numbers.set(Quantity::Alpha, 0.25);
         let row = |point: usize, ending: Ending| Row { point, values: sweep.values(point).to_vec(), ending, numbers };
         let mut rows = vec![row(0, Ending::Converged)];
-        assert_eq!(exit(&rows), Exit::Solved);
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Solved);
         rows.push(row(1, Ending::NotConverged));
-        assert_eq!(exit(&rows), Exit::NotConverged);
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::NotConverged);
         rows.push(row(2, Ending::Failed("no".to_owned())));
-        assert_eq!(exit(&rows), Exit::Other);
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Other);
         let shown = text(&sweep, &rows);
         assert!(shown.lines().any(|line| line.contains("150 ") && line.ends_with("NOT CONVERGED")), "{shown}");
         assert!(shown.lines().any(|line| line.contains("200 ") && line.ends_with("FAILED")), "{shown}");

@@ -9,8 +9,8 @@ use super::solve::written;
 use super::summary::duration;
 use super::terminal;
 use crate::analysis::table1::{Row, rows};
+use crate::atomic::Staged;
 use crate::export::digits::{significant, with_error};
-use crate::export::folder::Staged;
 use crate::export::json;
 use crate::export::table1::{Object, write_csv};
 use crate::fidelity::Fidelity;
@@ -48,6 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if arguments.converged && arguments.solve.method == Some(Method::Paper) {
         return Err(CliError::Usage("--converged is method auto, and --method paper was asked for: keep one"));
     }
+    let folder = arguments.output.folder()?;
     let method = if arguments.converged { Method::Auto } else { Method::Paper };
     let settings = arguments.solve.prepare(Fidelity::Fine, method)?;
     let cancel = arguments.solve.within_budget(cancel_on_interrupt());
@@ -76,9 +77,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         }
     }
     let objects: Vec<Object> = rows.iter().map(|row| Object::new(row, &settings)).collect();
-    terminal::data(&if arguments.output.json { json::text(&objects) } else { human })?;
+    terminal::result(arguments.output.json, || json::text(&objects), || human);
     terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
-    if let Some(folder) = &arguments.output.out {
+    if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
         staged.add("table1.csv", |out| write_csv(&objects, out))?;
         terminal::note(&written(folder, &staged.commit()?));
@@ -88,14 +89,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 
 /// The worst of the rows decides.
 fn exit(rows: &[Row]) -> Exit {
-    let worst = |row: &Row| match &row.computed {
+    Exit::worst(rows.iter().map(|row| match &row.computed {
         Err(error) if error.is_bad_input() => Exit::BadInput,
         Err(_) => Exit::Other,
         Ok(computed) => Exit::of(&computed.status),
-    };
-    let exits: Vec<Exit> = rows.iter().map(worst).collect();
-    let order = [Exit::Other, Exit::BadInput, Exit::NotConverged];
-    order.into_iter().find(|exit| exits.contains(exit)).unwrap_or(Exit::Solved)
+    }))
 }
 
 /// The table for people, with what to know about it below.

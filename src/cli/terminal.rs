@@ -1,31 +1,81 @@
 //! Standard output and standard error. Nothing else writes to them.
 
 use super::exit::CliError;
-use std::io::{self, ErrorKind, Write};
+use crate::scene::escaped;
+use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
-/// Writes data to standard output. A reader that has gone (`| head`) has all it wants: that is not an error.
-pub(super) fn data(text: &str) -> Result<(), CliError> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::Output(error)),
-        _ => Ok(()),
+/// `--quiet` was given.
+static QUIET: AtomicBool = AtomicBool::new(false);
+/// The first thing that went wrong with standard output.
+static FAULT: Mutex<Option<io::Error>> = Mutex::new(None);
+
+/// From now on there are no notes and no progress.
+pub(super) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether there are to be no notes and no progress.
+pub(super) fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
+/// Writes data to standard output as they are. What goes wrong is told at the end, by [`ended`]: the files of `--out` are still
+/// to be written.
+pub(super) fn data(text: &str) {
+    let mut fault = FAULT.lock().unwrap_or_else(PoisonError::into_inner);
+    if fault.is_none() {
+        let mut out = io::stdout().lock();
+        *fault = out.write_all(text.as_bytes()).and_then(|()| out.flush()).err();
     }
 }
 
-/// Writes text to standard error as it is. If nobody can read it, nobody is told.
+/// Writes text for people to standard output.
+pub(super) fn text(text: &str) {
+    data(&lines(text));
+}
+
+/// Writes a result to standard output: its object for programs, or its text for people.
+pub(super) fn result(json: bool, object: impl FnOnce() -> String, human: impl FnOnce() -> String) {
+    if json { data(&object()) } else { text(&human()) }
+}
+
+/// Whether all data were written.
+///
+/// # Errors
+/// [`CliError::Output`] if they were not.
+pub(super) fn ended() -> Result<(), CliError> {
+    match FAULT.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        Some(error) => Err(CliError::Output(error)),
+        None => Ok(()),
+    }
+}
+
+/// Text without what a terminal would obey.
+fn lines(text: &str) -> String {
+    text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
+}
+
+/// Writes text to standard error. If nobody can read it, nobody is told.
+fn say(text: &str) {
+    let text = lines(text);
+    let _ = io::stderr().lock().write_all(format!("{}\n", text.trim_end_matches('\n')).as_bytes());
+}
+
+/// Writes a note to standard error, unless it is to be quiet.
 pub(super) fn note(text: &str) {
-    let mut err = io::stderr().lock();
-    let _ = err.write_all(text.as_bytes()).and_then(|()| if text.ends_with('\n') { Ok(()) } else { writeln!(err) });
+    if !is_quiet() {
+        say(text);
+    }
 }
 
 /// Writes each line of an error to standard error, marked.
 pub(super) fn error(text: &str) {
-    for line in text.lines() {
-        note(&format!("error: {line}"));
-    }
+    text.lines().for_each(|line| say(&format!("error: {line}")));
 }
 
 /// Writes a warning to standard error, marked.
 pub(super) fn warning(text: &str) {
-    note(&format!("warning: {text}"));
+    say(&format!("warning: {text}"));
 }

@@ -11,11 +11,12 @@ use super::summary::duration;
 use super::terminal;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Tradeoff, Wish, candidates, measure};
+use crate::atomic::Staged;
 use crate::export::digits::significant;
-use crate::export::folder::Staged;
 use crate::export::json;
 use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
 use crate::problem::Problem;
+use crate::scene::show_text;
 use crate::solve::{Settings, check};
 use clap::Args;
 use std::time::Instant;
@@ -90,10 +91,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let problem = Problem::new(&scene)?;
     arguments.memory.apply();
     check(&problem, &Settings::default())?;
-    if let Some(folder) = &arguments.output.out {
-        // Finds out whether it can be written before a minute is spent.
-        Staged::new(folder)?.add("tradeoff.csv", |_| Ok(()))?;
-    }
+    let folder = arguments.output.folder()?;
     let effort = Effort { repeats: arguments.repeats.map(usize::from), ..Effort::default() };
     let cancel = cancel_on_interrupt();
     let bar = Bar::share();
@@ -125,9 +123,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     };
     let alone = arguments.scene.command(&arguments.preset);
     let advice: String = wishes.iter().map(|wish| advice(&tradeoff, *wish, &alone)).collect();
-    terminal::data(&if arguments.output.json { json::text(&object) } else { human + &advice })?;
+    terminal::result(arguments.output.json, || json::text(&object), || human + &advice);
     terminal::note(&format!("measured in {}", duration(wall_s)));
-    if let Some(folder) = &arguments.output.out {
+    if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
         staged.add("tradeoff.csv", |out| write_csv(&tradeoff, out))?;
         staged.add("tradeoff.json", |out| out.write_all(json::text(&object).as_bytes()))?;
@@ -180,8 +178,11 @@ fn percent(share: f64) -> String {
 /// The table for people.
 fn text(problem: &Problem, tradeoff: &Tradeoff) -> String {
     let judged = tradeoff.judged.label(problem);
-    let mut text =
-        paragraph(&format!("{}: error against solve time, measured now on this machine", problem.name), "", "");
+    let mut text = paragraph(
+        &format!("{}: error against solve time, measured now on this machine", show_text(&problem.name)),
+        "",
+        "",
+    );
     text.push('\n');
     let mut columns = Columns::new();
     let head = [

@@ -8,11 +8,13 @@
 
 use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
-use super::folder::{Staged, WriteError, write_file};
 use super::{mp4, video};
+use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
+use crate::recording::sample::Touching;
+use crate::scene::show_text;
 use crate::solution::Solution;
 use color_quant::NeuQuant;
 use rayon::prelude::*;
@@ -108,11 +110,6 @@ impl Format {
             Some(_) => Err(AnimationError::Extension { path: path.to_owned() }),
         }
     }
-
-    /// How often each frame is counted until the file is there: a video takes longer to encode than to draw.
-    pub fn passes(self) -> usize {
-        if self == Self::Mp4 { 2 } else { 1 }
-    }
 }
 
 /// Draws the cycle of a solve. `done` is called after each frame, from several threads.
@@ -128,19 +125,113 @@ pub fn cycle(
 ) -> Result<Movie, AnimationError> {
     let recording = &solution.recording;
     let count = frames(recording, options.frames);
+    Movie::of(count, options, &figure_of(problem, solution, recording, options), done, cancel)
+}
+
+/// Writes the cycle of a solve as an MP4 with at least [`SMOOTH`] frames a second on screen: where the solve has too few time
+/// steps, between them. Each frame is drawn when it is encoded, and `done` called after it.
+///
+/// # Errors
+/// [`AnimationError`]; then no file is left, and an older one of that name is as it was.
+pub fn write_video(
+    path: &Path,
+    problem: &Problem,
+    solution: &Solution,
+    options: &Options,
+    done: &dyn Fn(),
+    cancel: &Cancel,
+) -> Result<(), AnimationError> {
+    let count = video_frames(&solution.recording, options);
+    let mut recording = Cow::Borrowed(&solution.recording);
+    if count != frames(&recording, options.frames) {
+        let touching = match &problem.scenario {
+            Scenario::Motor(motor) => Touching::of(motor),
+            Scenario::Plate(_) => Touching::default(),
+        };
+        recording = Cow::Owned(recording.resampled(count, touching));
+    }
+    if count == 0 {
+        return Err(AnimationError::NoCycle);
+    }
+    let options = Options { frames: count, ..*options };
+    let figure = figure_of(problem, solution, &recording, &options);
+    let draw = |frame: usize| {
+        let figure = figure(frame);
+        pixels(&figure, f64::from(options.width.max(1)) / figure.width.points())
+    };
+    let first = draw(0)?;
+    let film = Film { size: [first.width, first.height], count, seconds: on_screen(options.seconds) };
+    let picture = |frame: usize| Ok(Cow::Owned(draw(frame).map_err(io::Error::other)?.rgb));
+    let source = Provenance::of(problem, solution).line();
+    write_file(path, |out| film.write(&picture, &source, out, done, cancel)).map_err(|error| stopped(error, cancel))
+}
+
+/// How many frames [`write_video`] writes: if the options ask for fewer than the usual number, as many as [`frames`].
+pub fn video_frames(recording: &Recording, options: &Options) -> usize {
+    let (count, enough) = (frames(recording, options.frames), (SMOOTH * options.seconds).ceil() as usize);
+    if count == 0 || options.frames < Options::default().frames { count } else { count.max(enough) }
+}
+
+/// Frames a second that look like motion.
+pub const SMOOTH: f64 = 24.0;
+
+/// The frames of a cycle as figures.
+fn figure_of<'a>(
+    problem: &'a Problem,
+    solution: &'a Solution,
+    recording: &'a Recording,
+    options: &Options,
+) -> impl Fn(usize) -> Figure + Sync + use<'a> {
+    let count = frames(recording, options.frames);
     let slower = slow_motion(recording, options.seconds);
-    let figure = |frame: usize| {
+    move |frame: usize| {
         let frame = frame * recording.frames / count.max(1);
         let mut figure = match &problem.scenario {
             Scenario::Motor(motor) => figures::motor::moving(motor, recording, frame),
             Scenario::Plate(plate) => figures::plate::moving(plate, recording, frame),
         };
-        figure.title =
-            format!("{} · t/T = {:.2} · {slower}", problem.name, frame as f64 / recording.frames.max(1) as f64);
+        let phase = frame as f64 / recording.frames.max(1) as f64;
+        figure.title = format!("{} · t/T = {phase:.2} · {slower}", show_text(&problem.name));
         figure.provenance = Provenance::of(problem, solution);
         figure
-    };
-    Movie::of(count, options, &figure, done, cancel)
+    }
+}
+
+/// How long a cycle is on screen \[s\].
+fn on_screen(seconds: f64) -> f64 {
+    if seconds.is_finite() { seconds.clamp(0.02, 600.0) } else { 4.0 }
+}
+
+/// Why a file was not written.
+fn stopped(error: WriteError, cancel: &Cancel) -> AnimationError {
+    if cancel.is_cancelled() { AnimationError::Cancelled } else { error.into() }
+}
+
+/// A cycle as an MP4.
+struct Film {
+    size: [u32; 2],
+    count: usize,
+    seconds: f64,
+}
+
+impl Film {
+    /// Writes it as often as [`LONG_ENOUGH`] asks.
+    fn write(
+        &self,
+        picture: &video::Picture<'_>,
+        source: &str,
+        out: &mut dyn Write,
+        done: &dyn Fn(),
+        cancel: &Cancel,
+    ) -> io::Result<()> {
+        // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
+        let step = (1000.0 * self.seconds).round() as u32;
+        let timescale = u32::try_from(1000 * self.count).map_err(io::Error::other)?;
+        let cycles = (LONG_ENOUGH / self.seconds).ceil() as u32;
+        let video = video::encode(self.count, picture, self.size, [step, timescale], done, cancel)?;
+        check(cancel)?;
+        mp4::write(&video, &mp4::Timing { timescale, step, cycles }, source, out)
+    }
 }
 
 /// How many frames an animation of at most `most` has: every second, third, … time step, if that leaves nearly so many.
@@ -201,7 +292,7 @@ impl Movie {
         if let Some(frame) = drawn.iter().position(|pixels| (pixels.width, pixels.height) != (width, height)) {
             return Err(AnimationError::Size { frame });
         }
-        let seconds = if options.seconds.is_finite() { options.seconds.clamp(0.02, 600.0) } else { 4.0 };
+        let seconds = on_screen(options.seconds);
         let source = figure(0).provenance.line();
         Ok(Self { width, height, seconds, source, frames: drawn.into_iter().map(|pixels| pixels.rgb).collect() })
     }
@@ -216,15 +307,13 @@ impl Movie {
         self.frames.is_empty()
     }
 
-    /// Writes the movie in the format of its path. A file has its name only when it is complete. `done` is called after
-    /// each frame that is counted a second time ([`Format::passes`]).
+    /// Writes the movie in the format of its path. A file has its name only when it is complete. Of an MP4
+    /// `done` is called after each frame that is encoded.
     ///
     /// # Errors
     /// [`AnimationError`]; then no file is left, and an older one of that name is as it was.
     pub fn write(&self, path: &Path, done: &dyn Fn(), cancel: &Cancel) -> Result<Vec<PathBuf>, AnimationError> {
-        let stopped = |error: WriteError| {
-            if cancel.is_cancelled() { AnimationError::Cancelled } else { error.into() }
-        };
+        let stopped = |error| stopped(error, cancel);
         match Format::of(path)? {
             Format::Gif => write_file(path, |out| self.gif(out, cancel)).map_err(stopped)?,
             Format::Apng => write_file(path, |out| self.apng(out, cancel)).map_err(stopped)?,
@@ -331,13 +420,8 @@ impl Movie {
     /// # Errors
     /// Those of the encoder and of the writer; an interruption if it was cancelled.
     pub fn mp4(&self, out: &mut dyn Write, done: &dyn Fn(), cancel: &Cancel) -> io::Result<()> {
-        // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
-        let step = (1000.0 * self.seconds).round() as u32;
-        let timescale = u32::try_from(1000 * self.len()).map_err(io::Error::other)?;
-        let cycles = (LONG_ENOUGH / self.seconds).ceil() as u32;
-        let video = video::encode(&self.frames, [self.width, self.height], [step, timescale], done, cancel)?;
-        check(cancel)?;
-        mp4::write(&video, &mp4::Timing { timescale, step, cycles }, &self.source, out)
+        let film = Film { size: [self.width, self.height], count: self.len(), seconds: self.seconds };
+        film.write(&|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)
     }
 
     /// Left, top, right and bottom of what differs from the frame before: at least one pixel.

@@ -3,6 +3,7 @@
 //! Numbers are written with the fewest digits that read back to the same bits.
 
 use super::animation::{AnimationError, Movie, Options};
+use super::csv::words as csv_words;
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
@@ -179,7 +180,7 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
             let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
             writer.write_record([
                 (i + 1).to_string().as_str(),
-                &run.label,
+                &csv_words(&run.label),
                 run.scene.scene(),
                 &status(run),
                 row.quantity.name(),
@@ -200,10 +201,14 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
 /// Those of the writer.
 pub fn write_parameters_csv(runs: &[Run], all: bool, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    let labels = runs.iter().map(|run| run.label.as_str());
-    writer.write_record(["key", "unit"].into_iter().chain(labels))?;
+    let labels = runs.iter().map(|run| csv_words(&run.label).into_owned());
+    writer.write_record(["key", "unit"].map(str::to_owned).into_iter().chain(labels))?;
     for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
-        let values = row.values.iter().map(|value| value.as_ref().map_or_else(String::new, Value::to_string));
+        let values = row.values.iter().map(|value| match value {
+            None => String::new(),
+            Some(Value::Text(text)) => csv_words(text).into_owned(),
+            Some(value) => value.to_string(),
+        });
         let first = [row.parameter.key.to_owned(), row.parameter.unit.to_owned()];
         writer.write_record(first.into_iter().chain(values))?;
     }
@@ -486,9 +491,10 @@ fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow
     let mut table = Table::new("").heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
     for row in rows {
         let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
-        let kind = if row.differs() { Kind::Strong } else { Kind::Number };
+        // What differs from the first run is marked.
         let values = row.values.iter().map(|value| match value {
-            Some(value) => (kind, value.to_string()),
+            Some(shown) if *value == row.values[0] => (Kind::Number, shown.to_string()),
+            Some(shown) => (Kind::Strong, shown.to_string()),
             None => (Kind::Quiet, row.parameter.absent.map_or("–", |_| "none").to_owned()),
         });
         table.row([(Kind::Words, format!("{}{unit}", row.parameter.key))].into_iter().chain(values));

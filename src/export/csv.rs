@@ -11,6 +11,7 @@
 
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -155,6 +156,12 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
         table.end_row()?;
     }
     table.finish()
+}
+
+/// A text that is not ours, such as a scene's name, as a cell. What a spreadsheet would take for a formula begins with an
+/// apostrophe, by which it knows it for text.
+pub fn words(text: &str) -> Cow<'_, str> {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) { format!("'{text}").into() } else { text.into() }
 }
 
 /// A CSV file of numbers, field by field.

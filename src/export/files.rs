@@ -1,15 +1,15 @@
 //! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
-use super::animation::{AnimationError, Movie, Options, cycle, frames};
+use super::animation::{AnimationError, Movie, Options, cycle, frames, video_frames, write_video};
 use super::compare::{self, Report, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
-use super::folder::{Staged, WriteError, write_file};
 use super::json::{self, Summary};
 use super::{csv, figures, npz, sweep, torque};
 use crate::analysis::compare::Run;
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
+use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::{Cancel, Progress};
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
@@ -210,11 +210,23 @@ pub fn animation(
 ) -> Result<Vec<PathBuf>, ExportError> {
     // A wrong extension is told before the work, not after it.
     let format = super::animation::Format::of(path)?;
-    let all = frames(&solved.solution.recording, options.frames) * format.passes();
-    control.counted(all, |done| {
-        let movie = cycle(solved.problem, solved.solution, options, done, control.cancel)?;
-        Ok(movie.write(path, done, control.cancel)?)
+    let all = animated_frames(solved.solution, options, format);
+    let Solved { problem, solution, .. } = *solved;
+    control.counted(all, |done| match format {
+        super::animation::Format::Mp4 => {
+            write_video(path, problem, solution, options, done, control.cancel)?;
+            Ok(vec![path.to_owned()])
+        }
+        _ => Ok(cycle(problem, solution, options, done, control.cancel)?.write(path, done, control.cancel)?),
     })
+}
+
+/// How many frames [`animation`] draws.
+pub fn animated_frames(solution: &Solution, options: &Options, format: super::animation::Format) -> usize {
+    match format {
+        super::animation::Format::Mp4 => video_frames(&solution.recording, options),
+        _ => frames(&solution.recording, options.frames),
+    }
 }
 
 /// Animations of several runs as GIF, each with its name.

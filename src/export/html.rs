@@ -5,9 +5,8 @@
 //! decided here, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
 //! the contact's, grey), tables with rules but no boxes, wide enough for a projector and quiet enough for paper.
 
-pub use super::figure::escaped;
-
-use super::figure::{Figure, to_svg};
+use super::figure::{Figure, escaped as xml_escaped, to_svg};
+use crate::scene::escaped as shown;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
@@ -172,7 +171,8 @@ impl Page {
 
     /// A table.
     pub fn table(&mut self, table: &Table) {
-        self.body.push_str("<div class=\"table\"><table>\n");
+        // With the keyboard, too, a wide table can be moved.
+        self.body.push_str("<div class=\"table\" tabindex=\"0\"><table>\n");
         if !table.caption.is_empty() {
             let _ = writeln!(self.body, "<caption>{}</caption>", escaped(&table.caption));
         }
@@ -265,6 +265,14 @@ impl Page {
     }
 }
 
+/// Text for HTML. Control characters and marks of direction are shown as escapes.
+pub fn escaped(text: &str) -> String {
+    text.split_inclusive(['\n', '\t']).fold(String::with_capacity(text.len()), |out, part| {
+        let words = part.trim_end_matches(['\n', '\t']);
+        out + &xml_escaped(&shown(words)) + &part[words.len()..]
+    })
+}
+
 /// A command line as a shell takes it.
 pub fn shell(words: &[String]) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_=./:,+%@".contains(c);
@@ -307,7 +315,12 @@ a { color: var(--film); text-decoration: none; border-bottom: 1px solid #b9d6e8;
 .highlights div { display: flex; flex-direction: column; }
 .highlights dd { margin: 0; font: 600 1.75rem/1.2 var(--sans); font-variant-numeric: tabular-nums; color: var(--film); }
 .highlights dt { font: .86rem/1.4 var(--sans); color: var(--quiet); max-width: 17rem; }
-.table { overflow-x: auto; margin: 1.1rem 0 1.6rem; }
+/* A shadow at the edge beyond which a table goes on. */
+.table { overflow-x: auto; margin: 1.1rem 0 1.6rem; background:
+  linear-gradient(to right, #fff 40%, transparent) left / 2.4rem 100% no-repeat local,
+  linear-gradient(to left, #fff 40%, transparent) right / 2.4rem 100% no-repeat local,
+  linear-gradient(to right, #1d253055, transparent) left / .9rem 100% no-repeat scroll,
+  linear-gradient(to left, #1d253055, transparent) right / .9rem 100% no-repeat scroll; }
 table { border-collapse: collapse; font: .88rem/1.35 var(--sans); font-variant-numeric: tabular-nums;
   border-top: 2px solid var(--ink); border-bottom: 2px solid var(--ink); }
 caption { text-align: left; padding: 0 0 .5rem; font-weight: 600; }
@@ -340,6 +353,14 @@ summary { cursor: pointer; font: .9rem/1.5 var(--sans); color: var(--film); }
 footer { margin-top: 3.6rem; padding-top: .8rem; border-top: 1px solid var(--rule); font: .8rem/1.5 var(--sans);
   color: var(--quiet); }
 footer p { max-width: none; }
+@media (max-width: 44rem) {
+  main { padding: 1.6rem 1rem; }
+  h1 { font-size: 1.8rem; }
+  table { font-size: .8rem; }
+  th, td { padding-right: .4rem; }
+  .n { white-space: pre-line; }
+  td.w:first-child { min-width: 7rem; overflow-wrap: anywhere; }
+}
 @media print {
   @page { size: A4; margin: 16mm 15mm; }
   html { font-size: 9.6pt; }
@@ -351,7 +372,7 @@ footer p { max-width: none; }
   figure svg { max-width: 74mm; }
   figure.wide svg, figure.wide img { max-width: 150mm; }
   .figures { grid-template-columns: 1fr 1fr; gap: 1rem 1.4rem; }
-  .table { overflow: visible; }
+  .table { overflow: visible; background: none; }
   .highlights { gap: .6rem 1.6rem; }
   .highlights div { flex: 1 1 0; }
   .highlights dd { font-size: 1.3rem; white-space: nowrap; }
@@ -373,7 +394,7 @@ mod tests {
             [[0.0, 1.0], [1.0, 2.0]],
             Style::nth(0),
         ));
-        let mut page = Page::new("report", "A & B <i>\u{1}", "lead");
+        let mut page = Page::new("report", "A & B <i>\u{1}\u{202e}", "lead");
         page.highlights([("1", "one")]);
         for section in ["one", "two", "three"] {
             page.section(section);
@@ -396,7 +417,7 @@ mod tests {
             3
         );
         let h1 = read.descendants().find(|node| node.tag_name().name() == "h1").unwrap();
-        assert_eq!(h1.text(), Some("A & B <i>\u{fffd}"));
+        assert_eq!(h1.text(), Some("A & B <i>\\u{1}\\u{202e}"));
         assert!(!STYLE.contains(['<', '&']) && !STYLE.contains("]]") && !STYLE.contains("url("));
     }
 

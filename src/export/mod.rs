@@ -10,7 +10,6 @@ pub mod exact;
 pub mod figure;
 pub mod figures;
 pub mod files;
-pub mod folder;
 pub mod html;
 pub mod json;
 
@@ -24,3 +23,5 @@ pub mod table1;
 pub mod torque;
 pub mod tradeoff;
 mod video;
+
+pub use crate::atomic as folder;

@@ -19,11 +19,12 @@
 //! | `preset`, `version`, `fidelity`, `scene_toml` | | text |
 
 use crate::problem::{Problem, Scenario};
+use crate::recording::Recording;
 use crate::scene::Scene;
 use crate::solution::Solution;
 use std::fmt::Write as _;
-use std::io::{self, Cursor, Write};
-use zip::write::SimpleFileOptions;
+use std::io::{self, BufWriter, Write};
+use zip::write::{SimpleFileOptions, StreamWriter};
 use zip::{CompressionMethod, ZipWriter};
 
 /// Writes the archive of a solve of `scene`.
@@ -31,31 +32,21 @@ use zip::{CompressionMethod, ZipWriter};
 /// # Errors
 /// Those of the writer.
 pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dyn Write) -> io::Result<()> {
-    let mut archive = Archive::new();
+    let mut archive = Archive(ZipWriter::new_stream(out));
     let recording = &solution.recording;
     let (frames, nodes, teeth) = (recording.frames, recording.x.len(), recording.teeth);
     let times: Vec<f64> = (0..frames).map(|frame| recording.time(frame)).collect();
     archive.numbers("time_s", &[frames], times)?;
     archive.numbers("x_m", &[nodes], recording.x.iter().copied())?;
     archive.numbers("node_length_m", &[nodes], recording.node_length.iter().copied())?;
-    let lines = |values: &[f64], scale: f64| {
-        let line = |frame: usize, tooth: usize| {
-            let at = recording.line_offset(tooth, frame);
-            values[at..at + nodes].iter().map(move |value| value * scale).collect::<Vec<_>>()
-        };
-        (0..frames)
-            .flat_map(|frame| (0..teeth).map(move |tooth| (frame, tooth)))
-            .flat_map(|(f, t)| line(f, t))
-            .collect()
-    };
     let (film, load) = match &problem.scenario {
         Scenario::Motor(motor) => {
             let shape = [frames, teeth, nodes];
             archive.numbers("tooth_middle_m", &[teeth], (0..teeth).map(|tooth| tooth as f64 * recording.pitch))?;
-            archive.numbers("stator_nm", &shape, lines(&recording.stator, 1e9))?;
-            let gap: Vec<f64> = lines(&recording.film_thickness, 1e9);
-            archive.numbers("gap_nm", &shape, gap.into_iter().map(|h| h - motor.min_spacing * 1e9))?;
-            archive.numbers("contact_n_per_m", &shape, lines(&recording.contact, 1.0))?;
+            archive.numbers("stator_nm", &shape, lines(recording, &recording.stator, 1e9))?;
+            let gap = lines(recording, &recording.film_thickness, 1e9).map(|h| h - motor.min_spacing * 1e9);
+            archive.numbers("gap_nm", &shape, gap)?;
+            archive.numbers("contact_n_per_m", &shape, lines(recording, &recording.contact, 1.0))?;
             archive.numbers("contact_load_n", &[frames], recording.contact_load.iter().copied())?;
             archive.numbers("teeth_in_contact", &[frames], recording.teeth_in_contact.iter().map(|n| *n as f64))?;
             ("film_n_per_m", "film_load_n")
@@ -65,8 +56,8 @@ pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dy
     };
     let shape: &[usize] =
         if matches!(problem.scenario, Scenario::Motor(_)) { &[frames, teeth, nodes] } else { &[frames, nodes] };
-    archive.numbers("film_thickness_nm", shape, lines(&recording.film_thickness, 1e9))?;
-    archive.numbers(film, shape, lines(&recording.film, 1.0))?;
+    archive.numbers("film_thickness_nm", shape, lines(recording, &recording.film_thickness, 1e9))?;
+    archive.numbers(film, shape, lines(recording, &recording.film, 1.0))?;
     archive.numbers(load, &[frames], recording.film_load.iter().copied())?;
     let loads = format!("{}_error{}", &load[..9], &load[9..]);
     for (name, errors, unit) in [
@@ -83,19 +74,24 @@ pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dy
     archive.text("version", env!("CARGO_PKG_VERSION"))?;
     archive.text("fidelity", &solution.model.fidelity)?;
     archive.text("scene_toml", &scene.to_toml())?;
-    out.write_all(&archive.finish()?)
+    archive.0.finish().map_err(io::Error::from)?.flush()
 }
 
-/// A zip in memory: its index is written when all is known.
-struct Archive(ZipWriter<Cursor<Vec<u8>>>);
+/// A field of all teeth, frame by frame, tooth by tooth.
+fn lines<'a>(recording: &'a Recording, field: &'a [f64], scale: f64) -> impl Iterator<Item = f64> + 'a {
+    let teeth = move |frame: usize| (0..recording.teeth).map(move |tooth| recording.line_offset(tooth, frame));
+    let line = move |at: usize| field[at..at + recording.x.len()].iter().map(move |value| value * scale);
+    (0..recording.frames).flat_map(teeth).flat_map(line)
+}
 
-impl Archive {
-    fn new() -> Self {
-        Self(ZipWriter::new(Cursor::new(Vec::new())))
-    }
+/// A zip as a stream: sizes and sums follow each array, and the index is at the end.
+struct Archive<'a>(ZipWriter<StreamWriter<&'a mut dyn Write>>);
 
+impl Archive<'_> {
     fn begin(&mut self, name: &str, kind: &str, shape: &[usize]) -> io::Result<()> {
-        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
+        // The format has to be told beforehand of an array beyond 4 GB.
+        let large = shape.iter().product::<usize>() as u64 * 8 >= u64::from(u32::MAX) - 1024;
+        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
         self.0.start_file(format!("{name}.npy"), options).map_err(io::Error::from)?;
         self.0.write_all(&header(kind, shape))
     }
@@ -103,8 +99,9 @@ impl Archive {
     /// Numbers, the last index fastest; as many as the shape says.
     fn numbers(&mut self, name: &str, shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<()> {
         self.begin(name, "<f8", shape)?;
-        let bytes: Vec<u8> = values.into_iter().flat_map(f64::to_le_bytes).collect();
-        self.0.write_all(&bytes)
+        let mut buffered = BufWriter::new(&mut self.0);
+        values.into_iter().try_for_each(|value| buffered.write_all(&value.to_le_bytes()))?;
+        buffered.flush()
     }
 
     /// A text without shape: NumPy's own characters have four bytes.
@@ -114,10 +111,6 @@ impl Archive {
         let mut bytes: Vec<u8> = text.chars().flat_map(|c| u32::from(c).to_le_bytes()).collect();
         bytes.resize(4 * count, 0);
         self.0.write_all(&bytes)
-    }
-
-    fn finish(self) -> io::Result<Vec<u8>> {
-        Ok(self.0.finish().map_err(io::Error::from)?.into_inner())
     }
 }
 

@@ -3,14 +3,15 @@
 //! Numbers are written with the fewest digits that read back to the same bits, so that a sweep that was cancelled and
 //! gone on with is the same, byte by byte, as one that was not.
 
+use super::csv::words;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
-use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep};
+use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep, digest};
 use crate::analysis::table1::Published;
 use crate::export::figure::{
-    Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Shading, Shape,
-    Style,
+    Axis, Band, Colour, Contours, Figure, Grid, Layer, Legend, Line, Map, Marker, Panel, Points, Provenance, Range,
+    Shading, Shape, Style, Width,
 };
-use crate::scene::Scale;
+use crate::scene::{Scale, show_text};
 use crate::solve::Method;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
@@ -21,6 +22,8 @@ pub const SCHEMA: u32 = 1;
 /// Columns before those of the keys: which sweep, and which of its points.
 const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
+/// The last column of what is saved to go on with.
+const CHECK: &str = "check";
 const CONVERGED: &str = "converged";
 const NOT_CONVERGED: &str = "not converged";
 const FAILED: &str = "failed: ";
@@ -42,26 +45,43 @@ fn header(sweep: &Sweep) -> Vec<String> {
     names
 }
 
-/// Writes the rows as CSV, the header first; what is not there is empty. Every row carries the fingerprint of its sweep.
+/// Cells of a row. Every row carries the fingerprint of its sweep.
+fn record(sweep: &Sweep, row: &Row) -> Vec<String> {
+    let mut cells = vec![sweep.fingerprint(), row.point.to_string()];
+    cells.extend(sweep.axes().iter().zip(&row.values).map(|(axis, value)| match axis.words.is_empty() {
+        true => digits(*value),
+        false => words(&axis.text(*value)).into_owned(),
+    }));
+    cells.push(status(&row.ending));
+    cells.extend(sweep.quantities().into_iter().map(|quantity| {
+        let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
+        row.numbers.get(quantity).map_or_else(String::new, show)
+    }));
+    cells
+}
+
+/// Writes the rows as CSV, the header first; what is not there is empty.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep))?;
-    let (fingerprint, quantities) = (sweep.fingerprint(), sweep.quantities());
+    rows.iter().try_for_each(|row| writer.write_record(record(sweep, row)))?;
+    writer.flush()
+}
+
+/// Writes the rows of a sweep that is not complete, to go on with: as [`write_csv`], and with a checksum of each row.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_saved(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(header(sweep).iter().map(String::as_str).chain([CHECK]))?;
     for row in rows {
-        writer.write_field(&fingerprint)?;
-        writer.write_field(row.point.to_string())?;
-        for value in &row.values {
-            writer.write_field(digits(*value))?;
-        }
-        writer.write_field(status(&row.ending))?;
-        for quantity in &quantities {
-            let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
-            writer.write_field(row.numbers.get(*quantity).map_or_else(String::new, show))?;
-        }
-        writer.write_record(None::<&[u8]>)?;
+        let mut cells = record(sweep, row);
+        cells.push(digest(cells.iter().map(String::as_str)));
+        writer.write_record(cells)?;
     }
     writer.flush()
 }
@@ -82,15 +102,15 @@ pub enum ReadError {
     },
 }
 
-/// Rows of `sweep` from the CSV text that [`write_csv`] made of them.
+/// Rows of `sweep` from the CSV text that [`write_saved`] made of them.
 ///
 /// # Errors
-/// [`ReadError`]. A row too many, or twice, is damage.
-pub fn read_csv(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
+/// [`ReadError`]. A row too many, twice, or changed since it was written, is damage.
+pub fn read_saved(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let damaged = |line: u64, fault: String| ReadError::Damaged { line, fault };
     let found = reader.headers().map_err(|error| damaged(1, error.to_string()))?;
-    if found != header(sweep) {
+    if !found.iter().eq(header(sweep).iter().map(String::as_str).chain([CHECK])) {
         return Err(ReadError::Another);
     }
     let (fingerprint, quantities) = (sweep.fingerprint(), sweep.quantities());
@@ -103,6 +123,9 @@ pub fn read_csv(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
         let field = |column: usize| record.get(column).unwrap_or("");
         if field(0) != fingerprint {
             return Err(ReadError::Another);
+        }
+        if record.iter().next_back() != Some(&digest(record.iter().take(record.len() - 1))) {
+            return Err(damaged(line, "the row was changed after it was saved".to_owned()));
         }
         let point: usize = field(1).parse().map_err(|_| damaged(line, format!("point = {}", field(1))))?;
         if point >= sweep.len() || rows.iter().any(|row| row.point == point) {
@@ -173,16 +196,20 @@ pub struct AxisObject {
     pub key: &'static str,
     /// Unit of its values.
     pub unit: &'static str,
-    /// `linear` or `log`.
+    /// `linear`, `log`, or of words `list`.
     pub scale: &'static str,
-    /// Its values.
-    pub values: Vec<f64>,
+    /// Its values: numbers, or words as in `--set`.
+    pub values: Vec<serde_json::Value>,
+}
+
+fn json_value(axis: &SweepAxis, value: f64) -> serde_json::Value {
+    if axis.words.is_empty() { value.into() } else { axis.text(value).into() }
 }
 
 /// One point: its keys, its status, and its quantities by name.
 #[derive(Clone, Debug)]
 pub struct RowObject<'a> {
-    keys: Vec<&'static str>,
+    axes: &'a [SweepAxis],
     quantities: Vec<Quantity>,
     row: &'a Row,
 }
@@ -191,8 +218,8 @@ impl Serialize for RowObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry(FIRST[1], &self.row.point)?;
-        for (key, value) in self.keys.iter().zip(&self.row.values) {
-            map.serialize_entry(key, value)?;
+        for (axis, value) in self.axes.iter().zip(&self.row.values) {
+            map.serialize_entry(axis.parameter.key, &json_value(axis, *value))?;
         }
         map.serialize_entry(STATUS, &status(&self.row.ending))?;
         for quantity in &self.quantities {
@@ -231,7 +258,6 @@ impl<'a> Object<'a> {
     /// The object of a sweep's rows.
     pub fn new(sweep: &'a Sweep, rows: &'a [Row], command: &'a [String]) -> Self {
         let settings = sweep.settings();
-        let keys: Vec<&'static str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
         Self {
             schema: SCHEMA,
             preset: &sweep.scene().name,
@@ -247,13 +273,17 @@ impl<'a> Object<'a> {
                 .map(|axis| AxisObject {
                     key: axis.parameter.key,
                     unit: axis.parameter.unit,
-                    scale: if axis.scale == Scale::Log { "log" } else { "linear" },
-                    values: axis.values.clone(),
+                    scale: match axis.scale {
+                        _ if !axis.words.is_empty() => "list",
+                        Scale::Log => "log",
+                        Scale::Linear => "linear",
+                    },
+                    values: axis.values.iter().map(|value| json_value(axis, *value)).collect(),
                 })
                 .collect(),
             rows: rows
                 .iter()
-                .map(|row| RowObject { keys: keys.clone(), quantities: sweep.quantities(), row })
+                .map(|row| RowObject { axes: sweep.axes(), quantities: sweep.quantities(), row })
                 .collect(),
             published: sweep.published().into_iter().map(PublishedObject::from).collect(),
             version: env!("CARGO_PKG_VERSION"),
@@ -274,7 +304,7 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
     let missing = sweep.len() - rows.iter().filter(|row| row.ending == Ending::Converged).count();
     let provenance = Provenance {
-        preset: sweep.scene().name.clone(),
+        preset: show_text(&sweep.scene().name),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         fidelity: match settings.method {
             Method::Auto => settings.fidelity.to_string(),
@@ -286,6 +316,28 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let mut figure = Figure { provenance, share_x: true, ..Figure::default() };
     match sweep.axes() {
         [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity)),
+        [first, x, y] => {
+            // A map for each value of the first key, with one scale of colours.
+            let found =
+                rows.iter().filter(|row| row.ending == Ending::Converged).filter_map(|row| row.numbers.get(quantity));
+            let [least, most] = found.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+            for value in first.values.iter().take(MOST_MAPS) {
+                let of_value = rows.iter().filter(|row| row.values[0] == *value);
+                let of_value: Vec<Row> =
+                    of_value.map(|row| Row { values: row.values[1..].to_vec(), ..row.clone() }).collect();
+                let mut panel = map_panel(sweep, &of_value, [x, y], quantity);
+                panel.title = format!("{} = {} {}", first.parameter.words(), first.text(*value), first.parameter.unit);
+                for layer in &mut panel.layers {
+                    if let Layer::Map(map) = layer
+                        && least < most
+                    {
+                        map.range = Range::Fixed(least, most);
+                    }
+                }
+                figure.panels.push(panel.height(46.0));
+            }
+            (figure.columns, figure.width) = (first.values.len().clamp(1, 2), Width::Page);
+        }
         [x, ..] if quantity != primary(sweep) => figure.panels.push(curve_panel(sweep, rows, x, quantity)),
         [x, ..] => {
             figure.panels.push(curve_panel(sweep, rows, x, quantity));
@@ -303,6 +355,9 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     figure
 }
 
+/// Most maps in a figure of three keys.
+const MOST_MAPS: usize = 12;
+
 /// What a sweep is about: α of a motor, the load ratio of a plate.
 fn primary(sweep: &Sweep) -> Quantity {
     if sweep.quantities().contains(&Quantity::Alpha) { Quantity::Alpha } else { Quantity::LoadRatio }
@@ -310,7 +365,11 @@ fn primary(sweep: &Sweep) -> Quantity {
 
 fn figure_axis(axis: &SweepAxis) -> Axis {
     let drawn = Axis::new(axis.parameter.words(), axis.parameter.unit);
-    if axis.scale == Scale::Log { drawn.log() } else { drawn }
+    if axis.words.is_empty() {
+        return if axis.scale == Scale::Log { drawn.log() } else { drawn };
+    }
+    let names = axis.values.iter().map(|value| (*value, axis.text(*value))).collect();
+    Axis { names, label: axis.parameter.words().to_owned(), ..drawn }.fixed(-0.5, axis.values.len() as f64 - 0.5)
 }
 
 /// Up to this many points each has its marker.
@@ -328,18 +387,24 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
     let colour = Colour::FILM;
     let mut panel =
         Panel::new("", figure_axis(x), Axis::new(quantity.words(), quantity.unit(sweep.problem())).including([0.0]));
-    if let Some(error) = quantity.error() {
-        let band = rows.iter().map(|row| {
-            let (value, error) = (value(row), row.numbers.get(error).unwrap_or(f64::NAN));
-            [row.values[0], value - error, value + error]
-        });
-        panel = panel.layer(Band::new("stated error", band, colour));
-    }
+    let errors: Vec<f64> = match quantity.error() {
+        Some(error) => rows.iter().map(|row| row.numbers.get(error).unwrap_or(f64::NAN)).collect(),
+        None => Vec::new(),
+    };
     let curve: Vec<[f64; 2]> = rows.iter().map(|row| [row.values[0], value(row)]).collect();
-    panel = panel.layer(Line::new("computed", curve.clone(), Style::solid(colour)));
-    if rows.len() <= FEW {
-        let dot = Marker { size: 2.5, ..Marker::solid(Shape::Circle) };
-        panel = panel.layer(Points::new("", curve, colour, dot));
+    let dot = Marker { size: 2.5, ..Marker::solid(Shape::Circle) };
+    // There is nothing between words.
+    if !x.words.is_empty() {
+        panel = panel.layer(Points { errors, ..Points::new("computed", curve, colour, dot) });
+    } else {
+        if !errors.is_empty() {
+            let band = curve.iter().zip(&errors).map(|([x, value], error)| [*x, value - error, value + error]);
+            panel = panel.layer(Band::new("stated error", band, colour));
+        }
+        panel = panel.layer(Line::new("computed", curve.clone(), Style::solid(colour)));
+        if rows.len() <= FEW {
+            panel = panel.layer(Points::new("", curve, colour, dot));
+        }
     }
     let unsound: Vec<[f64; 2]> = rows
         .iter()
@@ -376,6 +441,7 @@ fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
     sweep.published().into_iter().filter(inside).collect::<Vec<_>>().into_iter()
 }
 
+/// `rows` are those of the map, with the values of its two axes alone.
 fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Quantity) -> Panel {
     let ascending = |values: &[f64]| {
         let mut values = values.to_vec();
@@ -397,11 +463,15 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
     let grid = Grid { x: xs, y: ys, values };
     let mut panel = Panel::new("", figure_axis(x), figure_axis(y)).height(60.0);
     let map = Map { label: quantity.words().to_owned(), grid: grid.clone(), shading: Shading::Cells, ..Map::default() };
-    panel = panel.layer(map).layer(Contours { grid, labels: true, ..Contours::default() });
+    panel = panel.layer(map);
+    if x.words.is_empty() && y.words.is_empty() {
+        panel = panel.layer(Contours { grid, labels: true, ..Contours::default() });
+    }
     if !unsound.is_empty() {
         panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
     }
-    let published: Vec<[f64; 2]> = within(sweep).map(|point| [point.values[0], point.values[1]]).collect();
+    let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();
+    let published: Vec<[f64; 2]> = within(sweep).filter_map(here).collect();
     if !published.is_empty() {
         let marker = Marker::hollow(Shape::Square);
         panel = panel.layer(Points::new("rows of Table I", published, Colour::BLACK, marker));
@@ -432,9 +502,9 @@ mod tests {
     fn rows_read_back_to_the_same_bits() {
         let sweep = sweep("stator.frequency_khz=3:100:3:log");
         let mut text = Vec::new();
-        write_csv(&sweep, &rows(&sweep), &mut text).unwrap();
+        write_saved(&sweep, &rows(&sweep), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert_eq!(read_csv(&sweep, &text).unwrap(), rows(&sweep));
+        assert_eq!(read_saved(&sweep, &text).unwrap(), rows(&sweep));
         assert!(text.starts_with("sweep,point,stator.frequency_khz,status,alpha,alpha_error,film_load_n,"), "{text}");
     }
 
@@ -468,14 +538,24 @@ mod tests {
     fn rows_of_another_sweep_and_damage_are_told() {
         let ours = sweep("stator.frequency_khz=3:100:3");
         let mut text = Vec::new();
-        write_csv(&ours, &rows(&ours), &mut text).unwrap();
+        write_saved(&ours, &rows(&ours), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert_eq!(read_csv(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ReadError::Another));
-        assert_eq!(read_csv(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ReadError::Another));
-        assert_eq!(read_csv(&ours, ""), Err(ReadError::Another));
+        assert_eq!(read_saved(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ReadError::Another));
+        assert_eq!(read_saved(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ReadError::Another));
+        assert_eq!(read_saved(&ours, ""), Err(ReadError::Another));
         let cut = &text[..text.len() - 20];
-        assert!(matches!(read_csv(&ours, cut), Err(ReadError::Damaged { .. })), "{:?}", read_csv(&ours, cut));
-        let twice = text.replace(",2,", ",1,");
-        assert!(matches!(read_csv(&ours, &twice), Err(ReadError::Damaged { .. })));
+        assert!(matches!(read_saved(&ours, cut), Err(ReadError::Damaged { .. })), "{:?}", read_saved(&ours, cut));
+        let second = text.lines().nth(2).unwrap();
+        assert!(matches!(read_saved(&ours, &format!("{text}{second}\n")), Err(ReadError::Damaged { .. })));
+        // A row that somebody has changed is no result.
+        for (from, to) in [
+            ("0.30000000000000004", "0.31"),
+            ("0.30000000000000004", "nan"),
+            ("converged", "failed: no"),
+            (",1,", ",0,"),
+        ] {
+            let fault = read_saved(&ours, &text.replacen(from, to, 1)).unwrap_err();
+            assert!(fault.to_string().contains("the row was changed after it was saved"), "{from}: {fault}");
+        }
     }
 }

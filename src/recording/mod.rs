@@ -1,6 +1,7 @@
 //! Fields of one cycle: plain data, what views and exports read.
 
 mod extrapolated;
+pub mod sample;
 
 pub use extrapolated::Balance;
 

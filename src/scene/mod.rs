@@ -39,6 +39,7 @@ pub use parameter::{
     markdown,
 };
 pub use value::Value;
+pub(crate) use value::{escaped, show_text};
 
 use crate::problem::{Numerics, Slip};
 

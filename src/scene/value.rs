@@ -51,19 +51,48 @@ pub(super) fn show_number(value: f64) -> String {
     }
 }
 
-/// Text safe for one line of a terminal: control characters escaped, the tail of a long text cut.
-pub(super) fn show_text(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let mut shown = String::new();
-    for (count, c) in text.chars().enumerate() {
-        if count == LONGEST {
-            shown.push('…');
-            break;
+/// Most characters of a name in a title or a message.
+const LONGEST: usize = 60;
+
+/// Text safe for one line of a terminal: [`escaped`], the tail of a long text cut.
+pub(crate) fn show_text(text: &str) -> String {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => escaped(&text[..end]) + "…",
+        None => escaped(text),
+    }
+}
+
+/// Text from a file as it is shown: control characters, and those that cannot be seen or that turn the direction of what
+/// follows, are written as escapes, as in `\u{202e}`.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_unseen(c) {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
         }
-        if c.is_control() { shown.extend(c.escape_default()) } else { shown.push(c) }
     }
     shown
 }
+
+/// Whether a character would act on the text round it instead of standing in it.
+pub(super) fn is_unseen(c: char) -> bool {
+    c.is_control() || UNSEEN.iter().any(|range| range.contains(&c))
+}
+
+/// Marks of direction, separators of lines, joiners that no script needs, and what is no character.
+const UNSEEN: [std::ops::RangeInclusive<char>; 9] = [
+    '\u{61c}'..='\u{61c}',
+    '\u{200b}'..='\u{200b}',
+    '\u{200e}'..='\u{200f}',
+    '\u{2028}'..='\u{202e}',
+    '\u{2060}'..='\u{206f}',
+    '\u{feff}'..='\u{feff}',
+    '\u{fff9}'..='\u{fffb}',
+    '\u{fffe}'..='\u{ffff}',
+    '\u{e0000}'..='\u{e007f}',
+];
 
 #[cfg(test)]
 mod tests {
@@ -87,6 +116,7 @@ mod tests {
     #[test]
     fn text_stays_on_one_line() {
         assert_eq!(show_text("a\nb\u{1b}[1m"), "a\\nb\\u{1b}[1m");
+        assert_eq!(escaped("µ \u{202e}x\u{200b}\u{9b}"), "µ \\u{202e}x\\u{200b}\\u{9b}");
         assert_eq!(show_text(&"x".repeat(100)).chars().count(), 61);
     }
 }

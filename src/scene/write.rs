@@ -3,10 +3,10 @@
 
 use super::error::{Fault, SceneError, What};
 use super::parameter::Parameter;
-use super::value::Value;
+use super::value::{Value, is_unseen};
 use super::{SCHEMA, Scene};
+use crate::atomic::write_file;
 use std::fmt::Write as _;
-use std::io::{self, Write as _};
 use std::path::Path;
 
 impl Scene {
@@ -43,8 +43,8 @@ impl Scene {
     /// cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
         self.check()?;
-        write_atomically(path, &self.to_toml()).map_err(|error| {
-            let what = What::Unwritable { reason: error.to_string() };
+        write_file(path, |out| out.write_all(self.to_toml().as_bytes())).map_err(|error| {
+            let what = What::Unwritable { reason: error.source.to_string() };
             Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
         })
     }
@@ -84,7 +84,7 @@ fn quote(text: &str) -> String {
         match c {
             '"' => quoted.push_str("\\\""),
             '\\' => quoted.push_str("\\\\"),
-            c if c.is_control() => {
+            c if is_unseen(c) => {
                 let _ = write!(quoted, "\\U{:08X}", u32::from(c));
             }
             c => quoted.push(c),
@@ -92,30 +92,4 @@ fn quote(text: &str) -> String {
     }
     quoted.push('"');
     quoted
-}
-
-fn write_atomically(path: &Path, text: &str) -> io::Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".squeezefilm-").suffix(".tmp");
-    // A temporary file is private by default; a preset is as readable as the one it replaces, or as the umask says.
-    #[cfg(unix)]
-    let builder = {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666))
-    };
-    let mut file = builder.tempfile_in(folder)?;
-    if let Ok(existing) = std::fs::metadata(path) {
-        if existing.is_dir() {
-            return Err(io::Error::from(io::ErrorKind::IsADirectory));
-        }
-        file.as_file().set_permissions(existing.permissions())?;
-    }
-    file.write_all(text.as_bytes())?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }

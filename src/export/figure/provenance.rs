@@ -34,7 +34,7 @@ impl Provenance {
         };
         let status = status_name(&solution.status);
         Self {
-            preset: problem.name.clone(),
+            preset: crate::scene::show_text(&problem.name),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             fidelity: solution.model.fidelity.clone(),
             error,

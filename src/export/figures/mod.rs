@@ -28,6 +28,7 @@ use crate::analysis::exact::Comparison;
 use crate::control::Progress;
 use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
+use crate::scene::show_text;
 use crate::solution::{Outcome, Solution};
 
 /// All figures of a solve, each with the name of its file without extension. `history`: the rounds, if they were kept.
@@ -62,8 +63,8 @@ pub fn of(problem: &Problem, solution: &Solution, history: &[Progress]) -> Vec<(
 /// With the scene's name above, and where its numbers come from below.
 pub fn dressed(problem: &Problem, solution: &Solution, mut figure: Figure) -> Figure {
     figure.title = match figure.title.as_str() {
-        "" => problem.name.clone(),
-        title => format!("{}: {title}", problem.name),
+        "" => show_text(&problem.name),
+        title => format!("{}: {title}", show_text(&problem.name)),
     };
     figure.provenance = Provenance::of(problem, solution);
     figure

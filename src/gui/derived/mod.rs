@@ -2,8 +2,9 @@
 
 pub mod exact;
 pub mod format;
-pub mod sample;
 pub mod scales;
 pub mod sliders;
 pub mod ticks;
 pub mod words;
+
+pub use crate::recording::sample;

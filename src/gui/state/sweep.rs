@@ -1,7 +1,7 @@
 //! A sweep as the window has it: what is asked for, how far it is, and what was found.
 
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, SweepError, Vary};
+use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, SweepError, Values, Vary};
 use crate::analysis::table1::Published;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::to_digits;
@@ -91,7 +91,7 @@ impl AxisForm {
         let counted = self.count.trim().parse::<usize>();
         let count = counted.map_err(|_| format!("{} values: allowed 2 to {MOST_VALUES}", self.count.trim()))?;
         let scale = if self.log { Scale::Log } else { Scale::Linear };
-        let vary = Vary { key: self.key.to_owned(), from, to, count, scale };
+        let vary = Vary { key: self.key.to_owned(), values: Values::Range { from, to, count, scale } };
         Axis::new(scene, &vary).map_err(|error| in_place(&error))?;
         Ok(vary)
     }
@@ -396,7 +396,8 @@ mod tests {
                 let sweep = Sweep::new(&scene, std::slice::from_ref(&vary), &Settings::default());
                 assert!(sweep.is_ok(), "{preset}, {}: {form:?}: {}", parameter.key, sweep.unwrap_err());
                 if let Some(present) = scene.get(parameter.key).and_then(|value| value.as_number()) {
-                    assert!((vary.from..=vary.to).contains(&present), "{preset}, {}: {form:?}", parameter.key);
+                    let Values::Range { from, to, .. } = vary.values else { panic!("{vary:?}") };
+                    assert!((from..=to).contains(&present), "{preset}, {}: {form:?}", parameter.key);
                 }
             }
         }
@@ -415,7 +416,8 @@ mod tests {
         assert!(fault(AxisForm { to: good.from.clone(), ..good.clone() }).contains("differ"));
         let speed = AxisForm { log: true, ..AxisForm::around(&scene, "motor.rotor_speed_rpm", 9) };
         assert!(fault(speed).contains("above 0"));
-        assert_eq!(AxisForm { from: text(" 5,5"), ..good }.vary(&scene).unwrap().from, 5.5);
+        let vary = AxisForm { from: text(" 5,5"), ..good }.vary(&scene).unwrap();
+        assert!(matches!(vary.values, Values::Range { from, .. } if from == 5.5), "{vary:?}");
     }
 
     #[test]

@@ -36,16 +36,13 @@ impl Updater {
     }
 }
 
-/// Writes a picture under a temporary name, then renames it.
+/// Writes a picture as PNG.
 fn write_png(picture: &egui::ColorImage, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
     let [width, height] = picture.size;
     let bytes: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
     let buffer = image::RgbaImage::from_raw(width as u32, height as u32, bytes).ok_or("the picture is incomplete")?;
     let mut encoded = std::io::Cursor::new(Vec::new());
     buffer.write_to(&mut encoded, image::ImageFormat::Png)?;
-    std::io::Write::write_all(file.as_file_mut(), encoded.get_ref())?;
-    file.persist(path)?;
+    crate::atomic::write_file(path, |out| out.write_all(encoded.get_ref()))?;
     Ok(())
 }

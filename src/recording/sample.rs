@@ -4,8 +4,8 @@
 //! frame comes the first. By lag symmetry tooth k at a place is tooth 0 at place + k·frames/teeth, so that another tooth
 //! may lie between two frames where tooth 0 does not.
 
+use super::{LineLoads, Recording};
 use crate::problem::Motor;
-use crate::recording::Recording;
 use std::ops::Range;
 
 /// Wavenumber beyond all that a rotor resolves \[rad/m\]: what is left of its compliance is local.
@@ -229,6 +229,62 @@ impl Lines {
     }
 }
 
+impl Recording {
+    /// The same cycle at `frames` instants, evenly spaced from its first frame; between recorded frames read as [`Lines`] are. All teeth
+    /// are stored, and no errors.
+    pub fn resampled(&self, frames: usize, touching: Touching) -> Self {
+        let place = |frame: usize| (frame * self.frames) as f64 / frames.max(1) as f64;
+        let lines: Vec<Lines> = (0..frames).map(|frame| Lines::at(self, place(frame), touching)).collect();
+        let field = |of: fn(&Lines) -> &[f64]| -> Vec<f64> {
+            let teeth = 0..self.teeth;
+            teeth
+                .flat_map(|tooth| lines.iter().flat_map(move |lines| of(lines)[lines.of(tooth)].iter().copied()))
+                .collect()
+        };
+        let mix = |values: &[f64], size: usize| -> Vec<f64> {
+            if values.len() < self.frames * size {
+                return Vec::new();
+            }
+            let at = |frame: usize, i: usize| {
+                let Pair { first, second, weight } = Pair::at(self, place(frame));
+                let [a, b] = [first, second].map(|frame| values[frame * size + i]);
+                a + weight * (b - a)
+            };
+            (0..frames).flat_map(|frame| (0..size).map(move |i| (frame, i))).map(|(frame, i)| at(frame, i)).collect()
+        };
+        let touch = (0..frames).filter_map(|frame| self.teeth_in_contact.get(place(frame) as usize).copied());
+        Self {
+            lines: LineLoads {
+                frames,
+                length: self.length,
+                teeth: self.teeth,
+                stored_teeth: self.teeth,
+                pitch: self.pitch,
+                x: self.x.clone(),
+                node_length: self.node_length.clone(),
+                contact: field(|lines| &lines.contact),
+                film: field(|lines| &lines.film),
+                film_thickness: field(|lines| &lines.film_thickness),
+                ..LineLoads::default()
+            },
+            stator: field(|lines| &lines.stator),
+            pressure: mix(&self.pressure, self.map_x.len() * self.map_y.len()),
+            film_load: mix(&self.film_load, 1),
+            contact_load: mix(&self.contact_load, 1),
+            min_film_thickness: mix(&self.min_film_thickness, 1),
+            max_pressure: mix(&self.max_pressure, 1),
+            teeth_in_contact: touch.collect(),
+            period: self.period,
+            transient: self.transient,
+            map_x: self.map_x.clone(),
+            map_y: self.map_y.clone(),
+            half_width: self.half_width,
+            half_length: self.half_length,
+            ..Self::default()
+        }
+    }
+}
+
 /// Adds the pressures along y at `xi` from the middle of `tooth` to `out`, cleared first; false beside the tooth.
 pub fn column(recording: &Recording, tooth: usize, xi: f64, place: f64, out: &mut [f64]) -> bool {
     out.fill(0.0);
@@ -377,6 +433,27 @@ mod tests {
         let (place, lag) = (2.0, 7.0 / 3.0);
         let (here, ahead) = (Lines::at(&uneven, place, how), Lines::at(&uneven, place + lag, how));
         assert!(here.film[here.of(1)].iter().zip(&ahead.film[ahead.of(0)]).all(|(x, y)| (x - y).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_cycle_is_read_at_other_instants_with_every_recorded_one_as_it_was() {
+        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
+        let recording = passing(1, 6);
+        let finer = recording.resampled(24, how);
+        assert_eq!((finer.frames, finer.stored_teeth, finer.film.len()), (24, 3, 3 * 24 * 2));
+        for (tooth, frame) in [(0, 0), (1, 2), (2, 5)] {
+            let (a, b) = (recording.line_offset(tooth, frame), finer.line_offset(tooth, 4 * frame));
+            assert_eq!(recording.film[a..a + 2], finer.film[b..b + 2]);
+            assert_eq!(recording.contact[a..a + 2], finer.contact[b..b + 2]);
+        }
+        let between = Lines::at(&recording, 2.25, how);
+        let at = finer.line_offset(1, 9);
+        assert_eq!(finer.film_thickness[at..at + 2], between.film_thickness[between.of(1)]);
+        let map = self::recording(4, 1, true);
+        let finer = map.resampled(8, how);
+        let middle = |map: &Recording, frame: usize| Plane::of(map, 0, frame).unwrap().values[4];
+        assert_eq!(middle(&finer, 4), middle(&map, 2));
+        assert_eq!(middle(&finer, 3), 0.5 * (middle(&map, 1) + middle(&map, 2)));
     }
 
     #[test]

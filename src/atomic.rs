@@ -1,0 +1,365 @@
+//! Files that appear whole or not at all, and locks between processes.
+//!
+//! What is to be written goes first into a scratch folder beside its target, `.squeezefilm-….tmp`. Only when all of it is
+//! on the disk do the files get their names, and if one of them cannot have its name, those before it become what they
+//! were. The scratch folder holds a lock while its writer lives. A folder whose lock nobody holds is what a killed run left,
+//! and the next run that writes there removes it.
+
+use same_file::Handle;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// How the names of scratch folders and locks begin.
+const PREFIX: &str = ".squeezefilm-";
+/// How the name of a scratch folder ends.
+const SCRATCH: &str = ".tmp";
+/// How the name of a lock ends.
+const LOCK: &str = ".lock";
+
+/// A folder or file that cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot be written: {source}", path.display())]
+pub struct WriteError {
+    /// The folder or file.
+    pub path: PathBuf,
+    /// The system's reason.
+    pub source: io::Error,
+}
+
+/// Writes one file into a folder that exists. It is as readable as the file it replaces, or as the umask says.
+///
+/// # Errors
+/// [`WriteError`]; then an older file of that name is as it was.
+pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
+    let failed = |source| WriteError { path: path.to_owned(), source };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = path.file_name().ok_or_else(|| failed(ErrorKind::InvalidFilename.into()))?;
+    let mut staged = Staged::within(folder, false).map_err(failed)?;
+    staged.add(name, write)?;
+    staged.commit().map(|_| ())
+}
+
+/// Finds out whether files can be written into a folder, or the folder made, before any work is done for them.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
+    Staged::new(folder)?.add("check", |_| Ok(()))
+}
+
+/// Files staged for a folder. Dropped without [`Staged::commit`], it leaves nothing behind.
+#[derive(Debug)]
+pub struct Staged {
+    folder: PathBuf,
+    /// The folder was made by us, and is removed if nothing is committed into it.
+    made: bool,
+    /// The final path of each file; the nth is the file `n` of the scratch folder.
+    targets: Vec<PathBuf>,
+    /// Only dropping takes them out. The lock goes first.
+    scratch: Option<(Lock, TempDir)>,
+}
+
+impl Staged {
+    /// Begins; makes the folder, and those above it, if they are not there.
+    ///
+    /// # Errors
+    /// [`WriteError`] if it cannot be made, or is a file.
+    pub fn new(folder: &Path) -> Result<Self, WriteError> {
+        let failed = |source| WriteError { path: folder.to_owned(), source };
+        let made = !folder.exists();
+        fs::create_dir_all(folder).map_err(failed)?;
+        Self::within(folder, made).map_err(failed)
+    }
+
+    fn within(folder: &Path, made: bool) -> io::Result<Self> {
+        let mut staged = Self { folder: folder.to_owned(), made, targets: Vec::new(), scratch: None };
+        remove_leftovers(folder);
+        while staged.scratch.is_none() {
+            let scratch = tempfile::Builder::new().prefix(PREFIX).suffix(SCRATCH).tempdir_in(folder)?;
+            // Before it is locked another run may take the folder for one that was left, and remove it.
+            match Lock::take(&scratch.path().join(LOCK)) {
+                Ok(lock) => staged.scratch = lock.map(|lock| (lock, scratch)),
+                Err(error) if error.kind() == ErrorKind::NotFound && folder.exists() => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(staged)
+    }
+
+    /// Where the new content of a target waits, or what the target was.
+    fn scratch(&self, index: usize, what: &str) -> PathBuf {
+        let folder = self.scratch.as_ref().map(|(_, folder)| folder.path());
+        folder.unwrap_or(Path::new("")).join(format!("{index}{what}"))
+    }
+
+    /// Writes a file into the scratch folder.
+    ///
+    /// # Errors
+    /// [`WriteError`] with the file's final path.
+    pub fn add(
+        &mut self,
+        name: impl AsRef<Path>,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
+        let path = self.folder.join(name);
+        let new = self.scratch(self.targets.len(), NEW);
+        let written = (|| {
+            let mut buffered = BufWriter::new(File::create_new(new)?);
+            write(&mut buffered)?;
+            let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
+            if let Ok(older) = fs::metadata(&path) {
+                // Some disks have no permissions to set.
+                let _ = file.set_permissions(older.permissions());
+            }
+            // Some disks tell only now that they are full.
+            file.sync_data()
+        })();
+        match written {
+            Ok(()) => self.targets.push(path),
+            Err(source) => return Err(WriteError { path, source }),
+        }
+        Ok(())
+    }
+
+    /// Gives every file its name, replacing older ones, and returns the paths.
+    ///
+    /// # Errors
+    /// [`WriteError`] naming the file that could not have its name; then older files are as they were.
+    pub fn commit(mut self) -> Result<Vec<PathBuf>, WriteError> {
+        if let Some(folder) = self.targets.iter().find(|path| path.is_dir()) {
+            return Err(WriteError { path: folder.clone(), source: ErrorKind::IsADirectory.into() });
+        }
+        for (i, path) in self.targets.iter().enumerate() {
+            let replaced = set_aside(path, &self.scratch(i, OLD)).and_then(|()| fs::rename(self.scratch(i, NEW), path));
+            if let Err(source) = replaced {
+                (0..=i).rev().for_each(|i| self.put_back(i));
+                return Err(WriteError { path: path.clone(), source });
+            }
+        }
+        self.made = false;
+        Ok(std::mem::take(&mut self.targets))
+    }
+
+    /// Undoes what a commit has done to a target.
+    fn put_back(&self, index: usize) {
+        let (target, old) = (&self.targets[index], self.scratch(index, OLD));
+        // There is nobody to tell: the caller is told of what went wrong first.
+        let _ = if old.symlink_metadata().is_ok() {
+            fs::rename(old, target)
+        } else if self.scratch(index, NEW).exists() {
+            Ok(())
+        } else {
+            fs::remove_file(target)
+        };
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        self.scratch.take();
+        if self.made {
+            // Only an empty folder is removed: what others put there stays.
+            let _ = fs::remove_dir(&self.folder);
+        }
+    }
+}
+
+const NEW: &str = ".new";
+const OLD: &str = ".old";
+
+/// Keeps the file that is to be replaced under another name: by a link, so that its name is never missing, or by renaming.
+fn set_aside(path: &Path, old: &Path) -> io::Result<()> {
+    match fs::hard_link(path, old).or_else(|_| fs::rename(path, old)) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Removes scratch folders and locks of runs that were killed.
+fn remove_leftovers(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with(PREFIX) && (name.ends_with(SCRATCH) || name.ends_with(LOCK)) {
+            let path = entry.path();
+            let lock = if path.is_dir() { path.join(LOCK) } else { path.clone() };
+            // What cannot be removed is in nobody's way. A lock goes with its file when it is dropped.
+            if let Ok(Some(lock)) = Lock::take(&lock)
+                && lock.held
+            {
+                drop(lock);
+                if path.is_dir() {
+                    let _ = fs::remove_dir_all(path);
+                }
+            }
+        }
+    }
+}
+
+/// A lock that one process at a time can have. The system takes it from a process that ends, however it ends. Its file is
+/// removed when it is dropped.
+#[derive(Debug)]
+pub struct Lock {
+    /// Keeps the file open, and with it the lock.
+    _file: Handle,
+    path: PathBuf,
+    /// False on a disk without locks.
+    held: bool,
+}
+
+impl Lock {
+    /// The lock `name` of a folder, which has to be there; `None` while another process has it.
+    ///
+    /// # Errors
+    /// The file of the lock cannot be made.
+    pub fn of(folder: &Path, name: &str) -> io::Result<Option<Self>> {
+        Self::take(&folder.join(format!("{PREFIX}{name}{LOCK}")))
+    }
+
+    fn take(path: &Path) -> io::Result<Option<Self>> {
+        loop {
+            let file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
+            let held = match file.try_lock() {
+                Ok(()) => true,
+                Err(TryLockError::WouldBlock) => return Ok(None),
+                Err(TryLockError::Error(_)) => false,
+            };
+            let file = Handle::from_file(file)?;
+            // Whoever had the lock may have removed its file after we opened it.
+            if Handle::from_path(path).is_ok_and(|named| named == file) {
+                return Ok(Some(Self { _file: file, path: path.to_owned(), held }));
+            }
+        }
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn all_files_appear_together_and_replace_older_ones() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("a"), "old").unwrap();
+        let mut staged = Staged::new(folder.path()).unwrap();
+        staged.add("a", |w| w.write_all(b"new")).unwrap();
+        staged.add("b", |w| w.write_all(b"b")).unwrap();
+        assert_eq!(fs::read_to_string(folder.path().join("a")).unwrap(), "old");
+        staged.commit().unwrap();
+        assert_eq!(names(folder.path()), ["a", "b"]);
+        assert_eq!(fs::read_to_string(folder.path().join("a")).unwrap(), "new");
+    }
+
+    #[test]
+    fn a_folder_that_vanished_is_told() {
+        let parent = tempfile::tempdir().unwrap();
+        let folder = parent.path().join("out");
+        let mut staged = Staged::new(&folder).unwrap();
+        staged.add("a", |w| w.write_all(b"a")).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let error = staged.add("b", |w| w.write_all(b"b")).unwrap_err();
+        assert!(error.to_string().contains("b: cannot be written: "), "{error}");
+        let error = staged.commit().unwrap_err();
+        assert!(error.to_string().contains("a: cannot be written: "), "{error}");
+    }
+
+    #[test]
+    fn a_failure_leaves_nothing() {
+        let parent = tempfile::tempdir().unwrap();
+        let folder = parent.path().join("out");
+        let mut staged = Staged::new(&folder).unwrap();
+        staged.add("a", |w| w.write_all(b"a")).unwrap();
+        let error = staged.add("b", |_| Err(io::Error::other("no"))).unwrap_err();
+        assert!(error.to_string().contains("b: cannot be written: no"), "{error}");
+        drop(staged);
+        assert!(names(parent.path()).is_empty());
+    }
+
+    #[test]
+    fn a_target_that_cannot_be_replaced_leaves_the_others_as_they_were() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("a"), "old").unwrap();
+        let stage = |names: &[&str]| {
+            let mut staged = Staged::new(folder.path()).unwrap();
+            names.iter().for_each(|name| staged.add(name, |w| w.write_all(b"new")).unwrap());
+            staged
+        };
+        // A folder is seen before anything is done.
+        fs::create_dir(path("c")).unwrap();
+        let error = stage(&["a", "b", "c"]).commit().unwrap_err();
+        assert!(error.to_string().contains("c: cannot be written: is a directory"), "{error}");
+        assert_eq!(
+            (names(folder.path()), fs::read_to_string(path("a")).unwrap()),
+            (vec!["a".into(), "c".into()], "old".into())
+        );
+        // What fails half-way is undone, with a file that was replaced and with one that is new.
+        let staged = stage(&["a", "b", "d"]);
+        fs::remove_file(staged.scratch(2, NEW)).unwrap();
+        let error = staged.commit().unwrap_err();
+        assert!(error.to_string().contains("d: cannot be written: "), "{error}");
+        assert_eq!(
+            (names(folder.path()), fs::read_to_string(path("a")).unwrap()),
+            (vec!["a".into(), "c".into()], "old".into())
+        );
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_removed_and_what_a_living_one_stages_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut living = Staged::new(folder.path()).unwrap();
+        living.add("a", |w| w.write_all(b"a")).unwrap();
+        // A scratch folder as a killed run leaves it: nobody has its lock.
+        let left = folder.path().join(".squeezefilm-killed.tmp");
+        fs::create_dir(&left).unwrap();
+        fs::write(left.join(LOCK), "").unwrap();
+        fs::write(left.join("0.new"), "half").unwrap();
+        fs::write(folder.path().join(".squeezefilm-sweep.lock"), "").unwrap();
+        fs::write(folder.path().join(".squeezefilm-notes"), "mine").unwrap();
+        check_writable(folder.path()).unwrap();
+        assert_eq!(names(folder.path()).len(), 2, "{:?}", names(folder.path()));
+        living.commit().unwrap();
+        assert_eq!(names(folder.path()), [".squeezefilm-notes", "a"]);
+    }
+
+    #[test]
+    fn one_at_a_time_has_a_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        let lock = Lock::of(folder.path(), "sweep").unwrap();
+        assert!(lock.is_some() && Lock::of(folder.path(), "sweep").unwrap().is_none());
+        drop(lock);
+        assert!(names(folder.path()).is_empty());
+        assert!(Lock::of(folder.path(), "sweep").unwrap().is_some());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_is_as_readable_as_the_one_it_replaces() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        let mode = || fs::metadata(&path).unwrap().permissions().mode() & 0o777;
+        let plain = folder.path().join("plain");
+        fs::write(&plain, "").unwrap();
+        write_file(&path, |w| w.write_all(b"a")).unwrap();
+        assert_eq!(mode(), fs::metadata(&plain).unwrap().permissions().mode() & 0o777);
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
+        write_file(&path, |w| w.write_all(b"b")).unwrap();
+        assert_eq!((mode(), fs::read_to_string(&path).unwrap().as_str()), (0o640, "b"));
+    }
+}
