@@ -3,7 +3,7 @@
 use super::summary::duration;
 use super::terminal;
 use crate::control::{Observer, Progress};
-use crate::export::digits::significant;
+use crate::digits::significant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};

@@ -10,7 +10,7 @@ use super::solve::written;
 use super::summary::duration;
 use super::terminal;
 use crate::atomic::Staged;
-use crate::export::digits::{significant, with_error};
+use crate::digits::{significant, with_error};
 use crate::export::json::{self, force_unit};
 use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, unsettled, write_csv};
 use crate::fidelity::Fidelity;

@@ -12,7 +12,7 @@ use super::terminal;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
-use crate::export::digits::{significant, with_error};
+use crate::digits::{significant, with_error};
 use crate::export::files;
 use crate::export::json;
 use crate::export::sweep::{Object, ReadError, read_saved, write_saved};

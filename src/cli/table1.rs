@@ -10,7 +10,7 @@ use super::summary::duration;
 use super::terminal;
 use crate::analysis::table1::{Row, rows};
 use crate::atomic::Staged;
-use crate::export::digits::{significant, with_error};
+use crate::digits::{significant, with_error};
 use crate::export::json;
 use crate::export::table1::{Object, write_csv};
 use crate::fidelity::Fidelity;

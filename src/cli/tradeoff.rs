@@ -12,7 +12,7 @@ use super::terminal;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Tradeoff, Wish, candidates, measure};
 use crate::atomic::Staged;
-use crate::export::digits::significant;
+use crate::digits::significant;
 use crate::export::json;
 use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
 use crate::problem::Problem;

@@ -1,8 +1,6 @@
 //! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports, and how
 //! files get into a folder.
 
-pub use crate::digits;
-
 pub mod animation;
 pub mod compare;
 pub mod csv;

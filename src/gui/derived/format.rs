@@ -1,6 +1,6 @@
 //! Numbers and words as the window writes them.
 
-use crate::export::digits::{significant, with_error};
+use crate::digits::{significant, with_error};
 
 /// Share of its error below which a value is shown as 0.
 const NOTHING: f64 = 0.05;

@@ -2,7 +2,7 @@
 //! otherwise. After a switch, what it changed.
 
 use crate::analysis::decision;
-use crate::export::digits::significant;
+use crate::digits::significant;
 use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
 use crate::gui::derived::format::power_of_ten;

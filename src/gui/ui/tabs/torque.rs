@@ -2,8 +2,8 @@
 //! reads off them.
 
 use crate::analysis::torque::TorqueCurves;
+use crate::digits::significant;
 use crate::estimate::Estimate;
-use crate::export::digits::significant;
 use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, title};
 use crate::gui::ui::context::DrawContext;

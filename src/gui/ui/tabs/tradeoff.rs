@@ -3,7 +3,7 @@
 
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Candidate, Ended, Family, Point, Tradeoff, Wish};
-use crate::export::digits::significant;
+use crate::digits::significant;
 use crate::export::tradeoff::status;
 use crate::gui::command::Command;
 use crate::gui::derived::format::{rough, trimmed};

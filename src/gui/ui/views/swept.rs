@@ -5,7 +5,7 @@ use super::pointer::named;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Ending, Row, Sweep};
 use crate::analysis::table1::Published;
-use crate::export::digits::{significant, with_error};
+use crate::digits::{significant, with_error};
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::{capitalised, digits, trimmed};
