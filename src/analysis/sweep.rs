@@ -7,183 +7,27 @@
 //! A cancelled sweep keeps the rows it has; handed to [`Sweep::run`] again, it goes on with what is missing, and ends
 //! as one that was never cancelled. [`Sweep::fingerprint`] tells whether rows on disk are of the same sweep.
 
+mod axis;
+
+pub use axis::{Axis, MOST_VALUES, SweepError, Vary, spaced};
+
 use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity};
 use super::table1::{Published, published_at};
+use super::validity;
 use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
-use crate::scene::{Fault, Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use crate::scene::{Fault, Scene, SceneError, Value};
 use crate::solution::Status;
-use crate::solve::{Method, Record, Settings, SolveError, check};
+use crate::solve::{Method, Record, Settings, check};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::str::FromStr;
 
-/// Most values of one key.
-pub const MOST_VALUES: usize = 10_000;
 /// Most points of a sweep.
 pub const MOST_POINTS: usize = 100_000;
 /// Neighbours along the last axis that one thread solves one after the other.
 const CHUNK: usize = 4;
-
-/// What to vary: `key=from:to:count` or `key=from:to:count:log`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Vary {
-    /// Dotted key, as in `--set`.
-    pub key: String,
-    /// First value, in the unit of the key.
-    pub from: f64,
-    /// Last value, in the unit of the key.
-    pub to: f64,
-    /// How many values, both ends counted.
-    pub count: usize,
-    /// Equal steps or equal ratios.
-    pub scale: Scale,
-}
-
-impl FromStr for Vary {
-    type Err = SweepError;
-
-    fn from_str(text: &str) -> Result<Self, SweepError> {
-        let syntax = || SweepError::Syntax { found: text.to_owned() };
-        let (key, range) = text.split_once('=').ok_or_else(syntax)?;
-        let parts: Vec<&str> = range.split(':').map(str::trim).collect();
-        let (ends, scale) = match parts[..] {
-            [from, to, count] | [from, to, count, "lin"] => ([from, to, count], Scale::Linear),
-            [from, to, count, "log"] => ([from, to, count], Scale::Log),
-            _ => return Err(syntax()),
-        };
-        let number = |text: &str| text.parse::<f64>().map_err(|_| syntax());
-        let (from, to) = (number(ends[0])?, number(ends[1])?);
-        let key = key.trim().to_owned();
-        let count = ends[2].parse().map_err(|_| SweepError::Count { key: key.clone(), found: ends[2].to_owned() })?;
-        Ok(Self { key, from, to, count, scale })
-    }
-}
-
-/// One axis of a sweep: a key and its values.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// The key.
-    pub parameter: &'static Parameter,
-    /// Its values in the unit of the key, in the order they were asked for.
-    pub values: Vec<f64>,
-    /// Equal steps or equal ratios.
-    pub scale: Scale,
-}
-
-impl Axis {
-    /// Checks what is to be varied against the scene, and spaces its values. The keys are not yet checked together.
-    ///
-    /// # Errors
-    /// [`SweepError`], which names the key, the value and what is allowed.
-    pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, SweepError> {
-        let Vary { key, from, to, count, scale } = vary;
-        let parameter = match Parameter::find(key) {
-            Some(parameter) => parameter,
-            // Setting it tells what is wrong with it.
-            None => {
-                return match scene.clone().set(key, "0") {
-                    Err(error) => Err(error.into()),
-                    Ok(()) => Err(SweepError::Syntax { found: key.clone() }),
-                };
-            }
-        };
-        let whole = match parameter.kind {
-            ParameterKind::Number { .. } => false,
-            ParameterKind::Whole { .. } => true,
-            _ => return Err(SweepError::NotANumber { parameter }),
-        };
-        for end in [from, to] {
-            scene.clone().set_value(key, Value::Number(*end))?;
-        }
-        if !(2..=MOST_VALUES).contains(count) {
-            return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
-        }
-        if from == to {
-            return Err(SweepError::Nothing { key: key.clone(), at: *from });
-        }
-        if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
-            return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
-        }
-        let mut values = spaced(*from, *to, *count, *scale);
-        if whole {
-            values.iter_mut().for_each(|value| *value = value.round());
-            values.dedup();
-        }
-        Ok(Self { parameter, values, scale: *scale })
-    }
-}
-
-/// What cannot be swept. Found before anything is solved.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SweepError {
-    /// Not of the form asked for.
-    #[error(
-        "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log"
-    )]
-    Syntax {
-        /// What was given.
-        found: String,
-    },
-    /// Too few values, or too many.
-    #[error("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}")]
-    Count {
-        /// The key.
-        key: String,
-        /// The count given.
-        found: String,
-    },
-    /// Both ends are the same.
-    #[error("vary {key}: from {at} to {at} is no range: the ends have to differ")]
-    Nothing {
-        /// The key.
-        key: String,
-        /// Both ends.
-        at: f64,
-    },
-    /// Equal ratios from or to zero or below.
-    #[error("vary {key}: from {from} to {to} cannot be spaced by equal ratios: for :log both ends have to be above 0")]
-    Log {
-        /// The key.
-        key: String,
-        /// First value.
-        from: f64,
-        /// Last value.
-        to: f64,
-    },
-    /// A key whose values are not numbers.
-    #[error("vary {}: it accepts {}, and only a number can be varied", parameter.key, parameter.accepts())]
-    NotANumber {
-        /// The key.
-        parameter: &'static Parameter,
-    },
-    /// No axis, or more than two.
-    #[error("vary: {found} keys given: allowed 1 or 2")]
-    Axes {
-        /// How many.
-        found: usize,
-    },
-    /// Two axes with one key.
-    #[error("vary {key}: given twice: the two keys have to differ")]
-    Twice {
-        /// The key.
-        key: String,
-    },
-    /// More points than anyone waits for.
-    #[error("vary: {found} points: allowed up to {MOST_POINTS}")]
-    Points {
-        /// How many.
-        found: usize,
-    },
-    /// A value outside its range, or a key that does not exist.
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    /// A method that does not apply, or more memory than is allowed.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-}
 
 /// How a point ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -207,6 +51,8 @@ pub struct Row {
     pub ending: Ending,
     /// The numbers; none if it failed.
     pub numbers: Numbers,
+    /// Names of the limits of the model that it exceeds; none if it failed.
+    pub outside: Vec<&'static str>,
 }
 
 /// A sweep, checked: every point is a scene that can be solved.
@@ -377,42 +223,30 @@ impl Sweep {
                 break;
             }
             let (values, problem) = &self.points[point];
-            let (ending, numbers) = match attempt_from(&mut warm, problem, &settings, &mut (), cancel) {
-                Ok(solution) => {
-                    let ending = match solution.status {
-                        Status::Converged => Ending::Converged,
-                        Status::NotConverged { .. } | Status::NotResolved { .. } => Ending::NotConverged,
-                        Status::Cancelled => break,
-                    };
-                    (ending, Numbers::of(problem, &solution))
-                }
-                Err(reason) => (Ending::Failed(reason), Numbers::default()),
+            let mut row = Row {
+                point,
+                values: values.clone(),
+                ending: Ending::Converged,
+                numbers: Numbers::default(),
+                outside: Vec::new(),
             };
-            let row = Row { point, values: values.clone(), ending, numbers };
+            match attempt_from(&mut warm, problem, &settings, &mut (), cancel) {
+                Ok(solution) => {
+                    match solution.status {
+                        Status::Converged => {}
+                        Status::NotConverged { .. } | Status::NotResolved { .. } => row.ending = Ending::NotConverged,
+                        Status::Cancelled => break,
+                    }
+                    row.numbers = Numbers::of(problem, &solution);
+                    row.outside = validity::names(&validity::outside(problem, Some(&solution)));
+                }
+                Err(reason) => row.ending = Ending::Failed(reason),
+            }
             finished(&row);
             rows.push(row);
         }
         rows
     }
-}
-
-/// `count` values from `from` to `to`, both exact; those between to ten digits, so that they can be written down.
-pub fn spaced(from: f64, to: f64, count: usize, scale: Scale) -> Vec<f64> {
-    let last = count.saturating_sub(1).max(1);
-    let value = |i: usize| {
-        let share = i as f64 / last as f64;
-        match (i, scale) {
-            (0, _) => from,
-            (i, _) if i == last => to,
-            (_, Scale::Linear) => short(from * (1.0 - share) + to * share),
-            (_, Scale::Log) => short((from.ln() * (1.0 - share) + to.ln() * share).exp()),
-        }
-    };
-    (0..count).map(value).collect()
-}
-
-fn short(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
@@ -467,7 +301,7 @@ impl Fnv {
 mod tests {
     use super::*;
     use crate::fidelity::Fidelity;
-    use crate::scene::presets;
+    use crate::scene::{Scale, presets};
 
     fn sweep(preset: &str, vary: &[&str]) -> Result<Sweep, SweepError> {
         let vary = vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;

@@ -166,6 +166,7 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
         "label",
         "scene",
         "status",
+        "validity",
         "quantity",
         "unit",
         "value",
@@ -181,6 +182,7 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
                 &run.label,
                 run.scene.scene(),
                 &status(run),
+                &run.outside().join(";"),
                 row.quantity.name(),
                 cell.unit,
                 &number(cell.value),
@@ -477,6 +479,9 @@ pub(super) fn again(page: &mut Page, command: &[String]) {
     ));
 }
 
+/// The row of a table of results that names where the model is out of its depth, in each run.
+pub const LIMITS: &str = "limits exceeded";
+
 /// With more runs than this, differences stand below the values instead of beside them.
 const BESIDE: usize = 3;
 
@@ -515,6 +520,16 @@ fn result_table(runs: &[Run]) -> Table {
                 (_, 0) => cells.push((kind, value)),
                 (true, _) => cells.extend([(kind, value), (Kind::Number, difference)]),
                 (false, _) => cells.push((kind, format!("{value}\n{difference}"))),
+            }
+        }
+        table.row(cells);
+    }
+    if runs.iter().any(|run| !run.outside().is_empty()) {
+        let mut cells = vec![(Kind::Words, LIMITS.to_owned())];
+        for (i, run) in runs.iter().enumerate() {
+            cells.push((Kind::Words, run.outside().join(", ")));
+            if beside && i > 0 {
+                cells.push((Kind::Words, String::new()));
             }
         }
         table.row(cells);

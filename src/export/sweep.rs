@@ -6,6 +6,7 @@
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep};
 use crate::analysis::table1::Published;
+use crate::analysis::validity::NAMES;
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Figure, Grid, Legend, Line, Map, Marker, Panel, Points, Provenance, Shading, Shape,
     Style,
@@ -21,6 +22,9 @@ pub const SCHEMA: u32 = 1;
 /// Columns before those of the keys: which sweep, and which of its points.
 const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
+/// Names of the limits of the model that a point exceeds, in a CSV file one after the other with this between them.
+const VALIDITY: &str = "validity";
+const BETWEEN: &str = ";";
 const CONVERGED: &str = "converged";
 const NOT_CONVERGED: &str = "not converged";
 const FAILED: &str = "failed: ";
@@ -37,7 +41,7 @@ pub fn status(ending: &Ending) -> String {
 fn header(sweep: &Sweep) -> Vec<String> {
     let mut names = FIRST.map(str::to_owned).to_vec();
     names.extend(sweep.axes().iter().map(|axis| axis.parameter.key.to_owned()));
-    names.push(STATUS.to_owned());
+    names.extend([STATUS, VALIDITY].map(str::to_owned));
     names.extend(sweep.quantities().into_iter().map(|quantity| quantity.column(sweep.problem())));
     names
 }
@@ -57,6 +61,7 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
             writer.write_field(digits(*value))?;
         }
         writer.write_field(status(&row.ending))?;
+        writer.write_field(row.outside.join(BETWEEN))?;
         for quantity in &quantities {
             let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
             writer.write_field(row.numbers.get(*quantity).map_or_else(String::new, show))?;
@@ -117,15 +122,20 @@ pub fn read_csv(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
                 None => return Err(damaged(line, format!("status = {other}"))),
             },
         };
+        let mut outside = Vec::new();
+        for name in field(column + 1).split(BETWEEN).filter(|name| !name.is_empty()) {
+            let known = NAMES.into_iter().find(|known| *known == name);
+            outside.push(known.ok_or_else(|| damaged(line, format!("{VALIDITY} = {name}")))?);
+        }
         let mut numbers = Numbers::default();
         for (i, quantity) in quantities.iter().enumerate() {
-            let text = field(column + 1 + i);
+            let text = field(column + 2 + i);
             if !text.is_empty() {
                 let value = text.parse().map_err(|_| damaged(line, format!("{} = {text}", quantity.name())))?;
                 numbers.set(*quantity, value);
             }
         }
-        rows.push(Row { point, values: sweep.values(point).to_vec(), ending, numbers });
+        rows.push(Row { point, values: sweep.values(point).to_vec(), ending, numbers, outside });
     }
     Ok(rows)
 }
@@ -179,7 +189,7 @@ pub struct AxisObject {
     pub values: Vec<f64>,
 }
 
-/// One point: its keys, its status, and its quantities by name.
+/// One point: its keys, its status, the names of the limits of the model that it exceeds, and its quantities by name.
 #[derive(Clone, Debug)]
 pub struct RowObject<'a> {
     keys: Vec<&'static str>,
@@ -195,6 +205,7 @@ impl Serialize for RowObject<'_> {
             map.serialize_entry(key, value)?;
         }
         map.serialize_entry(STATUS, &status(&self.row.ending))?;
+        map.serialize_entry(VALIDITY, &self.row.outside)?;
         for quantity in &self.quantities {
             let value = self.row.numbers.get(*quantity);
             if quantity.is_count() {
@@ -424,7 +435,13 @@ mod tests {
         numbers.set(Quantity::Alpha, 0.1 + 0.2);
         numbers.set(Quantity::AlphaError, 1e-300);
         let failed = Ending::Failed("film, step 3: no \"solution\",\nat all".to_owned());
-        let row = |point: usize, ending: Ending| Row { point, values: sweep.values(point).to_vec(), ending, numbers };
+        let row = |point: usize, ending: Ending| Row {
+            point,
+            values: sweep.values(point).to_vec(),
+            ending,
+            numbers,
+            outside: vec!["slip-law", "sound"],
+        };
         vec![row(0, Ending::Converged), row(2, failed), row(1, Ending::NotConverged)]
     }
 
@@ -435,7 +452,12 @@ mod tests {
         write_csv(&sweep, &rows(&sweep), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert_eq!(read_csv(&sweep, &text).unwrap(), rows(&sweep));
-        assert!(text.starts_with("sweep,point,stator.frequency_khz,status,alpha,alpha_error,film_load_n,"), "{text}");
+        assert!(
+            text.starts_with("sweep,point,stator.frequency_khz,status,validity,alpha,alpha_error,film_load_n,"),
+            "{text}"
+        );
+        let other = read_csv(&sweep, &text.replace("slip-law", "slip-lax")).unwrap_err().to_string();
+        assert!(other.contains("validity = slip-lax"), "{other}");
     }
 
     #[test]
@@ -456,7 +478,8 @@ mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = Row { point: 1, values: plane.values(1).to_vec(), ending: Ending::Converged, numbers };
+        let row =
+            Row { point: 1, values: plane.values(1).to_vec(), ending: Ending::Converged, numbers, outside: Vec::new() };
         let drawn = figure(&plane, &[row]);
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));

@@ -440,6 +440,7 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
         levitated: recording.teeth_in_contact.iter().all(|&teeth| teeth == 0),
         min_gap: least(&recording.min_film_thickness),
         max_pressure: most(&recording.max_pressure),
+        max_contact: most(&recording.contact),
         ..MotorResult::default()
     };
     result.set_alpha(motor, mean(&recording.film_load) / motor.load);
