@@ -159,11 +159,18 @@ impl Scene for Search<'_> {
     }
 }
 
-/// A plate from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
+/// What the accuracy of a mean load is relative to \[N\]: itself, or a small share of the swing of the load where the mean is next to
+/// nothing beside it.
+pub fn unit(mean: f64, swing: f64) -> f64 {
+    mean.abs().max(LEAST_SHARE_OF_SWING * swing)
+}
+
+/// A plate from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
 pub struct Transient<'a> {
     plate: &'a Plate,
     maps: bool,
     levels: Vec<Level>,
+    width_error: f64,
     stats: Stats,
 }
 
@@ -174,19 +181,12 @@ impl std::fmt::Debug for Transient<'_> {
 }
 
 impl<'a> Transient<'a> {
-    /// At rest at the gap of t = 0, gas at ambient pressure.
-    pub fn at_rest(plate: &'a Plate, plan: &Plan) -> Self {
-        // A transient is not refined until it is exact enough: it starts on grids twice as fine.
-        let levels = plan
-            .grids
-            .iter()
-            .map(|grid| {
-                let mut level = Level::new(plate, plan, &grid.finer(plan.spectral));
-                level.rest();
-                level
-            })
-            .collect();
-        Self { plate, maps: plan.maps, levels, stats: Stats::default() }
+    /// At rest at the gap of t = 0, gas at ambient pressure. `width_error`: that of the mean load, by the nodes across \[N\]; `stats`:
+    /// what it has cost so far.
+    pub fn at_rest(plate: &'a Plate, plan: &Plan, width_error: f64, stats: Stats) -> Self {
+        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(plate, plan, grid)).collect();
+        levels.iter_mut().for_each(Level::rest);
+        Self { plate, maps: plan.maps, levels, width_error, stats }
     }
 
     /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
@@ -220,8 +220,13 @@ impl<'a> Transient<'a> {
         let (recording, change) = last;
         let estimate = extrapolate_means(&loads);
         let mut result = PlateResult::of(&recording);
-        result.film_load_error = estimate.error + (result.film_load - estimate.value).abs();
+        result.film_load_error = estimate.error + (result.film_load - estimate.value).abs() + self.width_error;
         Ok(Some((result, recording, change)))
+    }
+
+    /// Error of a cycle's mean load that finer grids would not make smaller \[N\].
+    pub fn elsewhere(&self) -> f64 {
+        self.width_error
     }
 
     /// What it has cost so far, all grids.
@@ -430,12 +435,11 @@ impl Level {
         Mean { all: loads.iter().sum::<f64>() / self.steps as f64, shared }
     }
 
-    /// What the accuracy of the mean load is relative to \[N\]: itself, or a small share of the swing of the load where the mean is next
-    /// to nothing beside it.
+    /// See [`unit`].
     fn unit(&self) -> f64 {
         let loads = self.loads();
         let (low, high) = loads.iter().fold((0.0f64, 0.0f64), |(low, high), load| (low.min(*load), high.max(*load)));
-        self.mean_load().abs().max(LEAST_SHARE_OF_SWING * (high - low))
+        unit(self.mean_load(), high - low)
     }
 
     /// By how much ln Z may still change from round to round: what that does to the load is a share of the error asked for.
