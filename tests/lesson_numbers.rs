@@ -229,7 +229,9 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let cycles = |preset: &str| {
         let mut cycles = BTreeMap::new();
         let settings = startup::Settings::default();
-        let mut each = |cycle: startup::Cycle| drop(cycles.insert(cycle.number, cycle.outcome));
+        let mut each = |cycle: startup::Cycle| {
+            cycles.insert(cycle.number, cycle.outcome);
+        };
         startup::startup(&problem(preset, &[]), &settings, &mut each, &Cancel::new()).unwrap();
         cycles.into_values().collect::<Vec<_>>()
     };
