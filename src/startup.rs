@@ -4,7 +4,7 @@
 //! travels. Every tooth is marched and nothing is accelerated, because the way is the result. (A plate likewise, from the gap of
 //! t = 0.) It ends where the periodic solve, which is made first, says: `tests/startup.rs` compares the two.
 //!
-//! How exact a start-up is, is judged by the headline of every cycle, as a share of that of the periodic state. The first cycles are the
+//! How exact a start-up is, is judged by the headline of every cycle, as a share of the greatest of them. The first cycles are the
 //! hardest to resolve, because the motion begins with a jump, and later ones forget them. So the way is marched to its end on the grids
 //! that the periodic state needed; then the first cycles, up to the last that is not yet as exact as was asked, are marched again on
 //! grids of half the spacing, and so on.
@@ -43,7 +43,7 @@ pub struct Cycle {
 /// How a start-up is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// How exact every cycle's headline is to be, as a share of that of the periodic state.
+    /// How exact every cycle's headline is to be, as a share of the greatest of them.
     pub fidelity: Fidelity,
     /// Cycles at most.
     pub cycles: usize,
@@ -103,8 +103,8 @@ pub fn startup(
         }
         marched => marched,
     }?;
-    let allowed = plan.accuracy * way.unit;
     while !stopped && !cancel.is_spent() {
+        let allowed = plan.accuracy * way.unit;
         let Some(cycles) = way.unresolved(allowed) else { break };
         let Some(finer) = finer(problem, &plan, settings.kept) else { break };
         plan = finer;
@@ -165,7 +165,7 @@ struct Way<'a> {
     settings: &'a Settings,
     each: &'a mut dyn FnMut(Cycle),
     steady: Option<Estimate>,
-    /// What errors are relative to: the headline of the periodic state, α or N.
+    /// What errors are relative to, α or N: the greatest headline of any cycle, that of the periodic state included.
     unit: f64,
     /// Stated error of each cycle's headline, absolute, and what of it finer grids would leave.
     errors: Vec<(f64, f64)>,
@@ -226,7 +226,9 @@ impl<'a> Way<'a> {
                 f64::INFINITY
             };
             last = change;
-            let error = (headline(&outcome).error, transient.elsewhere());
+            let Estimate { value, error } = headline(&outcome);
+            self.unit = self.unit.max(value.abs());
+            let error = (error, transient.elsewhere());
             if number > self.errors.len() {
                 self.errors.push(error);
             } else {

@@ -40,7 +40,7 @@ Files of --out:
 /// At t = 0 the wave stands still, pressed against the rotor, and the gas is at ambient pressure. Every tooth is marched. The
 /// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors. The first cycles are the
 /// hardest; they are marched again on finer grids until the headline of every cycle is as exact as was asked, as a share of the
-/// periodic state's.
+/// greatest of them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -232,7 +232,7 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
 /// What was stated of the errors, and what was asked.
 fn exactness(accuracy: &Accuracy) -> String {
     let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
-    let mut text = format!("Every cycle is known to {} of the periodic state", percent(accuracy.stated));
+    let mut text = format!("The mean of every cycle is known to {} of the greatest of them", percent(accuracy.stated));
     if accuracy.asked > 0.0 {
         text.push_str(&format!(" ({} asked for)", percent(accuracy.asked)));
     }

@@ -116,8 +116,8 @@ pub struct Object<'a> {
     pub remaining: Option<f64>,
     /// What that had to fall below.
     pub tolerance: f64,
-    /// Error of every cycle's headline (α, or the mean load) that was asked for, relative to that of the periodic state; null on grids
-    /// that the scene prescribes.
+    /// Error of every cycle's headline (α, or the mean load) that was asked for, relative to the greatest of them; null on grids that the
+    /// scene prescribes.
     pub accuracy_asked: Option<f64>,
     /// The largest that is stated, likewise.
     pub accuracy_stated: Option<f64>,
