@@ -35,6 +35,15 @@ pub struct Mean {
     pub shared: f64,
 }
 
+impl Mean {
+    /// Of a cycle that does not repeat: it begins at `start`, and the mean so far is that over the ends of its `steps` steps, of which the
+    /// last is `end` (the trapezoidal rule, of second order as the scheme is).
+    pub fn from_to(self, start: f64, end: f64, steps: usize) -> Self {
+        let excess = 0.5 * (end - start) / steps as f64;
+        Self { all: self.all - excess, shared: self.shared - 2.0 * excess }
+    }
+}
+
 /// From results on nested grids, coarse to fine. One grid gives no estimate (an infinite error).
 pub fn extrapolate(results: &[f64]) -> Estimate {
     let last = &results[results.len().saturating_sub(3)..];

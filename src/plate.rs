@@ -1,7 +1,7 @@
 //! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate_means};
+use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
 use crate::film::cycle::{FilmCycle, Interrupted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, Between, FilmGrid, Start};
@@ -196,9 +196,10 @@ impl<'a> Transient<'a> {
     /// [`Interrupted::Failed`] if a film step has no solution to working precision.
     pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(PlateResult, Recording, f64)>, Interrupted> {
         let finest = self.levels.len() - 1;
-        let mut loads = Vec::with_capacity(self.levels.len());
+        let (mut loads, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
+            let start = level.load_at(0);
             let told = |level: &Level| {
                 if number < finest {
                     coarser.push(level.line_loads(self.plate));
@@ -212,7 +213,9 @@ impl<'a> Transient<'a> {
                 Err(Interrupted::Cancelled) => return Ok(None),
                 Err(failed) => return Err(failed),
             };
-            loads.push(level.mean());
+            let end = level.load_at(0);
+            loads.push(level.mean().from_to(start, end, level.steps));
+            ends.push(end);
             self.stats.film_nodes = level.cycle.grid().len();
             self.stats.steps_per_cycle = level.steps;
         }
@@ -220,6 +223,9 @@ impl<'a> Transient<'a> {
         let (recording, change) = last;
         let estimate = extrapolate_means(&loads);
         let mut result = PlateResult::of(&recording);
+        // Its frames begin with the start of the cycle, and have not its end.
+        let grown = extrapolate(&ends).value - recording.film_load[0];
+        result.film_load += 0.5 * grown / recording.frames as f64;
         result.film_load_error = estimate.error + (result.film_load - estimate.value).abs() + self.width_error;
         Ok(Some((result, recording, change)))
     }
@@ -454,10 +460,13 @@ impl Level {
 
     /// Film load at each step \[N\].
     fn loads(&self) -> Vec<f64> {
+        (0..self.steps).map(|m| self.load_at(m)).collect()
+    }
+
+    /// Film load at step `m` \[N\]; between two cycles of a transient step 0 is the present.
+    fn load_at(&self, m: usize) -> f64 {
         let x = &self.cycle.grid().x;
-        let nx = x.len();
-        let at = |m: usize| (0..nx).map(|i| self.line_load(m * nx + i) * x.lengths[i]).sum::<f64>() * x.copies();
-        (0..self.steps).map(at).collect()
+        (0..x.len()).map(|i| self.line_load(m * x.len() + i) * x.lengths[i]).sum::<f64>() * x.copies()
     }
 
     /// The film of one cycle; lengths are those of the whole plate.

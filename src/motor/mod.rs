@@ -16,7 +16,7 @@ pub use dry::without_film;
 
 use crate::contact::ContactError;
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate_means};
+use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
 use crate::ladder::{Found, Scene, climb, climb_once};
@@ -298,9 +298,10 @@ impl<'a> Transient<'a> {
     pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
         let tolerance = self.tolerance();
         let finest = self.levels.len() - 1;
-        let mut alphas = Vec::with_capacity(self.levels.len());
+        let (mut alphas, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
+            let start = level.alpha_now(self.motor);
             let maps = self.plan.maps && number == finest;
             let told = |level: &Level| {
                 if number < finest {
@@ -315,7 +316,9 @@ impl<'a> Transient<'a> {
                 Err(Stop::Cancelled) => return Ok(None),
                 Err(Stop::Failed(error)) => return Err(error),
             };
-            alphas.push(level.mean_alpha(self.motor));
+            let end = level.alpha_now(self.motor);
+            alphas.push(level.mean_alpha(self.motor).from_to(start, end, level.steps()));
+            ends.push(end);
             self.stats.film_nodes = level.film_nodes();
             self.stats.contact_nodes = level.contact_nodes();
             self.stats.steps_per_cycle = level.steps();
@@ -325,6 +328,9 @@ impl<'a> Transient<'a> {
         self.worst = self.worst.max(astray);
         let (recording, change) = last;
         let mut result = summarise(self.motor, &recording);
+        // Its frames begin with the start of the cycle, and have not its end.
+        let grown = extrapolate(&ends).value - recording.film_load[0] / self.motor.load;
+        result.set_alpha(self.motor, result.alpha + 0.5 * grown / recording.frames as f64);
         let estimate = extrapolate_means(&alphas);
         // What floats carries its load whatever the gas is, and whatever was left out.
         let elsewhere =
