@@ -98,4 +98,19 @@ mod tests {
         let exact = extrapolate(&[1.0 + 0.32, 1.0 + 0.08, 1.0 + 0.02]);
         assert!((exact.value - 1.0).abs() < 1e-15 && exact.error > 0.0);
     }
+
+    #[test]
+    fn the_mean_of_a_way_is_of_second_order() {
+        // ∫₀¹ eᵗ dt, over the ends of the steps, and over every second of them.
+        let mean = |steps: usize, every: usize| {
+            let ends = (1..=steps).filter(|m| m.is_multiple_of(every)).map(|m| (m as f64 / steps as f64).exp());
+            ends.sum::<f64>() / (steps / every) as f64
+        };
+        let off = |steps: usize| {
+            let way = Mean { all: mean(steps, 1), shared: mean(steps, 2) }.from_to(1.0, 1.0_f64.exp(), steps);
+            [way.all, way.shared].map(|mean| mean - (1.0_f64.exp() - 1.0))
+        };
+        let ([coarse, _], [fine, shared]) = (off(16), off(32));
+        assert!((coarse / fine - 4.0).abs() < 0.01 && (shared - coarse).abs() < 1e-15, "{coarse} {fine} {shared}");
+    }
 }

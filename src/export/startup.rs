@@ -135,7 +135,7 @@ pub struct Object<'a> {
     pub coupling_iterations: u64,
     /// Steps in which film and contact did not agree to the tolerance within their rounds.
     pub unsettled_steps: u64,
-    /// Wall time \[s\].
+    /// Wall time \[s\], the periodic solve included.
     pub wall_s: f64,
     /// One for each cycle.
     pub rows: &'a [Row],
