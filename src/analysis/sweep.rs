@@ -9,7 +9,7 @@
 
 mod axis;
 
-pub use axis::{Axis, MOST_VALUES, SweepError, Vary, spaced};
+pub use axis::{Axis, MOST_POINTS, MOST_VALUES, SweepError, Vary, spaced};
 
 use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity};
@@ -24,8 +24,6 @@ use crate::solve::{Method, Record, Settings, check};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Most points of a sweep.
-pub const MOST_POINTS: usize = 100_000;
 /// Neighbours along the last axis that one thread solves one after the other.
 const CHUNK: usize = 4;
 

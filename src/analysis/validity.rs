@@ -22,31 +22,12 @@
 
 mod limits;
 
-pub use limits::mach;
+pub use limits::{Excess, NAMES, mach};
 
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Outcome, Solution};
 use limits::{Film, nearness, sliding, stress};
 use std::f64::consts::TAU;
-
-/// The names of all limits in JSON.
-pub const NAMES: [&str; 7] =
-    ["gas-inertia", "isothermal", "slip-law", "sound", "contact-stress", "thinness", "amplitude"];
-
-/// One limit that a scene exceeds.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Excess {
-    /// Its name in JSON: `gas-inertia`.
-    pub name: &'static str,
-    /// The number, above …
-    pub value: f64,
-    /// … what it may be.
-    pub limit: f64,
-    /// Unit of both; empty for a pure number.
-    pub unit: &'static str,
-    /// What that means, in a sentence.
-    pub text: String,
-}
 
 /// The limits that a scene exceeds; none if the model is within its depth. Without a solution: what the scene alone tells,
 /// with a closed film of a motor at its minimum spacing, and no contact.

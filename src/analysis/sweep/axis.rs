@@ -1,12 +1,14 @@
 //! What is varied in a sweep: keys, their ranges and the values between, and what is wrong with them.
 
-use super::MOST_POINTS;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use crate::solve::SolveError;
 use std::str::FromStr;
 
 /// Most values of one key.
 pub const MOST_VALUES: usize = 10_000;
+
+/// Most points of a sweep.
+pub const MOST_POINTS: usize = 100_000;
 
 /// What to vary: `key=from:to:count` or `key=from:to:count:log`.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Candidates, measured: interleaved runs, timed by the caller's clock.
 
-use super::Candidate;
+use super::candidates::Candidate;
 use crate::analysis::attempt::attempt;
 use crate::analysis::quantity::Numbers;
 use crate::control::{Cancel, Progress};

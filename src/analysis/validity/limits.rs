@@ -1,6 +1,5 @@
 //! Each limit of the model: its number, how great that may be, and what it means in a sentence.
 
-use super::Excess;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
 use crate::problem::{Gas, Motor, Plate, Slip};
 use std::f64::consts::{PI, TAU};
@@ -36,6 +35,25 @@ const THINNESS: f64 = 0.025;
 const ELONGATION: f64 = 1.3;
 /// Greatest amplitude of a plate over its mean gap.
 pub(super) const AMPLITUDE: f64 = 0.9;
+
+/// The names of all limits in JSON.
+pub const NAMES: [&str; 7] =
+    ["gas-inertia", "isothermal", "slip-law", "sound", "contact-stress", "thinness", "amplitude"];
+
+/// One limit that a scene exceeds.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Excess {
+    /// Its name in JSON: `gas-inertia`.
+    pub name: &'static str,
+    /// The number, above …
+    pub value: f64,
+    /// … what it may be.
+    pub limit: f64,
+    /// Unit of both; empty for a pure number.
+    pub unit: &'static str,
+    /// What that means, in a sentence.
+    pub text: String,
+}
 
 /// What most limits are about. In SI units.
 pub(super) struct Film<'a> {
