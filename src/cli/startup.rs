@@ -225,7 +225,9 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
             "",
         ));
     }
-    text.push_str(&paragraph(&exactness(&ended.accuracy), "", ""));
+    if ended.accuracy.stated.is_finite() {
+        text.push_str(&paragraph(&exactness(&ended.accuracy), "", ""));
+    }
     text
 }
 
