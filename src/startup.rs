@@ -92,10 +92,15 @@ pub fn startup(
     cancel: &Cancel,
 ) -> Result<Startup, SolveError> {
     let numbers = solve::Settings { fidelity: settings.fidelity, record: Record::Numbers, ..Default::default() };
-    let periodic = solve(problem, &numbers, &mut (), cancel)?;
+    let periodic = match solve(problem, &numbers, &mut (), cancel) {
+        // The way may be there where its end is not found at once.
+        Err(SolveError::Motor(_) | SolveError::Plate(_)) => None,
+        solved => Some(solved?),
+    };
     let cancel = &cancel.started();
-    let mut plan = plan(problem, settings, &periodic, cancel.has_budget());
-    let mut way = Way::new(problem, settings, &periodic, each);
+    let known = periodic.as_ref().filter(|_| !cancel.has_budget()).map_or(0, |known| known.stats.steps_per_cycle);
+    let mut plan = plan(problem, settings, known, cancel.has_budget());
+    let mut way = Way::new(problem, settings, periodic.as_ref(), each);
     let mut stopped = match way.march(&plan, None, cancel) {
         // A polynomial across may swing below no pressure at all; finite volumes cannot.
         Err(SolveError::Motor(_) | SolveError::Plate(_)) if plan.spectral => {
@@ -124,9 +129,9 @@ pub fn startup(
     Ok(way.end(&plan, stopped, cancel))
 }
 
-/// The grids to begin with: those on which the periodic state was as exact as was asked, or the plan's own if there is a budget.
-/// `most_grids` is that of as many as there are beyond them.
-fn plan(problem: &Problem, settings: &Settings, periodic: &Solution, budget: bool) -> Plan {
+/// The grids to begin with: the plan's own, or finer ones up to so many `steps` a cycle, with which the periodic state was as exact as
+/// was asked; coarse ones if there is a budget.
+fn plan(problem: &Problem, settings: &Settings, steps: usize, budget: bool) -> Plan {
     // A transient leaks: there is no limit to take.
     let numerics = Numerics { time: Time::March, ..problem.numerics };
     let (fidelity, spec) = (settings.fidelity, settings.fidelity.spec());
@@ -136,7 +141,7 @@ fn plan(problem: &Problem, settings: &Settings, periodic: &Solution, budget: boo
         Scenario::Plate(plate) => Plan::plate_to(plate, fidelity, &spec, &numerics),
     };
     let finest = |plan: &Plan| plan.grids.last().map_or(0, |grid| grid.steps);
-    while !budget && finest(&plan) < periodic.stats.steps_per_cycle {
+    while finest(&plan) < steps {
         let Some(finer) = finer(problem, &plan, settings.kept) else { break };
         plan = finer;
     }
@@ -179,23 +184,29 @@ struct Way<'a> {
 }
 
 impl<'a> Way<'a> {
-    fn new(problem: &'a Problem, settings: &'a Settings, periodic: &Solution, each: &'a mut dyn FnMut(Cycle)) -> Self {
-        let headline = headline(&periodic.outcome);
+    fn new(
+        problem: &'a Problem,
+        settings: &'a Settings,
+        periodic: Option<&Solution>,
+        each: &'a mut dyn FnMut(Cycle),
+    ) -> Self {
+        let nothing = match problem.scenario {
+            Scenario::Motor(_) => Outcome::Motor(Default::default()),
+            Scenario::Plate(_) => Outcome::Plate(Default::default()),
+        };
+        let converged = periodic.filter(|periodic| periodic.status == Status::Converged);
         Self {
             problem,
             settings,
             each,
-            steady: (periodic.status == Status::Converged).then_some(headline),
-            unit: match &periodic.outcome {
+            steady: converged.map(|periodic| headline(&periodic.outcome)),
+            unit: match periodic.map_or(nothing, |periodic| periodic.outcome) {
                 Outcome::Motor(result) => motor::unit(result.alpha),
                 Outcome::Plate(result) => plate::unit(result.film_load, result.film_load_max - result.film_load_min),
             },
             errors: Vec::new(),
             status: Status::NotConverged { residual: f64::INFINITY, tolerance: settings.tolerance },
-            outcome: match problem.scenario {
-                Scenario::Motor(_) => Outcome::Motor(Default::default()),
-                Scenario::Plate(_) => Outcome::Plate(Default::default()),
-            },
+            outcome: nothing,
             remaining: f64::INFINITY,
             unsettled: None,
             stats: Stats::default(),
