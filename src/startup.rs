@@ -4,11 +4,10 @@
 //! travels. Every tooth is marched and nothing is accelerated, because the way is the result. (A plate likewise, from the gap of
 //! t = 0.) It ends where the periodic solve, which is made first, says: `tests/startup.rs` compares the two.
 //!
-//! The mean of a cycle that does not repeat is that of the trapezoidal rule, from its first instant to the first of the next.
-//! How exact a start-up is, is judged by the headline of every cycle, as a share of the greatest of them. The first cycles are the
-//! hardest to resolve, because the motion begins with a jump, and later ones forget them. So the way is marched to its end on the grids
-//! that the periodic state needed; then the first cycles, up to the last that is not yet as exact as was asked, are marched again on
-//! grids of half the spacing, and so on.
+//! The mean of a cycle that does not repeat is that of the trapezoidal rule, from its first instant to the first of the next. How exact a
+//! start-up is, is judged by the headline of every cycle, as a share of the greatest of them. The way is marched to its end on the grids
+//! that the periodic state needed; then the cycles up to the last that is not yet as exact as was asked are marched again on grids of
+//! half the spacing, and so on.
 
 use crate::control::Cancel;
 use crate::estimate::Estimate;

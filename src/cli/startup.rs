@@ -38,9 +38,8 @@ Files of --out:
 /// Starts a preset from rest and follows it, cycle by cycle, until the cycle repeats
 ///
 /// At t = 0 the wave stands still, pressed against the rotor, and the gas is at ambient pressure. Every tooth is marched. The
-/// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors. The first cycles are the
-/// hardest; they are marched again on finer grids until the headline of every cycle is as exact as was asked, as a share of the
-/// greatest of them.
+/// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors. Cycles are marched again
+/// on finer grids until the headline of every one is as exact as was asked, as a share of the greatest of them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {

@@ -111,7 +111,7 @@ fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) ->
     match startup.ended() {
         None if cycles == 0 => ("The first cycle is being computed".to_owned(), usual),
         None if remaining < Settings::default().tolerance => {
-            (format!("Cycle {cycles}: repeats; the first cycles follow on finer grids"), usual)
+            (format!("Cycle {cycles}: repeats; cycles follow on finer grids"), usual)
         }
         None => (format!("Cycle {cycles}: {open}"), usual),
         Some(Err(message)) => (message.clone(), cx.colours.alarm),
