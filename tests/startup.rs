@@ -172,7 +172,8 @@ fn the_error_of_every_cycle_is_what_was_asked_or_it_is_said_why_not() {
             assert!(!reached || stopped_by == StoppedBy::Accuracy, "{preset} {fidelity}: {accuracy:?}");
             let greatest = found.iter().chain(&exact).map(|(value, _)| *value).fold(0.0, f64::max);
             for ((found, error), (exact, rest)) in found.iter().zip(&exact) {
-                assert!(*error <= accuracy.stated * greatest, "{preset} {fidelity}: {found} ± {error}");
+                // (The periodic state is among what the greatest is of.)
+                assert!(*error <= 1.01 * accuracy.stated * greatest, "{preset} {fidelity}: {found} ± {error}");
                 assert!(
                     (found - exact).abs() <= error + rest,
                     "{preset} {fidelity}: {found} ± {error}, {exact} ± {rest}"
@@ -188,9 +189,16 @@ fn the_error_of_every_cycle_is_what_was_asked_or_it_is_said_why_not() {
     grid.numerics.steps_per_cycle = Some(48);
     let (_, ended) = run(&grid, &Settings::default());
     assert_eq!((ended.accuracy.asked, ended.accuracy.stopped_by), (0.0, StoppedBy::Limit));
+    // With a budget it begins on coarse grids; cycles that are not exact enough come again on finer ones.
+    let mut seen = Vec::new();
+    let cancel = Cancel::new().with_budget(|| || false);
+    let fine = Settings { fidelity: Fidelity::to(1e-4), ..Settings::default() };
+    let ended = startup(&problem, &fine, &mut |cycle| seen.push(cycle.number), &cancel).unwrap();
+    assert!(seen.len() > ended.cycles && seen.iter().max() == Some(&ended.cycles), "{seen:?}");
+    assert_eq!((ended.status, ended.accuracy.stopped_by), (Status::Converged, StoppedBy::Accuracy), "{ended:?}");
     // With a budget that is spent at once there is the whole way, on coarse grids.
     let cancel = Cancel::new().with_budget(|| || true);
-    let ended = startup(&problem, &Settings::default(), &mut |_| (), &cancel).unwrap();
+    let ended = startup(&problem, &fine, &mut |_| (), &cancel).unwrap();
     assert_eq!((ended.status, ended.accuracy.stopped_by), (Status::Converged, StoppedBy::Budget));
     assert!(ended.accuracy.stated > ended.accuracy.asked, "{ended:?}");
 }
