@@ -266,13 +266,7 @@ impl<'a> Scaled<'a> {
             motor,
             drive: Drive::new(loads),
             others: recording.yardsticks.iter().map(Drive::new).collect(),
-            judge: |found, others| match *others {
-                // Contact edges are irregular: all of the larger difference, not the share of it that is calibrated for α.
-                [before, finest] => {
-                    Estimate { value: found, error: (found - before).abs().max((found - finest).abs()) }
-                }
-                _ => Estimate { value: found, error: f64::INFINITY },
-            },
+            judge: judged,
             load: Estimate {
                 value: (1.0 - result.alpha).max(0.0) * motor.load,
                 error: result.alpha_error * motor.load,
@@ -404,12 +398,23 @@ pub(crate) fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
     f64::from(motor.waves) * loads.teeth as f64 / loads.stored_teeth.max(1) as f64
 }
 
+/// A number with its error, from the same on the recording's yardsticks. Contact edges are irregular: all of the larger difference, not
+/// the share of it that is calibrated for α.
+fn judged(found: f64, yardsticks: &[f64]) -> Estimate {
+    let error = match *yardsticks {
+        [before, finest] => (found - before).abs().max((found - finest).abs()),
+        _ => f64::INFINITY,
+    };
+    Estimate { value: found, error }
+}
+
 /// Mean power that the stator of the whole ring spends on the film \[W\]: ⟨∫ q ∂W_S/∂t⟩, q being film and contact. Rotor and
 /// contact take none of it: the rotor is elastic, and where there is contact the gap does not change. The gas takes
 /// ⟨−∫ film ∂h/∂t⟩. The difference of the two is part of the stated error.
 pub fn film_power(motor: &Motor, recording: &Recording) -> Estimate {
-    let given = recording.estimate(|loads| given(motor, loads));
     let loads = &recording.lines;
+    let others: Vec<f64> = recording.yardsticks.iter().map(|loads| given(motor, loads)).collect();
+    let given = judged(given(motor, loads), &others);
     let (frames, nodes) = (loads.frames, loads.x.len());
     let mut taken = 0.0;
     for (line, (_, at)) in lines(loads).enumerate() {

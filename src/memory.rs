@@ -239,10 +239,8 @@ pub fn motor_startup(motor: &Motor, plan: &Plan, kept: usize) -> Need {
 
 /// Of a plate's transient from rest, likewise.
 pub fn plate_startup(plate: &Plate, plan: &Plan, kept: usize) -> Need {
-    let finer = |grid: &Grid| grid.finer(plan.spectral);
-    let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, &finer(grid))).sum();
-    let fields =
-        |grid: &Grid| transient(&Film::of_plate(plate, &finer(grid)), 1, 2 * grid.steps as u64, plan.maps, kept);
+    let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, grid)).sum();
+    let fields = |grid: &Grid| transient(&Film::of_plate(plate, grid), 1, grid.steps as u64, plan.maps, kept);
     of_plate(plate, plan, levels + plan.grids.last().map_or(0, fields))
 }
 

@@ -1,7 +1,7 @@
 //! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate_means};
+use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
 use crate::film::cycle::{FilmCycle, Interrupted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, Between, FilmGrid, Start};
@@ -159,11 +159,18 @@ impl Scene for Search<'_> {
     }
 }
 
-/// A plate from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
+/// What the accuracy of a mean load is relative to \[N\]: itself, or a small share of the swing of the load where the mean is next to
+/// nothing beside it.
+pub fn unit(mean: f64, swing: f64) -> f64 {
+    mean.abs().max(LEAST_SHARE_OF_SWING * swing)
+}
+
+/// A plate from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
 pub struct Transient<'a> {
     plate: &'a Plate,
     maps: bool,
     levels: Vec<Level>,
+    width_error: f64,
     stats: Stats,
 }
 
@@ -174,19 +181,12 @@ impl std::fmt::Debug for Transient<'_> {
 }
 
 impl<'a> Transient<'a> {
-    /// At rest at the gap of t = 0, gas at ambient pressure.
-    pub fn at_rest(plate: &'a Plate, plan: &Plan) -> Self {
-        // A transient is not refined until it is exact enough: it starts on grids twice as fine.
-        let levels = plan
-            .grids
-            .iter()
-            .map(|grid| {
-                let mut level = Level::new(plate, plan, &grid.finer(plan.spectral));
-                level.rest();
-                level
-            })
-            .collect();
-        Self { plate, maps: plan.maps, levels, stats: Stats::default() }
+    /// At rest at the gap of t = 0, gas at ambient pressure. `width_error`: that of the mean load, by the nodes across \[N\]; `stats`:
+    /// what it has cost so far.
+    pub fn at_rest(plate: &'a Plate, plan: &Plan, width_error: f64, stats: Stats) -> Self {
+        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(plate, plan, grid)).collect();
+        levels.iter_mut().for_each(Level::rest);
+        Self { plate, maps: plan.maps, levels, width_error, stats }
     }
 
     /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
@@ -196,9 +196,10 @@ impl<'a> Transient<'a> {
     /// [`Interrupted::Failed`] if a film step has no solution to working precision.
     pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(PlateResult, Recording, f64)>, Interrupted> {
         let finest = self.levels.len() - 1;
-        let mut loads = Vec::with_capacity(self.levels.len());
+        let (mut loads, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
+            let start = level.load_at(0);
             let told = |level: &Level| {
                 if number < finest {
                     coarser.push(level.line_loads(self.plate));
@@ -212,7 +213,9 @@ impl<'a> Transient<'a> {
                 Err(Interrupted::Cancelled) => return Ok(None),
                 Err(failed) => return Err(failed),
             };
-            loads.push(level.mean());
+            let end = level.load_at(0);
+            loads.push(level.mean().from_to(start, end, level.steps));
+            ends.push(end);
             self.stats.film_nodes = level.cycle.grid().len();
             self.stats.steps_per_cycle = level.steps;
         }
@@ -220,8 +223,16 @@ impl<'a> Transient<'a> {
         let (recording, change) = last;
         let estimate = extrapolate_means(&loads);
         let mut result = PlateResult::of(&recording);
-        result.film_load_error = estimate.error + (result.film_load - estimate.value).abs();
+        // Its frames begin with the start of the cycle, and have not its end.
+        let grown = extrapolate(&ends).value - recording.film_load[0];
+        result.film_load += 0.5 * grown / recording.frames as f64;
+        result.film_load_error = estimate.error + (result.film_load - estimate.value).abs() + self.width_error;
         Ok(Some((result, recording, change)))
+    }
+
+    /// Error of a cycle's mean load that finer grids would not make smaller \[N\].
+    pub fn elsewhere(&self) -> f64 {
+        self.width_error
     }
 
     /// What it has cost so far, all grids.
@@ -430,12 +441,11 @@ impl Level {
         Mean { all: loads.iter().sum::<f64>() / self.steps as f64, shared }
     }
 
-    /// What the accuracy of the mean load is relative to \[N\]: itself, or a small share of the swing of the load where the mean is next
-    /// to nothing beside it.
+    /// See [`unit`].
     fn unit(&self) -> f64 {
         let loads = self.loads();
         let (low, high) = loads.iter().fold((0.0f64, 0.0f64), |(low, high), load| (low.min(*load), high.max(*load)));
-        self.mean_load().abs().max(LEAST_SHARE_OF_SWING * (high - low))
+        unit(self.mean_load(), high - low)
     }
 
     /// By how much ln Z may still change from round to round: what that does to the load is a share of the error asked for.
@@ -450,10 +460,13 @@ impl Level {
 
     /// Film load at each step \[N\].
     fn loads(&self) -> Vec<f64> {
+        (0..self.steps).map(|m| self.load_at(m)).collect()
+    }
+
+    /// Film load at step `m` \[N\]; between two cycles of a transient step 0 is the present.
+    fn load_at(&self, m: usize) -> f64 {
         let x = &self.cycle.grid().x;
-        let nx = x.len();
-        let at = |m: usize| (0..nx).map(|i| self.line_load(m * nx + i) * x.lengths[i]).sum::<f64>() * x.copies();
-        (0..self.steps).map(at).collect()
+        (0..x.len()).map(|i| self.line_load(m * x.len() + i) * x.lengths[i]).sum::<f64>() * x.copies()
     }
 
     /// The film of one cycle; lengths are those of the whole plate.

@@ -88,6 +88,8 @@ pub struct MotorResult {
     pub min_gap: f64,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: f64,
+    /// Greatest contact force at any node and instant \[N/m\].
+    pub max_contact: f64,
     /// Estimated errors of teeth in contact, least film thickness \[m\] and greatest pressure \[Pa\], absolute.
     pub teeth_in_contact_error: f64,
     /// See `teeth_in_contact_error`.

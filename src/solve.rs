@@ -201,7 +201,8 @@ pub fn solve_from(
     Ok(solution)
 }
 
-fn accuracy(plan: &Plan, error: f64, unit: f64, cancel: &Cancel) -> Accuracy {
+/// How exact a headline with this error is, relative to `unit`, and why it is no more so.
+pub(crate) fn accuracy(plan: &Plan, error: f64, unit: f64, cancel: &Cancel) -> Accuracy {
     let stated = if error == 0.0 { 0.0 } else { error / unit };
     let stopped_by = if stated <= plan.accuracy {
         StoppedBy::Accuracy

@@ -2,23 +2,33 @@
 //!
 //! At t = 0 the wave stands still at its full amplitude, pressed against the rotor, and the gas is at ambient pressure; then it
 //! travels. Every tooth is marched and nothing is accelerated, because the way is the result. (A plate likewise, from the gap of
-//! t = 0.) It ends where the periodic solve starts: `tests/startup.rs` compares the two.
+//! t = 0.) It ends where the periodic solve, which is made first, says: `tests/startup.rs` compares the two.
+//!
+//! The mean of a cycle that does not repeat is that of the trapezoidal rule, from its first instant to the first of the next. How exact a
+//! start-up is, is judged by the headline of every cycle, as a share of the greatest of them. The way is marched to its end on the grids
+//! that the periodic state needed; then the cycles up to the last that is not yet as exact as was asked are marched again on grids of
+//! half the spacing, and so on.
 
 use crate::control::Cancel;
+use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
-use crate::memory::{self, Taken};
+use crate::ladder::WIDTH_SHARE;
+use crate::memory::{self, Need};
 use crate::motor;
-use crate::plan::Plan;
+use crate::plan::{Grid, Plan};
 use crate::plate;
 use crate::problem::{Numerics, Problem, Scenario, Time};
 use crate::recording::Recording;
-use crate::solution::{Outcome, Stats, Status};
-use crate::solve::SolveError;
+use crate::solution::{Accuracy, Outcome, Solution, Stats, Status};
+use crate::solve::{self, Record, SolveError, accuracy, solve};
+
+/// Share of the error asked for that the nodes across may have.
+const WIDTH_AIM: f64 = 0.3;
 
 /// One cycle of the transient.
 #[derive(Clone, Debug)]
 pub struct Cycle {
-    /// From 1.
+    /// From 1. A cycle whose number was there before is the same one on finer grids, and replaces it.
     pub number: usize,
     /// Means and extremes over this cycle, with the error that its grids show.
     pub outcome: Outcome,
@@ -33,7 +43,7 @@ pub struct Cycle {
 /// How a start-up is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Grids and steps: those of this fidelity.
+    /// How exact every cycle's headline is to be, as a share of the greatest of them.
     pub fidelity: Fidelity,
     /// Cycles at most.
     pub cycles: usize,
@@ -50,7 +60,7 @@ impl Default for Settings {
 }
 
 /// How a start-up ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Startup {
     /// Converged: the cycle repeats, and film and contact agreed in every step on the way.
     pub status: Status,
@@ -60,8 +70,14 @@ pub struct Startup {
     pub outcome: Outcome,
     /// Of the last cycle.
     pub remaining: f64,
-    /// What it cost.
+    /// Of the cycle that is known the least exactly.
+    pub accuracy: Accuracy,
+    /// The headline of the periodic solve, α or a plate's mean load \[N or N/m\]: where it should end. `None` if that did not converge.
+    pub steady: Option<Estimate>,
+    /// What it cost, all grids, without the periodic solve.
     pub stats: Stats,
+    /// What the user should know of the scene.
+    pub warnings: Vec<String>,
 }
 
 /// Starts `problem` from rest and hands over each cycle as it is completed.
@@ -74,50 +90,214 @@ pub fn startup(
     each: &mut dyn FnMut(Cycle),
     cancel: &Cancel,
 ) -> Result<Startup, SolveError> {
-    let mut ended = Startup {
-        status: Status::NotConverged { residual: f64::INFINITY, tolerance: settings.tolerance },
-        cycles: 0,
-        outcome: match problem.scenario {
-            Scenario::Motor(_) => Outcome::Motor(Default::default()),
-            Scenario::Plate(_) => Outcome::Plate(Default::default()),
-        },
-        remaining: f64::INFINITY,
-        stats: Stats::default(),
+    let numbers = solve::Settings { fidelity: settings.fidelity, record: Record::Numbers, ..Default::default() };
+    let periodic = match solve(problem, &numbers, &mut (), cancel) {
+        // The way may be there where its end is not found at once.
+        Err(SolveError::Motor(_) | SolveError::Plate(_)) => None,
+        solved => Some(solved?),
     };
-    let (mut transient, _taken) = Transient::at_rest(problem, settings, cancel)?;
-    let mut last = f64::INFINITY;
-    for number in 1..=settings.cycles {
-        let Some((outcome, recording, change)) = transient.cycle(cancel)? else {
-            ended.status = Status::Cancelled;
-            return Ok(ended);
-        };
-        // The change of the next cycles, as a geometric series; a sudden fall is not trusted to go on.
-        let ratio = (change / last).max(0.5);
-        let remaining = if change == 0.0 {
-            0.0
-        } else if last.is_finite() && ratio < 1.0 {
-            change * ratio / (1.0 - ratio)
-        } else {
-            f64::INFINITY
-        };
-        let recording = Recording { transient: true, ..recording };
-        last = change;
-        ended = Startup {
-            status: transient
-                .unsettled()
-                .unwrap_or(Status::NotConverged { residual: remaining, tolerance: settings.tolerance }),
-            cycles: number,
-            outcome,
-            remaining,
-            stats: transient.stats(),
-        };
-        each(Cycle { number, outcome, change, remaining, recording });
-        if remaining < settings.tolerance {
-            ended.status = transient.unsettled().unwrap_or(Status::Converged);
+    let cancel = &cancel.started();
+    let known = periodic.as_ref().filter(|_| !cancel.has_budget()).map_or(0, |known| known.stats.steps_per_cycle);
+    let mut plan = plan(problem, settings, known, cancel.has_budget());
+    let mut way = Way::new(problem, settings, periodic.as_ref(), each);
+    let mut stopped = match way.march(&plan, None, cancel) {
+        // A polynomial across may swing below no pressure at all; finite volumes cannot.
+        Err(SolveError::Motor(_) | SolveError::Plate(_)) if plan.spectral => {
+            plan = plan.volumes();
+            way.march(&plan, None, cancel)
+        }
+        marched => marched,
+    }?;
+    while !stopped && !cancel.is_spent() {
+        let allowed = plan.accuracy * way.unit;
+        let Some(cycles) = way.unresolved(allowed) else { break };
+        let Some(finer) = finer(problem, &plan, settings.kept) else { break };
+        plan = finer;
+        let before = way.worst();
+        match way.march(&plan, Some(cycles), &cancel.within_budget()) {
+            Ok(cut) => stopped = cut && cancel.is_cancelled(),
+            // What the coarser grids gave stands.
+            Err(_) => break,
+        }
+        // As many grids as there are left would not do.
+        let left = plan.most_grids.saturating_sub(plan.grids.len());
+        if way.worst() * (way.worst() / before).powi(left as i32) > allowed {
             break;
         }
     }
-    Ok(ended)
+    Ok(way.end(&plan, stopped, cancel))
+}
+
+/// The grids to begin with: the plan's own, or finer ones up to so many `steps` a cycle, with which the periodic state was as exact as
+/// was asked; coarse ones if there is a budget.
+fn plan(problem: &Problem, settings: &Settings, steps: usize, budget: bool) -> Plan {
+    // A transient leaks: there is no limit to take.
+    let numerics = Numerics { time: Time::March, ..problem.numerics };
+    let (fidelity, spec) = (settings.fidelity, settings.fidelity.spec());
+    let spec = if budget { spec.from_coarse() } else { spec };
+    let mut plan = match &problem.scenario {
+        Scenario::Motor(motor) => Plan::motor_to(motor, fidelity, &spec, &numerics),
+        Scenario::Plate(plate) => Plan::plate_to(plate, fidelity, &spec, &numerics),
+    };
+    let finest = |plan: &Plan| plan.grids.last().map_or(0, |grid| grid.steps);
+    while finest(&plan) < steps {
+        let Some(finer) = finer(problem, &plan, settings.kept) else { break };
+        plan = finer;
+    }
+    plan
+}
+
+/// The next finer grids: the coarsest is left out, and one of half the spacing added. `None` if the plan allows no further one, or the
+/// memory does not.
+fn finer(problem: &Problem, plan: &Plan, kept: usize) -> Option<Plan> {
+    let grids: Vec<Grid> = plan.grids.iter().map(|grid| grid.finer(plan.spectral)).collect();
+    let robust = (2 * plan.robust.0, plan.robust.1);
+    let finer = Plan { grids, robust, most_grids: plan.most_grids - 1, ..plan.clone() };
+    let bytes = need(problem, &finer, kept).bytes;
+    (plan.most_grids > plan.grids.len() && bytes <= memory::REFINED.min(memory::allowed())).then_some(finer)
+}
+
+fn need(problem: &Problem, plan: &Plan, kept: usize) -> Need {
+    match &problem.scenario {
+        Scenario::Motor(motor) => memory::motor_startup(motor, plan, kept),
+        Scenario::Plate(plate) => memory::plate_startup(plate, plan, kept),
+    }
+}
+
+/// A start-up on its way.
+struct Way<'a> {
+    problem: &'a Problem,
+    settings: &'a Settings,
+    each: &'a mut dyn FnMut(Cycle),
+    steady: Option<Estimate>,
+    /// What errors are relative to, α or N: the greatest headline of any cycle, that of the periodic state included.
+    unit: f64,
+    /// Stated error of each cycle's headline, absolute, and what of it finer grids would leave.
+    errors: Vec<(f64, f64)>,
+    status: Status,
+    outcome: Outcome,
+    remaining: f64,
+    /// Largest residual of a step that did not settle, and what was allowed.
+    unsettled: Option<(f64, f64)>,
+    stats: Stats,
+}
+
+impl<'a> Way<'a> {
+    fn new(
+        problem: &'a Problem,
+        settings: &'a Settings,
+        periodic: Option<&Solution>,
+        each: &'a mut dyn FnMut(Cycle),
+    ) -> Self {
+        let nothing = match problem.scenario {
+            Scenario::Motor(_) => Outcome::Motor(Default::default()),
+            Scenario::Plate(_) => Outcome::Plate(Default::default()),
+        };
+        let converged = periodic.filter(|periodic| periodic.status == Status::Converged);
+        Self {
+            problem,
+            settings,
+            each,
+            steady: converged.map(|periodic| headline(&periodic.outcome)),
+            unit: match periodic.map_or(nothing, |periodic| periodic.outcome) {
+                Outcome::Motor(result) => motor::unit(result.alpha),
+                Outcome::Plate(result) => plate::unit(result.film_load, result.film_load_max - result.film_load_min),
+            },
+            errors: Vec::new(),
+            status: Status::NotConverged { residual: f64::INFINITY, tolerance: settings.tolerance },
+            outcome: nothing,
+            remaining: f64::INFINITY,
+            unsettled: None,
+            stats: Stats::default(),
+        }
+    }
+
+    /// Marches from rest by `plan`: to the end, or so many cycles `again`. Whether it was cut short.
+    fn march(&mut self, plan: &Plan, again: Option<usize>, cancel: &Cancel) -> Result<bool, SolveError> {
+        let _taken = memory::take(need(self.problem, plan, self.settings.kept), cancel)?;
+        let mut transient = Transient::at_rest(self.problem, plan, self.unit, self.stats, cancel)?;
+        if again.is_none() {
+            self.errors.clear();
+        }
+        let tolerance = self.settings.tolerance;
+        let mut last = f64::INFINITY;
+        for number in 1..=again.unwrap_or(self.settings.cycles) {
+            let turned = transient.cycle(cancel)?;
+            self.stats = transient.stats();
+            self.unsettled =
+                [self.unsettled, transient.unsettled()].into_iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((outcome, recording, change)) = turned else { return Ok(true) };
+            // The change of the next cycles, as a geometric series; a sudden fall is not trusted to go on.
+            let ratio = (change / last).max(0.5);
+            let remaining = if change == 0.0 {
+                0.0
+            } else if last.is_finite() && ratio < 1.0 {
+                change * ratio / (1.0 - ratio)
+            } else {
+                f64::INFINITY
+            };
+            last = change;
+            let Estimate { value, error } = headline(&outcome);
+            self.unit = self.unit.max(value.abs());
+            let error = (error, transient.elsewhere());
+            if number > self.errors.len() {
+                self.errors.push(error);
+            } else {
+                self.errors[number - 1] = error;
+            }
+            if number == self.errors.len() {
+                (self.outcome, self.remaining) = (outcome, remaining);
+                self.status = Status::NotConverged { residual: remaining, tolerance };
+            }
+            let recording = Recording { transient: true, ..recording };
+            (self.each)(Cycle { number, outcome, change, remaining, recording });
+            if again.is_none() && remaining < tolerance {
+                break;
+            }
+        }
+        if self.remaining < tolerance {
+            self.status = Status::Converged;
+        }
+        Ok(false)
+    }
+
+    /// The last cycle that finer grids would make as exact as `allowed`, and are needed to.
+    fn unresolved(&self, allowed: f64) -> Option<usize> {
+        self.errors.iter().rposition(|(error, elsewhere)| *error > allowed && *elsewhere < allowed).map(|last| last + 1)
+    }
+
+    /// The largest error of a cycle's headline, absolute.
+    fn worst(&self) -> f64 {
+        self.errors.iter().map(|(error, _)| *error).fold(0.0, f64::max)
+    }
+
+    fn end(self, plan: &Plan, stopped: bool, cancel: &Cancel) -> Startup {
+        let worst = if self.errors.is_empty() { f64::INFINITY } else { self.worst() };
+        let unsettled = self.unsettled.map(|(residual, tolerance)| Status::NotConverged { residual, tolerance });
+        let status = if stopped { Status::Cancelled } else { unsettled.unwrap_or(self.status) };
+        let warnings = match &self.problem.scenario {
+            Scenario::Motor(motor) => motor.compliance_not_covered().into_iter().collect(),
+            Scenario::Plate(_) => Vec::new(),
+        };
+        Startup {
+            status,
+            cycles: self.errors.len(),
+            outcome: self.outcome,
+            remaining: self.remaining,
+            accuracy: accuracy(plan, worst, self.unit, cancel),
+            steady: self.steady,
+            stats: self.stats,
+            warnings,
+        }
+    }
+}
+
+/// α, or a plate's mean load \[N or N/m\].
+fn headline(outcome: &Outcome) -> Estimate {
+    match outcome {
+        Outcome::Motor(result) => Estimate { value: result.alpha, error: result.alpha_error },
+        Outcome::Plate(result) => Estimate { value: result.film_load, error: result.film_load_error },
+    }
 }
 
 /// Either scene on its way.
@@ -127,25 +307,46 @@ enum Transient<'a> {
 }
 
 impl<'a> Transient<'a> {
-    /// With the memory that it takes.
+    /// With as many nodes across as the first cycle needs, which is the hardest; `stats` is what it has cost so far.
     fn at_rest(
         problem: &'a Problem,
-        settings: &Settings,
+        plan: &Plan,
+        unit: f64,
+        stats: Stats,
         cancel: &Cancel,
-    ) -> Result<(Self, Taken<'static>), SolveError> {
-        // A transient leaks: there is no limit to take.
-        let numerics = Numerics { time: Time::March, ..problem.numerics };
+    ) -> Result<Self, SolveError> {
+        if !plan.spectral || plan.grids.len() < 2 {
+            return Self::on(problem, plan, 0.0, stats);
+        }
+        let coarsest = plan.grids[0];
+        let with = |across: usize, grid: &Grid| Grid { across, ..*grid };
+        let first = |across: usize| -> Result<f64, SolveError> {
+            let grids = vec![with(across, &coarsest)];
+            let mut transient = Self::on(problem, &Plan { grids, maps: false, ..plan.clone() }, 0.0, Stats::default())?;
+            Ok(transient.cycle(cancel)?.map_or(0.0, |(outcome, ..)| headline(&outcome).value))
+        };
+        let mut across = coarsest.across.max(2);
+        let mut narrower = first(across - 1)?;
+        let error = loop {
+            let wider = first(across)?;
+            let error = WIDTH_SHARE * (wider - narrower).abs();
+            if error <= WIDTH_AIM * plan.aim * unit || across >= plan.most_across {
+                break error;
+            }
+            narrower = wider;
+            across += 1;
+        };
+        let grids = plan.grids.iter().map(|grid| with(across, grid)).collect();
+        Self::on(problem, &Plan { grids, ..plan.clone() }, error, stats)
+    }
+
+    /// On the grids of `plan`; `width_error` is that of the nodes across, of the headline.
+    fn on(problem: &'a Problem, plan: &Plan, width_error: f64, stats: Stats) -> Result<Self, SolveError> {
         Ok(match &problem.scenario {
             Scenario::Motor(motor) => {
-                let plan = Plan::motor(motor, settings.fidelity, &numerics);
-                let taken = memory::take(memory::motor_startup(motor, &plan, settings.kept), cancel)?;
-                (Self::Motor(Box::new(motor::Transient::at_rest(motor, &plan)?)), taken)
+                Self::Motor(Box::new(motor::Transient::at_rest(motor, plan, width_error, stats)?))
             }
-            Scenario::Plate(plate) => {
-                let plan = Plan::plate(plate, settings.fidelity, &numerics);
-                let taken = memory::take(memory::plate_startup(plate, &plan, settings.kept), cancel)?;
-                (Self::Plate(Box::new(plate::Transient::at_rest(plate, &plan))), taken)
-            }
+            Scenario::Plate(plate) => Self::Plate(Box::new(plate::Transient::at_rest(plate, plan, width_error, stats))),
         })
     }
 
@@ -161,8 +362,16 @@ impl<'a> Transient<'a> {
         })
     }
 
-    /// If steps on the way did not settle; a plate has nothing to agree with.
-    fn unsettled(&self) -> Option<Status> {
+    /// Error of the last cycle's headline that finer grids would not make smaller, absolute.
+    fn elsewhere(&self) -> f64 {
+        match self {
+            Self::Motor(transient) => transient.elsewhere(),
+            Self::Plate(transient) => transient.elsewhere(),
+        }
+    }
+
+    /// The largest residual of steps that did not settle, and what was allowed; a plate has nothing to agree with.
+    fn unsettled(&self) -> Option<(f64, f64)> {
         match self {
             Self::Motor(transient) => transient.unsettled(),
             Self::Plate(_) => None,

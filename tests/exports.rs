@@ -187,6 +187,12 @@ fn a_comparison_has_the_numbers_of_the_single_solves() {
     let rows: Vec<BTreeMap<String, String>> = reader.deserialize().map(Result::unwrap).collect();
     let row = rows.iter().find(|row| row["quantity"] == "alpha" && row["run"] == "2").unwrap();
     assert_eq!(row["value"].parse::<f64>().unwrap(), alpha(1));
+    let limits = |run: usize| texts(&singles[run], "name").join(";").replace('"', "");
+    assert_eq!((row["validity"].as_str(), limits(1).as_str()), ("slip-law", "slip-law"));
+    let floats = rows.iter().find(|row| row["run"] == "3").unwrap();
+    assert_eq!((floats["validity"].as_str(), limits(2).as_str()), ("", ""));
+    let report = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(report.contains(squeezefilm::export::compare::LIMITS), "names of limits in the report's results");
 
     assert_eq!(
         names(folder.path()),

@@ -69,10 +69,11 @@ fn measuring() -> Instant {
     standing() + looked * looked * Duration::from_micros(40)
 }
 
-/// The fidelities and a few others, in this order, twice each.
+/// The fidelities that have names and a few grids, in this order, twice each.
 fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
     let mut few = candidates(problem);
     few.retain(|candidate| candidate.name != "reference" && candidate.settings.method == Method::Auto);
+    few.retain(|candidate| !matches!(candidate.settings.fidelity, Fidelity::To(_)));
     few.truncate(6);
     (few, Effort { repeats: Some(2), ..Effort::default() })
 }

@@ -14,6 +14,7 @@ use squeezefilm::scene::presets;
 use squeezefilm::solution::{Outcome, Performance, PlateResult};
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
+use std::collections::BTreeMap;
 
 /// What a lesson says, of which run, which number, its value, and how exact it is meant, relative.
 type Claim = (usize, &'static str, &'static str, &'static [&'static str], &'static str, f64, f64);
@@ -226,11 +227,13 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     assert!((linear.spring / linear.damping - 1.0).abs() < 0.02, "{linear:?}");
     // Start-up: the first cycle, and the last.
     let cycles = |preset: &str| {
-        let mut cycles = Vec::new();
+        let mut cycles = BTreeMap::new();
         let settings = startup::Settings::default();
-        startup::startup(&problem(preset, &[]), &settings, &mut |cycle| cycles.push(cycle.outcome), &Cancel::new())
-            .unwrap();
-        cycles
+        let mut each = |cycle: startup::Cycle| {
+            cycles.insert(cycle.number, cycle.outcome);
+        };
+        startup::startup(&problem(preset, &[]), &settings, &mut each, &Cancel::new()).unwrap();
+        cycles.into_values().collect::<Vec<_>>()
     };
     let trapped: Vec<f64> = cycles("plate-trapped")
         .iter()

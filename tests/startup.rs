@@ -4,9 +4,9 @@
 
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
-use squeezefilm::problem::{Problem, Scenario};
+use squeezefilm::problem::{Problem, RotorCompliance, Scenario};
 use squeezefilm::scene::presets;
-use squeezefilm::solution::{Outcome, PlateResult, Status};
+use squeezefilm::solution::{Outcome, PlateResult, Status, StoppedBy};
 use squeezefilm::solve::{self, solve};
 use squeezefilm::startup::{Cycle, Settings, Startup, startup};
 
@@ -17,8 +17,16 @@ fn problem(preset: &str, changes: &[(&str, &str)]) -> Problem {
 }
 
 fn run(problem: &Problem, settings: &Settings) -> (Vec<Cycle>, Startup) {
-    let mut cycles = Vec::new();
-    let ended = startup(problem, settings, &mut |cycle| cycles.push(cycle), &Cancel::new()).unwrap();
+    let mut cycles: Vec<Cycle> = Vec::new();
+    let mut each = |cycle: Cycle| {
+        // The next one, or one that was there on finer grids.
+        let place = cycle.number - 1;
+        assert!(
+            place <= cycles.len() && cycles.get(place).is_none_or(|old| old.recording.frames < cycle.recording.frames)
+        );
+        if place == cycles.len() { cycles.push(cycle) } else { cycles[place] = cycle }
+    };
+    let ended = startup(problem, settings, &mut each, &Cancel::new()).unwrap();
     assert_eq!(ended.cycles, cycles.len());
     (cycles, ended)
 }
@@ -126,6 +134,7 @@ fn a_limit_and_a_cancelled_run_say_so_and_keep_their_cycles() {
     };
     let ended = startup(&problem, &Settings::default(), &mut stop, &cancel).unwrap();
     assert_eq!((ended.status, ended.cycles, seen), (Status::Cancelled, 3, 3));
+    assert!(ended.accuracy.stated.is_finite());
 }
 
 #[test]
@@ -142,4 +151,67 @@ fn a_step_that_does_not_settle_is_counted_and_told() {
     let words = squeezefilm::export::startup::unsettled(&ended).unwrap();
     assert!(words.contains(&format!("in {} steps", ended.stats.unsettled_steps)), "{words}");
     assert_eq!(squeezefilm::export::startup::unsettled(&run(&settles, &settings).1), None);
+}
+
+#[test]
+fn the_error_of_every_cycle_is_what_was_asked_or_it_is_said_why_not() {
+    for (preset, reached) in [("fundamental", true), ("plate-crossover", true), ("levitating", false)] {
+        let problem = problem(preset, &[]);
+        let series = |fidelity| {
+            let (cycles, ended) = run(&problem, &Settings { fidelity, ..Settings::default() });
+            let series: Vec<_> = cycles.iter().map(|cycle| main_number(&problem, &cycle.outcome)).collect();
+            (series, ended.accuracy)
+        };
+        let (exact, _) = series(Fidelity::Fine);
+        for fidelity in [Fidelity::Draft, Fidelity::to(0.01), Fidelity::Standard] {
+            let (found, accuracy) = series(fidelity);
+            println!("{preset} {fidelity}: {accuracy:?} {found:?}");
+            assert_eq!(accuracy.asked, fidelity.accuracy());
+            let stopped_by = if accuracy.stated <= accuracy.asked { StoppedBy::Accuracy } else { StoppedBy::Limit };
+            assert_eq!(accuracy.stopped_by, stopped_by, "{preset} {fidelity}: {accuracy:?}");
+            assert!(!reached || stopped_by == StoppedBy::Accuracy, "{preset} {fidelity}: {accuracy:?}");
+            let greatest = found.iter().chain(&exact).map(|(value, _)| *value).fold(0.0, f64::max);
+            for ((found, error), (exact, rest)) in found.iter().zip(&exact) {
+                // (The periodic state is among what the greatest is of.)
+                assert!(*error <= 1.01 * accuracy.stated * greatest, "{preset} {fidelity}: {found} ± {error}");
+                assert!(
+                    (found - exact).abs() <= error + rest,
+                    "{preset} {fidelity}: {found} ± {error}, {exact} ± {rest}"
+                );
+            }
+        }
+    }
+    // More than there are grids for; on grids that the scene prescribes there is nothing to refine.
+    let problem = problem("plate-crossover", &[]);
+    let far = Settings { fidelity: Fidelity::To(1), ..Settings::default() };
+    assert_eq!(run(&problem, &far).1.accuracy.stopped_by, StoppedBy::Limit);
+    let mut grid = problem.clone();
+    grid.numerics.steps_per_cycle = Some(48);
+    let (_, ended) = run(&grid, &Settings::default());
+    assert_eq!((ended.accuracy.asked, ended.accuracy.stopped_by), (0.0, StoppedBy::Limit));
+    // With a budget it begins on coarse grids; cycles that are not exact enough come again on finer ones.
+    let mut seen = Vec::new();
+    let cancel = Cancel::new().with_budget(|| || false);
+    let fine = Settings { fidelity: Fidelity::to(1e-4), ..Settings::default() };
+    let ended = startup(&problem, &fine, &mut |cycle| seen.push(cycle.number), &cancel).unwrap();
+    assert!(seen.len() > ended.cycles && seen.iter().max() == Some(&ended.cycles), "{seen:?}");
+    assert_eq!((ended.status, ended.accuracy.stopped_by), (Status::Converged, StoppedBy::Accuracy), "{ended:?}");
+    // With a budget that is spent at once there is the whole way, on coarse grids.
+    let cancel = Cancel::new().with_budget(|| || true);
+    let ended = startup(&problem, &fine, &mut |_| (), &cancel).unwrap();
+    assert_eq!((ended.status, ended.accuracy.stopped_by), (Status::Converged, StoppedBy::Budget));
+    assert!(ended.accuracy.stated > ended.accuracy.asked, "{ended:?}");
+}
+
+#[test]
+fn a_compliance_that_does_not_cover_the_wave_is_told() {
+    let row = |harmonic: f64, compliance: f64| (harmonic, compliance);
+    let mut problem = problem("fundamental", &[]);
+    let Scenario::Motor(motor) = &mut problem.scenario else { panic!("a motor") };
+    let wave = std::f64::consts::TAU / motor.wavelength();
+    motor.rotor = RotorCompliance::Table(vec![row(3.0 * wave, 4e-10), row(40.0 * wave, 1e-10)]);
+    let told = motor.compliance_not_covered();
+    assert!(told.is_some());
+    let (_, ended) = run(&problem, &Settings { fidelity: Fidelity::Draft, cycles: 2, ..Settings::default() });
+    assert_eq!(ended.warnings, told.into_iter().collect::<Vec<_>>());
 }

@@ -1,7 +1,12 @@
 //! Error against time as the user sees it. No time is asserted: a machine is as fast as it is.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on fails")]
 
 use serde_json::Value;
+use squeezefilm::analysis::quantity::Quantity;
+use squeezefilm::analysis::tradeoff::{Effort, candidates, measure};
+use squeezefilm::control::Cancel;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::presets;
 use std::process::{Command, Output, Stdio};
 
 fn run(arguments: &[&str]) -> Output {
@@ -48,14 +53,80 @@ fn table_and_files_of_a_plate_agree() {
     }
 }
 
+/// What a printed command without quoting, after the program's name, gives as JSON.
+fn solve_again(words: &str) -> String {
+    let words: Vec<&str> = words.split_whitespace().chain(["--json"]).collect();
+    let output = run(&words);
+    assert!(
+        [Some(0), Some(3)].contains(&output.status.code()),
+        "{words:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A number as it is written, which is with the digits that read back to the same bits (serde_json's own reader rounds).
+fn number_in(json: &str, name: &str) -> Option<f64> {
+    json.split(&format!("\"{name}\": ")).nth(1)?.split([',', '\n']).next()?.parse().ok()
+}
+
+#[test]
+fn every_setting_is_the_solve_that_its_options_ask_for_to_the_last_bit() {
+    for (preset, changes) in [
+        ("fundamental", &[][..]),
+        // A switch of the model is kept; a grid of the scene gives way, and is one of the settings.
+        ("fundamental", &[("numerics.flow", "along"), ("numerics.wedge", "on")]),
+        ("doubled-mesh", &[("film.min_spacing_nm", "150"), ("numerics.steps_per_cycle", "72")]),
+        ("plate-viscous", &[("numerics.film_nodes_across", "9")]),
+    ] {
+        let mut scene = presets::find(preset).unwrap();
+        scene.set_all(changes.iter().copied()).unwrap();
+        let problem = Problem::new(&scene).unwrap();
+        let mut all = candidates(&problem);
+        // What takes seconds each is one of its family.
+        let slow = ["reference", "accuracy 0.05%", "paper", "paper, twice its mesh", "fine, 65 × 33 × 180"];
+        all.retain(|candidate| !slow.contains(&candidate.name.as_str()));
+        let effort = Effort { repeats: Some(1), longest: f64::INFINITY, ..Effort::default() };
+        let runs = measure(&problem, all, &effort, &|| 0.0, &Cancel::new(), &mut |_, _| ());
+        let set: String = changes.iter().map(|(key, value)| format!(" --set {key}={value}")).collect();
+        for run in runs {
+            let command = format!("solve {preset}{set} {}", run.candidate.options);
+            let again = solve_again(&command);
+            let judged = if preset.starts_with("plate") { Quantity::FilmLoad } else { Quantity::Alpha };
+            let value = run.numbers.get(judged);
+            assert!(value.is_some(), "{command}: {:?}", run.ended);
+            assert_eq!(number_in(&again, judged.name()), value, "{command}");
+            let error = judged.error().unwrap();
+            assert_eq!(number_in(&again, error.name()), run.numbers.get(error), "{command}");
+        }
+    }
+}
+
+#[test]
+fn the_command_that_is_recommended_gives_what_the_table_shows() {
+    let set = ["--set", "film.slip=second-order", "--set", "numerics.film_nodes_along=21"];
+    let output = run(&[&["tradeoff", "plate-crossover", "--repeats=1", "--accuracy=0.2%"][..], &set].concat());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let command = text.lines().find_map(|line| line.strip_prefix("  squeezefilm ")).unwrap();
+    assert!(set.iter().all(|word| command.contains(word)), "{command}");
+    let (_, chosen) = text.split_once("at most 0.20 %: ").unwrap();
+    let name = chosen.split(", off").next().unwrap().rsplit_once(", ").unwrap().0;
+    let row = text.lines().find(|line| line.trim_start().starts_with(&format!("{name}  "))).unwrap();
+    let load = number_in(&solve_again(command), "film_load_n").unwrap();
+    let shown = squeezefilm::digits::significant(load, 5);
+    assert!(row.split_whitespace().any(|cell| cell == shown), "{command} gives {shown}, but: {row}");
+}
+
 #[test]
 fn a_wish_that_is_none_has_status_2_and_one_that_nothing_fulfils_1() {
-    for (wish, words) in [("--accuracy=-1%", "1% or 0.01"), ("--budget=16", "16ms, 2s"), ("--repeats=0", "--repeats")] {
+    for (wish, words) in
+        [("--accuracy=-1%", "0.0001% to 50%"), ("--budget=16", "20ms, 1.5s"), ("--repeats=0", "--repeats")]
+    {
         let output = run(&["tradeoff", "plate-crossover", wish]);
         assert_eq!((output.status.code(), &output.stdout[..]), (Some(2), &b""[..]), "{wish}");
         assert!(String::from_utf8_lossy(&output.stderr).contains(words), "{wish}");
     }
-    let output = run(&["tradeoff", "plate-crossover", "--repeats=1", "--accuracy=1e-15"]);
+    let output = run(&["tradeoff", "plate-crossover", "--repeats=1", "--accuracy=0.0001%"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stdout).contains("none of these"));
 }

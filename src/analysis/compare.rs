@@ -6,6 +6,7 @@
 
 use super::attempt::attempt;
 use super::quantity::{Numbers, Quantity, labelled};
+use super::validity::{names, outside};
 use crate::control::Cancel;
 use crate::problem::Problem;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value, show_text};
@@ -31,6 +32,12 @@ impl Run {
     /// The numbers; none if it failed.
     pub fn numbers(&self) -> Numbers {
         self.solved.as_ref().map_or_else(|_| Numbers::default(), |solution| Numbers::of(&self.problem, solution))
+    }
+
+    /// Names of the limits of the model that it exceeds; none if it failed.
+    pub fn outside(&self) -> Vec<&'static str> {
+        let limits = |solution: &Arc<Solution>| names(&outside(&self.problem, Some(solution)));
+        self.solved.as_ref().map_or_else(|_| Vec::new(), limits)
     }
 
     /// Whether its cycle repeats to the tolerance.

@@ -7,247 +7,25 @@
 //! A cancelled sweep keeps the rows it has; handed to [`Sweep::run`] again, it goes on with what is missing, and ends
 //! as one that was never cancelled. [`Sweep::fingerprint`] tells whether rows on disk are of the same sweep.
 
+mod axis;
+
+pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, SweepError, Values, Vary, spaced};
+
 use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity, force_unit};
 use super::table1::{Published, published_at};
+use super::validity;
 use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
-use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use crate::scene::{Scene, SceneError};
 use crate::solution::Status;
-use crate::solve::{Method, Record, Settings, SolveError, check};
+use crate::solve::{Method, Record, Settings, check};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::str::FromStr;
 
-/// Most values of one key.
-pub const MOST_VALUES: usize = 10_000;
-/// Most points of a sweep.
-pub const MOST_POINTS: usize = 100_000;
-/// Most keys that are varied at once.
-pub const MOST_KEYS: usize = 3;
 /// Neighbours along the last axis that one thread solves one after the other.
 const CHUNK: usize = 4;
-
-/// What to vary: `key=from:to:count`, `key=from:to:count:log` or `key=value,value,…`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Vary {
-    /// Dotted key, as in `--set`.
-    pub key: String,
-    /// Its values.
-    pub values: Values,
-}
-
-/// The values of a key that is varied.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Values {
-    /// Numbers from one end to the other.
-    Range {
-        /// First value, in the unit of the key.
-        from: f64,
-        /// Last value, in the unit of the key.
-        to: f64,
-        /// How many values, both ends counted.
-        count: usize,
-        /// Equal steps or equal ratios.
-        scale: Scale,
-    },
-    /// Each as in `--set`.
-    List(Vec<String>),
-}
-
-impl FromStr for Vary {
-    type Err = SweepError;
-
-    fn from_str(text: &str) -> Result<Self, SweepError> {
-        let syntax = || SweepError::Syntax { found: text.to_owned() };
-        let (key, values) = text.split_once('=').ok_or_else(syntax)?;
-        let key = key.trim().to_owned();
-        if !values.contains(':') {
-            return Ok(Self {
-                key,
-                values: Values::List(values.split(',').map(|word| word.trim().to_owned()).collect()),
-            });
-        }
-        let parts: Vec<&str> = values.split(':').map(str::trim).collect();
-        let (ends, scale) = match parts[..] {
-            [from, to, count] | [from, to, count, "lin"] => ([from, to, count], Scale::Linear),
-            [from, to, count, "log"] => ([from, to, count], Scale::Log),
-            _ => return Err(syntax()),
-        };
-        let number = |text: &str| text.parse::<f64>().map_err(|_| syntax());
-        let (from, to) = (number(ends[0])?, number(ends[1])?);
-        let count = ends[2].parse().map_err(|_| SweepError::Count { key: key.clone(), found: ends[2].to_owned() })?;
-        Ok(Self { key, values: Values::Range { from, to, count, scale } })
-    }
-}
-
-/// One axis of a sweep: a key and its values.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// The key.
-    pub parameter: &'static Parameter,
-    /// Its values in the unit of the key, in the order they were asked for; of words their places in `words`.
-    pub values: Vec<f64>,
-    /// The values if they are not all numbers, as in `--set`; otherwise empty.
-    pub words: Vec<String>,
-    /// Equal steps or equal ratios.
-    pub scale: Scale,
-}
-
-impl Axis {
-    /// Checks what is to be varied against the scene, and spaces its values. The keys are not yet checked together.
-    ///
-    /// # Errors
-    /// [`SweepError`], which names the key, the value and what is allowed.
-    pub fn new(scene: &Scene, vary: &Vary) -> Result<Self, SweepError> {
-        let key = &vary.key;
-        let parameter = match Parameter::find(key) {
-            Some(parameter) => parameter,
-            // Setting it tells what is wrong with it.
-            None => {
-                return match scene.clone().set(key, "0") {
-                    Err(error) => Err(error.into()),
-                    Ok(()) => Err(SweepError::Syntax { found: key.clone() }),
-                };
-            }
-        };
-        let count = match &vary.values {
-            Values::Range { count, .. } => *count,
-            Values::List(words) => words.len(),
-        };
-        let allowed = (2..=MOST_VALUES).contains(&count);
-        match &vary.values {
-            Values::List(words) => {
-                for (i, word) in words.iter().enumerate() {
-                    scene.clone().set(key, word)?;
-                    if words[..i].contains(word) {
-                        return Err(SweepError::Repeated { key: key.clone(), value: word.clone() });
-                    }
-                }
-                if !allowed {
-                    return Err(SweepError::Syntax { found: format!("{key}={}", words.join(",")) });
-                }
-                let numbers: Result<Vec<f64>, _> = words.iter().map(|word| word.parse()).collect();
-                Ok(match numbers {
-                    Ok(values) => Self { parameter, values, words: Vec::new(), scale: Scale::Linear },
-                    Err(_) => {
-                        let values = (0..count).map(|place| place as f64).collect();
-                        Self { parameter, values, words: words.clone(), scale: Scale::Linear }
-                    }
-                })
-            }
-            Values::Range { from, to, scale, .. } => {
-                let whole = match parameter.kind {
-                    ParameterKind::Number { .. } => false,
-                    ParameterKind::Whole { .. } => true,
-                    _ => return Err(SweepError::NotANumber { parameter }),
-                };
-                for end in [from, to] {
-                    scene.clone().set_value(key, Value::Number(*end))?;
-                }
-                if !allowed {
-                    return Err(SweepError::Count { key: key.clone(), found: count.to_string() });
-                }
-                if from == to {
-                    return Err(SweepError::Nothing { key: key.clone(), at: *from });
-                }
-                if *scale == Scale::Log && (*from <= 0.0 || *to <= 0.0) {
-                    return Err(SweepError::Log { key: key.clone(), from: *from, to: *to });
-                }
-                let mut values = spaced(*from, *to, count, *scale);
-                if whole {
-                    values.iter_mut().for_each(|value| *value = value.round());
-                    values.dedup();
-                }
-                Ok(Self { parameter, values, words: Vec::new(), scale: *scale })
-            }
-        }
-    }
-
-    /// A value as it is written in `--set`.
-    pub fn text(&self, value: f64) -> String {
-        self.words.get(value as usize).cloned().unwrap_or_else(|| value.to_string())
-    }
-}
-
-/// What cannot be swept. Found before anything is solved.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SweepError {
-    /// Not of the form asked for.
-    #[error(
-        "vary {found}: expected key=from:to:count or key=from:to:count:log, as in film.min_spacing_nm=50:400:8:log, or a list of two \
-         values or more, as in film.slip=none,first-order"
-    )]
-    Syntax {
-        /// What was given.
-        found: String,
-    },
-    /// Too few values, or too many.
-    #[error("vary {key}: count = {found} is out of range: allowed 2 to {MOST_VALUES}")]
-    Count {
-        /// The key.
-        key: String,
-        /// The count given.
-        found: String,
-    },
-    /// Both ends are the same.
-    #[error("vary {key}: from {at} to {at} is no range: the ends have to differ")]
-    Nothing {
-        /// The key.
-        key: String,
-        /// Both ends.
-        at: f64,
-    },
-    /// Equal ratios from or to zero or below.
-    #[error("vary {key}: from {from} to {to} cannot be spaced by equal ratios: for :log both ends have to be above 0")]
-    Log {
-        /// The key.
-        key: String,
-        /// First value.
-        from: f64,
-        /// Last value.
-        to: f64,
-    },
-    /// A key whose values are not numbers.
-    #[error("vary {}: it accepts {}, and only a number has a range; list its values, divided by commas", parameter.key, parameter.accepts())]
-    NotANumber {
-        /// The key.
-        parameter: &'static Parameter,
-    },
-    /// A list with the same value twice.
-    #[error("vary {key}: {value} is listed twice")]
-    Repeated {
-        /// The key.
-        key: String,
-        /// The value.
-        value: String,
-    },
-    /// No axis, or more than [`MOST_KEYS`].
-    #[error("vary: {found} keys given: allowed 1 to {MOST_KEYS}")]
-    Axes {
-        /// How many.
-        found: usize,
-    },
-    /// Two axes with one key.
-    #[error("vary {key}: given twice: the keys have to differ")]
-    Twice {
-        /// The key.
-        key: String,
-    },
-    /// More points than anyone waits for.
-    #[error("vary: {found} points: allowed up to {MOST_POINTS}")]
-    Points {
-        /// How many.
-        found: usize,
-    },
-    /// A value outside its range, or a key that does not exist.
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    /// A method that does not apply, or more memory than is allowed.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-}
 
 /// How a point ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -271,6 +49,8 @@ pub struct Row {
     pub ending: Ending,
     /// The numbers; none if it failed.
     pub numbers: Numbers,
+    /// Names of the limits of the model that it exceeds; none if it failed.
+    pub outside: Vec<&'static str>,
 }
 
 /// A sweep, checked: at least one of its points is a scene that can be solved.
@@ -471,46 +251,34 @@ impl Sweep {
                 break;
             }
             let Point { values, problem } = &self.points[point];
+            let mut row = Row {
+                point,
+                values: values.clone(),
+                ending: Ending::Converged,
+                numbers: Numbers::default(),
+                outside: Vec::new(),
+            };
             let solved = problem
                 .as_ref()
                 .map_err(Clone::clone)
                 .and_then(|problem| Ok((problem, attempt_from(&mut warm, problem, &settings, &mut (), cancel)?)));
-            let (ending, numbers) = match solved {
+            match solved {
                 Ok((problem, solution)) => {
-                    let ending = match solution.status {
-                        Status::Converged => Ending::Converged,
-                        Status::NotConverged { .. } | Status::NotResolved { .. } => Ending::NotConverged,
+                    match solution.status {
+                        Status::Converged => {}
+                        Status::NotConverged { .. } | Status::NotResolved { .. } => row.ending = Ending::NotConverged,
                         Status::Cancelled => break,
-                    };
-                    (ending, Numbers::of(problem, &solution))
+                    }
+                    row.numbers = Numbers::of(problem, &solution);
+                    row.outside = validity::names(&validity::outside(problem, Some(&solution)));
                 }
-                Err(reason) => (Ending::Failed(reason), Numbers::default()),
-            };
-            let row = Row { point, values: values.clone(), ending, numbers };
+                Err(reason) => row.ending = Ending::Failed(reason),
+            }
             finished(&row);
             rows.push(row);
         }
         rows
     }
-}
-
-/// `count` values from `from` to `to`, both exact; those between to ten digits, so that they can be written down.
-pub fn spaced(from: f64, to: f64, count: usize, scale: Scale) -> Vec<f64> {
-    let last = count.saturating_sub(1).max(1);
-    let value = |i: usize| {
-        let share = i as f64 / last as f64;
-        match (i, scale) {
-            (0, _) => from,
-            (i, _) if i == last => to,
-            (_, Scale::Linear) => short(from * (1.0 - share) + to * share),
-            (_, Scale::Log) => short((from.ln() * (1.0 - share) + to.ln() * share).exp()),
-        }
-    };
-    (0..count).map(value).collect()
-}
-
-fn short(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
@@ -565,7 +333,8 @@ impl Fnv {
 mod tests {
     use super::*;
     use crate::fidelity::Fidelity;
-    use crate::scene::presets;
+    use crate::scene::Value;
+    use crate::scene::{Scale, presets};
 
     fn sweep(preset: &str, vary: &[&str]) -> Result<Sweep, SweepError> {
         let vary = vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;

@@ -11,7 +11,7 @@ use super::summary::duration;
 use super::terminal;
 use crate::analysis::compare::{Run, results, runs};
 use crate::export::animation::Options;
-use crate::export::compare::{Object, difference_text, ending, frames, parameter_rows, status, value_text};
+use crate::export::compare::{LIMITS, Object, difference_text, ending, frames, parameter_rows, status, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
 use crate::fidelity::Fidelity;
@@ -164,6 +164,13 @@ fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
             }
         }
         columns.row(cells);
+    }
+    if runs.iter().any(|run| !run.outside().is_empty()) {
+        let names = |(i, run): (usize, &Run)| {
+            let names = run.outside().join(", ");
+            if i == 0 { vec![names] } else { vec![names, String::new()] }
+        };
+        columns.row(std::iter::once(LIMITS.to_owned()).chain(runs.iter().enumerate().flat_map(names)));
     }
     text.push('\n');
     text.push_str(&columns.text("  ", &right));

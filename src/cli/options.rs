@@ -85,7 +85,7 @@ pub(super) struct SolveOptions {
     pub(super) accuracy: Option<Fidelity>,
 
     /// Time for each solve: 20ms, 1.5s or 2min; then the best so far is the result
-    #[arg(long, value_name = "TIME", value_parser = duration)]
+    #[arg(long, value_name = "TIME", value_parser = time)]
     pub(super) budget: Option<Duration>,
 
     /// Which algorithm
@@ -154,6 +154,11 @@ impl MemoryOptions {
             memory::allow(bytes);
         }
     }
+
+    /// The option again, after a space, for a command to be copied; empty if it was not given.
+    pub(super) fn option(&self) -> String {
+        self.memory.map_or_else(String::new, |bytes| format!(" --memory {}KB", bytes as f64 / 1e3))
+    }
 }
 
 fn memory_size(text: &str) -> Result<u64, String> {
@@ -215,7 +220,7 @@ fn accuracy(text: &str) -> Result<Fidelity, String> {
 }
 
 /// A time as people write it: `20ms`, `1.5s`, `2min`.
-fn duration(text: &str) -> Result<Duration, String> {
+pub(super) fn time(text: &str) -> Result<Duration, String> {
     let text = text.trim();
     let (number, unit) = [("ms", 1e-3), ("min", 60.0), ("s", 1.0)]
         .into_iter()
@@ -273,7 +278,18 @@ mod tests {
     }
 
     #[test]
+    fn times_are_read_with_their_units() {
+        let read = |text: &str| time(text).map(|time| time.as_secs_f64());
+        assert_eq!([read("16ms"), read(" 2 s"), read("1.5min")], [Ok(0.016), Ok(2.0), Ok(90.0)]);
+        for wrong in ["", "16", "0ms", "-1s", "nan s", "16 hours", "ms", "2000min"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn a_command_can_be_copied() {
+        let memory = MemoryOptions { memory: Some(1_500_000) };
+        assert_eq!((memory.option(), memory_size("1500KB")), (" --memory 1500KB".to_owned(), Ok(1_500_000)));
         let changes = vec![("motor.waves".to_owned(), "8".to_owned()), ("name".to_owned(), "my motor's".to_owned())];
         assert_eq!(
             SceneOptions { changes }.command("my file.toml"),

@@ -12,12 +12,12 @@ use super::terminal;
 use crate::atomic::Staged;
 use crate::digits::{significant, with_error};
 use crate::export::json::{self, force_unit};
-use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, unsettled, write_csv};
+use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, warnings, write_csv};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
-use crate::solution::Status;
-use crate::solve::{Method, Record, Settings, solve};
+use crate::solution::{Accuracy, Status, StoppedBy};
+use crate::solve::Method;
 use crate::startup::{self, Cycle, Startup};
 use clap::Args;
 use std::time::Instant;
@@ -38,7 +38,8 @@ Files of --out:
 /// Starts a preset from rest and follows it, cycle by cycle, until the cycle repeats
 ///
 /// At t = 0 the wave stands still, pressed against the rotor, and the gas is at ambient pressure. Every tooth is marched. The
-/// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors.
+/// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors. Cycles are marched again
+/// on finer grids until the headline of every one is as exact as was asked, as a share of the greatest of them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -92,27 +93,27 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     };
 
     let bar = Bar::share();
-    let (mut rows, mut loads, mut frames) = (Vec::new(), Vec::new(), 0);
+    let (mut rows, mut loads): (Vec<Row>, Vec<Vec<f64>>) = Default::default();
     let mut each = |cycle: Cycle| {
         let row = Row::of(&problem, &cycle);
-        let what = format!("cycle {}: {}", row.cycle, significant(row.main().0, 4));
-        bar.share_done(share(&row, &settings), &what);
-        loads.extend_from_slice(&cycle.recording.film_load);
-        frames = cycle.recording.frames;
-        rows.push(row);
+        let main = significant(row.main().0, 4);
+        if row.cycle > rows.len() {
+            bar.share_done(share(&row, &settings), &format!("cycle {}: {main}", row.cycle));
+            rows.push(row);
+            loads.push(cycle.recording.film_load);
+        } else {
+            bar.share_done(1.0, &format!("cycle {} on finer grids: {main}", row.cycle));
+            loads[cycle.number - 1] = cycle.recording.film_load;
+            rows[cycle.number - 1] = row;
+        }
     };
     let started = Instant::now();
     let ended = startup::startup(&problem, &settings, &mut each, &cancel);
     let wall_s = started.elapsed().as_secs_f64();
     drop(bar);
     let ended = ended?;
-    let periodic = solve(
-        &problem,
-        &Settings { fidelity: settings.fidelity, record: Record::Numbers, ..Settings::default() },
-        &mut (),
-        &cancel,
-    )?;
-    let steady = steady(&problem, &periodic);
+    let (steady, warnings) = (steady(&problem, &ended), warnings(&ended));
+    let Accuracy { asked, stated, stopped_by } = ended.accuracy;
 
     let object = Object {
         schema: SCHEMA,
@@ -123,6 +124,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         converged: converged(&ended),
         remaining: ended.remaining.is_finite().then_some(ended.remaining),
         tolerance: settings.tolerance,
+        accuracy_asked: (asked > 0.0).then_some(asked),
+        accuracy_stated: stated.is_finite().then_some(stated),
+        stopped_by: stopped_by.name(),
         steady: steady.map(|(value, _)| value),
         steady_error: steady.map(|(_, error)| error),
         film_steps: ended.stats.film_steps,
@@ -131,12 +135,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         unsettled_steps: ended.stats.unsettled_steps,
         wall_s,
         rows: &rows,
+        warnings: &warnings,
         version: env!("CARGO_PKG_VERSION"),
         command,
     };
-    if let Some(warning) = unsettled(&ended) {
-        terminal::warning(&warning);
-    }
+    warnings.iter().for_each(|warning| terminal::warning(warning));
     let human = text(&scene, &problem, &rows, &ended, steady);
     terminal::result(arguments.output.json, || json::text(&object), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
@@ -144,7 +147,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let mut staged = Staged::new(folder)?;
         staged.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
         staged.add("startup.json", |out| out.write_all(json::text(&object).as_bytes()))?;
-        let mut drawn = figure(&problem, &rows, steady, &loads, frames);
+        let mut drawn = figure(&problem, &rows, steady, &loads);
         drawn.provenance.fidelity = settings.fidelity.to_string();
         if let Some((value, error)) = rows.last().map(Row::main) {
             drawn.provenance.error = format!("ends at {}", with_error(value, error));
@@ -218,5 +221,24 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
             "",
         ));
     }
+    if ended.accuracy.stated.is_finite() {
+        text.push_str(&paragraph(&exactness(&ended.accuracy), "", ""));
+    }
+    text
+}
+
+/// What was stated of the errors, and what was asked.
+fn exactness(accuracy: &Accuracy) -> String {
+    let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
+    let mut text = format!("The mean of every cycle is known to {} of the greatest of them", percent(accuracy.stated));
+    if accuracy.asked > 0.0 {
+        text.push_str(&format!(" ({} asked for)", percent(accuracy.asked)));
+    }
+    text.push_str(match accuracy.stopped_by {
+        StoppedBy::Accuracy => ".",
+        StoppedBy::Budget => "; the time allowed was up.",
+        StoppedBy::Limit if accuracy.asked > 0.0 => "; finer grids would not do, or take too much.",
+        StoppedBy::Limit => ", on the grids of the scene.",
+    });
     text
 }

@@ -13,6 +13,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
 use crate::digits::{significant, with_error};
+use crate::export::compare::LIMITS;
 use crate::export::files;
 use crate::export::json;
 use crate::export::sweep::{Object, ReadError, read_saved, write_saved};
@@ -221,15 +222,16 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
     let mut columns = Columns::new();
     let labels = |quantities: &[Quantity]| {
         let keys = keys.iter().map(ToString::to_string);
-        keys.chain(quantities.iter().map(|quantity| quantity.label(sweep.problem())))
-            .chain([String::new()])
-            .collect::<Vec<_>>()
+        keys.chain(quantities.iter().map(|quantity| quantity.label(sweep.problem()))).collect::<Vec<_>>()
     };
-    columns.row(labels(&shown));
+    // Where the model is out of its depth; nothing if it nowhere is.
+    let limits = if rows.iter().any(|row| !row.outside.is_empty()) { LIMITS } else { "" };
+    columns.row(labels(&shown).into_iter().chain([limits.to_owned()]));
     for row in rows {
         let mut cells: Vec<String> =
             sweep.axes().iter().zip(&row.values).map(|(axis, value)| axis.text(*value)).collect();
         cells.extend(shown.iter().map(|quantity| number(row, *quantity)));
+        cells.push(row.outside.join(", "));
         cells.push(match &row.ending {
             Ending::Converged => String::new(),
             Ending::NotConverged => "NOT CONVERGED".to_owned(),
@@ -291,16 +293,24 @@ mod tests {
         let sweep = Sweep::new(&scene, &[vary], &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.25);
-        let row = |point: usize, ending: Ending| Row { point, values: sweep.values(point).to_vec(), ending, numbers };
+        let row = |point: usize, ending: Ending| {
+            let outside = if point == 2 { vec!["slip-law", "sound"] } else { Vec::new() };
+            Row { point, values: sweep.values(point).to_vec(), ending, numbers, outside }
+        };
         let mut rows = vec![row(0, Ending::Converged)];
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Solved);
         rows.push(row(1, Ending::NotConverged));
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::NotConverged);
         rows.push(row(2, Ending::Failed("no".to_owned())));
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Other);
+        assert!(!text(&sweep, &rows[..2]).contains("limits exceeded"));
         let shown = text(&sweep, &rows);
+        assert!(shown.contains("limits exceeded"), "{shown}");
         assert!(shown.lines().any(|line| line.contains("150 ") && line.ends_with("NOT CONVERGED")), "{shown}");
-        assert!(shown.lines().any(|line| line.contains("200 ") && line.ends_with("FAILED")), "{shown}");
+        assert!(
+            shown.lines().any(|line| line.contains("200 ") && line.ends_with("slip-law, sound  FAILED")),
+            "{shown}"
+        );
         assert!(shown.contains("0.2500 (error not estimated)") && shown.contains("0.481"), "{shown}");
     }
 }

@@ -4,22 +4,23 @@ use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
-use super::options::{MemoryOptions, OutputOptions, SceneOptions};
+use super::options::{MemoryOptions, OutputOptions, SceneOptions, time};
 use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
 use super::terminal;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::tradeoff::{Effort, Point, Tradeoff, Wish, candidates, measure};
+use crate::analysis::tradeoff::{Effort, Ended, Point, Tradeoff, Wish, candidates, measure};
 use crate::atomic::Staged;
 use crate::digits::significant;
 use crate::export::json;
 use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
+use crate::fidelity::parse_accuracy;
 use crate::problem::Problem;
 use crate::scene::show_text;
 use crate::solve::{Settings, check};
 use clap::Args;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,11 +28,11 @@ Examples:
   squeezefilm tradeoff fundamental --accuracy 1% --budget 16ms
   squeezefilm tradeoff levitating --repeats 9 --out results";
 
-/// Measures error against solve time of every fidelity, of some grids and of the paper's method, now, on this machine
+/// Measures error against solve time of several accuracies, of some grids and of the paper's method, now, on this machine
 ///
-/// Runs are interleaved and medians are reported. Errors are shares of α (of a plate: of the film load). A setting is
-/// judged by the greater of two: its distance from the most accurate one plus that one's own stated error, and the error it
-/// states of itself. Takes about a minute.
+/// Every setting solves the scene's own model; only the grids differ. Runs are interleaved and medians are reported. Errors are shares
+/// of α (of a plate: of the film load). A setting is judged by the greater of two: its distance from the most accurate one plus that
+/// one's own stated error, and the error it states of itself. Takes about a minute.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -40,12 +41,12 @@ pub(super) struct Arguments {
     preset: String,
 
     /// Recommends the cheapest setting with at most this error: 1% or 0.01
-    #[arg(long, value_name = "SHARE", value_parser = accuracy)]
+    #[arg(long, value_name = "SHARE", value_parser = parse_accuracy)]
     accuracy: Option<f64>,
 
     /// Recommends the most accurate setting within this time: 16ms, 2s or 1min
-    #[arg(long, value_name = "TIME", value_parser = budget)]
-    budget: Option<f64>,
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    budget: Option<Duration>,
 
     /// Runs of every setting [default: as many as fit into about a minute, 1 to 31]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
@@ -62,28 +63,6 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     figures: FigureOptions,
-}
-
-fn accuracy(text: &str) -> Result<f64, String> {
-    let (number, unit) = match text.trim().strip_suffix('%') {
-        Some(number) => (number, 1e-2),
-        None => (text, 1.0),
-    };
-    positive(number, unit).ok_or_else(|| "expected a share above 0, as in 1% or 0.01".to_owned())
-}
-
-fn budget(text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0)];
-    let split = units.iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, *unit)));
-    split
-        .and_then(|(number, unit)| positive(number, unit))
-        .ok_or_else(|| "expected a time above 0 with its unit, as in 16ms, 2s or 1min".to_owned())
-}
-
-fn positive(number: &str, unit: f64) -> Option<f64> {
-    let value = number.trim().parse::<f64>().ok()? * unit;
-    (value.is_finite() && value > 0.0).then_some(value)
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
@@ -109,7 +88,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("cancelled; measured was\n\n{human}"));
         return Ok(Exit::Other);
     }
-    let wishes = [arguments.accuracy.map(Wish::Accuracy), arguments.budget.map(Wish::Budget)];
+    let budget = arguments.budget.map(|time| Wish::Budget(time.as_secs_f64()));
+    let wishes = [arguments.accuracy.map(Wish::Accuracy), budget];
     let wishes: Vec<Wish> = wishes.into_iter().flatten().collect();
     let object = Object {
         schema: SCHEMA,
@@ -121,7 +101,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         version: env!("CARGO_PKG_VERSION"),
         command,
     };
-    let alone = arguments.scene.command(&arguments.preset);
+    let alone = arguments.scene.command(&arguments.preset) + &arguments.memory.option();
     let advice: String = wishes.iter().map(|wish| advice(&tradeoff, *wish, &alone)).collect();
     terminal::result(arguments.output.json, || json::text(&object), || human + &advice);
     terminal::note(&format!("measured in {}", duration(wall_s)));
@@ -148,7 +128,7 @@ fn choice(tradeoff: &Tradeoff, wish: Wish) -> ChoiceObject {
         wish: name,
         value,
         setting: chosen.map(|candidate| candidate.name.clone()),
-        options: chosen.map(|candidate| candidate.options()),
+        options: chosen.map(|candidate| candidate.options.clone()),
     }
 }
 
@@ -167,7 +147,7 @@ fn advice(tradeoff: &Tradeoff, wish: Wish, alone: &str) -> String {
         point.run.candidate.name,
         duration(point.median),
         point.error.map_or_else(String::new, percent),
-        point.run.candidate.options()
+        point.run.candidate.options
     )
 }
 
@@ -222,8 +202,8 @@ fn cells(point: &Point, judged: Quantity, reference: bool) -> Vec<String> {
     let time = |seconds: f64| if seconds.is_finite() { duration(seconds) } else { String::new() };
     let mark = match (&run.ended, reference, point.best) {
         (_, true, _) => "reference".to_owned(),
-        (crate::analysis::tradeoff::Ended::Converged, _, true) => "best".to_owned(),
-        (crate::analysis::tradeoff::Ended::Converged, _, false) => String::new(),
+        (Ended::Converged, _, true) => "best".to_owned(),
+        (Ended::Converged, _, false) => String::new(),
         (ended, ..) => status(ended).to_uppercase(),
     };
     vec![
@@ -240,22 +220,4 @@ fn cells(point: &Point, judged: Quantity, reference: bool) -> Vec<String> {
         count(Quantity::ContactSolves),
         mark,
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shares_and_times_are_read_with_their_units() {
-        let near = |found: Result<f64, String>, expected: f64| (found.unwrap() / expected - 1.0).abs() < 1e-12;
-        assert!(near(accuracy("1%"), 0.01) && near(accuracy("0.5 %"), 0.005) && near(accuracy("0.01"), 0.01));
-        assert!(near(budget("16ms"), 0.016) && near(budget(" 2 s"), 2.0) && near(budget("1.5min"), 90.0));
-        for wrong in ["", "%", "-1%", "0", "nan", "inf%", "one"] {
-            assert!(accuracy(wrong).is_err(), "{wrong}");
-        }
-        for wrong in ["", "16", "0ms", "-1s", "16 hours", "ms"] {
-            assert!(budget(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -168,6 +168,7 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
         "label",
         "scene",
         "status",
+        "validity",
         "quantity",
         "unit",
         "value",
@@ -183,6 +184,7 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
                 &csv_words(&run.label),
                 run.scene.scene(),
                 &status(run),
+                &run.outside().join(";"),
                 row.quantity.name(),
                 cell.unit,
                 &number(cell.value),
@@ -483,6 +485,9 @@ pub(super) fn again(page: &mut Page, command: &[String]) {
     ));
 }
 
+/// The row of a table of results that names where the model is out of its depth, in each run.
+pub const LIMITS: &str = "limits exceeded";
+
 /// With more runs than this, differences stand below the values instead of beside them.
 const BESIDE: usize = 3;
 
@@ -522,6 +527,16 @@ fn result_table(runs: &[Run]) -> Table {
                 (_, 0) => cells.push((kind, value)),
                 (true, _) => cells.extend([(kind, value), (Kind::Number, difference)]),
                 (false, _) => cells.push((kind, format!("{value}\n{difference}"))),
+            }
+        }
+        table.row(cells);
+    }
+    if runs.iter().any(|run| !run.outside().is_empty()) {
+        let mut cells = vec![(Kind::Words, LIMITS.to_owned())];
+        for (i, run) in runs.iter().enumerate() {
+            cells.push((Kind::Words, run.outside().join(", ")));
+            if beside && i > 0 {
+                cells.push((Kind::Words, String::new()));
             }
         }
         table.row(cells);

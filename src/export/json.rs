@@ -18,6 +18,10 @@ use serde::Serialize;
 /// The version of the object.
 pub const SCHEMA: u32 = 1;
 
+/// Why a torque has no error.
+const NO_TORQUE_ERROR: &str = "no error of torque, power, speed and efficiency is known (null in the JSON): it is estimated from nested \
+                               grids, and this was solved on one mesh; that of α is stated";
+
 /// The object. Numbers that a scene does not have, and numbers that are not finite, are null.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
@@ -214,7 +218,8 @@ impl Summary {
                 summary.fill_motor(motor, result, &mut numbers);
                 if let Some(Performance { stall_torque, .. }) = &solution.performance {
                     summary.stall_torque_nm = numbers.take("stall_torque_nm", stall_torque.value);
-                    summary.stall_torque_error_nm = numbers.take("stall_torque_error_nm", stall_torque.error);
+                    // Of a recording on one mesh there is no estimate.
+                    summary.stall_torque_error_nm = stall_torque.error.is_finite().then_some(stall_torque.error);
                 }
             }
             // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
@@ -222,6 +227,9 @@ impl Summary {
             (Scenario::Motor(_), Outcome::Plate(_)) => summary.scene = "motor",
         }
         summary.warnings = solution.warnings.clone();
+        if summary.stall_torque_nm.is_some() && summary.stall_torque_error_nm.is_none() {
+            summary.warnings.push(NO_TORQUE_ERROR.to_owned());
+        }
         if !numbers.unknown.is_empty() {
             summary.warnings.push(format!("not known, hence null: {}", numbers.unknown.join(", ")));
         }

@@ -1,9 +1,10 @@
 //! A start-up as JSON and as CSV, with the same names, and as a figure.
 
+use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::export::json::force_unit;
 use crate::problem::{Problem, Scenario};
-use crate::solution::{Outcome, PlateResult, Solution, Status};
+use crate::solution::{Outcome, PlateResult, Status};
 use crate::startup::{Cycle, Startup};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -115,6 +116,13 @@ pub struct Object<'a> {
     pub remaining: Option<f64>,
     /// What that had to fall below.
     pub tolerance: f64,
+    /// Error of every cycle's headline (α, or the mean load) that was asked for, relative to the greatest of them; null on grids that the
+    /// scene prescribes.
+    pub accuracy_asked: Option<f64>,
+    /// The largest that is stated, likewise.
+    pub accuracy_stated: Option<f64>,
+    /// Why no finer grid was marched: `accuracy`, `budget` or `limit`.
+    pub stopped_by: &'static str,
     /// Where the periodic solve says that this ends: α, or the load ratio …
     pub steady: Option<f64>,
     /// … and its stated error.
@@ -127,10 +135,12 @@ pub struct Object<'a> {
     pub coupling_iterations: u64,
     /// Steps in which film and contact did not agree to the tolerance within their rounds.
     pub unsettled_steps: u64,
-    /// Wall time \[s\].
+    /// Wall time \[s\], the periodic solve included.
     pub wall_s: f64,
     /// One for each cycle.
     pub rows: &'a [Row],
+    /// What the user should know.
+    pub warnings: &'a [String],
     /// Version of this program.
     pub version: &'static str,
     /// The command line, word by word; empty if there was none.
@@ -138,17 +148,17 @@ pub struct Object<'a> {
 }
 
 /// What the periodic solve says of where a start-up ends: α, or the load ratio, and its stated error.
-pub fn steady(problem: &Problem, periodic: &Solution) -> Option<(f64, f64)> {
-    if periodic.status != Status::Converged {
-        return None;
-    }
-    match (&periodic.outcome, &problem.scenario) {
-        (Outcome::Motor(result), _) => Some((result.alpha, result.alpha_error)),
-        (Outcome::Plate(result), Scenario::Plate(plate)) => {
-            Some((PlateResult::ratio(result.film_load, plate), PlateResult::ratio(result.film_load_error, plate)))
-        }
-        (Outcome::Plate(_), Scenario::Motor(_)) => None,
-    }
+pub fn steady(problem: &Problem, startup: &Startup) -> Option<(f64, f64)> {
+    let Estimate { value, error } = startup.steady?;
+    Some(match &problem.scenario {
+        Scenario::Motor(_) => (value, error),
+        Scenario::Plate(plate) => (PlateResult::ratio(value, plate), PlateResult::ratio(error, plate)),
+    })
+}
+
+/// What the user should know: of the scene, and of steps that did not settle.
+pub fn warnings(startup: &Startup) -> Vec<String> {
+    startup.warnings.iter().cloned().chain(unsettled(startup)).collect()
 }
 
 /// Whether it ended because the cycle repeats.
@@ -187,8 +197,8 @@ pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Re
     out.flush()
 }
 
-/// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] at `frames` equal steps a cycle.
-pub fn figure(problem: &Problem, rows: &[Row], steady: Option<(f64, f64)>, loads: &[f64], frames: usize) -> Figure {
+/// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
+pub fn figure(problem: &Problem, rows: &[Row], steady: Option<(f64, f64)>, loads: &[Vec<f64>]) -> Figure {
     let motor = matches!(problem.scenario, Scenario::Motor(_));
     let label = if motor { "film share of the load α" } else { "film load over p_a × area" };
     let at = |row: &Row| (row.cycle as f64, row.main());
@@ -202,7 +212,10 @@ pub fn figure(problem: &Problem, rows: &[Row], steady: Option<(f64, f64)>, loads
         mark.style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
         means = means.layer(mark);
     }
-    let instants = loads.iter().enumerate().map(|(i, load)| [i as f64 / frames.max(1) as f64, *load]);
+    let instants = loads.iter().enumerate().flat_map(|(cycle, loads)| {
+        let at = move |step: usize| cycle as f64 + step as f64 / loads.len() as f64;
+        loads.iter().enumerate().map(move |(step, load)| [at(step), *load])
+    });
     let film = Panel::new("", Axis::new("t/T", ""), Axis::new("film load", force_unit(problem))).layer(Line::new(
         "",
         instants,

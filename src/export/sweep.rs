@@ -7,6 +7,7 @@ use super::csv::words;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep, digest};
 use crate::analysis::table1::Published;
+use crate::analysis::validity::NAMES;
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Figure, Grid, Layer, Legend, Line, Map, Marker, Panel, Points, Provenance, Range,
     Shading, Shape, Style, Width,
@@ -24,6 +25,9 @@ const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
 /// The last column of what is saved to go on with.
 const CHECK: &str = "check";
+/// Names of the limits of the model that a point exceeds, in a CSV file one after the other with this between them.
+const VALIDITY: &str = "validity";
+const BETWEEN: &str = ";";
 const CONVERGED: &str = "converged";
 const NOT_CONVERGED: &str = "not converged";
 const FAILED: &str = "failed: ";
@@ -40,7 +44,7 @@ pub fn status(ending: &Ending) -> String {
 fn header(sweep: &Sweep) -> Vec<String> {
     let mut names = FIRST.map(str::to_owned).to_vec();
     names.extend(sweep.axes().iter().map(|axis| axis.parameter.key.to_owned()));
-    names.push(STATUS.to_owned());
+    names.extend([STATUS, VALIDITY].map(str::to_owned));
     names.extend(sweep.quantities().into_iter().map(|quantity| quantity.column(sweep.problem())));
     names
 }
@@ -53,6 +57,7 @@ fn record(sweep: &Sweep, row: &Row) -> Vec<String> {
         false => words(&axis.text(*value)).into_owned(),
     }));
     cells.push(status(&row.ending));
+    cells.push(row.outside.join(BETWEEN));
     cells.extend(sweep.quantities().into_iter().map(|quantity| {
         let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
         row.numbers.get(quantity).map_or_else(String::new, show)
@@ -140,15 +145,20 @@ pub fn read_saved(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
                 None => return Err(damaged(line, format!("status = {other}"))),
             },
         };
+        let mut outside = Vec::new();
+        for name in field(column + 1).split(BETWEEN).filter(|name| !name.is_empty()) {
+            let known = NAMES.into_iter().find(|known| *known == name);
+            outside.push(known.ok_or_else(|| damaged(line, format!("{VALIDITY} = {name}")))?);
+        }
         let mut numbers = Numbers::default();
         for (i, quantity) in quantities.iter().enumerate() {
-            let text = field(column + 1 + i);
+            let text = field(column + 2 + i);
             if !text.is_empty() {
                 let value = text.parse().map_err(|_| damaged(line, format!("{} = {text}", quantity.name())))?;
                 numbers.set(*quantity, value);
             }
         }
-        rows.push(Row { point, values: sweep.values(point).to_vec(), ending, numbers });
+        rows.push(Row { point, values: sweep.values(point).to_vec(), ending, numbers, outside });
     }
     Ok(rows)
 }
@@ -206,7 +216,7 @@ fn json_value(axis: &SweepAxis, value: f64) -> serde_json::Value {
     if axis.words.is_empty() { value.into() } else { axis.text(value).into() }
 }
 
-/// One point: its keys, its status, and its quantities by name.
+/// One point: its keys, its status, the names of the limits of the model that it exceeds, and its quantities by name.
 #[derive(Clone, Debug)]
 pub struct RowObject<'a> {
     axes: &'a [SweepAxis],
@@ -222,6 +232,7 @@ impl Serialize for RowObject<'_> {
             map.serialize_entry(axis.parameter.key, &json_value(axis, *value))?;
         }
         map.serialize_entry(STATUS, &status(&self.row.ending))?;
+        map.serialize_entry(VALIDITY, &self.row.outside)?;
         for quantity in &self.quantities {
             let value = self.row.numbers.get(*quantity);
             if quantity.is_count() {
@@ -494,7 +505,13 @@ mod tests {
         numbers.set(Quantity::Alpha, 0.1 + 0.2);
         numbers.set(Quantity::AlphaError, 1e-300);
         let failed = Ending::Failed("film, step 3: no \"solution\",\nat all".to_owned());
-        let row = |point: usize, ending: Ending| Row { point, values: sweep.values(point).to_vec(), ending, numbers };
+        let row = |point: usize, ending: Ending| Row {
+            point,
+            values: sweep.values(point).to_vec(),
+            ending,
+            numbers,
+            outside: vec!["slip-law", "sound"],
+        };
         vec![row(0, Ending::Converged), row(2, failed), row(1, Ending::NotConverged)]
     }
 
@@ -505,7 +522,10 @@ mod tests {
         write_saved(&sweep, &rows(&sweep), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert_eq!(read_saved(&sweep, &text).unwrap(), rows(&sweep));
-        assert!(text.starts_with("sweep,point,stator.frequency_khz,status,alpha,alpha_error,film_load_n,"), "{text}");
+        assert!(
+            text.starts_with("sweep,point,stator.frequency_khz,status,validity,alpha,alpha_error,film_load_n,"),
+            "{text}"
+        );
     }
 
     #[test]
@@ -526,7 +546,8 @@ mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = Row { point: 1, values: plane.values(1).to_vec(), ending: Ending::Converged, numbers };
+        let row =
+            Row { point: 1, values: plane.values(1).to_vec(), ending: Ending::Converged, numbers, outside: Vec::new() };
         let drawn = figure(&plane, &[row]);
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));

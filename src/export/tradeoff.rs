@@ -118,7 +118,7 @@ impl SettingObject {
             film_steps: count(Quantity::FilmSteps),
             coupling_iterations: count(Quantity::Rounds),
             contact_solves: count(Quantity::ContactSolves),
-            options: run.candidate.options(),
+            options: run.candidate.options.clone(),
         }
     }
 }
@@ -153,7 +153,7 @@ pub fn write_csv(tradeoff: &Tradeoff, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
-/// names at the fidelities and the paper's meshes, and rings round the settings in `chosen`.
+/// names at the accuracies, and rings round the settings in `chosen`.
 pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
     let place = |point: &Point| Some([point.median, 100.0 * point.error?]);
     let of = |family: Family| {
@@ -170,7 +170,7 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     panel = panel.layer(Line::new("best", front, Style::quiet().dash(Dash::Dashed)));
     for (family, name, colour, shape) in [
-        (Family::Fidelity, "fidelities", Colour::FILM, Shape::Circle),
+        (Family::Fidelity, "accuracies", Colour::FILM, Shape::Circle),
         (Family::Grid, "other grids", Colour::CYCLE[2], Shape::Triangle),
         (Family::Paper, "the paper's method", Colour::CONTACT, Shape::Square),
     ] {

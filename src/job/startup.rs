@@ -47,8 +47,11 @@ mod tests {
         let (cycles, ended) = to_the_end(&draft(problem("plate-crossover"), 100));
         let ended = ended.unwrap().unwrap();
         assert_eq!(ended.status, Status::Converged);
-        let cycles: Vec<usize> = cycles.iter().map(|cycle| cycle.number).collect();
+        let mut cycles: Vec<usize> = cycles.iter().map(|cycle| cycle.number).collect();
+        let again = cycles.split_off(ended.cycles);
         assert_eq!(cycles, (1..=ended.cycles).collect::<Vec<_>>());
+        // Some of them again, on finer grids.
+        assert!(again.iter().all(|number| (1..=ended.cycles).contains(number)), "{again:?}");
     }
 
     #[test]

@@ -533,6 +533,11 @@ impl Level {
         sum * self.teeth as f64 / (self.stored * self.steps.div_ceil(every)) as f64
     }
 
+    /// α at instant 0: the present, between two cycles of a transient.
+    pub(super) fn alpha_now(&self, motor: &Motor) -> f64 {
+        self.mean_film_load_of(self.steps) / motor.load
+    }
+
     pub(super) fn alpha(&self, motor: &Motor) -> f64 {
         self.mean_film_load() / motor.load
     }

@@ -16,7 +16,7 @@ pub use dry::without_film;
 
 use crate::contact::ContactError;
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate_means};
+use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
 use crate::ladder::{Found, Scene, climb, climb_once};
@@ -259,11 +259,14 @@ pub fn unit(alpha: f64) -> f64 {
     alpha.abs().max(0.01)
 }
 
-/// A motor from rest, cycle after cycle ([`crate::startup`]), on all grids of a plan at once.
+/// A motor from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
 pub struct Transient<'a> {
     motor: &'a Motor,
     plan: Plan,
     levels: Vec<Level>,
+    width_error: f64,
+    /// Error of the last cycle's α that finer grids would not make smaller.
+    elsewhere: f64,
     stats: Stats,
     /// Largest residual of any step so far, in ln ζ.
     worst: f64,
@@ -276,14 +279,15 @@ impl std::fmt::Debug for Transient<'_> {
 }
 
 impl<'a> Transient<'a> {
-    /// At rest, every tooth by itself.
+    /// At rest, every tooth by itself. `width_error`: that of α, by the nodes across; `stats`: what it has cost so far.
     ///
     /// # Errors
     /// [`MotorError::Contact`] if the teeth at rest have no solution to working precision.
-    pub fn at_rest(motor: &'a Motor, plan: &Plan) -> Result<Self, MotorError> {
+    pub fn at_rest(motor: &'a Motor, plan: &Plan, width_error: f64, stats: Stats) -> Result<Self, MotorError> {
         let plan = Plan { every_tooth: true, trapped: false, ..plan.clone() };
-        let levels = levels_at_rest(motor, &plan)?;
-        Ok(Self { motor, plan, levels, stats: Stats::default(), worst: 0.0 })
+        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(motor, &plan, grid)).collect();
+        levels.iter_mut().try_for_each(Level::rest)?;
+        Ok(Self { motor, plan, levels, width_error, elsewhere: 0.0, stats, worst: 0.0 })
     }
 
     /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
@@ -292,30 +296,12 @@ impl<'a> Transient<'a> {
     /// # Errors
     /// [`MotorError`] if a film step or a contact problem has no solution to working precision.
     pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
-        let done = self.stats.cycles;
-        match self.next_cycle(cancel) {
-            // A polynomial across may swing below no pressure at all: once more from rest, with finite volumes.
-            Err(_) if self.plan.spectral => {
-                self.plan = self.plan.volumes();
-                self.levels = levels_at_rest(self.motor, &self.plan)?;
-                for _ in 0..done {
-                    if self.next_cycle(cancel)?.is_none() {
-                        return Ok(None);
-                    }
-                }
-                self.stats.cycles = done;
-                self.next_cycle(cancel)
-            }
-            found => found,
-        }
-    }
-
-    fn next_cycle(&mut self, cancel: &Cancel) -> Result<Option<(MotorResult, Recording, f64)>, MotorError> {
         let tolerance = self.tolerance();
         let finest = self.levels.len() - 1;
-        let mut alphas = Vec::with_capacity(self.levels.len());
+        let (mut alphas, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
+            let start = level.alpha_now(self.motor);
             let maps = self.plan.maps && number == finest;
             let told = |level: &Level| {
                 if number < finest {
@@ -330,7 +316,9 @@ impl<'a> Transient<'a> {
                 Err(Stop::Cancelled) => return Ok(None),
                 Err(Stop::Failed(error)) => return Err(error),
             };
-            alphas.push(level.mean_alpha(self.motor));
+            let end = level.alpha_now(self.motor);
+            alphas.push(level.mean_alpha(self.motor).from_to(start, end, level.steps()));
+            ends.push(end);
             self.stats.film_nodes = level.film_nodes();
             self.stats.contact_nodes = level.contact_nodes();
             self.stats.steps_per_cycle = level.steps();
@@ -340,12 +328,17 @@ impl<'a> Transient<'a> {
         self.worst = self.worst.max(astray);
         let (recording, change) = last;
         let mut result = summarise(self.motor, &recording);
+        // Its frames begin with the start of the cycle, and have not its end.
+        let grown = extrapolate(&ends).value - recording.film_load[0] / self.motor.load;
+        result.set_alpha(self.motor, result.alpha + 0.5 * grown / recording.frames as f64);
         let estimate = extrapolate_means(&alphas);
-        let left_out = if result.levitated { 0.0 } else { self.plan.left_out * estimate.value.abs() };
+        // What floats carries its load whatever the gas is, and whatever was left out.
+        let elsewhere =
+            if result.levitated { 0.0 } else { self.plan.left_out * estimate.value.abs() + self.width_error };
         // What film and contact still disagree by, as a force of the gas; what floats carries its load whatever that is.
         let gas = if result.levitated { 1.0 } else { self.levels[finest].gas_force() / self.motor.load };
-        result.alpha_error =
-            estimate.error.min(1.0) + (result.alpha - estimate.value).abs() + left_out + astray.min(1.0) * gas.max(1.0);
+        self.elsewhere = elsewhere + astray.min(1.0) * gas.max(1.0);
+        result.alpha_error = estimate.error.min(1.0) + (result.alpha - estimate.value).abs() + self.elsewhere;
         Ok(Some((result, recording, change)))
     }
 
@@ -354,22 +347,20 @@ impl<'a> Transient<'a> {
         0.1 * self.plan.tolerance
     }
 
-    /// If steps were taken although film and contact did not agree: not converged, by the largest residual of any of them.
-    pub fn unsettled(&self) -> Option<Status> {
-        let tolerance = self.tolerance();
-        (self.stats.unsettled_steps > 0).then_some(Status::NotConverged { residual: self.worst, tolerance })
+    /// Error of the last cycle's α that finer grids would not make smaller, absolute.
+    pub fn elsewhere(&self) -> f64 {
+        self.elsewhere
+    }
+
+    /// The largest residual of steps that were taken although film and contact did not agree, and what was allowed, in ln ζ.
+    pub fn unsettled(&self) -> Option<(f64, f64)> {
+        (self.worst > self.tolerance()).then_some((self.worst, self.tolerance()))
     }
 
     /// What it has cost so far, all grids.
     pub fn stats(&self) -> Stats {
         self.stats
     }
-}
-
-fn levels_at_rest(motor: &Motor, plan: &Plan) -> Result<Vec<Level>, MotorError> {
-    let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(motor, plan, grid)).collect();
-    levels.iter_mut().try_for_each(Level::rest)?;
-    Ok(levels)
 }
 
 /// α with its error.
@@ -440,6 +431,7 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
         levitated: recording.teeth_in_contact.iter().all(|&teeth| teeth == 0),
         min_gap: least(&recording.min_film_thickness),
         max_pressure: most(&recording.max_pressure),
+        max_contact: most(&recording.contact),
         ..MotorResult::default()
     };
     result.set_alpha(motor, mean(&recording.film_load) / motor.load);

@@ -141,6 +141,7 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         levitated: touching == 0,
         min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
         max_pressure,
+        max_contact: most(&recording.contact),
     };
     let teeth = motor.teeth as u64;
     let stats = Stats {

@@ -38,7 +38,9 @@ struct KeptCycles {
 impl KeptCycles {
     fn insert(&mut self, number: usize, run: Arc<SolvedScene>, most: usize) {
         self.bytes += bytes(&run.solution.recording);
-        self.runs.insert(number, run);
+        if let Some(coarse) = self.runs.insert(number, run) {
+            self.bytes -= bytes(&coarse.solution.recording);
+        }
         while self.bytes > most && self.runs.len() > 1 {
             let numbers: Vec<usize> = self.runs.keys().copied().collect();
             // What changes, changes less and less: the one whose neighbours are the nearest in proportion.
@@ -110,14 +112,21 @@ impl StartupState {
 
     fn take(&mut self, cycle: Cycle) {
         let Cycle { number, outcome, remaining, recording, .. } = cycle;
-        self.points.push(Point { number, outcome, remaining });
+        let point = Point { number, outcome, remaining };
+        let newest = number > self.points.len();
+        if newest {
+            self.points.push(point);
+        } else {
+            // The same cycle on finer grids.
+            self.points[number - 1] = point;
+        }
         let ranges = Ranges::of(&recording);
         self.ranges = Some(self.ranges.map_or(ranges, |known| known.and(ranges)));
         let number_of_run = FIRST_NUMBER * (1 + self.count) + number as u64;
         let (scene, problem) = (self.scene.clone(), self.problem.clone());
         let run = as_solved(number_of_run, scene, problem, self.fidelity, outcome, recording);
         self.kept.insert(number, Arc::new(run), MOST_BYTES);
-        if self.follow || self.chosen == 0 {
+        if newest && self.follow || self.chosen == 0 {
             self.chosen = number;
         } else {
             // What was looked at may no longer be kept.

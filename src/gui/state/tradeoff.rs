@@ -1,6 +1,6 @@
 //! Error against time as the window has it: of which scene, how far, and what was found.
 
-use crate::analysis::tradeoff::{Candidate, Family, Run, Tradeoff};
+use crate::analysis::tradeoff::{Candidate, Family, Run, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
 use crate::job::task::{News, Task};
 use crate::job::tradeoff::Progress;
@@ -102,9 +102,9 @@ impl TradeoffState {
         &self.scene.name
     }
 
-    /// Whether `scene` is another one than was measured. Numerics do not matter: each setting brings its own.
+    /// Whether `scene` is another one than was measured. Its grid does not matter: each setting brings its own.
     pub fn stale(&self, scene: &Scene) -> bool {
-        self.scene.kind != scene.kind
+        self.scene.kind != scene.kind || without_grid(&self.scene.numerics) != without_grid(&scene.numerics)
     }
 }
 
@@ -119,12 +119,8 @@ pub fn is_present(candidate: &Candidate, target: Fidelity, numerics: Numerics) -
 /// Adds the present setting to what is measured, if it is not there.
 pub fn with_present(candidates: &mut Vec<Candidate>, target: Fidelity, numerics: Numerics) {
     if !candidates.iter().any(|candidate| is_present(candidate, target, numerics)) {
-        candidates.push(Candidate {
-            name: PRESENT.to_owned(),
-            family: Family::Grid,
-            settings: Settings { fidelity: target, ..Settings::default() },
-            numerics,
-        });
+        let settings = Settings { fidelity: target, ..Settings::default() };
+        candidates.push(Candidate::new(PRESENT.to_owned(), Family::Grid, settings, numerics, &numerics));
     }
 }
 

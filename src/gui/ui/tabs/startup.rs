@@ -7,6 +7,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::views;
 use crate::solution::Status;
+use crate::startup::Settings;
 use eframe::egui::{self, RichText, TextStyle};
 
 /// Height of the plots: their share of the tab, and at least and at most this many lines of text.
@@ -85,6 +86,9 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
         ui.label(RichText::new(text).color(colour));
         ui.label(RichText::new(format!("computed at {}", startup.fidelity())).color(cx.colours.quiet));
     });
+    if let Some(Ok(ended)) = startup.ended() {
+        ended.warnings.iter().for_each(|warning| cx.say(ui, warning.clone(), cx.colours.alarm));
+    }
     if startup.stale(cx.state.document.scene()) {
         let text = format!("Of “{}” before the scene changed; start again", startup.name());
         cx.say(ui, text, cx.colours.alarm);
@@ -106,6 +110,9 @@ fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) ->
     };
     match startup.ended() {
         None if cycles == 0 => ("The first cycle is being computed".to_owned(), usual),
+        None if remaining < Settings::default().tolerance => {
+            (format!("Cycle {cycles}: repeats; cycles follow on finer grids"), usual)
+        }
         None => (format!("Cycle {cycles}: {open}"), usual),
         Some(Err(message)) => (message.clone(), cx.colours.alarm),
         Some(Ok(ended)) => match ended.status {

@@ -1,0 +1,125 @@
+//! The curve of error against time that runs make, and which of them serves a wish.
+
+use super::measure::{Ended, Run};
+use crate::analysis::quantity::Quantity;
+use crate::solve::Method;
+
+/// A setting on the curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// What was measured.
+    pub run: Run,
+    /// Median time \[s\]; NaN before the first run.
+    pub median: f64,
+    /// Lower and upper quartile of the time \[s\].
+    pub quartiles: (f64, f64),
+    /// Its distance from the reference plus the reference's own error, a share of the value that is judged; `None` unless
+    /// it converged and there is a reference.
+    pub measured: Option<f64>,
+    /// The error it states of itself, a share of the value that is judged.
+    pub stated: Option<f64>,
+    /// The greater of the two, by which it is judged.
+    pub error: Option<f64>,
+    /// No other is at once as fast and as accurate.
+    pub best: bool,
+}
+
+/// What a user asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wish {
+    /// An error of at most this share of the value that is judged.
+    Accuracy(f64),
+    /// A time of at most this \[s\].
+    Budget(f64),
+}
+
+/// Error against time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tradeoff {
+    /// All settings, in the order they were measured.
+    pub points: Vec<Point>,
+    /// Which of them the others are judged by: the one that states the least error.
+    pub reference: Option<usize>,
+    /// The number that is judged: α, or a plate's film load.
+    pub judged: Quantity,
+}
+
+impl Tradeoff {
+    /// The curve of these runs, finished or not.
+    pub fn of(runs: &[Run]) -> Self {
+        let plate = runs.iter().any(|run| run.numbers.get(Quantity::LoadRatio).is_some());
+        let judged = if plate { Quantity::FilmLoad } else { Quantity::Alpha };
+        let value = |run: &Run| (run.ended == Ended::Converged).then(|| run.numbers.get(judged)).flatten();
+        let stated = |run: &Run| run.numbers.get(judged.error()?);
+        let reference = runs
+            .iter()
+            .enumerate()
+            .filter(|(_, run)| run.candidate.settings.method == Method::Auto && value(run).is_some())
+            .filter_map(|(i, run)| Some((i, stated(run)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        let truth = reference.and_then(|(i, error)| Some((value(&runs[i])?, error)));
+        let scale = truth.map(|(truth, _)| truth.abs().max(f64::MIN_POSITIVE));
+        let mut points: Vec<Point> = runs
+            .iter()
+            .enumerate()
+            .map(|(i, run)| {
+                let mut times = run.times.clone();
+                times.sort_by(f64::total_cmp);
+                let measured = truth.zip(value(run)).map(|((truth, error), value)| {
+                    let distance =
+                        if reference.is_some_and(|(best, _)| best == i) { 0.0 } else { (value - truth).abs() };
+                    (distance + error) / scale.unwrap_or(1.0)
+                });
+                let stated = stated(run).zip(scale).map(|(stated, scale)| stated / scale);
+                Point {
+                    run: run.clone(),
+                    median: quantile(&times, 0.5),
+                    quartiles: (quantile(&times, 0.25), quantile(&times, 0.75)),
+                    measured,
+                    stated,
+                    error: measured.zip(stated).map(|(measured, stated)| measured.max(stated)),
+                    best: false,
+                }
+            })
+            .collect();
+        let costs: Vec<Option<(f64, f64)>> = points.iter().map(|point| Some((point.median, point.error?))).collect();
+        for (point, best) in points.iter_mut().zip(front(&costs)) {
+            point.best = best;
+        }
+        Self { points, reference: reference.map(|(i, _)| i), judged }
+    }
+
+    /// The cheapest setting that meets an accuracy, or the most accurate that keeps a budget; `None` if none does.
+    pub fn choose(&self, wish: Wish) -> Option<usize> {
+        let known = self.points.iter().enumerate().filter_map(|(i, point)| Some((i, point.median, point.error?)));
+        let (time, error) = (|a: &(usize, f64, f64)| a.1, |a: &(usize, f64, f64)| a.2);
+        match wish {
+            Wish::Accuracy(allowed) => {
+                known.filter(|point| error(point) <= allowed).min_by(|a, b| time(a).total_cmp(&time(b)))
+            }
+            Wish::Budget(allowed) => {
+                known.filter(|point| time(point) <= allowed).min_by(|a, b| error(a).total_cmp(&error(b)))
+            }
+        }
+        .map(|(i, _, _)| i)
+    }
+}
+
+/// Which of these (time, error) are such that no other is at least as good in both and better in one. What is not known
+/// is not among them.
+fn front(costs: &[Option<(f64, f64)>]) -> Vec<bool> {
+    let beaten = |(time, error): (f64, f64)| {
+        costs.iter().flatten().any(|(t, e)| *t <= time && *e <= error && (*t < time || *e < error))
+    };
+    costs.iter().map(|cost| cost.is_some_and(|cost| !beaten(cost))).collect()
+}
+
+/// Of ascending values, linear between them; NaN of none.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = share * sorted.len().saturating_sub(1) as f64;
+    let (low, high) = (place.floor() as usize, place.ceil() as usize);
+    match (sorted.get(low), sorted.get(high)) {
+        (Some(a), Some(b)) => a + (b - a) * (place - place.floor()),
+        _ => f64::NAN,
+    }
+}

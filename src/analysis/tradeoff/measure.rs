@@ -1,0 +1,158 @@
+//! Candidates, measured: interleaved runs, timed by the caller's clock.
+
+use super::candidates::Candidate;
+use crate::analysis::attempt::attempt;
+use crate::analysis::quantity::Numbers;
+use crate::control::{Cancel, Progress};
+use crate::problem::Problem;
+use crate::solution::Status;
+
+/// Most repeats of one setting, if they are chosen by time.
+const MOST_REPEATS: usize = 31;
+
+/// How much to measure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Runs of every setting; `None`: as many as fit into `seconds`, at least one and at most 31.
+    pub repeats: Option<usize>,
+    /// Time for all runs together, shared equally \[s\]; one run of each takes as long as it takes.
+    pub seconds: f64,
+    /// A run that takes longer is given up \[s\].
+    pub longest: f64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { repeats: None, seconds: 40.0, longest: 30.0 }
+    }
+}
+
+/// How the runs of a setting ended: they are all alike but for the time they took.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// Not measured yet.
+    Waiting,
+    /// The cycle repeats to the tolerance.
+    Converged,
+    /// A limit was reached first.
+    NotConverged,
+    /// It took longer than [`Effort::longest`].
+    GivenUp,
+    /// There is no solution, and why.
+    Failed(String),
+}
+
+/// One setting and what was measured of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The setting.
+    pub candidate: Candidate,
+    /// How it ended.
+    pub ended: Ended,
+    /// The numbers; none unless it converged or reached its limit.
+    pub numbers: Numbers,
+    /// Nodes of one tooth's film (or of the plate's), and steps in a cycle, of the finest grid.
+    pub grid: (usize, usize),
+    /// Time of each run \[s\].
+    pub times: Vec<f64>,
+}
+
+/// Measures `candidates` on `problem`, one run at a time on the caller's thread. `clock` gives seconds from any start.
+/// `told` hears after every run: all runs so far, and the share of the work that is done, 0 to 1; [`Tradeoff::of`]
+/// makes the present state of them. If it is cancelled, the runs are what was measured.
+pub fn measure(
+    problem: &Problem,
+    candidates: Vec<Candidate>,
+    effort: &Effort,
+    clock: &dyn Fn() -> f64,
+    cancel: &Cancel,
+    told: &mut dyn FnMut(&[Run], f64),
+) -> Vec<Run> {
+    let count = candidates.len();
+    let blank = |candidate| Run {
+        candidate,
+        ended: Ended::Waiting,
+        numbers: Numbers::default(),
+        grid: (0, 0),
+        times: Vec::new(),
+    };
+    let mut runs: Vec<Run> = candidates.into_iter().map(blank).collect();
+    let mut round = 0;
+    loop {
+        let mut idle = true;
+        for i in 0..count {
+            if runs[i].times.len() != round || round >= wanted(&runs[i], effort, count) {
+                continue;
+            }
+            idle = false;
+            if !run_once(problem, &mut runs[i], effort, clock, cancel) {
+                return runs;
+            }
+            let share = done(&runs, effort);
+            told(&runs, share);
+        }
+        if idle {
+            return runs;
+        }
+        round += 1;
+    }
+}
+
+/// How often a setting is to be run.
+fn wanted(run: &Run, effort: &Effort, count: usize) -> usize {
+    let Some(first) = run.times.first() else { return 1 };
+    if matches!(run.ended, Ended::Failed(_) | Ended::GivenUp) {
+        return 1;
+    }
+    let affordable = || (effort.seconds / count as f64 / first.max(1e-9)) as usize;
+    effort.repeats.unwrap_or_else(|| affordable().min(MOST_REPEATS)).max(1)
+}
+
+/// The share of the work that is done: in time, with the first runs to come taken to cost as much as those there are.
+fn done(runs: &[Run], effort: &Effort) -> f64 {
+    let (mut spent, mut left, mut waiting) = (0.0, 0.0, 0.0);
+    for run in runs {
+        match run.times.first() {
+            Some(first) => {
+                spent += run.times.iter().sum::<f64>();
+                left += first * (wanted(run, effort, runs.len()) - run.times.len()) as f64;
+            }
+            None => waiting += 1.0,
+        }
+    }
+    let each = (spent + left) / (runs.len() as f64 - waiting).max(1.0);
+    spent / (spent + left + waiting * each).max(f64::MIN_POSITIVE)
+}
+
+/// One run; false if it was cancelled.
+fn run_once(problem: &Problem, run: &mut Run, effort: &Effort, clock: &dyn Fn() -> f64, cancel: &Cancel) -> bool {
+    let problem = Problem { numerics: run.candidate.numerics, ..problem.clone() };
+    let stop = cancel.child();
+    let started = clock();
+    let mut watch = |_: &Progress| {
+        if clock() - started > effort.longest {
+            stop.cancel();
+        }
+    };
+    let solved = attempt(&problem, &run.candidate.settings, &mut watch, &stop);
+    let time = clock() - started;
+    if cancel.is_cancelled() {
+        return false;
+    }
+    run.times.push(time);
+    match solved {
+        Ok(solution) => {
+            run.ended = match solution.status {
+                Status::Converged => Ended::Converged,
+                Status::NotConverged { .. } | Status::NotResolved { .. } => Ended::NotConverged,
+                Status::Cancelled => Ended::GivenUp,
+            };
+            if run.ended != Ended::GivenUp {
+                run.numbers = Numbers::of(&problem, &solution);
+            }
+            run.grid = (solution.stats.film_nodes, solution.stats.steps_per_cycle);
+        }
+        Err(reason) => run.ended = Ended::Failed(reason),
+    }
+    true
+}

@@ -1,0 +1,229 @@
+//! Each limit of the model: its number, how great that may be, and what it means in a sentence.
+
+use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
+use crate::problem::{Gas, Motor, Plate, Slip};
+use std::f64::consts::{PI, TAU};
+
+/// Specific gas constant of air \[J/(kg K)\].
+const GAS_CONSTANT: f64 = 287.05;
+/// 20 °C \[K\].
+const TEMPERATURE: f64 = 293.15;
+/// Ratio of the specific heats of air.
+const HEAT_RATIO: f64 = 1.4;
+/// Prandtl number of air.
+const PRANDTL: f64 = 0.71;
+
+/// Greatest Re.
+const INERTIA: f64 = 0.1;
+/// Greatest Re/σ: the mean load that inertia gives, over that of a viscous film, is [`INERTIAL_LOAD`] times that.
+const INERTIA_TO_SQUEEZE: f64 = 0.015;
+/// (1/14)/(1/96), the two mean loads of a strip as σ → 0.
+const INERTIAL_LOAD: f64 = 48.0 / 7.0;
+/// Greatest gap over the thermal depth.
+const THERMAL_DEPTHS: f64 = 1.0;
+/// Greatest side over the wavelength of sound, where the film is too viscous for waves …
+const WAVELENGTHS: f64 = 1.0;
+/// … and where it is not: half a wave stands under it.
+const WAVELENGTHS_IN_THE_FILM: f64 = 0.5;
+/// Greatest sliding speed over that of sound.
+const MACH: f64 = 1.0;
+/// Yield stress of aluminium 6061-T6 \[MPa\].
+const YIELD_MPA: f64 = 276.0;
+/// Greatest gap over the shorter side.
+const THINNESS: f64 = 0.025;
+/// By how much the gas beyond the edges lengthens a side, over the gap.
+const ELONGATION: f64 = 1.3;
+/// Greatest amplitude of a plate over its mean gap.
+pub(super) const AMPLITUDE: f64 = 0.9;
+
+/// The names of all limits in JSON.
+pub const NAMES: [&str; 7] =
+    ["gas-inertia", "isothermal", "slip-law", "sound", "contact-stress", "thinness", "amplitude"];
+
+/// One limit that a scene exceeds.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Excess {
+    /// Its name in JSON: `gas-inertia`.
+    pub name: &'static str,
+    /// The number, above …
+    pub value: f64,
+    /// … what it may be.
+    pub limit: f64,
+    /// Unit of both; empty for a pure number.
+    pub unit: &'static str,
+    /// What that means, in a sentence.
+    pub text: String,
+}
+
+/// What most limits are about. In SI units.
+pub(super) struct Film<'a> {
+    pub(super) gas: &'a Gas,
+    pub(super) omega: f64,
+    /// h.
+    pub(super) gap: f64,
+    /// h closed, for the Knudsen number.
+    pub(super) closed: f64,
+    /// s.
+    pub(super) side: f64,
+    pub(super) amplitude: f64,
+    pub(super) body: &'static str,
+}
+
+impl Film<'_> {
+    fn density(&self) -> f64 {
+        self.gas.ambient_pressure / (GAS_CONSTANT * TEMPERATURE)
+    }
+
+    /// Re.
+    fn reynolds(&self) -> f64 {
+        self.omega * self.density() * self.gap * self.gap / (12.0 * self.gas.viscosity)
+    }
+
+    pub(super) fn inertia(&self) -> Option<Excess> {
+        let value = self.reynolds();
+        let sigma = 12.0 * self.gas.viscosity * self.omega * (self.side / self.gap).powi(2) / self.gas.ambient_pressure;
+        let (limit, text) = if value > INERTIA {
+            let text = format!(
+                "The gas has inertia in a gap of {} µm (ωρh²/12μ = {}, air at 20 °C), which the film equation leaves out.",
+                rounded(self.gap * 1e6),
+                rounded(value)
+            );
+            (INERTIA, text)
+        } else {
+            let text = format!(
+                "In so viscous a film (gap {} µm) the inertia of the gas, which the film equation leaves out, adds about {} times the \
+                 mean load that is computed.",
+                rounded(self.gap * 1e6),
+                rounded(INERTIAL_LOAD * value / sigma)
+            );
+            (INERTIA_TO_SQUEEZE * sigma, text)
+        };
+        excess("gas-inertia", value, limit, "", text)
+    }
+
+    pub(super) fn heat(&self) -> Option<Excess> {
+        let diffusivity = self.gas.viscosity / (self.density() * PRANDTL);
+        let depth = (2.0 * diffusivity / self.omega).sqrt();
+        let value = self.gap / depth;
+        let text = format!(
+            "A gap of {} µm is {} times as wide as heat travels in a cycle ({} µm): the gas is warmed and cooled as it is squeezed, and \
+             not isothermal.",
+            rounded(self.gap * 1e6),
+            rounded(value),
+            rounded(depth * 1e6)
+        );
+        excess("isothermal", value, THERMAL_DEPTHS, "", text)
+    }
+
+    pub(super) fn slip(&self) -> Option<Excess> {
+        let gas = self.gas;
+        let value = gas.mean_free_path / self.closed;
+        let (limit, law) = match gas.slip {
+            Slip::None => (0.01, "flow without slip"),
+            Slip::FirstOrder => (0.1, "first-order slip"),
+            Slip::SecondOrder => (0.6, "second-order slip"),
+            // The fit begins at D = 0.01.
+            Slip::FukuiKaneko => (50.0 * PI.sqrt(), ""),
+        };
+        let text = if gas.slip == Slip::FukuiKaneko {
+            format!(
+                "The fit of Fukui and Kaneko ends before Kn = {}; beyond, the flow is extrapolated.",
+                rounded(value)
+            )
+        } else {
+            let exact = FukuiKaneko { mean_free_path: gas.mean_free_path.max(f64::MIN_POSITIVE) };
+            let ratio = SlipLaw::of(gas).at(self.closed).0 / exact.at(self.closed).0;
+            format!(
+                "At Kn = {} {law} lets {} % {} gas flow than the Boltzmann equation, which the law of Fukui and Kaneko (film.slip) follows.",
+                rounded(value),
+                (100.0 * (ratio - 1.0)).abs().round(),
+                if ratio < 1.0 { "less" } else { "more" }
+            )
+        };
+        excess("slip-law", value, limit, "", text)
+    }
+
+    pub(super) fn sound(&self) -> Option<Excess> {
+        let wavelength = TAU * speed_of_sound() / self.omega;
+        let value = self.side / wavelength;
+        let across = format!(
+            "The {} is {} wavelengths of sound across ({} mm, air at 20 °C)",
+            self.body,
+            rounded(value),
+            rounded(wavelength * 1e3)
+        );
+        let (limit, text) = if self.reynolds() > INERTIA {
+            (WAVELENGTHS_IN_THE_FILM, format!("{across}: sound waves can stand in the film, and are left out."))
+        } else {
+            let pressure = 100.0 * HEAT_RATIO * TAU * self.amplitude / wavelength;
+            let text = format!(
+                "{across}: its edges are taken to be at ambient pressure, and the sound around it, up to {} % of that, is left out.",
+                rounded(pressure)
+            );
+            (WAVELENGTHS, text)
+        };
+        excess("sound", value, limit, "", text)
+    }
+
+    pub(super) fn thinness(&self) -> Option<Excess> {
+        let value = self.gap / self.side;
+        let text = format!(
+            "A film {} µm thick is not thin under a {} {} mm across: the gas beyond the edges, which is left out, makes it act as if {} % \
+             larger.",
+            rounded(self.gap * 1e6),
+            self.body,
+            rounded(self.side * 1e3),
+            rounded(100.0 * ELONGATION * value)
+        );
+        excess("thinness", value, THINNESS, "", text)
+    }
+}
+
+/// Sliding speed of a motor's faces over the speed of sound, at its greatest.
+pub fn mach(motor: &Motor) -> f64 {
+    (motor.rotor_speed.abs() + TAU * motor.frequency * motor.tangential_amplitude) / speed_of_sound()
+}
+
+pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
+    let value = mach(motor);
+    let text = format!(
+        "The faces slide at up to {} m/s, {} times the speed of sound (air at 20 °C): shear warms the gas by some {} %, and it is not \
+         isothermal.",
+        rounded(value * speed_of_sound()),
+        rounded(value),
+        rounded(100.0 * PRANDTL * (HEAT_RATIO - 1.0) * value * value / 8.0)
+    );
+    excess("sound", value, MACH, "", text)
+}
+
+/// `pressure`: the greatest contact pressure \[Pa\].
+pub(super) fn stress(pressure: f64) -> Option<Excess> {
+    let value = pressure * 1e-6;
+    let text = format!(
+        "Contact presses with up to {} MPa; a rotor of aluminium 6061-T6 yields at {YIELD_MPA} MPa, and the model is elastic.",
+        rounded(value)
+    );
+    excess("contact-stress", value, YIELD_MPA, "MPa", text)
+}
+
+pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
+    let text = format!(
+        "The plate comes within {} nm of the wall: the load hangs on faces smoother and more parallel than that, and 1 % of gap or \
+         amplitude is 7 % of it or more.",
+        rounded((plate.mean_gap - plate.amplitude) * 1e9)
+    );
+    excess("amplitude", plate.amplitude / plate.mean_gap, AMPLITUDE, "", text)
+}
+
+fn speed_of_sound() -> f64 {
+    (HEAT_RATIO * GAS_CONSTANT * TEMPERATURE).sqrt()
+}
+
+fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: String) -> Option<Excess> {
+    (value > limit).then_some(Excess { name, value, limit, unit, text })
+}
+
+/// To three digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}

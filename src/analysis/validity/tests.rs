@@ -1,0 +1,221 @@
+//! A case inside each limit and one outside.
+
+use super::limits::AMPLITUDE;
+use super::{Excess, NAMES, names, outside};
+use crate::control::Cancel;
+use crate::fidelity::Fidelity;
+use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
+use crate::problem::{Gas, Problem, Scenario, Slip};
+use crate::recording::Recording;
+use crate::scene::{Scene, presets};
+use crate::solution::{MotorResult, Outcome, Solution};
+use crate::solve::{Settings, solve};
+
+fn of(mut scene: Scene, changes: &[(&str, &str)]) -> Vec<Excess> {
+    scene.set_all(changes.iter().copied()).unwrap();
+    outside(&Problem::new(&scene).unwrap(), None)
+}
+
+/// 1 mm long, 1 µm ± 0.5 µm, 30 kHz, unless changed.
+fn plate(changes: &[(&str, &str)]) -> Vec<Excess> {
+    of(Scene::plate(), changes)
+}
+
+fn motor(changes: &[(&str, &str)]) -> Vec<Excess> {
+    of(Scene::motor(), changes)
+}
+
+#[track_caller]
+fn check(found: &[Excess], name: &str, value: f64, limit: f64) {
+    let excess = found.iter().find(|excess| excess.name == name).unwrap_or_else(|| panic!("{name}: {found:?}"));
+    assert!((excess.value / value - 1.0).abs() < 2e-3, "{excess:?}");
+    assert!((excess.limit / limit - 1.0).abs() < 2e-3, "{excess:?}");
+    assert!(NAMES.contains(&name));
+    // One sentence.
+    assert!(excess.text.ends_with('.') && !excess.text.contains(". "), "{excess:?}");
+}
+
+fn solve_draft(problem: &Problem) -> Solution {
+    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+    solve(problem, &settings, &mut (), &Cancel::new()).unwrap()
+}
+
+/// Of a motor whose film is `min_gap` thin, without contact.
+fn solution(min_gap: f64) -> Solution {
+    let mut solution = solve_draft(&Problem::new(&Scene::plate()).unwrap());
+    solution.outcome = Outcome::Motor(MotorResult { min_gap, ..MotorResult::default() });
+    solution.recording = Recording::default();
+    solution
+}
+
+#[test]
+fn a_plate_far_above_a_wall() {
+    let found = plate(&[("plate.mean_gap_um", "500"), ("plate.frequency_khz", "40")]);
+    assert_eq!(names(&found), ["gas-inertia", "isothermal", "thinness"]);
+    // 1.2041 kg/m³ · 251 327/s · (0.5 mm)²/(12 · 18.1 µPa s).
+    check(&found, "gas-inertia", 348.3, 0.1);
+    // κ = 18.1e-6/(1.2041 · 0.71) = 2.117e-5 m²/s, depth 12.98 µm.
+    check(&found, "isothermal", 500.0 / 12.98, 1.0);
+    check(&found, "thinness", 0.5, 0.025);
+    assert!(found[0].text.contains("500 µm") && found[1].text.contains("38.5 times"), "{found:?}");
+}
+
+#[test]
+fn gas_inertia() {
+    // 1.2041 · 188 496 · h²/2.172e-4: 0.1 at 9.784 µm. σ = 2.172e-4 · 188 496 · 25e-6/(101 325 h²) = 106.
+    let at = |gap: &str| names_of(plate(&[("plate.length_mm", "5"), ("plate.mean_gap_um", gap)]));
+    assert_eq!(at("9.7"), Vec::<&str>::new());
+    assert_eq!(at("9.9"), ["gas-inertia"]);
+    // However slow: Re/σ = 1.2041 · 101 325 · h⁴/(144 · (18.1 µPa s)² · 1 mm²), 0.015 at 8.73 µm.
+    let slow = |gap: &str| plate(&[("plate.frequency_khz", "0.01"), ("plate.mean_gap_um", gap)]);
+    assert_eq!(names(&slow("8.7")), Vec::<&str>::new());
+    let found = slow("17.5");
+    // 62.83/s: Re = 1.2041 · 62.83 · 3.0625e-10/2.172e-4, σ = 2.172e-4 · 62.83 · 1e-6/(101 325 · 3.0625e-10).
+    check(&found, "gas-inertia", 1.0667e-4, 0.015 * 4.3978e-4);
+    assert!(found[0].text.contains("1.66 times the mean load"), "{found:?}");
+}
+
+fn names_of(found: Vec<Excess>) -> Vec<&'static str> {
+    found.into_iter().map(|excess| excess.name).collect()
+}
+
+#[test]
+fn isothermal() {
+    // Depth at 30 kHz √(2 · 2.117e-5/188 496) = 14.99 µm.
+    let at = |gap: &str| plate(&[("plate.length_mm", "100"), ("plate.mean_gap_um", gap)]);
+    assert!(!names(&at("14.9")).contains(&"isothermal"));
+    check(&at("30"), "isothermal", 30.0 / 14.987, 1.0);
+    // A gas of ten times the viscosity carries its heat ten times as fast.
+    let thick = [("plate.length_mm", "100"), ("plate.mean_gap_um", "30"), ("film.viscosity_upa_s", "181")];
+    assert!(!names(&plate(&thick)).contains(&"isothermal"));
+}
+
+#[test]
+fn knudsen_numbers_against_the_slip_law() {
+    let at = |slip: &str, path: &str| motor(&[("film.slip", slip), ("film.mean_free_path_nm", path)]);
+    // H_m = 200 nm.
+    for (slip, inside, outside, value, limit) in [
+        ("none", "1.9", "2.1", 0.0105, 0.01),
+        ("first-order", "19.9", "64", 0.32, 0.1),
+        ("second-order", "119", "128", 0.64, 0.6),
+        ("fukui-kaneko", "17700", "17800", 89.0, 88.62),
+    ] {
+        assert_eq!(names(&at(slip, inside)), Vec::<&str>::new(), "{slip}");
+        let found = at(slip, outside);
+        assert_eq!(names(&found), ["slip-law"]);
+        check(&found, "slip-law", value, limit);
+    }
+    assert!(at("none", "0").is_empty() && at("fukui-kaneko", "0").is_empty());
+    let found = motor(&[("film.min_spacing_nm", "5")]);
+    // 6 Q_P/D = 188.6 at D = 0.0692, and 1 + 6 · 12.8 = 77.8.
+    check(&found, "slip-law", 12.8, 0.1);
+    assert!(found[0].text.contains("59 % less"), "{found:?}");
+}
+
+#[test]
+fn up_to_their_limits_slip_laws_are_within_a_tenth_of_the_boltzmann_equation() {
+    let exact = FukuiKaneko { mean_free_path: 1.0 };
+    for (slip, limit) in [(Slip::None, 0.01), (Slip::FirstOrder, 0.1), (Slip::SecondOrder, 0.6)] {
+        let gas = Gas { ambient_pressure: 1e5, viscosity: 18e-6, mean_free_path: 1.0, slip };
+        let off = |kn: f64| (SlipLaw::of(&gas).at(1.0 / kn).0 / exact.at(1.0 / kn).0 - 1.0).abs();
+        let worst = (1..=500).map(|i| off(limit * f64::from(i) / 500.0)).fold(0.0, f64::max);
+        assert!((0.06..0.1).contains(&worst), "{slip:?}: {worst}");
+        assert!(off(2.0 * limit) > 0.1, "{slip:?}");
+    }
+}
+
+#[test]
+fn sound() {
+    // 343.2 m/s over 100 kHz: 3.432 mm. Viscous at 1 µm: Re = 0.0035.
+    let at = |length: &str| plate(&[("plate.frequency_khz", "100"), ("plate.length_mm", length)]);
+    assert_eq!(names(&at("3.4")), Vec::<&str>::new());
+    let found = at("34.32");
+    assert_eq!(names(&found), ["sound"]);
+    check(&found, "sound", 10.0, 1.0);
+    // 1.4 · 2π · 0.5 µm/3.432 mm.
+    assert!(found[0].text.contains("0.128 %"), "{found:?}");
+    // Re = 0.35 · 4 at 20 µm: half a wave is enough. The shorter side counts.
+    let wide = |length: &str| {
+        let changes = [("plate.frequency_khz", "100"), ("plate.mean_gap_um", "20"), ("plate.width_mm", length)];
+        plate(&[&changes[..], &[("plate.length_mm", "20")]].concat())
+    };
+    assert!(!names(&wide("1.7")).contains(&"sound"));
+    check(&wide("3.432"), "sound", 1.0, 0.5);
+}
+
+#[test]
+fn sliding_faster_than_sound() {
+    // 0.5 m · 10 000 rpm = 523.6 m/s, and 0.19 m/s of the stator; 343.2 m/s.
+    let turning = |rpm: &str| motor(&[("motor.contact_radius_mm", "500"), ("motor.rotor_speed_rpm", rpm)]);
+    let found = turning("-10000");
+    check(&found, "sound", 1.5261, 1.0);
+    // 0.71 · 0.4 · 1.5261²/8.
+    assert!(found.iter().any(|excess| excess.text.contains("8.27 %")), "{found:?}");
+    assert!(!names(&turning("6500")).contains(&"sound"));
+}
+
+#[test]
+fn contact_against_yield() {
+    let problem = Problem::new(&Scene::motor()).unwrap();
+    // On 0.3 mm 82.8 kN/m are 276 MPa.
+    let with = |contact: f64| {
+        let mut solution = solution(2e-7);
+        let Outcome::Motor(result) = &mut solution.outcome else { panic!("a motor") };
+        result.max_contact = contact;
+        outside(&problem, Some(&solution))
+    };
+    assert!(!names(&with(82.7e3)).contains(&"contact-stress"));
+    let found = with(120e3);
+    check(&found, "contact-stress", 400.0, 276.0);
+    assert_eq!(found.last().map(|excess| excess.unit), Some("MPa"));
+}
+
+#[test]
+fn thinness() {
+    // 1.5 µm over the shorter side of a tooth top: 60 µm.
+    assert!(!names(&motor(&[("rotor.contact_width_mm", "0.0605")])).contains(&"thinness"));
+    check(&motor(&[("rotor.contact_width_mm", "0.03")]), "thinness", 0.05, 0.025);
+    // The plate's shorter side is its width.
+    let narrow = plate(&[("plate.width_mm", "0.02")]);
+    check(&narrow, "thinness", 0.05, 0.025);
+    assert!(narrow.iter().any(|excess| excess.text.contains("6.5 %")), "{narrow:?}");
+}
+
+#[test]
+fn an_amplitude_near_the_gap() {
+    assert!(plate(&[("plate.amplitude_um", "0.899")]).is_empty());
+    let found = plate(&[("plate.amplitude_um", "0.99")]);
+    assert_eq!(names(&found), ["amplitude"]);
+    check(&found, "amplitude", 0.99, 0.9);
+    assert!(found[0].text.contains("within 10 nm"), "{found:?}");
+    // Trapped gas: what 1 % of the amplitude changes there.
+    let load = |e: f64| ((1.0 + 1.5 * e * e) / (1.0 - e * e)).sqrt() - 1.0;
+    assert!((load(1.01 * AMPLITUDE) / load(AMPLITUDE) - 1.073).abs() < 1e-3);
+}
+
+#[test]
+fn a_floating_rotor_is_judged_where_it_floats() {
+    let problem = Problem::new(&Scene::motor()).unwrap();
+    assert_eq!(names(&outside(&problem, Some(&solution(2e-7)))), ["slip-law"]);
+    assert_eq!(names(&outside(&problem, Some(&solution(2e-6)))), Vec::<&str>::new());
+    // Re = 1.2041 · 188 496 · (21.3 µm)²/2.172e-4.
+    let high = outside(&problem, Some(&solution(20e-6)));
+    check(&high, "gas-inertia", 0.4741, 0.1);
+    assert_eq!(names(&outside(&problem, Some(&solution(f64::NAN)))), ["slip-law"]);
+}
+
+/// First-order slip, the paper's, is outside its range in every motor of the paper; nothing else is.
+#[test]
+fn built_in_presets_show_what_they_should() {
+    for preset in presets::BUILT_IN {
+        let (name, problem) = (preset.name, Problem::new(&preset.scene().unwrap()).unwrap());
+        // The published plate is one without slip, at Kn = 0.013.
+        let slips = matches!(problem.scenario, Scenario::Motor(_)) || name == "plate-mems";
+        let closed: &[&str] = if slips { &["slip-law"] } else { &[] };
+        assert_eq!(names(&outside(&problem, None)), closed, "{name}, unsolved");
+        // A rotor that floats 0.74 µm high never closes the film.
+        let expected = if name == "levitating" { &[] } else { closed };
+        let found = outside(&problem, Some(&solve_draft(&problem)));
+        assert_eq!(names(&found), expected, "{name}: {found:?}");
+    }
+}
