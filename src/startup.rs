@@ -123,7 +123,7 @@ pub fn startup(
 /// Either scene on its way.
 enum Transient<'a> {
     Motor(Box<motor::Transient<'a>>),
-    Plate(Box<plate::Transient<'a>>),
+    Plate(Box<plate::Transient>),
 }
 
 impl<'a> Transient<'a> {
