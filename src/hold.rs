@@ -68,7 +68,7 @@ impl Hold {
     /// At rest at the mean gap, gas at ambient pressure, on the finest grid of `plan` and on one twice as fine.
     pub fn new(plate: &Plate, plan: &Plan) -> Self {
         // A hand may be fast: layers thinner than any polynomial across resolves.
-        let plan = &plan.volumes();
+        let plan = &plan.volumes().not_turned();
         let mut grids = plan.grids.iter().rev();
         let none = Grid { along: 8, across: 8, steps: 0, harmonic_fraction: 0.0 };
         let coarse = grids.next().unwrap_or(&none);

@@ -205,19 +205,19 @@ pub fn motor(motor: &Motor, plan: &Plan) -> Need {
 }
 
 /// One grid of a plate (`plate`).
-fn plate_level(plate: &Plate, grid: &Grid) -> u64 {
+fn plate_level(plate: &Plate, plan: &Plan, grid: &Grid) -> u64 {
     let (film, steps) = (Film::of_plate(plate, grid), grid.steps as u64);
-    film.cycle(steps) + 2 * steps * film.along
+    film.cycle(steps) + 2 * steps * film.along + 3 * steps * plan.frames_per_step as u64
 }
 
 /// Of a plate's periodic state, likewise.
 pub fn plate(plate: &Plate, plan: &Plan) -> Need {
     let grids = grids(plan);
-    let levels: u64 = grids.iter().map(|grid| plate_level(plate, grid)).sum();
+    let levels: u64 = grids.iter().map(|grid| plate_level(plate, plan, grid)).sum();
     let beside = grids.last().map_or(0, |grid| {
-        let (film, steps) = (Film::of_plate(plate, grid), grid.steps as u64);
-        let maps = if plan.maps { EXTRAPOLATED_MAPS * steps * film.nodes } else { 0 };
-        (accelerated(8) * 2 * film.unknowns()).max(EXTRAPOLATED_LINES * steps * film.along + maps)
+        let (film, frames) = (Film::of_plate(plate, grid), (grid.steps * plan.frames_per_step) as u64);
+        let maps = if plan.maps || plan.turned { EXTRAPOLATED_MAPS * frames * film.nodes } else { 0 };
+        (accelerated(8) * 2 * film.unknowns()).max(EXTRAPOLATED_LINES * frames * film.along + maps)
     });
     of_plate(plate, plan, levels + beside)
 }
@@ -239,7 +239,8 @@ pub fn motor_startup(motor: &Motor, plan: &Plan, kept: usize) -> Need {
 
 /// Of a plate's transient from rest, likewise.
 pub fn plate_startup(plate: &Plate, plan: &Plan, kept: usize) -> Need {
-    let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, grid)).sum();
+    let plan = &plan.even_steps();
+    let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, plan, grid)).sum();
     let fields = |grid: &Grid| transient(&Film::of_plate(plate, grid), 1, grid.steps as u64, plan.maps, kept);
     of_plate(plate, plan, levels + plan.grids.last().map_or(0, fields))
 }

@@ -2,8 +2,10 @@
 
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
+use crate::film::slip::{Mobility, SlipLaw};
 use crate::numerics::grading::{clustering, map, middle_clustering};
 use crate::problem::{Flow, Motor, Named, Numerics, Plate, Teeth, Time, Wedge, Width};
+use std::f64::consts::{PI, TAU};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,8 +86,10 @@ pub enum Choice {
         /// Intervals across half the width.
         across: Option<usize>,
     },
-    /// Steps in a cycle of a plate.
-    Steps(usize),
+    /// Steps in a cycle of a plate, and whether they are the shorter the closer it is.
+    Steps(usize, bool),
+    /// Nothing leaks from under a plate: its gas is trapped.
+    NoLeaks,
 }
 
 /// What speaks for and against leaving out a part of the model.
@@ -122,7 +126,8 @@ impl Decision {
             Choice::Wedge(_) => Some("numerics.wedge"),
             Choice::Teeth(..) => Some("numerics.teeth"),
             Choice::Width(_) => Some("numerics.width"),
-            Choice::NoShear | Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(_) => None,
+            Choice::NoShear | Choice::NoLeaks => None,
+            Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => None,
         }
     }
 
@@ -134,7 +139,8 @@ impl Decision {
             Choice::Wedge(wedge) => wedge.name(),
             Choice::Teeth(teeth, _) => teeth.name(),
             Choice::Width(width) => width.name(),
-            Choice::NoShear | Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(_) => "",
+            Choice::NoShear | Choice::NoLeaks => "",
+            Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => "",
         }
     }
 }
@@ -150,8 +156,14 @@ pub struct Plan {
     pub clustering_along: f64,
     /// Clustering parameter of the nodes across.
     pub clustering_across: f64,
+    /// Clustering parameter of the steps of a cycle about its middle, where a plate is closest; 0: even steps.
+    pub clustering_in_time: f64,
+    /// Frames of a recording for each step: a recording is even in time, steps that cluster are not.
+    pub frames_per_step: usize,
     /// Across the width a field is one polynomial, on the same nodes on all grids; or finite volumes, which nothing breaks.
     pub spectral: bool,
+    /// A plate is solved turned by a quarter: much wider than it is long, it has its polynomial along the length.
+    pub turned: bool,
     /// Solve half the width and mirror it.
     pub half_width: bool,
     /// Solve every tooth (or one, by lag symmetry).
@@ -209,9 +221,16 @@ const MIDDLE: f64 = 1.0;
 const THINNEST_LAYER: f64 = 0.03;
 /// Grids beyond those of the plan, at most: each costs about four times the one before.
 const MORE_GRIDS: usize = 3;
-/// Steps within the peak of a plate's load as it nearly touches, and the narrowest such peak \[rad\] that is followed.
-const STEPS_IN_PEAK: f64 = 2.0;
+/// The same of a plate, and the frames of a recording beyond which there is none.
+const MORE_GRIDS_OF_PLATE: usize = 6;
+const MOST_FRAMES: usize = 1 << 17;
+/// Frames within the peak of a plate's load as it nearly touches, and the narrowest such peak \[rad\] that is followed.
+const FRAMES_IN_PEAK: f64 = 2.0;
 const NARROWEST_PEAK: f64 = 2e-4;
+/// Clustered steps of a cycle for each of even ones, and for each factor of e by which the peak is narrower than the cycle.
+const STEPS_IN_FACTOR: f64 = 0.6;
+/// Even steps that such a peak needs, over those of a plate far from touching, above which they cluster.
+const CLUSTERED: f64 = 2.0;
 /// Intervals along a tooth that leave a node to solve on the coarsest grid.
 const FEWEST_ALONG: usize = 2 << (GRIDS - 1);
 const ROUND_LIMIT: usize = 300;
@@ -265,7 +284,10 @@ impl Plan {
             grids: nested(finest, spectral),
             clustering_along,
             clustering_across,
+            clustering_in_time: 0.0,
+            frames_per_step: 1,
             spectral,
+            turned: false,
             half_width,
             every_tooth,
             shear: !trapped && wedge.chosen == Choice::Wedge(Wedge::On),
@@ -298,6 +320,23 @@ impl Plan {
         Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
     }
 
+    /// The same plan with the sides of the plate as they are in the scene; of finite volumes.
+    pub fn not_turned(&self) -> Self {
+        if !self.turned {
+            return self.clone();
+        }
+        let grids = self.grids.iter().map(|grid| Grid { along: grid.across, across: grid.along, ..*grid }).collect();
+        let (clustering_along, clustering_across) = (self.clustering_across, self.clustering_along);
+        Self { grids, clustering_along, clustering_across, turned: false, ..self.clone() }
+    }
+
+    /// The same plan marched by even steps, one for each frame.
+    pub fn even_steps(&self) -> Self {
+        let even = |grid: &Grid| Grid { steps: grid.steps * self.frames_per_step, ..*grid };
+        let grids = self.grids.iter().map(even).collect();
+        Self { grids, clustering_in_time: 0.0, frames_per_step: 1, trapped: false, ..self.clone() }
+    }
+
     /// The same plan on its finest grid alone: fields as they are solved, and no error estimate.
     pub fn on_one_grid(&self) -> Self {
         let grids = self.grids.last().copied().into_iter().collect();
@@ -311,16 +350,30 @@ impl Plan {
 
     /// The plan of a plate to a specification.
     pub fn plate_to(plate: &Plate, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Self {
-        let layer = Dimensionless::of_plate(plate).boundary_layer;
+        let layer = plate_layer(plate);
+        let sides = [Some(plate.length), plate.width];
+        let leak = sides.into_iter().flatten().map(|side| LEAK_EFFECT * layer / side).sum::<f64>();
+        let trapped = leak < SHARE * spec.aim || plate.amplitude == 0.0;
+        let left_out = if trapped && plate.amplitude > 0.0 { leak } else { 0.0 };
+        // Of a long plate the ends reach as far as it is narrow.
+        let reach = |other: f64| layer.min(other / PI);
+        let thin = |side: f64, other: f64| 2.0 * reach(other) / side <= THINNEST_LAYER;
+        let turned = plate.width.is_some_and(|width| thin(width, plate.length) && !thin(plate.length, width));
+        let (plate, asked) = if turned {
+            (&plate.turned(), [numerics.film_nodes_across, numerics.film_nodes_along])
+        } else {
+            (plate, [numerics.film_nodes_along, numerics.film_nodes_across])
+        };
+        let [asked_along, asked_across] = asked.map(|nodes| nodes.map(|n| n / 2));
+        let edge = spec.plate_edge_fraction * plate.width.map_or(layer, reach);
+        let (along, clustering_along) = graded(spec.plate, asked_along, 0.5 * plate.length, edge);
+        let layer = reach(plate.length);
         let edge = spec.plate_edge_fraction * layer;
-        let (along, clustering_along) =
-            graded(spec.plate, numerics.film_nodes_along.map(|n| n / 2), 0.5 * plate.length, edge);
-        let spectral = plate.width.is_some_and(|width| 2.0 * layer / width > THINNEST_LAYER);
+        let spectral = plate.width.is_some_and(|width| !thin(width, plate.length));
         let (across, clustering_across, robust) = match plate.width {
             Some(width) => {
-                let asked = numerics.film_nodes_across.map(|n| n / 2);
-                let across = asked.map_or(spec.across, |asked| asked.max(1));
-                let robust = graded(spec.plate, asked, 0.5 * width, edge);
+                let across = asked_across.map_or(spec.across, |asked| asked.max(1));
+                let robust = graded(spec.plate, asked_across, 0.5 * width, edge);
                 if spectral {
                     (across, spectral_clustering(2.0 * layer / width), robust)
                 } else {
@@ -332,27 +385,48 @@ impl Plan {
         // Near touching, the load is a peak as narrow as √(2(1 − ε)) of a cycle's 2π.
         let excursion = (plate.amplitude / plate.mean_gap).min(1.0);
         let narrowest = (2.0 * (1.0 - excursion)).sqrt().max(NARROWEST_PEAK);
-        let follow = (STEPS_IN_PEAK * std::f64::consts::TAU / narrowest) as usize;
-        let steps = round_up(numerics.steps_per_cycle.unwrap_or(spec.plate_steps.max(follow)));
+        let follow = FRAMES_IN_PEAK * TAU / narrowest;
+        let (steps, clustering_in_time) = match numerics.steps_per_cycle {
+            Some(asked) => (asked, 0.0),
+            None if follow > CLUSTERED * spec.plate_steps as f64 => {
+                // sinh: the peak is where its argument is below 1.
+                let beta = (PI / narrowest).asinh();
+                let steps = (STEPS_IN_FACTOR * beta * spec.plate_steps as f64) as usize;
+                // One of them, on all grids, where the plate is closest.
+                (steps.next_multiple_of(2 << (GRIDS - 1)), -beta)
+            }
+            None => (spec.plate_steps.max(follow as usize), 0.0),
+        };
+        let steps = round_up(steps);
+        let frames_per_step = if clustering_in_time == 0.0 { 1 } else { (follow as usize).div_ceil(steps) };
+        let more_grids = (0..=MORE_GRIDS_OF_PLATE).rev().find(|more| frames_per_step * steps << more <= MOST_FRAMES);
+        let more_grids = more_grids.unwrap_or(0);
         let grid = Choice::PlateGrid { along, across: plate.width.map(|_| across) };
-        let decisions = vec![Decision::exact(grid), Decision::exact(Choice::Steps(steps))];
+        let mut decisions =
+            vec![Decision::exact(grid), Decision::exact(Choice::Steps(steps, clustering_in_time != 0.0))];
+        if trapped {
+            decisions.push(Decision { effect: left_out, ..Decision::exact(Choice::NoLeaks) });
+        }
         Self {
             fidelity: name(fidelity, numerics),
             grids: nested(Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction }, spectral),
             clustering_along,
             clustering_across,
+            clustering_in_time,
+            frames_per_step,
             spectral,
+            turned,
             half_width: true,
             every_tooth: false,
             shear: false,
             flow: Flow::Plane,
-            trapped: false,
-            left_out: 0.0,
+            trapped,
+            left_out,
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
             aim: spec.aim,
-            most_grids: if custom(numerics) { GRIDS } else { GRIDS + 6 },
-            most_across: if numerics.film_nodes_across.is_some() { across } else { 24 },
+            most_grids: if custom(numerics) { GRIDS } else { GRIDS + more_grids },
+            most_across: if asked_across.is_some() { across } else { 24 },
             robust,
             tolerance: numerics.tolerance.unwrap_or(spec.plate_tolerance),
             round_limit: ROUND_LIMIT,
@@ -489,20 +563,20 @@ fn wedge_effect(numbers: &Dimensionless, motor: &Motor) -> f64 {
 
 /// Bound of what the wedge changes, relative to α, if the rotor's speed changes by `speed` \[m/s\].
 pub fn wedge_bound(motor: &Motor, speed: f64) -> f64 {
-    let omega = std::f64::consts::TAU * motor.frequency;
+    let omega = TAU * motor.frequency;
     let sliding = sliding_effect(speed.abs() / (2.0 * omega * motor.tooth_width), motor);
     (sliding + carried(&Dimensionless::of_motor(motor), motor, speed)).min(1.0)
 }
 
 fn sliding_effect(bearing_to_squeeze: f64, motor: &Motor) -> f64 {
-    let wave = std::f64::consts::TAU * motor.tooth_width / motor.wavelength();
+    let wave = TAU * motor.tooth_width / motor.wavelength();
     let squeezed = wave * (1.0 + motor.min_spacing / motor.normal_amplitude);
     WEDGE_EFFECT * bearing_to_squeeze * squeezed.max(1.0)
 }
 
 /// How far steady sliding at `speed` \[m/s\] carries gas along a tooth until it has leaked out, over twice its length.
 fn carried(numbers: &Dimensionless, motor: &Motor, speed: f64) -> f64 {
-    let wavenumber = std::f64::consts::PI.powi(2) * (motor.tooth_width.powi(-2) + motor.contact_width.powi(-2));
+    let wavenumber = PI.powi(2) * (motor.tooth_width.powi(-2) + motor.contact_width.powi(-2));
     0.5 * speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width)
 }
 
@@ -513,7 +587,7 @@ fn end_share(motor: &Motor) -> f64 {
 
 /// Diffusivity of the gas in the closed film \[m²/s\].
 fn diffusivity(numbers: &Dimensionless, motor: &Motor) -> f64 {
-    0.5 * numbers.boundary_layer.powi(2) * std::f64::consts::TAU * motor.frequency
+    0.5 * numbers.boundary_layer.powi(2) * TAU * motor.frequency
 }
 
 /// Effect of the upwinding that the wedge term needs on a grid of so many intervals along a tooth, relative to α. None below a
@@ -575,6 +649,13 @@ fn custom(numerics: &Numerics) -> bool {
 
 fn name(fidelity: Fidelity, numerics: &Numerics) -> String {
     if custom(numerics) { "custom".to_owned() } else { fidelity.to_string() }
+}
+
+/// The boundary layer of a plate's film \[m\], by its slip law ([`Dimensionless::boundary_layer`] estimates it).
+fn plate_layer(plate: &Plate) -> f64 {
+    let gas = &plate.gas;
+    let conductance = plate.mean_gap * SlipLaw::of(gas).at(plate.mean_gap).0;
+    (gas.ambient_pressure * conductance / (6.0 * gas.viscosity * TAU * plate.frequency)).sqrt()
 }
 
 /// Rounded up so that it can be halved for the coarser grids.

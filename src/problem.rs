@@ -189,6 +189,12 @@ impl Plate {
         self.length * self.width.unwrap_or(1.0)
     }
 
+    /// The same plate turned by a quarter: its width along x. A strip stays as it is.
+    pub fn turned(&self) -> Self {
+        let length = self.width.unwrap_or(self.length);
+        Self { length, width: self.width.map(|_| self.length), ..self.clone() }
+    }
+
     /// Film thickness h \[m\] at phase `t_over_period` of the cycle.
     pub fn gap(&self, t_over_period: f64) -> f64 {
         self.mean_gap + self.amplitude * (std::f64::consts::TAU * t_over_period).cos()

@@ -303,7 +303,7 @@ fn headline(outcome: &Outcome) -> Estimate {
 /// Either scene on its way.
 enum Transient<'a> {
     Motor(Box<motor::Transient<'a>>),
-    Plate(Box<plate::Transient<'a>>),
+    Plate(Box<plate::Transient>),
 }
 
 impl<'a> Transient<'a> {

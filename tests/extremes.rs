@@ -13,9 +13,9 @@ use squeezefilm::film::grid::{Axis, Start};
 use squeezefilm::film::slip::{Mobility, SlipLaw};
 use squeezefilm::motor::{self, Periodic};
 use squeezefilm::plan::{Grid, Plan};
-use squeezefilm::problem::{Flow, Motor, Problem, RotorCompliance, Scenario};
+use squeezefilm::problem::{Flow, Motor, Plate, Problem, RotorCompliance, Scenario};
 use squeezefilm::scene::{PARAMETERS, ParameterKind, Scene, Value, presets};
-use squeezefilm::solution::{Outcome, Status};
+use squeezefilm::solution::{Outcome, Solution, Status};
 use squeezefilm::solve::{Settings, solve};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -198,6 +198,50 @@ fn mass_balance(motor: &Motor, plan: &Plan, found: &Periodic) -> Option<f64> {
     Some((net.abs() - noise).max(0.0) / mass)
 }
 
+/// What cannot be of a plate's result; in words if it is.
+fn check_plate(plate: &Plate, solution: &Solution) -> Result<(), String> {
+    let (recording, Outcome::Plate(result)) = (&solution.recording, &solution.outcome) else {
+        return Err("no plate".to_owned());
+    };
+    let fault = |words: String| Err(format!("{words}; {:?}, {result:?}", solution.status));
+    let numbers = [
+        result.film_load,
+        result.film_load_error,
+        result.film_load_min,
+        result.film_load_max,
+        result.max_pressure,
+        result.min_gap,
+    ];
+    if numbers.iter().any(|number| !number.is_finite()) {
+        return fault("a number that is not finite".to_owned());
+    }
+    if let Some(pressure) = recording.pressure.iter().find(|p| !(p.is_finite() && **p > 0.0)) {
+        return fault(format!("p = {pressure}"));
+    }
+    match solution.status {
+        Status::Converged => {}
+        Status::NotResolved { error } if error >= 1.0 && result.film_load_error >= result.film_load.abs() => {}
+        Status::NotConverged { residual, tolerance } if residual > tolerance => return Ok(()),
+        _ => return fault("neither converged nor honest about it".to_owned()),
+    }
+    // Z is nowhere less than the least gap and nowhere more than the greatest.
+    let force = plate.gas.ambient_pressure * plate.area();
+    let (least, greatest) = (plate.mean_gap - plate.amplitude, plate.mean_gap + plate.amplitude);
+    let most = (greatest / least).sqrt();
+    let [low, high] = [1.0 / most - 1.0, most - 1.0].map(|ratio| ratio * force);
+    let rounding = 1e-12 * force * most;
+    if !(low - rounding..=high + rounding).contains(&result.film_load) {
+        let outside = (result.film_load - high).max(low - result.film_load);
+        if outside > result.film_load_error {
+            return fault(format!("a load outside {low} … {high} N"));
+        }
+    }
+    if result.max_pressure - result.max_pressure_error > (1.0 + 1e-9) * plate.gas.ambient_pressure * greatest / least {
+        return fault("more pressure than the greatest gap leaves in the least".to_owned());
+    }
+    Ok(())
+}
+
 /// Scenes whose headline is not told by the grids of draft, and says so: their cycle does repeat.
 static NOT_RESOLVED: AtomicUsize = AtomicUsize::new(0);
 
@@ -217,15 +261,10 @@ fn survives(scene: &Scene, fidelity: Fidelity) -> Result<bool, String> {
             check_mass(motor, &plan)?;
             Ok(resolved(found.status))
         }
-        Scenario::Plate(_) => {
+        Scenario::Plate(plate) => {
             let settings = Settings { fidelity, ..Settings::default() };
             let solution = solve(&problem, &settings, &mut (), &Cancel::new()).map_err(|error| error.to_string())?;
-            let Outcome::Plate(result) = solution.outcome else { return Err("no plate".to_owned()) };
-            let positive = solution.recording.pressure.iter().all(|p| p.is_finite() && *p > 0.0);
-            let numbers = [result.film_load, result.film_load_error, result.max_pressure, result.min_gap];
-            if !positive || numbers.iter().any(|number| !number.is_finite()) {
-                return Err(format!("{result:?}"));
-            }
+            check_plate(plate, &solution)?;
             Ok(resolved(solution.status))
         }
     }
@@ -344,16 +383,47 @@ fn the_coarsest_grid_that_a_scene_may_ask_for() {
 
 /// A motor from one number in 0 … 1 for each key: below 0.05 and above 0.95 the ends of its range, between them evenly in
 /// the value or its logarithm.
-fn random_scene(units: &[f64]) -> Scene {
-    let mut scene = Scene::motor();
+fn random_motor(units: &[f64]) -> Scene {
     let mut width = 0.5;
+    let mut scene = random_scene(Scene::motor(), units, |key, share| {
+        let follows = key == "stator.tooth_width_mm";
+        width = if follows { share } else { width };
+        follows
+    });
+    let widths = scene.range("stator.tooth_width_mm").unwrap();
+    let width = (widths.min * (widths.max / widths.min).powf(width)).clamp(widths.min, widths.max);
+    scene.set_value("stator.tooth_width_mm", Value::Number(width)).unwrap();
+    scene
+}
+
+/// A plate likewise, every third one a strip; a third of the amplitudes is small, and a third nearly touches.
+fn random_plate(units: &[f64]) -> Scene {
+    let (mut strip, mut place) = (false, 0.5);
+    let mut scene = random_scene(Scene::plate(), units, |key, share| {
+        strip |= key == "plate.width_mm" && share < 0.3;
+        place = if key == "plate.amplitude_um" { share } else { place };
+        key == "plate.amplitude_um" || key == "plate.width_mm" && strip
+    });
+    let excursion = match 3.0 * place {
+        0.0 => 0.0,
+        x if x < 1.0 => 10f64.powf(6.0 * (x - 1.0)),
+        x if x < 2.0 => x - 1.0,
+        x => 1.0 - 10f64.powf(6.0 * (2.0 - x)),
+    };
+    let gap = scene.range("plate.amplitude_um").unwrap().max;
+    scene.set_value("plate.amplitude_um", Value::Number(excursion * gap)).unwrap();
+    scene
+}
+
+/// A scene whose keys are set from one number each, but for those that `follows` keeps for later, given the place in the range.
+fn random_scene(mut scene: Scene, units: &[f64], mut follows: impl FnMut(&str, f64) -> bool) -> Scene {
     for (parameter, unit) in PARAMETERS.iter().zip(units) {
-        if !scene.parameters().any(|known| known.key == parameter.key) || parameter.table() == "numerics" {
+        let known = scene.parameters().any(|known| known.key == parameter.key) && scene.heeds(parameter.key);
+        let share = ((unit - 0.05) / 0.9).clamp(0.0, 1.0);
+        if !known || parameter.table() == "numerics" || follows(parameter.key, share) {
             continue;
         }
-        let share = ((unit - 0.05) / 0.9).clamp(0.0, 1.0);
         match parameter.kind {
-            _ if parameter.key == "stator.tooth_width_mm" => width = share,
             ParameterKind::Number { range, .. } => {
                 let spread = if range.min > 0.0 {
                     range.min * (range.max / range.min).powf(share)
@@ -376,9 +446,6 @@ fn random_scene(units: &[f64]) -> Scene {
             _ => {}
         }
     }
-    let widths = scene.range("stator.tooth_width_mm").unwrap();
-    let width = (widths.min * (widths.max / widths.min).powf(width)).clamp(widths.min, widths.max);
-    scene.set_value("stator.tooth_width_mm", Value::Number(width)).unwrap();
     scene
 }
 
@@ -398,7 +465,7 @@ fn options(scene: &Scene) -> String {
         Value::Flag(flag) => format!("{flag}"),
         Value::Rows(_) => String::new(),
     };
-    let base = Scene::motor();
+    let base = if scene.rotor_model().is_some() { Scene::motor() } else { Scene::plate() };
     scene
         .parameters()
         .filter(|key| key.table() != "" && scene.get(key.key) != base.get(key.key))
@@ -413,27 +480,38 @@ proptest! {
     /// Any scene of the documented ranges is solved, or says that it is not.
     #[test]
     fn any_scene_is_solved_or_says_that_it_is_not(units in units()) {
-        let scene = random_scene(&units);
+        let scene = random_motor(&units);
         if let Err(fault) = survives(&scene, Fidelity::Draft) {
             return Err(TestCaseError::fail(format!("{}: {fault}", options(&scene))));
         }
     }
 }
 
+/// So many random scenes, by name.
+fn thousands(count: usize, seed: u64, random: fn(&[f64]) -> Scene) -> Vec<(String, Scene)> {
+    let mut runner = proptest::test_runner::TestRunner::new(seeded(1, seed));
+    let mut next = || random(&units().new_tree(&mut runner).unwrap().current());
+    (0..count).map(|_| next()).map(|scene| (options(&scene), scene)).collect()
+}
+
 /// `cargo test --release --test extremes -- --ignored --nocapture thousands`
 #[test]
 #[ignore = "minutes"]
-fn thousands_of_scenes() {
-    let mut runner = proptest::test_runner::TestRunner::new(seeded(1, 7));
-    let scenes: Vec<_> = (0..4000)
-        .map(|_| random_scene(&units().new_tree(&mut runner).unwrap().current()))
-        .map(|scene| (options(&scene), scene))
-        .collect();
-    let (astray, faults) = survey(scenes, Fidelity::Draft);
+fn thousands_of_motors() {
+    let (astray, faults) = survey(thousands(4000, 7, random_motor), Fidelity::Draft);
     println!("{}", faults.join("\n"));
     println!("{} not resolved", NOT_RESOLVED.load(Ordering::Relaxed));
     // 19 and none when this was written.
     assert!(faults.is_empty() && astray < 40, "{astray} not converged, {} faults", faults.len());
+}
+
+/// Every key of a plate over its whole range.
+#[test]
+#[ignore = "half a minute"]
+fn thousands_of_plates() {
+    let (astray, faults) = survey(thousands(1000, 8, random_plate), Fidelity::Draft);
+    println!("{}", faults.join("\n"));
+    assert!(faults.is_empty() && astray <= 2, "{astray} not converged, {} faults", faults.len());
 }
 
 // ---- limits

@@ -141,7 +141,7 @@ fn gas_trapped_under_a_crowned_tooth_that_rocks_is_in_proportion_to_the_mean_gap
         let mut state = FilmState::at_rest(h[1..intervals].to_vec());
         let mut line = vec![0.0; h.len()];
         for _ in 0..40 {
-            film.march(&h, None, 1e-8 / steps as f64, &mut state, &mut line, &Cancel::new()).unwrap();
+            film.march(&h, None, |_| 1e-8 / steps as f64, &mut state, &mut line, &Cancel::new()).unwrap();
             film.shift(&mut state);
         }
         for (ix, z) in (1..).zip(&state.trapped) {
@@ -302,5 +302,61 @@ fn convergence_is_of_second_order_in_space_and_time() {
         let orders: Vec<f64> = (0..2).map(|i| ((r[i + 1] - r[i]) / (r[i + 2] - r[i + 1])).abs().log2()).collect();
         println!("order in {what}: {orders:.3?}");
         assert!(orders.iter().all(|order| (1.8..2.4).contains(order)), "{what}: orders {orders:?} of {r:?}");
+    }
+}
+
+// ---- what a plan makes of a plate
+
+#[test]
+fn a_plate_turned_by_a_quarter_is_the_same_plate() {
+    for sigma in [1.0, 1e5] {
+        let long = plate(sigma, 0.5, 0.1, Some(1.0 / 40.0));
+        let [found, other] = [&long, &long.turned()].map(|plate| solve(plate, Fidelity::Standard));
+        let (load, turned) = (found.result.film_load, other.result.film_load);
+        assert!((turned / load - 1.0).abs() < 1e-9, "{load} {turned}");
+        let (a, b) = (&found.recording, &other.recording);
+        assert_eq!((&a.map_x, &a.map_y), (&b.map_y, &b.map_x));
+        assert!((a.length / b.length - 40.0).abs() < 1e-9);
+        let (nx, ny) = (a.map_x.len(), a.map_y.len());
+        for (k, p) in a.pressure.iter().enumerate() {
+            let (frame, ix, iy) = (k / (nx * ny), k / ny % nx, k % ny);
+            assert_eq!(*p, b.pressure[(frame * ny + iy) * nx + ix]);
+        }
+        for frame in 0..b.frames {
+            let line = &b.film[frame * b.x.len()..][..b.x.len()];
+            let sum: f64 = line.iter().zip(&b.node_length).map(|(film, length)| film * length).sum();
+            let force = long.gas.ambient_pressure * long.area();
+            assert!((sum - b.film_load[frame]).abs() < 1e-12 * force, "{frame}");
+        }
+    }
+}
+
+#[test]
+fn steps_that_follow_the_gap_agree_with_even_ones() {
+    for sigma in [0.1, 30.0, 1e4] {
+        let strip = plate(sigma, 0.9995, 0.0, None);
+        let even = Numerics { steps_per_cycle: Some(4096), ..Numerics::default() };
+        let (even, found) = (solve_with(&strip, Fidelity::Fine, &even), solve(&strip, Fidelity::Fine));
+        let (a, b) = (found.result, even.result);
+        println!("σ {sigma}: {:?} even {:?}", (a.film_load, a.film_load_error), (b.film_load, b.film_load_error));
+        assert!((a.film_load - b.film_load).abs() < a.film_load_error + b.film_load_error);
+        assert!((a.film_load_max - b.film_load_max).abs() < a.film_load_range_error[1] + b.film_load_range_error[1]);
+        assert!(a.film_load_error < 2e-3 * a.film_load && 2 * found.stats.steps_per_cycle < even.stats.steps_per_cycle);
+    }
+}
+
+#[test]
+fn what_trapped_gas_leaves_out_is_bounded() {
+    for (epsilon, m, aspect) in [(0.02, 0.0, None), (0.5, 1.0, Some(0.5)), (0.99, 0.1, None)] {
+        let plate = plate(1e7 * (1.0 + 6.0 * m), epsilon, m, aspect);
+        let plan = Plan::plate(&plate, Fidelity::Draft, &Numerics::default());
+        assert!(plan.trapped && plan.left_out < 4e-3, "{}", plan.left_out);
+        let marched = Plan { trapped: false, left_out: 0.0, accuracy: 5e-4, ..plan.clone() };
+        let [trapped, marched] =
+            [&plan, &marched].map(|plan| plate::periodic(&plate, plan, &mut (), &Cancel::new()).unwrap().result);
+        let effect = trapped.film_load / marched.film_load - 1.0;
+        println!("ε {epsilon}: effect {effect:.2e} of {:.2e}", plan.left_out);
+        assert!(effect.abs() > 0.2 * plan.left_out && effect.abs() < plan.left_out, "{effect}");
+        assert!((trapped.film_load - marched.film_load).abs() < trapped.film_load_error + marched.film_load_error);
     }
 }

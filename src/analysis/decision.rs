@@ -22,7 +22,8 @@ pub fn term(decision: &Decision) -> &'static str {
         Choice::MotorGrid { .. } => "grid",
         Choice::PlateGrid { across: Some(_), .. } => "plate",
         Choice::PlateGrid { across: None, .. } => "strip",
-        Choice::Steps(_) => "time",
+        Choice::Steps(..) => "time",
+        Choice::NoLeaks => "leaking",
     }
 }
 
@@ -67,7 +68,15 @@ pub fn words(decision: &Decision) -> String {
         Choice::PlateGrid { along, across: None } => {
             format!("one line across half its length solved, {along} intervals, and mirrored (exact)")
         }
-        Choice::Steps(steps) => format!("{steps} steps a cycle; two coarser grids for the error estimate"),
+        Choice::Steps(steps, follow) => {
+            let follow = if follow { ", the shorter the closer the plate is" } else { "" };
+            format!("{steps} steps a cycle{follow}; two coarser grids for the error estimate")
+        }
+        Choice::NoLeaks if decision.effect == 0.0 => "none, the plate does not move".to_owned(),
+        Choice::NoLeaks => format!(
+            "none, the gas is trapped (σ → ∞): leaking would change the load by less than {} of itself",
+            percent(decision.effect)
+        ),
     }
 }
 

@@ -99,6 +99,8 @@ pub struct Film {
     fitting: Vec<f64>,
     rhs: Vec<f64>,
     residual: Vec<f64>,
+    /// Δt·div flux \[m\].
+    divergence: Vec<f64>,
     jacobian: Coupling,
     /// Centre of Newton's matrix: the Jacobian's and the film's inertia.
     pivots: Vec<f64>,
@@ -213,6 +215,7 @@ impl Film {
             fitting: vec![0.0; grid.len()],
             rhs: vec![0.0; unknowns],
             residual: vec![0.0; unknowns],
+            divergence: vec![0.0; unknowns],
             jacobian: Coupling::new(unknowns),
             pivots: vec![0.0; unknowns],
             solver: RowSolver::new(unknowns / columns, columns, &diffusion),
@@ -256,6 +259,27 @@ impl Film {
     /// P = p/p_a at every node, edges included, `[ix][iy]`, after the last step.
     pub fn pressure(&self) -> &[f64] {
         &self.pressure
+    }
+
+    /// Adds Δt·div flux of the last step \[m\] to `sum`, at unknown nodes: that of the last Newton iterate, and what its step changed.
+    pub fn add_outflow(&mut self, sum: &mut [f64]) {
+        let (b, last) = (self.columns, sum.len());
+        // `residual` is the step of P.
+        let (jacobian, step) = (&self.jacobian, &self.residual);
+        for (row, sum) in sum.chunks_exact_mut(b).enumerate() {
+            let nodes = row * b..(row + 1) * b;
+            let outflow = &mut self.outflow[..b];
+            outflow.fill(0.0);
+            for (value, column) in nodes.clone().zip(self.across.chunks_exact(b)) {
+                let moved = jacobian.within[value] * step[value];
+                outflow.iter_mut().zip(column).for_each(|(outflow, entry)| *outflow += entry * moved);
+            }
+            for (j, k) in nodes.enumerate() {
+                let west = if k >= b { jacobian.west[k] * step[k - b] } else { 0.0 };
+                let east = if k + b < last { jacobian.east[k] * step[k + b] } else { 0.0 };
+                sum[j] += self.divergence[k] + outflow[j] + jacobian.centre[k] * step[k] + west + east;
+            }
+        }
     }
 
     /// Jacobian of Δt·div flux by P in the last step (without the time derivative).
@@ -452,6 +476,7 @@ impl Film {
                 let scale = dt * self.mobility * gap;
                 let own = west;
                 let residual = &mut self.residual[nodes.clone()];
+                let flown = &mut self.divergence[nodes.clone()];
                 let (rhs, theta) = (&self.rhs[nodes.clone()], &self.theta[nodes.clone()]);
                 let jacobian = &mut self.jacobian;
                 let centre = &mut jacobian.centre[nodes.clone()];
@@ -467,6 +492,7 @@ impl Film {
                     let inertia = (1.0 + 0.5 * theta[j]) * gap;
                     let divergence = scale * outflow[j] + (flux_east[j] - flux_west[j]) * inverse;
                     residual[j] = rhs[j] - inertia * own[j] - divergence;
+                    flown[j] = divergence;
                     let here = (east_by_west[j] - west_by_east[j]) * inverse;
                     centre[j] = here;
                     within[j] = scale * gap * law.at(gap * own[j]).0;

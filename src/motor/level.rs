@@ -361,13 +361,13 @@ impl Level {
         if self.trapped_film.is_some() {
             return self.trap(stats);
         }
-        let size = self.steps * self.nx;
+        let (size, dt) = (self.steps * self.nx, self.dt);
         for tooth in 0..self.stored {
             let range = tooth * size..(tooth + 1) * size;
             let cost = self.films[tooth].march(
                 &self.film_thickness[range.clone()],
                 self.speed.as_ref().map(|u| &u[range.clone()]),
-                self.dt,
+                |_| dt,
                 &mut self.states[tooth],
                 &mut self.line[range],
                 cancel,
