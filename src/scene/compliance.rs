@@ -13,9 +13,9 @@
 //! k = 2πn/λ with the wavelength λ = 2πr/waves of the scene. Lines that start with `#` are comments. The scene keeps
 //! the rows, so that a saved preset needs no second file and a change of `motor.waves` leaves the rotor as it is.
 
-use super::error::{Fault, What};
+use super::error::{Fault, RowFault, SceneError, What};
 use super::parameter::Range;
-use super::value::{show_number, show_text};
+use super::value::show_text;
 use std::path::Path;
 
 /// Allowed wavenumbers \[1/m\].
@@ -26,54 +26,6 @@ pub const COMPLIANCE: Range = Range::new(1e-20, 1.0);
 
 /// Most rows of a table.
 pub const MOST_ROWS: usize = 100_000;
-
-/// What is wrong with a row.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RowFault {
-    /// Not two numbers.
-    #[error("{found} is not a pair of numbers, wavenumber_per_m and compliance_m2_per_n")]
-    NotAPair {
-        /// What is there instead.
-        found: String,
-    },
-    /// Not a number.
-    #[error("{column} = {found} is not a number")]
-    NotANumber {
-        /// The column.
-        column: &'static str,
-        /// What is there instead.
-        found: String,
-    },
-    /// Outside the range.
-    #[error("{column} = {} is out of range: allowed {range} {unit}", show_number(*value))]
-    OutOfRange {
-        /// The column.
-        column: &'static str,
-        /// The value.
-        value: f64,
-        /// What is allowed.
-        range: Range,
-        /// The unit.
-        unit: &'static str,
-    },
-    /// Harmonics are counted: 1, 2, 3 …
-    #[error("harmonic = {} is not a whole number from 1 up", show_number(*value))]
-    NotAHarmonic {
-        /// The value.
-        value: f64,
-    },
-    /// Wavenumbers must ascend.
-    #[error(
-        "wavenumber_per_m = {} is not above {}, the one before: sort the rows",
-        show_number(*value), show_number(*before)
-    )]
-    NotAscending {
-        /// The wavenumber \[1/m\].
-        value: f64,
-        /// The one in the row before \[1/m\].
-        before: f64,
-    },
-}
 
 /// Checks one row against its ranges and the wavenumber of the row `before`.
 pub(super) fn check_row(row: (f64, f64), before: Option<f64>) -> Result<(), RowFault> {
@@ -91,21 +43,18 @@ pub(super) fn check_row(row: (f64, f64), before: Option<f64>) -> Result<(), RowF
     }
 }
 
-/// Faults of a table held in memory.
-pub(super) fn check_rows(key: &'static str, rows: &[(f64, f64)]) -> Vec<What> {
-    if rows.is_empty() {
-        return vec![What::ComplianceMissing];
+/// Checks a table held in memory, up to its first fault.
+pub(super) fn check_rows(key: &'static str, rows: &[(f64, f64)]) -> Result<(), What> {
+    if rows.is_empty() || rows.len() > MOST_ROWS {
+        return Err(What::TooManyRows { key, rows: rows.len(), limit: MOST_ROWS });
     }
-    if rows.len() > MOST_ROWS {
-        return vec![What::TooManyRows { key, rows: rows.len(), limit: MOST_ROWS }];
-    }
-    let before = |i: usize| i.checked_sub(1).and_then(|i| rows.get(i)).map(|row| row.0);
-    let checked = rows.iter().enumerate().map(|(i, &row)| (i + 1, check_row(row, before(i))));
-    checked.filter_map(|(row, check)| check.err().map(|fault| What::Row { key, row, fault })).collect()
+    let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
+    let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(*row, before)).zip(1..);
+    checked.try_for_each(|(checked, row)| checked.map_err(|fault| What::Row { key, row, fault }))
 }
 
 /// Reads the text of a CSV file. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and the line.
-pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(f64, f64)>, Vec<Fault>> {
+pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(f64, f64)>, SceneError> {
     const KEY: &str = "rotor.compliance_csv";
     let fault =
         |line: Option<usize>, what| Fault { origin: Some(path.to_owned()), line, column: line.and(Some(1)), what };
@@ -119,7 +68,7 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
 
     let header = match records.next() {
         Some(Ok(header)) => header,
-        _ => return Err(vec![fault(Some(1), What::CsvHeader { found: String::new() })]),
+        _ => return Err(fault(Some(1), What::CsvHeader).into()),
     };
     let line_of = |record: &csv::StringRecord| {
         // The position is where the reader stood before blank lines and comments: step over them.
@@ -132,14 +81,11 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
     let harmonics = match header.iter().collect::<Vec<_>>()[..] {
         ["harmonic", "compliance_m2_per_n"] => true,
         ["wavenumber_per_m", "compliance_m2_per_n"] => false,
-        ref found => {
-            let found = show_text(&found.join(","));
-            return Err(vec![fault(line_of(&header), What::CsvHeader { found })]);
-        }
+        _ => return Err(fault(line_of(&header), What::CsvHeader).into()),
     };
 
     let mut rows: Vec<(f64, f64)> = Vec::new();
-    let mut faults = Vec::new();
+    let mut faults = SceneError::none();
     for (i, record) in records.enumerate() {
         let row = i + 1;
         if row > MOST_ROWS {
@@ -159,10 +105,11 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
             Err(wrong) => faults.push(fault(line, What::Row { key: KEY, row, fault: wrong })),
         }
     }
-    if rows.is_empty() && faults.is_empty() {
-        faults.push(fault(None, What::TooManyRows { key: KEY, rows: 0, limit: MOST_ROWS }));
+    let rows = faults.or(rows)?;
+    if rows.is_empty() {
+        return Err(fault(None, What::TooManyRows { key: KEY, rows: 0, limit: MOST_ROWS }).into());
     }
-    if faults.is_empty() { Ok(rows) } else { Err(faults) }
+    Ok(rows)
 }
 
 fn row_of(record: &csv::StringRecord, harmonics: bool, wavelength: f64) -> Result<(f64, f64), RowFault> {
@@ -192,7 +139,7 @@ mod tests {
 
     fn lines(text: &str) -> Vec<(Option<usize>, String)> {
         let faults = read_csv(text, Path::new("r.csv"), 1.0).unwrap_err();
-        faults.iter().map(|fault| (fault.line, fault.to_string())).collect()
+        faults.faults().iter().map(|fault| (fault.line, fault.to_string())).collect()
     }
 
     #[test]
@@ -225,7 +172,10 @@ mod tests {
 
     #[test]
     fn another_header_and_an_empty_table_are_refused() {
-        assert!(lines("\n\nk,c\n1,2\n")[0].1.starts_with("r.csv:3: rotor.compliance_csv: the header is \"k,c\""));
+        assert!(
+            lines("\n\nk,c\n1,2\n")[0].1.starts_with("r.csv:3: rotor.compliance_csv: this is no compliance table: ")
+        );
+        assert!(!lines("root:x:0:0\n")[0].1.contains("root"));
         assert!(lines("")[0].1.contains("expected harmonic,compliance_m2_per_n"));
         assert!(lines("harmonic,compliance_m2_per_n\n")[0].1.contains("has 0 rows"));
         assert!(

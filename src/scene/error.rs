@@ -1,29 +1,67 @@
-//! What can be wrong with a scene. A [`SceneError`] holds every fault found at once; its `Display` is what the user
-//! sees, one line per fault: `my.toml:12: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm`.
+//! What can be wrong with a scene. A [`SceneError`] holds the first faults and counts the others; its `Display` is what
+//! the user sees, one line per fault: `my.toml:12: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm`.
 
-use super::compliance::RowFault;
 use super::parameter::{Parameter, Range};
 use super::value::{Value, show_number};
+use crate::input::ReadError;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Everything wrong with a scene: at least one fault, in the order of the file.
+/// The version of the file format this program reads and writes.
+pub const SCHEMA: i64 = 1;
+
+/// Most faults told at once.
+const MOST_FAULTS: usize = 10;
+
+/// What is wrong with a scene: at least one fault and at most ten, in the order of the file, and how many more there are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneError {
     faults: Vec<Fault>,
+    more: usize,
 }
 
 impl SceneError {
-    /// The error of these faults, or `Ok` if there are none.
-    pub(super) fn unless_empty(mut faults: Vec<Fault>) -> Result<(), Self> {
-        // Stable, so that faults on one line keep the order in which they were found.
-        faults.sort_by(|a, b| (&a.origin, a.line).cmp(&(&b.origin, b.line)));
-        if faults.is_empty() { Ok(()) } else { Err(Self { faults }) }
+    /// No fault so far.
+    pub(super) fn none() -> Self {
+        Self { faults: Vec::new(), more: 0 }
     }
 
-    /// The faults, at least one.
+    /// Whether further faults are only counted.
+    pub(super) fn is_full(&self) -> bool {
+        self.faults.len() >= MOST_FAULTS
+    }
+
+    /// Adds a fault.
+    pub(super) fn push(&mut self, fault: impl Into<Fault>) {
+        if self.is_full() { self.more += 1 } else { self.faults.push(fault.into()) }
+    }
+
+    /// Counts a fault beyond those that are told.
+    pub(super) fn count_one(&mut self) {
+        self.more += 1;
+    }
+
+    /// Adds the faults of another error.
+    pub(super) fn join(&mut self, other: Self) {
+        self.more += other.more;
+        other.faults.into_iter().for_each(|fault| self.push(fault));
+    }
+
+    /// `value`, or the error if there are faults.
+    pub(super) fn or<T>(mut self, value: T) -> Result<T, Self> {
+        // Stable, so that faults on one line keep the order in which they were found.
+        self.faults.sort_by(|a, b| (&a.origin, a.line).cmp(&(&b.origin, b.line)));
+        if self.faults.is_empty() { Ok(value) } else { Err(self) }
+    }
+
+    /// The faults, at least one and at most ten.
     pub fn faults(&self) -> &[Fault] {
         &self.faults
+    }
+
+    /// How many faults there are beside those.
+    pub fn more(&self) -> usize {
+        self.more
     }
 
     /// The same faults, said of `origin`, where they name no file of their own.
@@ -43,21 +81,15 @@ impl fmt::Display for SceneError {
             }
             write!(f, "{fault}")?;
         }
-        Ok(())
+        if self.more > 0 { write!(f, "\nand {} more", self.more) } else { Ok(()) }
     }
 }
 
 impl std::error::Error for SceneError {}
 
-impl From<What> for SceneError {
-    fn from(what: What) -> Self {
-        Self { faults: vec![Fault::from(what)] }
-    }
-}
-
-impl From<Fault> for SceneError {
-    fn from(fault: Fault) -> Self {
-        Self { faults: vec![fault] }
+impl<F: Into<Fault>> From<F> for SceneError {
+    fn from(fault: F) -> Self {
+        Self { faults: vec![fault.into()], more: 0 }
     }
 }
 
@@ -99,21 +131,9 @@ impl fmt::Display for Fault {
 /// What is wrong. Values carry the unit of their key.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum What {
-    /// The file cannot be read.
-    #[error("cannot be read: {reason}")]
-    Unreadable {
-        /// The system's reason.
-        reason: String,
-    },
-    /// The file is larger than any scene.
-    #[error("is larger than {limit} bytes: this is not a preset")]
-    TooLarge {
-        /// The largest size read \[bytes\].
-        limit: u64,
-    },
-    /// The file is not UTF-8.
-    #[error("is not UTF-8 text")]
-    NotText,
+    /// The file is not read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// The file cannot be written.
     #[error("cannot be written: {reason}")]
     Unwritable {
@@ -127,18 +147,13 @@ pub enum What {
         message: String,
     },
     /// No `schema` key.
-    #[error("the key schema is missing: write schema = {supported} at the top of the file")]
-    SchemaMissing {
-        /// The version this program reads.
-        supported: i64,
-    },
+    #[error("the key schema is missing: write schema = {SCHEMA} at the top of the file")]
+    SchemaMissing,
     /// A `schema` this program does not read.
-    #[error("schema = {found} is not supported: this program reads schema = {supported}")]
+    #[error("schema = {found} is not supported: this program reads schema = {SCHEMA}")]
     SchemaUnsupported {
         /// The value in the file.
         found: String,
-        /// The version this program reads.
-        supported: i64,
     },
     /// A `scene` that does not exist.
     #[error("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{}", did_you_mean(nearest.as_deref()))]
@@ -186,15 +201,17 @@ pub enum What {
         /// The scene this is.
         scene: &'static str,
     },
-    /// A key of another rotor model.
-    #[error("{key} belongs to rotor.model = \"{needs}\", and this is rotor.model = \"{model}\"")]
+    /// A key of another model, such as that of the rotor.
+    #[error("{key} belongs to {selector} = \"{needs}\", and this is {selector} = \"{chosen}\"")]
     OtherModel {
         /// The dotted key.
         key: &'static str,
+        /// The key that chooses the model.
+        selector: &'static str,
         /// The model it belongs to.
         needs: &'static str,
         /// The model this is.
-        model: &'static str,
+        chosen: String,
     },
     /// A rotor model that is planned.
     #[error("rotor.model = \"ring\" is reserved and not available: allowed \"beam\" or \"table\"")]
@@ -318,17 +335,14 @@ pub enum What {
         /// The file looked for.
         path: PathBuf,
         /// What is wrong with the file.
-        fault: Box<What>,
+        fault: ReadError,
     },
-    /// The CSV file has another header.
+    /// The CSV file has another header. What is in it is not shown: it may be any file of this machine.
     #[error(
-        "rotor.compliance_csv: the header is \"{found}\": expected harmonic,compliance_m2_per_n or \
+        "rotor.compliance_csv: this is no compliance table: expected the header harmonic,compliance_m2_per_n or \
          wavenumber_per_m,compliance_m2_per_n"
     )]
-    CsvHeader {
-        /// The header found.
-        found: String,
-    },
+    CsvHeader,
     /// Neither a built-in preset nor a file.
     #[error(
         "unknown preset {name}: it is neither a built-in preset nor a file{}; squeezefilm presets lists the built-in ones",
@@ -345,33 +359,21 @@ pub enum What {
 impl What {
     /// The dotted key the fault is about, if it is about one.
     pub fn key(&self) -> Option<&str> {
-        match self {
-            Self::UnknownKey { key, .. } | Self::OtherScene { key, .. } => Some(key),
-            Self::OtherModel { key, .. }
-            | Self::Fixed { key }
-            | Self::NoEffect { key, .. }
-            | Self::TooManyRows { key, .. }
-            | Self::Row { key, .. } => Some(key),
-            Self::WrongType { parameter, .. }
-            | Self::NotFinite { parameter, .. }
-            | Self::OutOfRange { parameter, .. }
-            | Self::NotAChoice { parameter, .. } => Some(parameter.key),
-            Self::SchemaMissing { .. } | Self::SchemaUnsupported { .. } => Some("schema"),
-            Self::UnknownScene { .. } => Some("scene"),
-            Self::UnknownTable { table, .. } => Some(table),
-            Self::NotATable { table, .. } => Some(table),
-            Self::WedgeWithoutShear => Some("numerics.wedge"),
-            Self::ReservedModel | Self::ComplianceMissing => Some("rotor.model"),
-            Self::ToothAndPitch { .. } => Some("stator.tooth_width_mm"),
-            Self::AmplitudeAndGap { .. } => Some("plate.amplitude_um"),
-            Self::ComplianceTwice | Self::Csv { .. } | Self::CsvHeader { .. } => Some("rotor.compliance_csv"),
-            Self::Unreadable { .. }
-            | Self::TooLarge { .. }
-            | Self::NotText
-            | Self::Unwritable { .. }
-            | Self::Syntax { .. }
-            | Self::UnknownPreset { .. } => None,
-        }
+        Some(match self {
+            Self::UnknownKey { key, .. } | Self::OtherScene { key, .. } | Self::UnknownTable { table: key, .. } => key,
+            Self::OtherModel { key, .. } | Self::Fixed { key } | Self::NoEffect { key, .. } => key,
+            Self::TooManyRows { key, .. } | Self::Row { key, .. } | Self::NotATable { table: key, .. } => key,
+            Self::WrongType { parameter, .. } | Self::NotFinite { parameter, .. } => parameter.key,
+            Self::OutOfRange { parameter, .. } | Self::NotAChoice { parameter, .. } => parameter.key,
+            Self::SchemaMissing | Self::SchemaUnsupported { .. } => "schema",
+            Self::UnknownScene { .. } => "scene",
+            Self::WedgeWithoutShear => "numerics.wedge",
+            Self::ReservedModel | Self::ComplianceMissing => "rotor.model",
+            Self::ToothAndPitch { .. } => "stator.tooth_width_mm",
+            Self::AmplitudeAndGap { .. } => "plate.amplitude_um",
+            Self::ComplianceTwice | Self::Csv { .. } | Self::CsvHeader => "rotor.compliance_csv",
+            Self::Read(_) | Self::Unwritable { .. } | Self::Syntax { .. } | Self::UnknownPreset { .. } => return None,
+        })
     }
 }
 
@@ -392,4 +394,52 @@ fn suggestion(nearest: Option<&str>, siblings: &[&str]) -> String {
         Some(name) => format!(": did you mean {name}?"),
         None => format!(": known are {}", siblings.join(", ")),
     }
+}
+
+/// What is wrong with a row.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RowFault {
+    /// Not two numbers.
+    #[error("{found} is not a pair of numbers, wavenumber_per_m and compliance_m2_per_n")]
+    NotAPair {
+        /// What is there instead.
+        found: String,
+    },
+    /// Not a number.
+    #[error("{column} = {found} is not a number")]
+    NotANumber {
+        /// The column.
+        column: &'static str,
+        /// What is there instead.
+        found: String,
+    },
+    /// Outside the range.
+    #[error("{column} = {} is out of range: allowed {range} {unit}", show_number(*value))]
+    OutOfRange {
+        /// The column.
+        column: &'static str,
+        /// The value.
+        value: f64,
+        /// What is allowed.
+        range: Range,
+        /// The unit.
+        unit: &'static str,
+    },
+    /// Harmonics are counted: 1, 2, 3 …
+    #[error("harmonic = {} is not a whole number from 1 up", show_number(*value))]
+    NotAHarmonic {
+        /// The value.
+        value: f64,
+    },
+    /// Wavenumbers must ascend.
+    #[error(
+        "wavenumber_per_m = {} is not above {}, the one before: sort the rows",
+        show_number(*value), show_number(*before)
+    )]
+    NotAscending {
+        /// The wavenumber \[1/m\].
+        value: f64,
+        /// The one in the row before \[1/m\].
+        before: f64,
+    },
 }

@@ -26,6 +26,28 @@ impl Value {
             Self::Flag(_) | Self::Text(_) | Self::Rows(_) => None,
         }
     }
+
+    /// The same value in TOML.
+    pub(super) fn to_toml(&self) -> toml::Value {
+        match self {
+            Self::Number(number) => (*number).into(),
+            Self::Whole(whole) => (*whole).into(),
+            Self::Flag(flag) => (*flag).into(),
+            Self::Text(text) => text.as_str().into(),
+            Self::Rows(rows) => rows.iter().map(|row| toml::Value::from(vec![row.0, row.1])).collect::<Vec<_>>().into(),
+        }
+    }
+
+    /// The same number, flag or text.
+    pub(super) fn from_toml(value: &toml::Value) -> Option<Self> {
+        Some(match value {
+            toml::Value::Float(number) => Self::Number(*number),
+            toml::Value::Integer(whole) => Self::Whole(*whole),
+            toml::Value::Boolean(flag) => Self::Flag(*flag),
+            toml::Value::String(text) => Self::Text(text.clone()),
+            _ => return None,
+        })
+    }
 }
 
 impl fmt::Display for Value {

@@ -1,10 +1,10 @@
 //! A scene as TOML text, and to disk. Every key is present, absent optional ones as comments; numbers are written with
 //! the fewest digits that read back to the same bits.
 
-use super::error::{Fault, SceneError, What};
+use super::error::{Fault, SCHEMA, SceneError, What};
 use super::parameter::Parameter;
 use super::value::Value;
-use super::{SCHEMA, Scene};
+use super::values::Scene;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::Path;
@@ -57,8 +57,8 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
         Value::Number(number) => format!("{leaf} = {number:?}"),
         Value::Whole(whole) => format!("{leaf} = {whole}"),
         Value::Flag(flag) => format!("{leaf} = {flag}"),
-        Value::Text(words) => {
-            let quoted = format!("{leaf} = {}", quote(words));
+        Value::Text(_) => {
+            let quoted = format!("{leaf} = {}", value.to_toml());
             if parameter.table().is_empty() {
                 let _ = writeln!(text, "{quoted}");
                 return;
@@ -75,23 +75,6 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
         }
     };
     let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
-}
-
-/// A TOML basic string.
-fn quote(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => quoted.push_str("\\\""),
-            '\\' => quoted.push_str("\\\\"),
-            c if c.is_control() => {
-                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
-            }
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
 }
 
 fn write_atomically(path: &Path, text: &str) -> io::Result<()> {

@@ -104,7 +104,7 @@ impl TradeoffState {
 
     /// Whether `scene` is another one than was measured. Numerics do not matter: each setting brings its own.
     pub fn stale(&self, scene: &Scene) -> bool {
-        self.scene.kind != scene.kind
+        !self.scene.same_model(scene)
     }
 }
 
