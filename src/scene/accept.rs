@@ -9,42 +9,35 @@ use super::value::{Value, show_text};
 impl Parameter {
     /// The value as the key holds it: whole numbers are numbers, and numbers without a fraction are whole.
     pub(super) fn accept(&'static self, value: Value) -> Result<Value, What> {
-        let parameter = self;
+        let wrong_type = |value: Value| Err(What::wrong_type(self, value.to_string()));
+        let refused = |found, why, nearest| Err(What::Refused { parameter: self, found, why, nearest });
         match (self.kind, value) {
-            (
-                ParameterKind::Number { .. } | ParameterKind::Whole { .. },
-                value @ (Value::Number(_) | Value::Whole(_)),
-            ) => {
+            (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, value) => {
                 let whole = matches!(self.kind, ParameterKind::Whole { .. });
-                let (number, range) = (value.as_number().unwrap_or(f64::NAN), self.range());
-                match range.filter(|range| !range.contains(number)) {
-                    _ if !number.is_finite() => Err(What::NotFinite { parameter, value: number }),
-                    _ if whole && number.fract() != 0.0 => Err(What::WrongType { parameter, found: value.to_string() }),
-                    Some(range) => Err(What::OutOfRange { parameter, value, range }),
+                let Some(number) = value.as_number() else { return wrong_type(value) };
+                match self.range().filter(|range| !range.contains(number)) {
+                    _ if !number.is_finite() => refused(number.to_string(), "not finite", None),
+                    _ if whole && number.fract() != 0.0 => wrong_type(value),
+                    Some(range) => Err(What::OutOfRange { parameter: self, value, range }),
                     None if whole => Ok(Value::Whole(number as i64)),
                     None => Ok(Value::Number(number)),
                 }
             }
-            (ParameterKind::Flag { .. }, value @ Value::Flag(_))
-            | (ParameterKind::Text { .. }, value @ Value::Text(_)) => Ok(value),
-            (ParameterKind::Choice { options, .. }, Value::Text(name)) => {
-                if options.contains(&name.as_str()) {
-                    Ok(Value::Text(name))
-                } else if self.key == "rotor.model" && name == "ring" {
-                    Err(What::ReservedModel)
-                } else {
-                    let nearest = nearest(&name, options.iter().copied()).map(str::to_owned);
-                    Err(What::NotAChoice { parameter, value: show_text(&name), nearest })
-                }
+            (ParameterKind::Choice { options, .. }, Value::Text(name)) if !options.contains(&name.as_str()) => {
+                let nearest = nearest(&name, options.iter().copied()).map(str::to_owned);
+                refused(format!("\"{}\"", show_text(&name)), "not available", nearest)
             }
             (ParameterKind::Rows, Value::Rows(rows)) => {
-                compliance::check_rows(self.key, &rows).map(|()| Value::Rows(rows))
+                compliance::check_rows(self.key, &rows)?;
+                Ok(Value::Rows(rows))
             }
-            (_, value) => Err(What::WrongType { parameter, found: value.to_string() }),
+            (ParameterKind::Flag { .. }, value @ Value::Flag(_))
+            | (ParameterKind::Choice { .. } | ParameterKind::Text { .. }, value @ Value::Text(_)) => Ok(value),
+            (_, value) => wrong_type(value),
         }
     }
 
-    /// The value written as `--set` takes it: a number in the key's unit, a name or text without quotes, rows as in TOML.
+    /// The value written as `--set` takes it: a number in the key's unit, a name or text without quotes.
     pub(super) fn read(&'static self, text: &str) -> Result<Value, What> {
         let read = match self.kind {
             ParameterKind::Number { .. } | ParameterKind::Whole { .. } => text.parse().ok().map(Value::Number),
@@ -52,6 +45,6 @@ impl Parameter {
             ParameterKind::Choice { .. } | ParameterKind::Text { .. } => Some(Value::Text(text.to_owned())),
             ParameterKind::Rows | ParameterKind::CsvPath => None,
         };
-        read.ok_or_else(|| What::WrongType { parameter: self, found: show_text(text) })
+        read.ok_or_else(|| What::wrong_type(self, show_text(text)))
     }
 }

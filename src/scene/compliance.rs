@@ -13,32 +13,39 @@
 //! k = 2πn/λ with the wavelength λ = 2πr/waves of the scene. Lines that start with `#` are comments. The scene keeps
 //! the rows, so that a saved preset needs no second file and a change of `motor.waves` leaves the rotor as it is.
 
-use super::error::{Fault, RowFault, SceneError, What};
-use super::parameter::Range;
-use super::value::show_text;
+use super::error::{Fault, SceneError, What};
+use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::value::{Value, show_text};
 use std::path::Path;
-
-/// Allowed wavenumbers \[1/m\].
-pub const WAVENUMBER: Range = Range::new(1e-3, 1e9);
-
-/// Allowed compliances \[m²/N\].
-pub const COMPLIANCE: Range = Range::new(1e-20, 1.0);
 
 /// Most rows of a table.
 pub const MOST_ROWS: usize = 100_000;
 
+/// The columns of a row, said of as keys are.
+pub static COLUMNS: [Parameter; 2] = [
+    column("wavenumber_per_m", "1/m", 1e-3, 1e9, "Wavenumber k"),
+    column("compliance_m2_per_n", "m²/N", 1e-20, 1.0, "Displacement amplitude over line-load amplitude"),
+];
+
+/// What a CSV file may have in place of the wavenumber.
+static HARMONIC: Parameter = Parameter {
+    kind: ParameterKind::Whole { min: 1, max: 1_000_000_000, default: 1 },
+    ..column("harmonic", "", 1.0, 1.0, "Harmonic n of the wavelength λ, k = 2πn/λ")
+};
+
+const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about: &'static str) -> Parameter {
+    let range = Range::new(min, max);
+    let kind = ParameterKind::Number { range, slider: range, scale: Scale::Log, default: max };
+    Parameter { key, unit, belongs: Belongs::Motor, when: None, absent: None, kind, about }
+}
+
 /// Checks one row against its ranges and the wavenumber of the row `before`.
-pub(super) fn check_row(row: (f64, f64), before: Option<f64>) -> Result<(), RowFault> {
-    let (wavenumber, compliance) = row;
-    let ranges =
-        [("wavenumber_per_m", wavenumber, WAVENUMBER, "1/m"), ("compliance_m2_per_n", compliance, COMPLIANCE, "m²/N")];
-    for (column, value, range, unit) in ranges {
-        if !range.contains(value) {
-            return Err(RowFault::OutOfRange { column, value, range, unit });
-        }
+pub(super) fn check_row(row: (f64, f64), before: Option<f64>) -> Result<(), What> {
+    for (column, value) in COLUMNS.iter().zip([row.0, row.1]) {
+        column.accept(Value::Number(value))?;
     }
     match before {
-        Some(before) if wavenumber <= before => Err(RowFault::NotAscending { value: wavenumber, before }),
+        Some(before) if row.0 <= before => Err(What::NotAscending(row.0, before)),
         _ => Ok(()),
     }
 }
@@ -50,7 +57,7 @@ pub(super) fn check_rows(key: &'static str, rows: &[(f64, f64)]) -> Result<(), W
     }
     let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
     let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(*row, before)).zip(1..);
-    checked.try_for_each(|(checked, row)| checked.map_err(|fault| What::Row { key, row, fault }))
+    checked.try_for_each(|(checked, row)| checked.map_err(|fault| What::Row { key, row, fault: fault.into() }))
 }
 
 /// Reads the text of a CSV file. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and the line.
@@ -96,13 +103,13 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
             Ok(record) => (line_of(&record), row_of(&record, harmonics, wavelength)),
             Err(error) => {
                 let line = error.position().map(|position| position.line() as usize);
-                (line, Err(RowFault::NotAPair { found: show_text(&error.to_string()) }))
+                (line, Err(What::NotAPair(show_text(&error.to_string()))))
             }
         };
         let before = rows.last().map(|row| row.0);
         match parsed.and_then(|row| check_row(row, before).map(|()| row)) {
             Ok(row) => rows.push(row),
-            Err(wrong) => faults.push(fault(line, What::Row { key: KEY, row, fault: wrong })),
+            Err(wrong) => faults.push(fault(line, What::Row { key: KEY, row, fault: wrong.into() })),
         }
     }
     let rows = faults.or(rows)?;
@@ -112,25 +119,20 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
     Ok(rows)
 }
 
-fn row_of(record: &csv::StringRecord, harmonics: bool, wavelength: f64) -> Result<(f64, f64), RowFault> {
-    let number = |column: &'static str, field: &str| {
-        let parsed = field.parse::<f64>().ok().filter(|value| value.is_finite());
-        parsed.ok_or_else(|| RowFault::NotANumber { column, found: show_text(field) })
-    };
+fn row_of(record: &csv::StringRecord, harmonics: bool, wavelength: f64) -> Result<(f64, f64), What> {
     let [first, second] = record.iter().collect::<Vec<_>>()[..] else {
-        let found = show_text(&record.iter().collect::<Vec<_>>().join(","));
-        return Err(RowFault::NotAPair { found });
+        return Err(What::NotAPair(show_text(&record.iter().collect::<Vec<_>>().join(","))));
+    };
+    let number = |column: &'static Parameter, field| {
+        let value = column.accept(column.read(field)?)?;
+        Ok::<_, What>(value.as_number().unwrap_or(f64::NAN))
     };
     let wavenumber = if harmonics {
-        let value = number("harmonic", first)?;
-        if value < 1.0 || value.fract() != 0.0 {
-            return Err(RowFault::NotAHarmonic { value });
-        }
-        std::f64::consts::TAU * value / wavelength
+        std::f64::consts::TAU * number(&HARMONIC, first)? / wavelength
     } else {
-        number("wavenumber_per_m", first)?
+        number(&COLUMNS[0], first)?
     };
-    Ok((wavenumber, number("compliance_m2_per_n", second)?))
+    Ok((wavenumber, number(&COLUMNS[1], second)?))
 }
 
 #[cfg(test)]
@@ -154,14 +156,20 @@ mod tests {
         let text = "wavenumber_per_m,compliance_m2_per_n\n# note\n10,1e-9\n\n20,x\n30\n5,1e-9\n40,-1\n50,nan\n";
         let found = lines(text);
         let expected = [
-            (5, "r.csv:5: rotor.compliance_csv, row 2: compliance_m2_per_n = x is not a number"),
+            (
+                5,
+                "r.csv:5: rotor.compliance_csv, row 2: compliance_m2_per_n = x is of the wrong type: expected a number from 1e-20",
+            ),
             (6, "r.csv:6: rotor.compliance_csv, row 3: 30 is not a pair of numbers"),
             (7, "r.csv:7: rotor.compliance_csv, row 4: wavenumber_per_m = 5 is not above 10, the one before"),
             (
                 8,
                 "r.csv:8: rotor.compliance_csv, row 5: compliance_m2_per_n = -1 is out of range: allowed 1e-20 to 1 m²/N",
             ),
-            (9, "r.csv:9: rotor.compliance_csv, row 6: compliance_m2_per_n = nan is not a number"),
+            (
+                9,
+                "r.csv:9: rotor.compliance_csv, row 6: compliance_m2_per_n = NaN is not finite: expected a number from 1e-20",
+            ),
         ];
         assert_eq!(found.len(), expected.len());
         for ((line, message), (at, start)) in found.iter().zip(expected) {
@@ -179,7 +187,9 @@ mod tests {
         assert!(lines("")[0].1.contains("expected harmonic,compliance_m2_per_n"));
         assert!(lines("harmonic,compliance_m2_per_n\n")[0].1.contains("has 0 rows"));
         assert!(
-            lines("harmonic,compliance_m2_per_n\n1.5,1e-9\n")[0].1.contains("harmonic = 1.5 is not a whole number")
+            lines("harmonic,compliance_m2_per_n\n1.5,1e-9\n")[0]
+                .1
+                .contains("harmonic = 1.5 is of the wrong type: expected a whole number from 1 to")
         );
     }
 }

@@ -84,14 +84,18 @@ impl Scene {
     /// The parameter of a key, if it exists and applies. A compliance table may be given to a beam: it replaces it.
     fn settable(&self, key: &str) -> Result<&'static Parameter, What> {
         match key {
-            "schema" => return Err(What::Fixed { key: "schema" }),
-            "scene" => return Err(What::Fixed { key: "scene" }),
+            "schema" => return Err(What::Fixed("schema")),
+            "scene" => return Err(What::Fixed("scene")),
             _ => {}
         }
         let parameter = self.parameter(key)?;
         match (self.applies(parameter), parameter.kind) {
             (Ok(()), _) if !self.heeds(key) => Err(What::NoEffect { key: parameter.key, scene: self.scene() }),
-            (Err(What::OtherModel { .. }), ParameterKind::Rows | ParameterKind::CsvPath) => Ok(parameter),
+            (Err(What::Elsewhere { selector, .. }), ParameterKind::Rows | ParameterKind::CsvPath)
+                if selector != "scene" =>
+            {
+                Ok(parameter)
+            }
             (applies, _) => applies.map(|()| parameter),
         }
     }
@@ -164,7 +168,9 @@ mod tests {
             let keys = base.parameters().filter(|parameter| base.heeds(parameter.key) && parameter.key != "about");
             for parameter in keys {
                 let mut problems = vec![Problem::of(&base).unwrap()];
-                for value in others(parameter) {
+                for value in
+                    others(parameter).into_iter().filter(|value| base.get(parameter.key).as_ref() != Some(value))
+                {
                     let mut scene = base.clone();
                     scene.set_value(parameter.key, value.clone()).unwrap();
                     assert_eq!(scene.get(parameter.key), Some(value), "{}", parameter.key);

@@ -119,7 +119,7 @@ impl fmt::Display for Fault {
             if let Some(line) = self.line {
                 write!(f, "{line}:")?;
             }
-            if let (What::Syntax { .. }, Some(column)) = (&self.what, self.column) {
+            if let (What::Syntax(_), Some(column)) = (&self.what, self.column) {
                 write!(f, "{column}:")?;
             }
             f.write_str(" ")?;
@@ -134,27 +134,18 @@ pub enum What {
     /// The file is not read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The file cannot be written.
-    #[error("cannot be written: {reason}")]
-    Unwritable {
-        /// The system's reason.
-        reason: String,
-    },
-    /// The text is not TOML.
-    #[error("not valid TOML: {message}")]
-    Syntax {
-        /// What the TOML reader expected.
-        message: String,
-    },
+    /// The file cannot be written, for the system's reason.
+    #[error("cannot be written: {0}")]
+    Unwritable(String),
+    /// The text is not TOML; what its reader says.
+    #[error("not valid TOML: {0}")]
+    Syntax(String),
     /// No `schema` key.
     #[error("the key schema is missing: write schema = {SCHEMA} at the top of the file")]
     SchemaMissing,
-    /// A `schema` this program does not read.
-    #[error("schema = {found} is not supported: this program reads schema = {SCHEMA}")]
-    SchemaUnsupported {
-        /// The value in the file.
-        found: String,
-    },
+    /// A `schema` this program does not read, as written.
+    #[error("schema = {0} is not supported: this program reads schema = {SCHEMA}")]
+    SchemaUnsupported(String),
     /// A `scene` that does not exist.
     #[error("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{}", did_you_mean(nearest.as_deref()))]
     UnknownScene {
@@ -163,24 +154,16 @@ pub enum What {
         /// The nearest name.
         nearest: Option<String>,
     },
-    /// A key that no scene has.
-    #[error("unknown key {key}{}", suggestion(nearest.as_deref(), siblings))]
-    UnknownKey {
-        /// The dotted key.
+    /// A key or table that no scene has.
+    #[error("unknown {kind} {key}{}", suggestion(nearest.as_deref(), siblings))]
+    Unknown {
+        /// "key" or "table".
+        kind: &'static str,
+        /// The dotted key, or the table in brackets.
         key: String,
-        /// The nearest known key.
+        /// The nearest known one.
         nearest: Option<String>,
         /// The keys of the same table, or else the tables of the scene, for when nothing is near.
-        siblings: Vec<&'static str>,
-    },
-    /// A table that no scene has.
-    #[error("unknown table [{table}]{}", suggestion(nearest.as_deref(), siblings))]
-    UnknownTable {
-        /// The table.
-        table: String,
-        /// The nearest known table, in brackets.
-        nearest: Option<String>,
-        /// The tables of this scene.
         siblings: Vec<&'static str>,
     },
     /// A plain value where a table belongs.
@@ -191,31 +174,18 @@ pub enum What {
         /// The value in the file.
         found: String,
     },
-    /// A key or table of the other kind of scene.
-    #[error("{key} belongs to scene = \"{needs}\", and this is scene = \"{scene}\"")]
-    OtherScene {
+    /// A key or table of the other kind of scene, or a key of another model.
+    #[error("{key} belongs to {selector} = \"{needs}\", and this is {selector} = \"{chosen}\"")]
+    Elsewhere {
         /// The dotted key, or the table in brackets.
         key: String,
-        /// The scene it belongs to.
-        needs: &'static str,
-        /// The scene this is.
-        scene: &'static str,
-    },
-    /// A key of another model, such as that of the rotor.
-    #[error("{key} belongs to {selector} = \"{needs}\", and this is {selector} = \"{chosen}\"")]
-    OtherModel {
-        /// The dotted key.
-        key: &'static str,
-        /// The key that chooses the model.
+        /// What chooses: `scene`, or the key of the model.
         selector: &'static str,
-        /// The model it belongs to.
+        /// The scene or model it belongs to.
         needs: &'static str,
-        /// The model this is.
+        /// The one this is.
         chosen: String,
     },
-    /// A rotor model that is planned.
-    #[error("rotor.model = \"ring\" is reserved and not available: allowed \"beam\" or \"table\"")]
-    ReservedModel,
     /// A key that this kind of scene does not heed.
     #[error("{key} has no effect on a {scene}: it cannot be changed or varied here")]
     NoEffect {
@@ -224,33 +194,20 @@ pub enum What {
         /// The scene this is.
         scene: &'static str,
     },
-    /// The wedge term is asked for and ruled out.
-    #[error(
-        "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: \
-         change one of the two"
-    )]
-    WedgeWithoutShear,
     /// A key that makes the scene what it is.
-    #[error("{key} cannot be changed: start from another preset")]
-    Fixed {
-        /// The key.
-        key: &'static str,
-    },
-    /// A value of another type.
-    #[error("{} = {found} is of the wrong type: expected {}", parameter.key, parameter.accepts())]
-    WrongType {
+    #[error("{0} cannot be changed: start from another preset")]
+    Fixed(&'static str),
+    /// A value that the key does not take, whatever its size.
+    #[error("{} = {found} is {why}: expected {}{}", parameter.key, parameter.accepts(), did_you_mean(nearest.as_deref()))]
+    Refused {
         /// The key, and what it accepts.
         parameter: &'static Parameter,
         /// The value as written.
         found: String,
-    },
-    /// Infinity or not a number.
-    #[error("{} = {value} is not finite: expected {}", parameter.key, parameter.accepts())]
-    NotFinite {
-        /// The key, and what it accepts.
-        parameter: &'static Parameter,
-        /// The value.
-        value: f64,
+        /// "of the wrong type", "not finite" or "not available".
+        why: &'static str,
+        /// The nearest of the choices.
+        nearest: Option<String>,
     },
     /// A number outside its range.
     #[error("{} = {value} is out of range: allowed {range}{}", parameter.key, with_unit(parameter))]
@@ -262,52 +219,15 @@ pub enum What {
         /// What is allowed.
         range: Range,
     },
-    /// A name that is not one of the choices.
-    #[error("{} = \"{value}\" is not available: expected {}{}", parameter.key, parameter.accepts(), did_you_mean(nearest.as_deref()))]
-    NotAChoice {
-        /// The key, and the choices.
-        parameter: &'static Parameter,
-        /// The value.
-        value: String,
-        /// The nearest choice.
-        nearest: Option<String>,
+    /// A rule between keys that is broken.
+    #[error("{message}")]
+    Rule {
+        /// The dotted key to change first.
+        key: &'static str,
+        /// What is wrong: the key, its value, and what is allowed.
+        message: String,
     },
-    /// A tooth too wide or too narrow for its pitch.
-    #[error(
-        "stator.tooth_width_mm = {} is out of range: allowed {range} mm, 1 % to 100 % of the tooth pitch \
-         2π × {} mm / {waves} waves / {teeth} teeth",
-        show_number(*width_mm), show_number(*radius_mm)
-    )]
-    ToothAndPitch {
-        /// Tooth width \[mm\].
-        width_mm: f64,
-        /// What the pitch allows \[mm\].
-        range: Range,
-        /// Contact radius \[mm\].
-        radius_mm: f64,
-        /// Wavelengths round the ring.
-        waves: u32,
-        /// Teeth in one wavelength.
-        teeth: u32,
-    },
-    /// A plate that would touch the wall.
-    #[error(
-        "plate.amplitude_um = {} is out of range: allowed 0 to below plate.mean_gap_um = {} µm, or the plate touches",
-        show_number(*amplitude_um), show_number(*mean_gap_um)
-    )]
-    AmplitudeAndGap {
-        /// Amplitude \[µm\].
-        amplitude_um: f64,
-        /// Mean gap \[µm\].
-        mean_gap_um: f64,
-    },
-    /// The rotor is a table, and no table is given.
-    #[error("rotor.model = \"table\" needs rotor.compliance_csv or rotor.compliance")]
-    ComplianceMissing,
-    /// The rotor is a table, and two are given.
-    #[error("rotor.compliance and rotor.compliance_csv are both given: keep one")]
-    ComplianceTwice,
-    /// More rows than any compliance needs.
+    /// A list with no rows, or more than any needs.
     #[error("{key} has {rows} rows: allowed 1 to {limit}")]
     TooManyRows {
         /// The dotted key.
@@ -324,9 +244,15 @@ pub enum What {
         key: &'static str,
         /// Row, from 1, header not counted.
         row: usize,
-        /// What is wrong with it.
-        fault: RowFault,
+        /// What is wrong with it, said of the columns as of keys.
+        fault: Box<What>,
     },
+    /// A row that is not two numbers, as written.
+    #[error("{0} is not a pair of numbers, wavenumber_per_m and compliance_m2_per_n")]
+    NotAPair(String),
+    /// A wavenumber that is not above the one in the row before \[1/m\].
+    #[error("wavenumber_per_m = {} is not above {}, the one before: sort the rows", show_number(*.0), show_number(*.1))]
+    NotAscending(f64, f64),
     /// The CSV file of the compliance cannot be read.
     #[error("rotor.compliance_csv = \"{given}\": {} {fault}", path.display())]
     Csv {
@@ -357,22 +283,23 @@ pub enum What {
 }
 
 impl What {
+    /// A value of the wrong type, as written.
+    pub(super) fn wrong_type(parameter: &'static Parameter, found: String) -> Self {
+        Self::Refused { parameter, found, why: "of the wrong type", nearest: None }
+    }
+
     /// The dotted key the fault is about, if it is about one.
     pub fn key(&self) -> Option<&str> {
         Some(match self {
-            Self::UnknownKey { key, .. } | Self::OtherScene { key, .. } | Self::UnknownTable { table: key, .. } => key,
-            Self::OtherModel { key, .. } | Self::Fixed { key } | Self::NoEffect { key, .. } => key,
+            Self::Unknown { key, .. } | Self::Elsewhere { key, .. } => key,
+            Self::Fixed(key) | Self::NoEffect { key, .. } | Self::Rule { key, .. } => key,
             Self::TooManyRows { key, .. } | Self::Row { key, .. } | Self::NotATable { table: key, .. } => key,
-            Self::WrongType { parameter, .. } | Self::NotFinite { parameter, .. } => parameter.key,
-            Self::OutOfRange { parameter, .. } | Self::NotAChoice { parameter, .. } => parameter.key,
-            Self::SchemaMissing | Self::SchemaUnsupported { .. } => "schema",
+            Self::Refused { parameter, .. } | Self::OutOfRange { parameter, .. } => parameter.key,
+            Self::SchemaMissing | Self::SchemaUnsupported(_) => "schema",
             Self::UnknownScene { .. } => "scene",
-            Self::WedgeWithoutShear => "numerics.wedge",
-            Self::ReservedModel | Self::ComplianceMissing => "rotor.model",
-            Self::ToothAndPitch { .. } => "stator.tooth_width_mm",
-            Self::AmplitudeAndGap { .. } => "plate.amplitude_um",
-            Self::ComplianceTwice | Self::Csv { .. } | Self::CsvHeader => "rotor.compliance_csv",
-            Self::Read(_) | Self::Unwritable { .. } | Self::Syntax { .. } | Self::UnknownPreset { .. } => return None,
+            Self::Csv { .. } | Self::CsvHeader => "rotor.compliance_csv",
+            Self::Read(_) | Self::Unwritable(_) | Self::Syntax(_) | Self::UnknownPreset { .. } => return None,
+            Self::NotAPair(_) | Self::NotAscending(..) => return None,
         })
     }
 }
@@ -394,52 +321,4 @@ fn suggestion(nearest: Option<&str>, siblings: &[&str]) -> String {
         Some(name) => format!(": did you mean {name}?"),
         None => format!(": known are {}", siblings.join(", ")),
     }
-}
-
-/// What is wrong with a row.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RowFault {
-    /// Not two numbers.
-    #[error("{found} is not a pair of numbers, wavenumber_per_m and compliance_m2_per_n")]
-    NotAPair {
-        /// What is there instead.
-        found: String,
-    },
-    /// Not a number.
-    #[error("{column} = {found} is not a number")]
-    NotANumber {
-        /// The column.
-        column: &'static str,
-        /// What is there instead.
-        found: String,
-    },
-    /// Outside the range.
-    #[error("{column} = {} is out of range: allowed {range} {unit}", show_number(*value))]
-    OutOfRange {
-        /// The column.
-        column: &'static str,
-        /// The value.
-        value: f64,
-        /// What is allowed.
-        range: Range,
-        /// The unit.
-        unit: &'static str,
-    },
-    /// Harmonics are counted: 1, 2, 3 …
-    #[error("harmonic = {} is not a whole number from 1 up", show_number(*value))]
-    NotAHarmonic {
-        /// The value.
-        value: f64,
-    },
-    /// Wavenumbers must ascend.
-    #[error(
-        "wavenumber_per_m = {} is not above {}, the one before: sort the rows",
-        show_number(*value), show_number(*before)
-    )]
-    NotAscending {
-        /// The wavenumber \[1/m\].
-        value: f64,
-        /// The one in the row before \[1/m\].
-        before: f64,
-    },
 }

@@ -37,7 +37,7 @@ mod value;
 mod values;
 mod write;
 
-pub use error::{Fault, RowFault, SCHEMA, SceneError, What};
+pub use error::{Fault, SCHEMA, SceneError, What};
 pub use keys::{PARAMETERS, markdown, tables};
 pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 pub use value::Value;

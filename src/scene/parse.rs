@@ -2,7 +2,7 @@
 //! them are found in one reading.
 
 use super::compliance::{self, MOST_ROWS, check_row};
-use super::error::{Fault, RowFault, SCHEMA, SceneError, What};
+use super::error::{Fault, SCHEMA, SceneError, What};
 use super::keys::tables;
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
@@ -55,7 +55,7 @@ pub(super) fn read_compliance(given: &str, path: &Path, wavelength: f64) -> Resu
 
 /// The rows of a compliance table from the text of `--set`, written as in TOML.
 pub(super) fn rows_from_text(parameter: &'static Parameter, text: &str) -> Result<Value, SceneError> {
-    let tree = DeValue::parse(text).map_err(|_| What::WrongType { parameter, found: show_text(text) })?;
+    let tree = DeValue::parse(text).map_err(|_| What::wrong_type(parameter, show_text(text)))?;
     let mut faults = SceneError::none();
     let rows = rows_from_toml(parameter, &tree, text, &mut |_, what| faults.push(what));
     faults.or(Value::Rows(rows))
@@ -77,7 +77,7 @@ impl Reader<'_> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,
             Err(error) => {
-                self.fault(error.span(), || What::Syntax { message: syntax_message(error.message()) });
+                self.fault(error.span(), || What::Syntax(syntax_message(error.message())));
                 return None;
             }
         };
@@ -89,7 +89,7 @@ impl Reader<'_> {
         let mut entries = self.entries(root, &scene);
         // What chooses a model comes first, as it decides which keys there are, and a table of harmonics last, as it needs
         // the wavelength. Apart from that, in the order of the file.
-        entries.sort_by_key(|(at, key, _)| {
+        entries.sort_by_cached_key(|(at, key, _)| {
             let parameter = Parameter::find(key);
             let rank = |p: &Parameter| i32::from(p.kind == ParameterKind::CsvPath) - i32::from(p.selects());
             (parameter.map_or(0, rank), at.start)
@@ -108,7 +108,7 @@ impl Reader<'_> {
             Some(value) if integer(value.get_ref()) == Some(SCHEMA) => return true,
             Some(value) => {
                 let found = self.written(value.span());
-                self.fault(Some(value.span()), || What::SchemaUnsupported { found });
+                self.fault(Some(value.span()), || What::SchemaUnsupported(found));
             }
         }
         false
@@ -129,16 +129,16 @@ impl Reader<'_> {
 
     /// The keys of all tables that the scene has.
     fn entries<'a, 't>(&mut self, root: &'a DeTable<'t>, scene: &Scene) -> Vec<Entry<'a, 't>> {
-        let mut entries: Vec<Entry<'a, 't>> = Vec::new();
+        let (mut entries, tables) = (Vec::new(), tables());
+        let mut root: Vec<_> = root.iter().collect();
+        root.sort_by_key(|(key, _)| key.span().start);
         for (key, value) in root {
             let (name, at) = (key.get_ref().as_ref(), key.span());
-            match (tables().into_iter().find(|table| *table == name), value.get_ref()) {
+            match (tables.iter().copied().find(|table| *table == name), value.get_ref()) {
                 _ if matches!(name, "schema" | "scene") => {}
-                (Some(table), DeValue::Table(inside)) => match scene.has_table(table) {
-                    Err(What::OtherScene { needs, scene, .. }) => {
-                        self.fault(Some(at), || What::OtherScene { key: format!("[{table}]"), needs, scene });
-                    }
-                    _ => {
+                (Some(table), DeValue::Table(inside)) => match scene.has_table(table, format!("[{table}]")) {
+                    Err(foreign) => self.fault(Some(at), || foreign),
+                    Ok(()) => {
                         let dotted = |key: &str| format!("{table}.{key}");
                         entries.extend(inside.iter().map(|(key, value)| (key.span(), dotted(key.get_ref()), value)));
                     }
@@ -150,7 +150,7 @@ impl Reader<'_> {
                 (None, DeValue::Table(_)) => self.fault(Some(at), || {
                     let siblings = scene.tables();
                     let nearest = nearest(name, siblings.iter().copied()).map(|table| format!("[{table}]"));
-                    What::UnknownTable { table: show_text(name), nearest, siblings }
+                    What::Unknown { kind: "table", key: format!("[{}]", show_text(name)), nearest, siblings }
                 }),
                 (None, _) => entries.push((at, name.to_owned(), value)),
             }
@@ -166,7 +166,7 @@ impl Reader<'_> {
         self.spans.insert(parameter.key, span.clone());
         match scene.applies(parameter) {
             // Which keys there are is not known where the model is at fault itself.
-            Err(What::OtherModel { selector, .. }) if self.at_fault(&[selector]) => return,
+            Err(What::Elsewhere { selector, .. }) if self.at_fault(&[selector]) => return,
             Err(what) => return self.fault(Some(at), || what),
             Ok(()) => {}
         }
@@ -184,13 +184,13 @@ impl Reader<'_> {
             }
             ParameterKind::CsvPath => return self.csv(scene, parameter, value),
             _ => value_from_toml(parameter, value.get_ref())
-                .ok_or_else(|| What::WrongType { parameter, found: self.written(span.clone()) }),
+                .ok_or_else(|| What::wrong_type(parameter, self.written(span.clone()))),
         };
         if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
             let found = self.written(span.clone());
             self.fault(Some(span), || match what {
                 // As it is written in the file, rather than as it was read.
-                What::WrongType { parameter, .. } => What::WrongType { parameter, found },
+                What::Refused { parameter, why: "of the wrong type", .. } => What::wrong_type(parameter, found),
                 what => what,
             });
         }
@@ -201,10 +201,11 @@ impl Reader<'_> {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
             let found = self.written(value.span());
-            return self.fault(span, || What::WrongType { parameter, found });
+            return self.fault(span, || What::wrong_type(parameter, found));
         };
         if self.spans.contains_key("rotor.compliance") {
-            return self.fault(span, || What::ComplianceTwice);
+            let message = "rotor.compliance and rotor.compliance_csv are both given: keep one".to_owned();
+            return self.fault(span, || What::Rule { key: parameter.key, message });
         }
         if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
             return;
@@ -226,7 +227,7 @@ impl Reader<'_> {
     fn rules(&mut self, scene: &Scene) {
         for (keys, what) in scene.broken_rules() {
             // A CSV file that was not read, as its wavelength is at fault, may be one.
-            let unread = what == What::ComplianceMissing && self.spans.contains_key("rotor.compliance_csv");
+            let unread = keys.contains(&"rotor.compliance_csv") && self.spans.contains_key("rotor.compliance_csv");
             if !self.at_fault(keys) && !unread {
                 // The line of the first key of the rule that the file gives.
                 let span = keys.iter().find_map(|key| self.spans.get(key)).cloned();
@@ -279,7 +280,7 @@ fn rows_from_toml(
     let key = parameter.key;
     let mut rows: Vec<(f64, f64)> = Vec::new();
     match value.get_ref().as_array() {
-        None => fault(value.span(), What::WrongType { parameter, found: written(value.span()) }),
+        None => fault(value.span(), What::wrong_type(parameter, written(value.span()))),
         Some(array) if array.is_empty() || array.len() > MOST_ROWS => {
             fault(value.span(), What::TooManyRows { key, rows: array.len(), limit: MOST_ROWS });
         }
@@ -291,10 +292,10 @@ fn rows_from_toml(
                         let pair = (*wavenumber, *compliance);
                         check_row(pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
                     }
-                    _ => Err(RowFault::NotAPair { found: written(row.span()) }),
+                    _ => Err(What::NotAPair(written(row.span()))),
                 };
                 if let Err(wrong) = checked {
-                    fault(row.span(), What::Row { key, row: i, fault: wrong });
+                    fault(row.span(), What::Row { key, row: i, fault: wrong.into() });
                 }
             }
         }

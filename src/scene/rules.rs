@@ -3,6 +3,7 @@
 
 use super::error::{SceneError, What};
 use super::parameter::{Parameter, Range};
+use super::value::show_number;
 use super::values::Scene;
 
 /// Narrowest tooth, as a share of the pitch; the widest is the pitch itself.
@@ -68,31 +69,45 @@ impl Scene {
 
 fn table_is_given(scene: &Scene) -> Result<(), What> {
     let missing = scene.text("rotor.model")? == "table" && scene.compliance().is_empty();
-    if missing { Err(What::ComplianceMissing) } else { Ok(()) }
+    let message = || "rotor.model = \"table\" needs rotor.compliance_csv or rotor.compliance".to_owned();
+    unless(missing, "rotor.model", message)
 }
 
 fn wedge_is_there(scene: &Scene) -> Result<(), What> {
     let ruled_out = scene.text("numerics.wedge")? == "on" && !scene.flag("film.shear")?;
-    if ruled_out { Err(What::WedgeWithoutShear) } else { Ok(()) }
+    unless(ruled_out, "numerics.wedge", || {
+        "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: change one of the two"
+            .to_owned()
+    })
 }
 
 fn tooth_fits_the_pitch(scene: &Scene) -> Result<(), What> {
-    let (range, width_mm) = (scene.tooth_widths_mm()?, scene.number("stator.tooth_width_mm")?);
-    if range.contains(width_mm) {
-        return Ok(());
-    }
-    Err(What::ToothAndPitch {
-        width_mm,
-        range: rounded_inwards(range),
-        radius_mm: scene.number("motor.contact_radius_mm")?,
-        waves: scene.number("motor.waves")? as u32,
-        teeth: scene.number("stator.teeth_per_wave")? as u32,
+    let (range, width) = (scene.tooth_widths_mm()?, scene.number("stator.tooth_width_mm")?);
+    let (radius, waves) = (scene.number("motor.contact_radius_mm")?, scene.number("motor.waves")?);
+    let teeth = scene.number("stator.teeth_per_wave")?;
+    unless(!range.contains(width), "stator.tooth_width_mm", || {
+        let [width, radius] = [width, radius].map(show_number);
+        format!(
+            "stator.tooth_width_mm = {width} is out of range: allowed {} mm, 1 % to 100 % of the tooth pitch \
+             2π × {radius} mm / {waves} waves / {teeth} teeth",
+            rounded_inwards(range)
+        )
     })
 }
 
 fn plate_stays_clear(scene: &Scene) -> Result<(), What> {
-    let (amplitude_um, mean_gap_um) = (scene.number("plate.amplitude_um")?, scene.number("plate.mean_gap_um")?);
-    if amplitude_um < mean_gap_um { Ok(()) } else { Err(What::AmplitudeAndGap { amplitude_um, mean_gap_um }) }
+    let (amplitude, gap) = (scene.number("plate.amplitude_um")?, scene.number("plate.mean_gap_um")?);
+    unless(amplitude >= gap, "plate.amplitude_um", || {
+        let [amplitude, gap] = [amplitude, gap].map(show_number);
+        format!(
+            "plate.amplitude_um = {amplitude} is out of range: allowed 0 to below plate.mean_gap_um = {gap} µm, or the plate \
+             touches"
+        )
+    })
+}
+
+fn unless(broken: bool, key: &'static str, message: impl FnOnce() -> String) -> Result<(), What> {
+    if broken { Err(What::Rule { key, message: message() }) } else { Ok(()) }
 }
 
 /// The range to six digits, so rounded that what is shown is allowed.

@@ -1,9 +1,11 @@
 //! A value of one key, whatever its type, and how numbers are shown to people.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The value of one key of a scene.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub enum Value {
     /// A number, in the unit of its key.
     Number(f64),
@@ -25,28 +27,6 @@ impl Value {
             Self::Whole(whole) => Some(*whole as f64),
             Self::Flag(_) | Self::Text(_) | Self::Rows(_) => None,
         }
-    }
-
-    /// The same value in TOML.
-    pub(super) fn to_toml(&self) -> toml::Value {
-        match self {
-            Self::Number(number) => (*number).into(),
-            Self::Whole(whole) => (*whole).into(),
-            Self::Flag(flag) => (*flag).into(),
-            Self::Text(text) => text.as_str().into(),
-            Self::Rows(rows) => rows.iter().map(|row| toml::Value::from(vec![row.0, row.1])).collect::<Vec<_>>().into(),
-        }
-    }
-
-    /// The same number, flag or text.
-    pub(super) fn from_toml(value: &toml::Value) -> Option<Self> {
-        Some(match value {
-            toml::Value::Float(number) => Self::Number(*number),
-            toml::Value::Integer(whole) => Self::Whole(*whole),
-            toml::Value::Boolean(flag) => Self::Flag(*flag),
-            toml::Value::String(text) => Self::Text(text.clone()),
-            _ => return None,
-        })
     }
 }
 

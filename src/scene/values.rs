@@ -107,12 +107,10 @@ impl Scene {
 
     /// The table `[numerics]`.
     pub fn numerics(&self) -> Numerics {
-        let given = self
-            .values
-            .iter()
-            .filter_map(|(key, value)| Some((key.strip_prefix("numerics.")?.to_owned(), value.to_toml())));
+        let given = self.values.iter().filter_map(|(key, value)| Some((key.strip_prefix("numerics.")?, value)));
+        let table = toml::Table::try_from(given.collect::<BTreeMap<_, _>>()).ok();
         // Every key of the table is a field, of the same name and type: a test sets them all.
-        given.collect::<toml::Table>().try_into().unwrap_or_default()
+        table.and_then(|table| table.try_into().ok()).unwrap_or_default()
     }
 
     /// Replaces the table `[numerics]`.
@@ -122,9 +120,10 @@ impl Scene {
     /// A number outside its range; the scene is then unchanged.
     pub fn set_numerics(&mut self, numerics: &Numerics) -> Result<(), SceneError> {
         let mut changed = self.clone();
-        let given = toml::Table::try_from(numerics).unwrap_or_default();
+        let table = toml::Table::try_from(numerics).ok();
+        let mut given: BTreeMap<String, Value> = table.and_then(|table| table.try_into().ok()).unwrap_or_default();
         for parameter in PARAMETERS.iter().filter(|parameter| parameter.table() == "numerics") {
-            match given.get(parameter.leaf()).and_then(Value::from_toml) {
+            match given.remove(parameter.leaf()) {
                 Some(value) => changed.assign(parameter, value)?,
                 None => changed.reset(parameter),
             }
@@ -140,14 +139,17 @@ impl Scene {
             (Belongs::Plate, Kind::Motor) => Kind::Plate,
             _ => self.kind,
         };
+        let elsewhere = |selector, needs, chosen: &str| {
+            let (key, chosen) = (parameter.key.to_owned(), chosen.to_owned());
+            What::Elsewhere { key, selector, needs, chosen }
+        };
         if needs != self.kind {
-            let key = parameter.key.to_owned();
-            return Err(What::OtherScene { key, needs: needs.name(), scene: self.scene() });
+            return Err(elsewhere("scene", needs.name(), self.scene()));
         }
         let Some((selector, needs)) = parameter.when else { return Ok(()) };
         match self.text(selector)? {
             chosen if chosen == needs => Ok(()),
-            chosen => Err(What::OtherModel { key: parameter.key, selector, needs, chosen: chosen.to_owned() }),
+            chosen => Err(elsewhere(selector, needs, chosen)),
         }
     }
 
@@ -155,16 +157,15 @@ impl Scene {
     pub(super) fn unknown_key(&self, key: &str) -> What {
         let table = key.split_once('.').map_or("", |(table, _)| table);
         let keys_of = |table: &str| self.parameters().filter(|p| p.table() == table).map(|p| p.key).collect::<Vec<_>>();
-        let unknown = |nearest: Option<&str>, siblings| What::UnknownKey {
-            key: show_text(key),
-            nearest: nearest.map(str::to_owned),
-            siblings,
+        let unknown = |nearest: Option<&str>, siblings| {
+            let (key, nearest) = (show_text(key), nearest.map(str::to_owned));
+            What::Unknown { kind: "key", key, nearest, siblings }
         };
         if tables().contains(&key) {
             return unknown(None, keys_of(key));
         }
-        if let Err(What::OtherScene { needs, scene, .. }) = self.has_table(table) {
-            return What::OtherScene { key: show_text(key), needs, scene };
+        if let Err(foreign) = self.has_table(table, show_text(key)) {
+            return foreign;
         }
         let known: Vec<_> = self.parameters().map(|parameter| parameter.key).collect();
         let siblings = if keys_of(table).is_empty() { self.tables() } else { keys_of(table) };
@@ -173,12 +174,17 @@ impl Scene {
 
     /// The tables this scene has.
     pub(super) fn tables(&self) -> Vec<&'static str> {
-        tables().into_iter().filter(|table| self.has_table(table).is_ok()).collect()
+        tables().into_iter().filter(|table| self.parameters().any(|p| p.table() == *table)).collect()
     }
 
-    /// Whether this kind of scene has a table; if not, why. A table that does not exist is no fault here.
-    pub(super) fn has_table(&self, table: &str) -> Result<(), What> {
-        PARAMETERS.iter().find(|p| p.table() == table).map_or(Ok(()), |p| self.applies(p))
+    /// Whether this kind of scene has a table; if not, why, said of `key`. A table that does not exist is no fault here.
+    pub(super) fn has_table(&self, table: &str, key: String) -> Result<(), What> {
+        match PARAMETERS.iter().find(|p| p.table() == table).map(|p| self.applies(p)) {
+            Some(Err(What::Elsewhere { selector, needs, chosen, .. })) if selector == "scene" => {
+                Err(What::Elsewhere { key, selector, needs, chosen })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Checks a value against the key's own type and range, and stores it.

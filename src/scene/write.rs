@@ -44,7 +44,7 @@ impl Scene {
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
         self.check()?;
         write_atomically(path, &self.to_toml()).map_err(|error| {
-            let what = What::Unwritable { reason: error.to_string() };
+            let what = What::Unwritable(error.to_string());
             Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
         })
     }
@@ -57,8 +57,8 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
         Value::Number(number) => format!("{leaf} = {number:?}"),
         Value::Whole(whole) => format!("{leaf} = {whole}"),
         Value::Flag(flag) => format!("{leaf} = {flag}"),
-        Value::Text(_) => {
-            let quoted = format!("{leaf} = {}", value.to_toml());
+        Value::Text(words) => {
+            let quoted = format!("{leaf} = {}", quote(words));
             if parameter.table().is_empty() {
                 let _ = writeln!(text, "{quoted}");
                 return;
@@ -75,6 +75,23 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
         }
     };
     let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
+}
+
+/// A TOML basic string.
+fn quote(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => quoted.push_str("\\\""),
+            '\\' => quoted.push_str("\\\\"),
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
 }
 
 fn write_atomically(path: &Path, text: &str) -> io::Result<()> {
