@@ -156,7 +156,7 @@ const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: 
 }
 
 /// The tables of a scene file, in the order they are written.
-pub fn tables() -> Vec<&'static str> {
+pub(super) fn tables() -> Vec<&'static str> {
     let mut tables: Vec<_> = PARAMETERS.iter().map(Parameter::table).filter(|table| !table.is_empty()).collect();
     tables.dedup();
     tables

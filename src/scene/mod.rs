@@ -38,7 +38,7 @@ mod values;
 mod write;
 
 pub use error::{Fault, SCHEMA, SceneError, What};
-pub use keys::{PARAMETERS, markdown, tables};
+pub use keys::{PARAMETERS, markdown};
 pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
 pub use value::Value;
 pub use values::{Kind, Scene};
