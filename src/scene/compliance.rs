@@ -184,7 +184,7 @@ mod tests {
             lines("\n\nk,c\n1,2\n")[0].1.starts_with("r.csv:3: rotor.compliance_csv: this is no compliance table: ")
         );
         assert!(!lines("root:x:0:0\n")[0].1.contains("root"));
-        assert!(lines("")[0].1.contains("expected harmonic,compliance_m2_per_n"));
+        assert!(lines("")[0].1.contains("expected the header harmonic,compliance_m2_per_n"));
         assert!(lines("harmonic,compliance_m2_per_n\n")[0].1.contains("has 0 rows"));
         assert!(
             lines("harmonic,compliance_m2_per_n\n1.5,1e-9\n")[0]
