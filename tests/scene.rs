@@ -557,6 +557,20 @@ fn a_scene_that_breaks_a_rule_between_keys_is_no_problem_and_is_not_saved() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
+/// Scenes are made for each point of a sweep.
+#[test]
+fn a_point_of_a_sweep_costs_few_allocations() {
+    for (preset, most) in [("fundamental", 6), ("plate-trapped", 8), ("doubled-mesh", 15)] {
+        let scene = presets::find(preset).unwrap();
+        let counted = allocation_counter::measure(|| {
+            let mut point = scene.clone();
+            point.set_value("film.viscosity_upa_s", Value::Number(20.0)).unwrap();
+            std::hint::black_box(Problem::new(&point).unwrap());
+        });
+        assert!(counted.count_total <= most, "{preset}: {counted:?}");
+    }
+}
+
 // ---- saving
 
 #[test]
