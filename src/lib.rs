@@ -82,6 +82,7 @@ pub mod film;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod hold;
+pub mod input;
 pub mod job;
 pub mod ladder;
 pub mod lessons;

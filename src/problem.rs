@@ -4,19 +4,19 @@
 //! Every number in here is finite and inside its documented range, so no solver re-checks it.
 //! Symbols follow `docs/theory.md`.
 
+use serde::{Deserialize, Serialize};
+
 /// A key whose value is one of a few names.
 pub trait Named {
     /// The name of the value in presets.
     fn name(&self) -> &'static str;
-    /// Takes the value of that name; whether there is one.
-    fn choose(&mut self, name: &str) -> bool;
 }
 
 macro_rules! named {
     ($(#[$about:meta])* $Type:ident { $($(#[$meaning:meta])* $Value:ident = $name:literal),* $(,)? }) => {
         $(#[$about])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub enum $Type { $($(#[$meaning])* $Value),* }
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        pub enum $Type { $($(#[$meaning])* #[serde(rename = $name)] $Value),* }
 
         impl $Type {
             /// The names of all values.
@@ -26,11 +26,6 @@ macro_rules! named {
         impl Named for $Type {
             fn name(&self) -> &'static str {
                 match self { $(Self::$Value => $name),* }
-            }
-
-            fn choose(&mut self, name: &str) -> bool {
-                *self = match name { $($name => Self::$Value,)* _ => return false };
-                true
             }
         }
     };
@@ -269,8 +264,9 @@ named! {
 }
 
 /// Explicit numerics of a preset's optional `[numerics]` table; each `None` or `Auto` is left to the fidelity or the
-/// plan.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// plan. The fields are named as the keys, and go to and fro by those names.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Numerics {
     /// Film nodes along a tooth (or plate), both ends counted.
     pub film_nodes_along: Option<usize>,

@@ -465,7 +465,7 @@ fn options(scene: &Scene) -> String {
         Value::Flag(flag) => format!("{flag}"),
         Value::Rows(_) => String::new(),
     };
-    let base = if scene.rotor_model().is_some() { Scene::motor() } else { Scene::plate() };
+    let base = Scene::new(scene.kind());
     scene
         .parameters()
         .filter(|key| key.table() != "" && scene.get(key.key) != base.get(key.key))

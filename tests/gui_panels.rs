@@ -295,7 +295,12 @@ fn a_table_comes_from_its_file() {
     type_into(&mut harness, "Compliance from a CSV file", path.to_str().unwrap());
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(harness.state().scene().rotor_model().unwrap().name(), "table", "{:?}", harness.state().state.rejected);
+    assert_eq!(
+        harness.state().scene().get("rotor.model"),
+        Some(Value::Text("table".into())),
+        "{:?}",
+        harness.state().state.rejected
+    );
     harness.get_by_label("2 rows");
 }
 

@@ -4,10 +4,9 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
+use squeezefilm::input::ReadError;
 use squeezefilm::problem::{Problem, RotorCompliance, Scenario};
-use squeezefilm::scene::{
-    Kind, PARAMETERS, ParameterKind, Range, RotorModel, Scene, SceneError, Value, What, presets, table1,
-};
+use squeezefilm::scene::{PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, What, presets, table1};
 use std::path::Path;
 
 fn read(text: &str) -> Result<Scene, SceneError> {
@@ -105,7 +104,7 @@ fn messages_name_file_line_key_value_and_range() {
         ("[plate]\nlength_mm = 1\n", "my.toml:3: [plate] belongs to scene = \"plate\", and this is scene = \"motor\""),
         (
             "[rotor]\nmodel = \"ring\"\n",
-            "my.toml:4: rotor.model = \"ring\" is reserved and not available: allowed \"beam\" or \"table\"",
+            "my.toml:4: rotor.model = \"ring\" is not available: expected one of \"beam\", \"table\"",
         ),
         (
             "[numerics]\ncontact_nodes = 5\n",
@@ -203,10 +202,113 @@ fn files_that_cannot_be_read_say_why() {
     let load = |name: &str| Scene::load(&folder.path().join(name)).unwrap_err();
     assert!(load("missing.toml").to_string().contains("missing.toml: cannot be read: "));
     std::fs::write(folder.path().join("latin1.toml"), b"name = \"\xe9\"\n").unwrap();
-    assert!(load("latin1.toml").to_string().ends_with("latin1.toml: is not UTF-8 text"));
-    std::fs::File::create(folder.path().join("huge.toml")).unwrap().set_len(1 << 30).unwrap();
-    assert!(matches!(load("huge.toml").faults()[0].what, What::TooLarge { .. }));
-    assert!(Scene::load(folder.path()).unwrap_err().to_string().contains("cannot be read"));
+    assert!(load("latin1.toml").to_string().ends_with("latin1.toml: cannot be read: it is not UTF-8 text"));
+    std::fs::File::create(folder.path().join("huge.toml")).unwrap().set_len(100_000_000).unwrap();
+    assert!(load("huge.toml").to_string().ends_with("huge.toml: cannot be read: it is larger than 16 MB"));
+    std::fs::write(folder.path().join("large.toml"), format!("schema = 1\n#{}", "x".repeat(15_999_988))).unwrap();
+    Scene::load(&folder.path().join("large.toml")).unwrap();
+    std::fs::write(folder.path().join("larger.toml"), format!("schema = 1\n#{}", "x".repeat(15_999_989))).unwrap();
+    assert!(matches!(load("larger.toml").faults()[0].what, What::Read(ReadError::TooLarge(16))));
+    let message = Scene::load(folder.path()).unwrap_err().to_string();
+    assert!(message.ends_with(": cannot be read: it is a folder, not a regular file"), "{message}");
+}
+
+/// Whatever never ends or never begins is refused before it is opened, as a preset and as a table.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    std::os::unix::fs::symlink(&pipe, folder.path().join("link")).unwrap();
+    let socket = folder.path().join("socket");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    let refused = "cannot be read: it is a pipe or a device, not a regular file";
+    for path in [&pipe, &folder.path().join("link"), &socket, Path::new("/dev/zero"), Path::new("/dev/tty")] {
+        if !path.exists() {
+            continue;
+        }
+        let path = path.to_str().unwrap();
+        assert_eq!(presets::find(path).unwrap_err().to_string(), format!("{path}: {refused}"));
+        let message = Scene::motor().set("rotor.compliance_csv", path).unwrap_err().to_string();
+        assert!(message.ends_with(refused), "{message}");
+    }
+    let preset = folder.path().join("p.toml");
+    std::fs::write(&preset, "schema = 1\n[rotor]\nmodel = \"table\"\ncompliance_csv = \"pipe\"\n").unwrap();
+    let message = Scene::load(&preset).unwrap_err().to_string();
+    assert!(message.contains("p.toml:4: rotor.compliance_csv = \"pipe\": ") && message.ends_with(refused), "{message}");
+}
+
+/// A file with a fault on every line is read, told about and counted, in the order of the file.
+#[test]
+fn of_many_faults_ten_are_told_and_the_others_counted() {
+    let many = 300_000;
+    let lines = |line: fn(usize) -> String, count| (0..count).map(line).collect::<String>();
+    let near = "my.toml:3: unknown key film.min_spacing_nm0: did you mean film.min_spacing_nm?";
+    let rows = lines(|i| format!("[{}, 0],\n", i + 1), 90_000);
+    for (text, count, first, last) in [
+        (lines(|i| format!("frequenzy_{i} = 1\n"), many), many, "my.toml:2: unknown key frequenzy_0", 11),
+        (format!("[film]\n{}", lines(|i| format!("min_spacing_nm{i} = 1\n"), many)), many, near, 12),
+        (
+            lines(|i| format!("[motor{i}]\n"), many),
+            many,
+            "my.toml:2: unknown table [motor0]: did you mean [motor]?",
+            11,
+        ),
+        (
+            format!("[rotor]\nmodel = \"table\"\ncompliance = [{rows}]"),
+            90_000,
+            "my.toml:4: rotor.compliance, row 1: compliance_m2_per_n = 0 is out of range",
+            13,
+        ),
+    ] {
+        let error = read(&format!("schema = 1\n{text}")).unwrap_err();
+        assert_eq!((error.faults().len(), error.more()), (10, count - 10));
+        let message = error.to_string();
+        let told: Vec<_> = message.lines().collect();
+        assert_eq!((told.len(), told[10]), (11, format!("and {} more", count - 10).as_str()));
+        assert!(told[0].starts_with(first) && message.len() < 3000, "{message}");
+        assert_eq!(error.faults()[9].line, Some(last), "{message}");
+    }
+}
+
+/// To find the nearest name takes time in proportion to both lengths: a very long one has none.
+#[test]
+fn names_of_any_length_are_refused_in_few_words() {
+    let long = "x".repeat(1_000_000);
+    let error =
+        read(&format!("schema = 1\n{long} = 1\n[{long}y]\n[film]\nslip = \"{long}\"\n{long} = 1\n")).unwrap_err();
+    assert_eq!(error.faults().len(), 4);
+    assert!(error.to_string().len() < 2000, "{error}");
+}
+
+#[test]
+fn a_file_that_is_no_table_is_not_quoted() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in
+        [("a", "hunter2:secret\n1,2\n"), ("b", "\"hunter2\nsecret"), ("c", "hunter2,compliance_m2_per_n\n")]
+    {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        let message = Scene::motor().set("rotor.compliance_csv", path.to_str().unwrap()).unwrap_err().to_string();
+        assert!(!message.contains("hunter2") && !message.contains("secret"), "{message}");
+        assert!(message.contains("expected the header harmonic,compliance_m2_per_n or wavenumber_per_m,"), "{message}");
+    }
+}
+
+#[test]
+fn a_key_at_fault_hides_the_rules_about_it() {
+    assert_eq!(
+        message("[motor]\nwaves = 0\n[film]\nviscosity_upa_s = nan\nshear = 0\n[numerics]\nwedge = \"on\"\n"),
+        "my.toml:4: motor.waves = 0 is out of range: allowed 1 to 100\n\
+         my.toml:6: film.viscosity_upa_s = NaN is not finite: expected a number from 1 to 1000 µPa s\n\
+         my.toml:7: film.shear = 0 is of the wrong type: expected true or false"
+    );
+    // A table of harmonics is not read without a wavelength, and is not missing either.
+    assert_eq!(
+        message("[rotor]\nmodel = \"table\"\ncompliance_csv = \"no.csv\"\n[motor]\nwaves = 0\n").lines().count(),
+        1
+    );
 }
 
 // ---- the compliance table
@@ -308,7 +410,7 @@ fn set_refuses_and_changes_nothing() {
         ("qqq.x", "1", "unknown key qqq.x: known are motor, stator, rotor, film, numerics"),
         ("film", "1", "unknown key film: known are film.min_spacing_nm, film.ambient"),
         ("scene", "plate", "scene cannot be changed: start from another preset"),
-        ("rotor.model", "ring", "rotor.model = \"ring\" is reserved"),
+        ("rotor.model", "ring", "rotor.model = \"ring\" is not available: expected one of \"beam\", \"table\""),
         ("rotor.compliance_csv", "no.csv", "rotor.compliance_csv = \"no.csv\": no.csv cannot be read: "),
         ("rotor.compliance", "[[1, 2, 3]]", "rotor.compliance, row 1: [1, 2, 3] is not a pair"),
     ] {
@@ -340,7 +442,7 @@ fn pairs_are_set_in_any_order() {
     std::fs::write(&csv, "harmonic,compliance_m2_per_n\n1,2e-9\n").unwrap();
     let mut table = Scene::motor();
     table.set_all([("rotor.compliance_csv", csv.to_str().unwrap()), ("motor.waves", "6")]).unwrap();
-    let Some(RotorModel::Table { compliance }) = table.rotor_model() else { panic!("a table") };
+    let Some(Value::Rows(compliance)) = table.get("rotor.compliance") else { panic!("a table") };
     assert!((compliance[0].0 - 6.0 / 29e-3).abs() < 1e-9, "{compliance:?}");
 }
 
@@ -372,8 +474,8 @@ fn every_published_row_has_its_preset_and_its_change() {
             }
             _ => assert_eq!(row.row, "fundamental"),
         }
-        assert_eq!(preset.kind, expected.kind, "{}", row.row);
-        assert_eq!(preset.numerics, expected.numerics, "{}", row.row);
+        assert!(preset.same_model(&expected), "{}", row.row);
+        assert_eq!(preset.numerics(), expected.numerics(), "{}", row.row);
         // The description quotes the published numbers as printed in the paper.
         let (load, alpha) = (row.published_load_n, row.published_alpha);
         assert!(preset.about.contains(&format!("{load:.3} N, share of the load {alpha:.3}")), "{}", preset.about);
@@ -446,15 +548,27 @@ fn the_fundamental_case_in_si() {
 }
 
 #[test]
-fn a_scene_broken_in_memory_is_no_problem_and_is_not_saved() {
+fn a_scene_that_breaks_a_rule_between_keys_is_no_problem_and_is_not_saved() {
     let mut scene = Scene::plate();
-    if let Kind::Plate { plate, .. } = &mut scene.kind {
-        plate.amplitude_um = 1.0;
-    }
+    scene.set("plate.amplitude_um", "1").unwrap();
     assert!(Problem::new(&scene).unwrap_err().to_string().starts_with("plate.amplitude_um = 1 is out of range"));
     let folder = tempfile::tempdir().unwrap();
     assert!(scene.save(&folder.path().join("p.toml")).is_err());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// Scenes are made for each point of a sweep.
+#[test]
+fn a_point_of_a_sweep_costs_few_allocations() {
+    for (preset, most) in [("fundamental", 6), ("plate-trapped", 8), ("doubled-mesh", 15)] {
+        let scene = presets::find(preset).unwrap();
+        let counted = allocation_counter::measure(|| {
+            let mut point = scene.clone();
+            point.set_value("film.viscosity_upa_s", Value::Number(20.0)).unwrap();
+            std::hint::black_box(Problem::new(&point).unwrap());
+        });
+        assert!(counted.count_total <= most, "{preset}: {counted:?}");
+    }
 }
 
 // ---- saving

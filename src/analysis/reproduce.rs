@@ -140,7 +140,7 @@ pub fn reproduce(
         let shown = FIELDS.iter().any(|(_, preset, _)| presets::find(preset).as_ref() == Ok(&*scene));
         let record = if shown { Record::Everything } else { Record::Numbers };
         work.push(Work { problem: Problem::new(scene)?, settings: Settings { record, ..paper } });
-        scene.numerics = Numerics::default();
+        scene.set_numerics(&Numerics::default())?;
         work.push(Work { problem: Problem::new(scene)?, settings: Settings { record, ..ours } });
     }
     let mut frequencies = Vec::new();

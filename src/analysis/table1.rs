@@ -69,7 +69,7 @@ pub fn rows(
         .map(|row| {
             let mut scene = presets::find(&row.preset)?;
             if settings.method == Method::Auto {
-                scene.numerics = Numerics::default();
+                scene.set_numerics(&Numerics::default())?;
             }
             scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
             Ok((row, Problem::new(&scene)?))
@@ -92,9 +92,8 @@ pub fn published_at(scene: &Scene, keys: &[&str]) -> Vec<Published> {
         let values: Option<Vec<f64>> = keys.iter().map(|key| theirs.get(key)?.as_number()).collect();
         let Some(values) = values else { continue };
         let mut ours = scene.clone();
-        (ours.name, ours.about, ours.numerics) = (theirs.name.clone(), theirs.about.clone(), theirs.numerics);
         let set = keys.iter().zip(&values).all(|(key, value)| ours.set_value(key, Value::Number(*value)).is_ok());
-        if set && ours == theirs {
+        if set && ours.same_model(&theirs) {
             points.push(Published {
                 row: row.row,
                 values,

@@ -2,6 +2,7 @@
 
 use super::check::CheckError;
 use super::text::TextError;
+use crate::input::ReadError;
 use crate::scene::SceneError;
 use std::fmt;
 use std::path::PathBuf;
@@ -33,14 +34,11 @@ impl std::error::Error for LessonError {}
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LessonErrorKind {
     /// The file or folder cannot be read.
-    #[error("cannot be read: {0}")]
-    Unreadable(String),
+    #[error("{0}")]
+    Unreadable(ReadError),
     /// A folder without any lesson in it.
     #[error("holds no lesson: expected folders with a lesson.md in each, or a lesson.md itself")]
     NoLessons,
-    /// The file is larger than any lesson.
-    #[error("is larger than {0} bytes: this is not a lesson")]
-    TooLarge(u64),
     /// There is no title.
     #[error("has no title: expected a line `# Title` before everything else")]
     NoTitle,

@@ -89,9 +89,9 @@ impl Live {
     /// Whether a scene of this kind has it.
     pub fn belongs(self, scenario: &Scenario) -> bool {
         match TABLE[self as usize].4 {
-            Belongs::Any => true,
+            Belongs::Any | Belongs::IdleOnPlate => true,
             Belongs::Plate => matches!(scenario, Scenario::Plate(_)),
-            Belongs::Motor | Belongs::Beam | Belongs::Table => matches!(scenario, Scenario::Motor(_)),
+            Belongs::Motor => matches!(scenario, Scenario::Motor(_)),
         }
     }
 

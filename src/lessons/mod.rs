@@ -16,11 +16,12 @@ pub mod text;
 pub use error::{LessonError, LessonErrorKind};
 pub use lesson::{Act, Answer, Changes, Doing, Lesson, Prediction, Question, Step, Task, WindowNames};
 
+use crate::input::{self, ReadError};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
-/// Largest `lesson.md` read \[bytes\].
-pub(crate) const LARGEST_FILE: u64 = 1 << 20;
+/// Largest `lesson.md` read \[MB\].
+const LARGEST_FILE: u64 = 1;
 
 /// One built-in lesson: its folder, its text, and its presets by file name.
 #[derive(Clone, Copy, Debug)]
@@ -80,7 +81,7 @@ pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonEr
     }
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
-        Err(error) => return fault(LessonErrorKind::Unreadable(error.to_string())),
+        Err(error) => return fault(LessonErrorKind::Unreadable(ReadError::System(error.to_string()))),
     };
     let mut folders: Vec<PathBuf> =
         entries.flatten().map(|entry| entry.path()).filter(|path| path.join(FILE).is_file()).collect();
@@ -94,11 +95,7 @@ pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonEr
 fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonError>> {
     let path = folder.join(FILE);
     let fault = |kind| vec![LessonError { origin: path.clone(), line: None, kind }];
-    let length = std::fs::metadata(&path).map_err(|error| fault(LessonErrorKind::Unreadable(error.to_string())))?.len();
-    if length > LARGEST_FILE {
-        return Err(fault(LessonErrorKind::TooLarge(LARGEST_FILE)));
-    }
-    let text = std::fs::read_to_string(&path).map_err(|error| fault(LessonErrorKind::Unreadable(error.to_string())))?;
+    let text = input::read_text(&path, LARGEST_FILE).map_err(|error| fault(LessonErrorKind::Unreadable(error)))?;
     let absolute = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let id = absolute.file_name().map_or_else(|| "lesson".to_owned(), |name| name.to_string_lossy().into_owned());
     let preset = |name: &str| {

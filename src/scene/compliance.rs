@@ -13,99 +13,55 @@
 //! k = 2πn/λ with the wavelength λ = 2πr/waves of the scene. Lines that start with `#` are comments. The scene keeps
 //! the rows, so that a saved preset needs no second file and a change of `motor.waves` leaves the rotor as it is.
 
-use super::error::{Fault, What};
-use super::parameter::Range;
-use super::value::{show_number, show_text};
+use super::error::{Fault, SceneError, What};
+use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::value::{Value, show_text};
 use std::path::Path;
-
-/// Allowed wavenumbers \[1/m\].
-pub const WAVENUMBER: Range = Range::new(1e-3, 1e9);
-
-/// Allowed compliances \[m²/N\].
-pub const COMPLIANCE: Range = Range::new(1e-20, 1.0);
 
 /// Most rows of a table.
 pub const MOST_ROWS: usize = 100_000;
 
-/// What is wrong with a row.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RowFault {
-    /// Not two numbers.
-    #[error("{found} is not a pair of numbers, wavenumber_per_m and compliance_m2_per_n")]
-    NotAPair {
-        /// What is there instead.
-        found: String,
-    },
-    /// Not a number.
-    #[error("{column} = {found} is not a number")]
-    NotANumber {
-        /// The column.
-        column: &'static str,
-        /// What is there instead.
-        found: String,
-    },
-    /// Outside the range.
-    #[error("{column} = {} is out of range: allowed {range} {unit}", show_number(*value))]
-    OutOfRange {
-        /// The column.
-        column: &'static str,
-        /// The value.
-        value: f64,
-        /// What is allowed.
-        range: Range,
-        /// The unit.
-        unit: &'static str,
-    },
-    /// Harmonics are counted: 1, 2, 3 …
-    #[error("harmonic = {} is not a whole number from 1 up", show_number(*value))]
-    NotAHarmonic {
-        /// The value.
-        value: f64,
-    },
-    /// Wavenumbers must ascend.
-    #[error(
-        "wavenumber_per_m = {} is not above {}, the one before: sort the rows",
-        show_number(*value), show_number(*before)
-    )]
-    NotAscending {
-        /// The wavenumber \[1/m\].
-        value: f64,
-        /// The one in the row before \[1/m\].
-        before: f64,
-    },
+/// The columns of a row, said of as keys are.
+pub static COLUMNS: [Parameter; 2] = [
+    column("wavenumber_per_m", "1/m", 1e-3, 1e9, "Wavenumber k"),
+    column("compliance_m2_per_n", "m²/N", 1e-20, 1.0, "Displacement amplitude over line-load amplitude"),
+];
+
+/// What a CSV file may have in place of the wavenumber.
+static HARMONIC: Parameter = Parameter {
+    kind: ParameterKind::Whole { min: 1, max: 1_000_000_000, default: 1 },
+    ..column("harmonic", "", 1.0, 1.0, "Harmonic n of the wavelength λ, k = 2πn/λ")
+};
+
+const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about: &'static str) -> Parameter {
+    let range = Range::new(min, max);
+    let kind = ParameterKind::Number { range, slider: range, scale: Scale::Log, default: max };
+    Parameter { key, unit, belongs: Belongs::Motor, when: None, absent: None, kind, about }
 }
 
 /// Checks one row against its ranges and the wavenumber of the row `before`.
-pub(super) fn check_row(row: (f64, f64), before: Option<f64>) -> Result<(), RowFault> {
-    let (wavenumber, compliance) = row;
-    let ranges =
-        [("wavenumber_per_m", wavenumber, WAVENUMBER, "1/m"), ("compliance_m2_per_n", compliance, COMPLIANCE, "m²/N")];
-    for (column, value, range, unit) in ranges {
-        if !range.contains(value) {
-            return Err(RowFault::OutOfRange { column, value, range, unit });
-        }
+pub(super) fn check_row(row: (f64, f64), before: Option<f64>) -> Result<(), What> {
+    for (column, value) in COLUMNS.iter().zip([row.0, row.1]) {
+        column.accept(Value::Number(value))?;
     }
     match before {
-        Some(before) if wavenumber <= before => Err(RowFault::NotAscending { value: wavenumber, before }),
+        Some(before) if row.0 <= before => Err(What::NotAscending(row.0, before)),
         _ => Ok(()),
     }
 }
 
-/// Faults of a table held in memory.
-pub(super) fn check_rows(key: &'static str, rows: &[(f64, f64)]) -> Vec<What> {
-    if rows.is_empty() {
-        return vec![What::ComplianceMissing];
+/// Checks a table held in memory, up to its first fault.
+pub(super) fn check_rows(key: &'static str, rows: &[(f64, f64)]) -> Result<(), What> {
+    if rows.is_empty() || rows.len() > MOST_ROWS {
+        return Err(What::TooManyRows { key, rows: rows.len(), limit: MOST_ROWS });
     }
-    if rows.len() > MOST_ROWS {
-        return vec![What::TooManyRows { key, rows: rows.len(), limit: MOST_ROWS }];
-    }
-    let before = |i: usize| i.checked_sub(1).and_then(|i| rows.get(i)).map(|row| row.0);
-    let checked = rows.iter().enumerate().map(|(i, &row)| (i + 1, check_row(row, before(i))));
-    checked.filter_map(|(row, check)| check.err().map(|fault| What::Row { key, row, fault })).collect()
+    let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
+    let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(*row, before)).zip(1..);
+    checked.try_for_each(|(checked, row)| checked.map_err(|fault| What::Row { key, row, fault: fault.into() }))
 }
 
 /// Reads the text of a CSV file. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and the line.
-pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(f64, f64)>, Vec<Fault>> {
+pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(f64, f64)>, SceneError> {
     const KEY: &str = "rotor.compliance_csv";
     let fault =
         |line: Option<usize>, what| Fault { origin: Some(path.to_owned()), line, column: line.and(Some(1)), what };
@@ -119,7 +75,7 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
 
     let header = match records.next() {
         Some(Ok(header)) => header,
-        _ => return Err(vec![fault(Some(1), What::CsvHeader { found: String::new() })]),
+        _ => return Err(fault(Some(1), What::CsvHeader).into()),
     };
     let line_of = |record: &csv::StringRecord| {
         // The position is where the reader stood before blank lines and comments: step over them.
@@ -132,14 +88,11 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
     let harmonics = match header.iter().collect::<Vec<_>>()[..] {
         ["harmonic", "compliance_m2_per_n"] => true,
         ["wavenumber_per_m", "compliance_m2_per_n"] => false,
-        ref found => {
-            let found = show_text(&found.join(","));
-            return Err(vec![fault(line_of(&header), What::CsvHeader { found })]);
-        }
+        _ => return Err(fault(line_of(&header), What::CsvHeader).into()),
     };
 
     let mut rows: Vec<(f64, f64)> = Vec::new();
-    let mut faults = Vec::new();
+    let mut faults = SceneError::none();
     for (i, record) in records.enumerate() {
         let row = i + 1;
         if row > MOST_ROWS {
@@ -150,40 +103,36 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
             Ok(record) => (line_of(&record), row_of(&record, harmonics, wavelength)),
             Err(error) => {
                 let line = error.position().map(|position| position.line() as usize);
-                (line, Err(RowFault::NotAPair { found: show_text(&error.to_string()) }))
+                (line, Err(What::NotAPair(show_text(&error.to_string()))))
             }
         };
         let before = rows.last().map(|row| row.0);
         match parsed.and_then(|row| check_row(row, before).map(|()| row)) {
             Ok(row) => rows.push(row),
-            Err(wrong) => faults.push(fault(line, What::Row { key: KEY, row, fault: wrong })),
+            Err(wrong) => faults.push(fault(line, What::Row { key: KEY, row, fault: wrong.into() })),
         }
     }
-    if rows.is_empty() && faults.is_empty() {
-        faults.push(fault(None, What::TooManyRows { key: KEY, rows: 0, limit: MOST_ROWS }));
+    let rows = faults.or(rows)?;
+    if rows.is_empty() {
+        return Err(fault(None, What::TooManyRows { key: KEY, rows: 0, limit: MOST_ROWS }).into());
     }
-    if faults.is_empty() { Ok(rows) } else { Err(faults) }
+    Ok(rows)
 }
 
-fn row_of(record: &csv::StringRecord, harmonics: bool, wavelength: f64) -> Result<(f64, f64), RowFault> {
-    let number = |column: &'static str, field: &str| {
-        let parsed = field.parse::<f64>().ok().filter(|value| value.is_finite());
-        parsed.ok_or_else(|| RowFault::NotANumber { column, found: show_text(field) })
-    };
+fn row_of(record: &csv::StringRecord, harmonics: bool, wavelength: f64) -> Result<(f64, f64), What> {
     let [first, second] = record.iter().collect::<Vec<_>>()[..] else {
-        let found = show_text(&record.iter().collect::<Vec<_>>().join(","));
-        return Err(RowFault::NotAPair { found });
+        return Err(What::NotAPair(show_text(&record.iter().collect::<Vec<_>>().join(","))));
+    };
+    let number = |column: &'static Parameter, field| {
+        let value = column.accept(column.read(field)?)?;
+        Ok::<_, What>(value.as_number().unwrap_or(f64::NAN))
     };
     let wavenumber = if harmonics {
-        let value = number("harmonic", first)?;
-        if value < 1.0 || value.fract() != 0.0 {
-            return Err(RowFault::NotAHarmonic { value });
-        }
-        std::f64::consts::TAU * value / wavelength
+        std::f64::consts::TAU * number(&HARMONIC, first)? / wavelength
     } else {
-        number("wavenumber_per_m", first)?
+        number(&COLUMNS[0], first)?
     };
-    Ok((wavenumber, number("compliance_m2_per_n", second)?))
+    Ok((wavenumber, number(&COLUMNS[1], second)?))
 }
 
 #[cfg(test)]
@@ -192,7 +141,7 @@ mod tests {
 
     fn lines(text: &str) -> Vec<(Option<usize>, String)> {
         let faults = read_csv(text, Path::new("r.csv"), 1.0).unwrap_err();
-        faults.iter().map(|fault| (fault.line, fault.to_string())).collect()
+        faults.faults().iter().map(|fault| (fault.line, fault.to_string())).collect()
     }
 
     #[test]
@@ -207,14 +156,20 @@ mod tests {
         let text = "wavenumber_per_m,compliance_m2_per_n\n# note\n10,1e-9\n\n20,x\n30\n5,1e-9\n40,-1\n50,nan\n";
         let found = lines(text);
         let expected = [
-            (5, "r.csv:5: rotor.compliance_csv, row 2: compliance_m2_per_n = x is not a number"),
+            (
+                5,
+                "r.csv:5: rotor.compliance_csv, row 2: compliance_m2_per_n = x is of the wrong type: expected a number from 1e-20",
+            ),
             (6, "r.csv:6: rotor.compliance_csv, row 3: 30 is not a pair of numbers"),
             (7, "r.csv:7: rotor.compliance_csv, row 4: wavenumber_per_m = 5 is not above 10, the one before"),
             (
                 8,
                 "r.csv:8: rotor.compliance_csv, row 5: compliance_m2_per_n = -1 is out of range: allowed 1e-20 to 1 m²/N",
             ),
-            (9, "r.csv:9: rotor.compliance_csv, row 6: compliance_m2_per_n = nan is not a number"),
+            (
+                9,
+                "r.csv:9: rotor.compliance_csv, row 6: compliance_m2_per_n = NaN is not finite: expected a number from 1e-20",
+            ),
         ];
         assert_eq!(found.len(), expected.len());
         for ((line, message), (at, start)) in found.iter().zip(expected) {
@@ -225,11 +180,16 @@ mod tests {
 
     #[test]
     fn another_header_and_an_empty_table_are_refused() {
-        assert!(lines("\n\nk,c\n1,2\n")[0].1.starts_with("r.csv:3: rotor.compliance_csv: the header is \"k,c\""));
-        assert!(lines("")[0].1.contains("expected harmonic,compliance_m2_per_n"));
+        assert!(
+            lines("\n\nk,c\n1,2\n")[0].1.starts_with("r.csv:3: rotor.compliance_csv: this is no compliance table: ")
+        );
+        assert!(!lines("root:x:0:0\n")[0].1.contains("root"));
+        assert!(lines("")[0].1.contains("expected the header harmonic,compliance_m2_per_n"));
         assert!(lines("harmonic,compliance_m2_per_n\n")[0].1.contains("has 0 rows"));
         assert!(
-            lines("harmonic,compliance_m2_per_n\n1.5,1e-9\n")[0].1.contains("harmonic = 1.5 is not a whole number")
+            lines("harmonic,compliance_m2_per_n\n1.5,1e-9\n")[0]
+                .1
+                .contains("harmonic = 1.5 is of the wrong type: expected a whole number from 1 to")
         );
     }
 }

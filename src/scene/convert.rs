@@ -1,14 +1,10 @@
-//! Scene to problem: the units of the field to SI.
+//! Scene to problem: keys get fields, and the units of the field become SI.
 
-use super::{Film, Kind, RotorModel, Scene, SceneError};
+use super::error::{SceneError, What};
+use super::values::{Kind, Scene};
 use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
-
-// Dividing by an exact power of ten rounds once: 200 nm is the double nearest to 2e-7 m. Multiplying by 1e-9, which is
-// not itself exact, would round twice.
-const PER_MILLI: f64 = 1e3;
-const PER_MICRO: f64 = 1e6;
-const PER_NANO: f64 = 1e9;
-const KILO: f64 = 1e3;
+use serde::Deserialize;
+use serde::de::value::{Error, StrDeserializer};
 
 impl Problem {
     /// The checked, SI form of a scene.
@@ -18,38 +14,60 @@ impl Problem {
     /// The faults of [`Scene::check`].
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
-        let scenario = match &scene.kind {
-            Kind::Motor { motor, stator, rotor, film } => {
-                let contact_radius = motor.contact_radius_mm / PER_MILLI;
-                Scenario::Motor(Motor {
-                    contact_radius,
-                    waves: motor.waves,
-                    load: motor.load_per_wave_n,
-                    dry_friction: motor.dry_friction,
-                    rotor_speed: std::f64::consts::TAU * (motor.rotor_speed_rpm / 60.0) * contact_radius,
-                    frequency: stator.frequency_khz * KILO,
-                    normal_amplitude: stator.normal_amplitude_um / PER_MICRO,
-                    tangential_amplitude: stator.tangential_amplitude_um / PER_MICRO,
-                    teeth: stator.teeth_per_wave as usize,
-                    tooth_width: stator.tooth_width_mm / PER_MILLI,
-                    tooth_radius: stator.tooth_radius_m,
-                    contact_width: rotor.contact_width_mm / PER_MILLI,
-                    rotor: rotor_compliance(&rotor.model),
-                    min_spacing: film.min_spacing_nm / PER_NANO,
-                    gas: gas(film),
-                    shear: film.shear,
-                })
-            }
-            Kind::Plate { plate, film } => Scenario::Plate(Plate {
-                length: plate.length_mm / PER_MILLI,
-                width: plate.width_mm.map(|width| width / PER_MILLI),
-                mean_gap: plate.mean_gap_um / PER_MICRO,
-                amplitude: plate.amplitude_um / PER_MICRO,
-                frequency: plate.frequency_khz * KILO,
-                gas: gas(film),
+        Ok(Self::of(scene)?)
+    }
+
+    /// The SI form of a scene whose keys may break the rules between them. A key that the table of keys does not have, or
+    /// has with another type, is an error: that is a fault of the program, which any test finds.
+    pub(super) fn of(scene: &Scene) -> Result<Self, What> {
+        let optional = |key| {
+            let parameter = scene.parameter(key)?;
+            Ok::<_, What>(scene.optional_number(parameter).map(|number| parameter.si(number)))
+        };
+        let si = |key| optional(key)?.ok_or_else(|| scene.unknown_key(key));
+        let gas = Gas {
+            ambient_pressure: si("film.ambient_pressure_kpa")?,
+            viscosity: si("film.viscosity_upa_s")?,
+            mean_free_path: si("film.mean_free_path_nm")?,
+            slip: choice(scene, "film.slip")?,
+        };
+        let scenario = match scene.kind() {
+            Kind::Motor => Scenario::Motor(Motor {
+                contact_radius: si("motor.contact_radius_mm")?,
+                waves: si("motor.waves")? as u32,
+                load: si("motor.load_per_wave_n")?,
+                dry_friction: si("motor.dry_friction")?,
+                rotor_speed: std::f64::consts::TAU * si("motor.rotor_speed_rpm")? * si("motor.contact_radius_mm")?,
+                frequency: si("stator.frequency_khz")?,
+                normal_amplitude: si("stator.normal_amplitude_um")?,
+                tangential_amplitude: si("stator.tangential_amplitude_um")?,
+                teeth: si("stator.teeth_per_wave")? as usize,
+                tooth_width: si("stator.tooth_width_mm")?,
+                tooth_radius: optional("stator.tooth_radius_m")?,
+                contact_width: si("rotor.contact_width_mm")?,
+                rotor: match scene.text("rotor.model")? {
+                    "beam" => RotorCompliance::Beam {
+                        decay_length: si("rotor.decay_length_mm")?,
+                        point_compliance: si("rotor.point_compliance_um_per_n")?,
+                        local_compliance: si("rotor.local_compliance_m2_per_n")?,
+                    },
+                    "table" => RotorCompliance::Table(scene.compliance().to_vec()),
+                    _ => return Err(scene.unknown_key("rotor.model")),
+                },
+                min_spacing: si("film.min_spacing_nm")?,
+                gas,
+                shear: scene.flag("film.shear")?,
+            }),
+            Kind::Plate => Scenario::Plate(Plate {
+                length: si("plate.length_mm")?,
+                width: optional("plate.width_mm")?,
+                mean_gap: si("plate.mean_gap_um")?,
+                amplitude: si("plate.amplitude_um")?,
+                frequency: si("plate.frequency_khz")?,
+                gas,
             }),
         };
-        Ok(Self { name: scene.name.clone(), scenario, numerics: scene.numerics })
+        Ok(Self { name: scene.name.clone(), scenario, numerics: scene.numerics() })
     }
 }
 
@@ -61,24 +79,7 @@ impl TryFrom<&Scene> for Problem {
     }
 }
 
-fn gas(film: &Film) -> Gas {
-    Gas {
-        ambient_pressure: film.ambient_pressure_kpa * KILO,
-        viscosity: film.viscosity_upa_s / PER_MICRO,
-        mean_free_path: film.mean_free_path_nm / PER_NANO,
-        slip: film.slip,
-    }
-}
-
-fn rotor_compliance(model: &RotorModel) -> RotorCompliance {
-    match model {
-        RotorModel::Beam { decay_length_mm, point_compliance_um_per_n, local_compliance_m2_per_n } => {
-            RotorCompliance::Beam {
-                decay_length: decay_length_mm / PER_MILLI,
-                point_compliance: point_compliance_um_per_n / PER_MICRO,
-                local_compliance: *local_compliance_m2_per_n,
-            }
-        }
-        RotorModel::Table { compliance } => RotorCompliance::Table(compliance.clone()),
-    }
+/// The choice of a key, by its name.
+fn choice<T: for<'de> Deserialize<'de>>(scene: &Scene, key: &str) -> Result<T, What> {
+    T::deserialize(StrDeserializer::<Error>::new(scene.text(key)?)).map_err(|_| scene.unknown_key(key))
 }

@@ -1,29 +1,67 @@
-//! What can be wrong with a scene. A [`SceneError`] holds every fault found at once; its `Display` is what the user
-//! sees, one line per fault: `my.toml:12: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm`.
+//! What can be wrong with a scene. A [`SceneError`] holds the first faults and counts the others; its `Display` is what
+//! the user sees, one line per fault: `my.toml:12: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm`.
 
-use super::compliance::RowFault;
 use super::parameter::{Parameter, Range};
 use super::value::{Value, show_number};
+use crate::input::ReadError;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Everything wrong with a scene: at least one fault, in the order of the file.
+/// The version of the file format this program reads and writes.
+pub const SCHEMA: i64 = 1;
+
+/// Most faults told at once.
+const MOST_FAULTS: usize = 10;
+
+/// What is wrong with a scene: at least one fault and at most ten, in the order of the file, and how many more there are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneError {
     faults: Vec<Fault>,
+    more: usize,
 }
 
 impl SceneError {
-    /// The error of these faults, or `Ok` if there are none.
-    pub(super) fn unless_empty(mut faults: Vec<Fault>) -> Result<(), Self> {
-        // Stable, so that faults on one line keep the order in which they were found.
-        faults.sort_by(|a, b| (&a.origin, a.line).cmp(&(&b.origin, b.line)));
-        if faults.is_empty() { Ok(()) } else { Err(Self { faults }) }
+    /// No fault so far.
+    pub(super) fn none() -> Self {
+        Self { faults: Vec::new(), more: 0 }
     }
 
-    /// The faults, at least one.
+    /// Whether further faults are only counted.
+    pub(super) fn is_full(&self) -> bool {
+        self.faults.len() >= MOST_FAULTS
+    }
+
+    /// Adds a fault.
+    pub(super) fn push(&mut self, fault: impl Into<Fault>) {
+        if self.is_full() { self.more += 1 } else { self.faults.push(fault.into()) }
+    }
+
+    /// Counts a fault beyond those that are told.
+    pub(super) fn count_one(&mut self) {
+        self.more += 1;
+    }
+
+    /// Adds the faults of another error.
+    pub(super) fn join(&mut self, other: Self) {
+        self.more += other.more;
+        other.faults.into_iter().for_each(|fault| self.push(fault));
+    }
+
+    /// `value`, or the error if there are faults.
+    pub(super) fn or<T>(mut self, value: T) -> Result<T, Self> {
+        // Stable, so that faults on one line keep the order in which they were found.
+        self.faults.sort_by(|a, b| (&a.origin, a.line).cmp(&(&b.origin, b.line)));
+        if self.faults.is_empty() { Ok(value) } else { Err(self) }
+    }
+
+    /// The faults, at least one and at most ten.
     pub fn faults(&self) -> &[Fault] {
         &self.faults
+    }
+
+    /// How many faults there are beside those.
+    pub fn more(&self) -> usize {
+        self.more
     }
 
     /// The same faults, said of `origin`, where they name no file of their own.
@@ -43,21 +81,15 @@ impl fmt::Display for SceneError {
             }
             write!(f, "{fault}")?;
         }
-        Ok(())
+        if self.more > 0 { write!(f, "\nand {} more", self.more) } else { Ok(()) }
     }
 }
 
 impl std::error::Error for SceneError {}
 
-impl From<What> for SceneError {
-    fn from(what: What) -> Self {
-        Self { faults: vec![Fault::from(what)] }
-    }
-}
-
-impl From<Fault> for SceneError {
-    fn from(fault: Fault) -> Self {
-        Self { faults: vec![fault] }
+impl<F: Into<Fault>> From<F> for SceneError {
+    fn from(fault: F) -> Self {
+        Self { faults: vec![fault.into()], more: 0 }
     }
 }
 
@@ -87,7 +119,7 @@ impl fmt::Display for Fault {
             if let Some(line) = self.line {
                 write!(f, "{line}:")?;
             }
-            if let (What::Syntax { .. }, Some(column)) = (&self.what, self.column) {
+            if let (What::Syntax(_), Some(column)) = (&self.what, self.column) {
                 write!(f, "{column}:")?;
             }
             f.write_str(" ")?;
@@ -99,47 +131,21 @@ impl fmt::Display for Fault {
 /// What is wrong. Values carry the unit of their key.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum What {
-    /// The file cannot be read.
-    #[error("cannot be read: {reason}")]
-    Unreadable {
-        /// The system's reason.
-        reason: String,
-    },
-    /// The file is larger than any scene.
-    #[error("is larger than {limit} bytes: this is not a preset")]
-    TooLarge {
-        /// The largest size read \[bytes\].
-        limit: u64,
-    },
-    /// The file is not UTF-8.
-    #[error("is not UTF-8 text")]
-    NotText,
-    /// The file cannot be written.
-    #[error("cannot be written: {reason}")]
-    Unwritable {
-        /// The system's reason.
-        reason: String,
-    },
-    /// The text is not TOML.
-    #[error("not valid TOML: {message}")]
-    Syntax {
-        /// What the TOML reader expected.
-        message: String,
-    },
+    /// The file is not read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The file cannot be written, for the system's reason.
+    #[error("cannot be written: {0}")]
+    Unwritable(String),
+    /// The text is not TOML; what its reader says.
+    #[error("not valid TOML: {0}")]
+    Syntax(String),
     /// No `schema` key.
-    #[error("the key schema is missing: write schema = {supported} at the top of the file")]
-    SchemaMissing {
-        /// The version this program reads.
-        supported: i64,
-    },
-    /// A `schema` this program does not read.
-    #[error("schema = {found} is not supported: this program reads schema = {supported}")]
-    SchemaUnsupported {
-        /// The value in the file.
-        found: String,
-        /// The version this program reads.
-        supported: i64,
-    },
+    #[error("the key schema is missing: write schema = {SCHEMA} at the top of the file")]
+    SchemaMissing,
+    /// A `schema` this program does not read, as written.
+    #[error("schema = {0} is not supported: this program reads schema = {SCHEMA}")]
+    SchemaUnsupported(String),
     /// A `scene` that does not exist.
     #[error("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{}", did_you_mean(nearest.as_deref()))]
     UnknownScene {
@@ -148,24 +154,16 @@ pub enum What {
         /// The nearest name.
         nearest: Option<String>,
     },
-    /// A key that no scene has.
-    #[error("unknown key {key}{}", suggestion(nearest.as_deref(), siblings))]
-    UnknownKey {
-        /// The dotted key.
+    /// A key or table that no scene has.
+    #[error("unknown {kind} {key}{}", suggestion(nearest.as_deref(), siblings))]
+    Unknown {
+        /// "key" or "table".
+        kind: &'static str,
+        /// The dotted key, or the table in brackets.
         key: String,
-        /// The nearest known key.
+        /// The nearest known one.
         nearest: Option<String>,
         /// The keys of the same table, or else the tables of the scene, for when nothing is near.
-        siblings: Vec<&'static str>,
-    },
-    /// A table that no scene has.
-    #[error("unknown table [{table}]{}", suggestion(nearest.as_deref(), siblings))]
-    UnknownTable {
-        /// The table.
-        table: String,
-        /// The nearest known table, in brackets.
-        nearest: Option<String>,
-        /// The tables of this scene.
         siblings: Vec<&'static str>,
     },
     /// A plain value where a table belongs.
@@ -176,29 +174,18 @@ pub enum What {
         /// The value in the file.
         found: String,
     },
-    /// A key or table of the other kind of scene.
-    #[error("{key} belongs to scene = \"{needs}\", and this is scene = \"{scene}\"")]
-    OtherScene {
+    /// A key or table of the other kind of scene, or a key of another model.
+    #[error("{key} belongs to {selector} = \"{needs}\", and this is {selector} = \"{chosen}\"")]
+    Elsewhere {
         /// The dotted key, or the table in brackets.
         key: String,
-        /// The scene it belongs to.
+        /// What chooses: `scene`, or the key of the model.
+        selector: &'static str,
+        /// The scene or model it belongs to.
         needs: &'static str,
-        /// The scene this is.
-        scene: &'static str,
+        /// The one this is.
+        chosen: String,
     },
-    /// A key of another rotor model.
-    #[error("{key} belongs to rotor.model = \"{needs}\", and this is rotor.model = \"{model}\"")]
-    OtherModel {
-        /// The dotted key.
-        key: &'static str,
-        /// The model it belongs to.
-        needs: &'static str,
-        /// The model this is.
-        model: &'static str,
-    },
-    /// A rotor model that is planned.
-    #[error("rotor.model = \"ring\" is reserved and not available: allowed \"beam\" or \"table\"")]
-    ReservedModel,
     /// A key that this kind of scene does not heed.
     #[error("{key} has no effect on a {scene}: it cannot be changed or varied here")]
     NoEffect {
@@ -207,33 +194,20 @@ pub enum What {
         /// The scene this is.
         scene: &'static str,
     },
-    /// The wedge term is asked for and ruled out.
-    #[error(
-        "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: \
-         change one of the two"
-    )]
-    WedgeWithoutShear,
     /// A key that makes the scene what it is.
-    #[error("{key} cannot be changed: start from another preset")]
-    Fixed {
-        /// The key.
-        key: &'static str,
-    },
-    /// A value of another type.
-    #[error("{} = {found} is of the wrong type: expected {}", parameter.key, parameter.accepts())]
-    WrongType {
+    #[error("{0} cannot be changed: start from another preset")]
+    Fixed(&'static str),
+    /// A value that the key does not take, whatever its size.
+    #[error("{} = {found} is {why}: expected {}{}", parameter.key, parameter.accepts(), did_you_mean(nearest.as_deref()))]
+    Refused {
         /// The key, and what it accepts.
         parameter: &'static Parameter,
         /// The value as written.
         found: String,
-    },
-    /// Infinity or not a number.
-    #[error("{} = {value} is not finite: expected {}", parameter.key, parameter.accepts())]
-    NotFinite {
-        /// The key, and what it accepts.
-        parameter: &'static Parameter,
-        /// The value.
-        value: f64,
+        /// "of the wrong type", "not finite" or "not available".
+        why: &'static str,
+        /// The nearest of the choices.
+        nearest: Option<String>,
     },
     /// A number outside its range.
     #[error("{} = {value} is out of range: allowed {range}{}", parameter.key, with_unit(parameter))]
@@ -245,52 +219,15 @@ pub enum What {
         /// What is allowed.
         range: Range,
     },
-    /// A name that is not one of the choices.
-    #[error("{} = \"{value}\" is not available: expected {}{}", parameter.key, parameter.accepts(), did_you_mean(nearest.as_deref()))]
-    NotAChoice {
-        /// The key, and the choices.
-        parameter: &'static Parameter,
-        /// The value.
-        value: String,
-        /// The nearest choice.
-        nearest: Option<String>,
+    /// A rule between keys that is broken.
+    #[error("{message}")]
+    Rule {
+        /// The dotted key to change first.
+        key: &'static str,
+        /// What is wrong: the key, its value, and what is allowed.
+        message: String,
     },
-    /// A tooth too wide or too narrow for its pitch.
-    #[error(
-        "stator.tooth_width_mm = {} is out of range: allowed {range} mm, 1 % to 100 % of the tooth pitch \
-         2π × {} mm / {waves} waves / {teeth} teeth",
-        show_number(*width_mm), show_number(*radius_mm)
-    )]
-    ToothAndPitch {
-        /// Tooth width \[mm\].
-        width_mm: f64,
-        /// What the pitch allows \[mm\].
-        range: Range,
-        /// Contact radius \[mm\].
-        radius_mm: f64,
-        /// Wavelengths round the ring.
-        waves: u32,
-        /// Teeth in one wavelength.
-        teeth: u32,
-    },
-    /// A plate that would touch the wall.
-    #[error(
-        "plate.amplitude_um = {} is out of range: allowed 0 to below plate.mean_gap_um = {} µm, or the plate touches",
-        show_number(*amplitude_um), show_number(*mean_gap_um)
-    )]
-    AmplitudeAndGap {
-        /// Amplitude \[µm\].
-        amplitude_um: f64,
-        /// Mean gap \[µm\].
-        mean_gap_um: f64,
-    },
-    /// The rotor is a table, and no table is given.
-    #[error("rotor.model = \"table\" needs rotor.compliance_csv or rotor.compliance")]
-    ComplianceMissing,
-    /// The rotor is a table, and two are given.
-    #[error("rotor.compliance and rotor.compliance_csv are both given: keep one")]
-    ComplianceTwice,
-    /// More rows than any compliance needs.
+    /// A list with no rows, or more than any needs.
     #[error("{key} has {rows} rows: allowed 1 to {limit}")]
     TooManyRows {
         /// The dotted key.
@@ -307,9 +244,15 @@ pub enum What {
         key: &'static str,
         /// Row, from 1, header not counted.
         row: usize,
-        /// What is wrong with it.
-        fault: RowFault,
+        /// What is wrong with it, said of the columns as of keys.
+        fault: Box<What>,
     },
+    /// A row that is not two numbers, as written.
+    #[error("{0} is not a pair of numbers, wavenumber_per_m and compliance_m2_per_n")]
+    NotAPair(String),
+    /// A wavenumber that is not above the one in the row before \[1/m\].
+    #[error("wavenumber_per_m = {} is not above {}, the one before: sort the rows", show_number(*.0), show_number(*.1))]
+    NotAscending(f64, f64),
     /// The CSV file of the compliance cannot be read.
     #[error("rotor.compliance_csv = \"{given}\": {} {fault}", path.display())]
     Csv {
@@ -318,17 +261,14 @@ pub enum What {
         /// The file looked for.
         path: PathBuf,
         /// What is wrong with the file.
-        fault: Box<What>,
+        fault: ReadError,
     },
-    /// The CSV file has another header.
+    /// The CSV file has another header. What is in it is not shown: it may be any file of this machine.
     #[error(
-        "rotor.compliance_csv: the header is \"{found}\": expected harmonic,compliance_m2_per_n or \
+        "rotor.compliance_csv: this is no compliance table: expected the header harmonic,compliance_m2_per_n or \
          wavenumber_per_m,compliance_m2_per_n"
     )]
-    CsvHeader {
-        /// The header found.
-        found: String,
-    },
+    CsvHeader,
     /// Neither a built-in preset nor a file.
     #[error(
         "unknown preset {name}: it is neither a built-in preset nor a file{}; squeezefilm presets lists the built-in ones",
@@ -343,35 +283,24 @@ pub enum What {
 }
 
 impl What {
+    /// A value of the wrong type, as written.
+    pub(super) fn wrong_type(parameter: &'static Parameter, found: String) -> Self {
+        Self::Refused { parameter, found, why: "of the wrong type", nearest: None }
+    }
+
     /// The dotted key the fault is about, if it is about one.
     pub fn key(&self) -> Option<&str> {
-        match self {
-            Self::UnknownKey { key, .. } | Self::OtherScene { key, .. } => Some(key),
-            Self::OtherModel { key, .. }
-            | Self::Fixed { key }
-            | Self::NoEffect { key, .. }
-            | Self::TooManyRows { key, .. }
-            | Self::Row { key, .. } => Some(key),
-            Self::WrongType { parameter, .. }
-            | Self::NotFinite { parameter, .. }
-            | Self::OutOfRange { parameter, .. }
-            | Self::NotAChoice { parameter, .. } => Some(parameter.key),
-            Self::SchemaMissing { .. } | Self::SchemaUnsupported { .. } => Some("schema"),
-            Self::UnknownScene { .. } => Some("scene"),
-            Self::UnknownTable { table, .. } => Some(table),
-            Self::NotATable { table, .. } => Some(table),
-            Self::WedgeWithoutShear => Some("numerics.wedge"),
-            Self::ReservedModel | Self::ComplianceMissing => Some("rotor.model"),
-            Self::ToothAndPitch { .. } => Some("stator.tooth_width_mm"),
-            Self::AmplitudeAndGap { .. } => Some("plate.amplitude_um"),
-            Self::ComplianceTwice | Self::Csv { .. } | Self::CsvHeader { .. } => Some("rotor.compliance_csv"),
-            Self::Unreadable { .. }
-            | Self::TooLarge { .. }
-            | Self::NotText
-            | Self::Unwritable { .. }
-            | Self::Syntax { .. }
-            | Self::UnknownPreset { .. } => None,
-        }
+        Some(match self {
+            Self::Unknown { key, .. } | Self::Elsewhere { key, .. } => key,
+            Self::Fixed(key) | Self::NoEffect { key, .. } | Self::Rule { key, .. } => key,
+            Self::TooManyRows { key, .. } | Self::Row { key, .. } | Self::NotATable { table: key, .. } => key,
+            Self::Refused { parameter, .. } | Self::OutOfRange { parameter, .. } => parameter.key,
+            Self::SchemaMissing | Self::SchemaUnsupported(_) => "schema",
+            Self::UnknownScene { .. } => "scene",
+            Self::Csv { .. } | Self::CsvHeader => "rotor.compliance_csv",
+            Self::Read(_) | Self::Unwritable(_) | Self::Syntax(_) | Self::UnknownPreset { .. } => return None,
+            Self::NotAPair(_) | Self::NotAscending(..) => return None,
+        })
     }
 }
 

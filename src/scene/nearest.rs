@@ -3,8 +3,14 @@
 /// How alike two names must be (Jaro–Winkler, 0 to 1) for one to be offered in place of the other.
 const ALIKE: f64 = 0.75;
 
+/// Longest name that is compared with others \[bytes\]: comparing takes time in proportion to both lengths.
+const LONGEST: usize = 100;
+
 /// The candidate most like `name`, if any is alike.
 pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST {
+        return None;
+    }
     let scored = candidates.into_iter().map(|candidate| (strsim::jaro_winkler(name, candidate), candidate));
     // On a tie the first candidate wins, the order of the table.
     let best = scored.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
@@ -14,20 +20,20 @@ pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
 /// The dotted key nearest to `key`: one with the same last part in another table first, then the most alike in the
 /// same table, then the most alike anywhere.
 pub(super) fn nearest_key<'a>(key: &str, candidates: &[&'a str]) -> Option<&'a str> {
-    let leaf = |key: &str| key.rsplit('.').next().unwrap_or_default().to_owned();
-    let table = |key: &str| key.rsplit_once('.').map(|(table, _)| table.to_owned());
+    fn leaf(key: &str) -> &str {
+        key.rsplit('.').next().unwrap_or_default()
+    }
+    fn table(key: &str) -> Option<&str> {
+        key.rsplit_once('.').map(|(table, _)| table)
+    }
     let own = leaf(key);
     if let Some(elsewhere) = candidates.iter().find(|candidate| leaf(candidate) == own) {
         return Some(elsewhere);
     }
     let alike = |same_table: bool| {
-        candidates
-            .iter()
-            .filter(|candidate| !same_table || table(candidate) == table(key))
-            .map(|candidate| (strsim::jaro_winkler(&own, &leaf(candidate)), *candidate))
-            .reduce(|best, next| if next.0 > best.0 { next } else { best })
-            .filter(|best| best.0 >= ALIKE)
-            .map(|best| best.1)
+        let candidates = || candidates.iter().filter(|candidate| !same_table || table(candidate) == table(key));
+        let found = nearest(own, candidates().map(|candidate| leaf(candidate)))?;
+        candidates().find(|candidate| leaf(candidate) == found).copied()
     };
     alike(true).or_else(|| alike(false))
 }

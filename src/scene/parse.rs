@@ -1,30 +1,32 @@
 //! TOML text to a scene. Reads the spanned tree rather than serde's types, so that every fault has its line and all of
 //! them are found in one reading.
 
-use super::compliance::{self, MOST_ROWS, RowFault, check_row};
-use super::error::{Fault, SceneError, What};
+use super::compliance::{self, MOST_ROWS, check_row};
+use super::error::{Fault, SCHEMA, SceneError, What};
+use super::keys::tables;
 use super::nearest::nearest;
-use super::parameter::{PARAMETERS, Parameter, ParameterKind, SCENES, TABLES};
+use super::parameter::{Parameter, ParameterKind};
 use super::value::{Value, show_text};
-use super::{RotorModel, SCHEMA, Scene};
+use super::values::{Kind, Scene};
+use crate::input;
 use std::collections::HashMap;
-use std::io::Read;
 use std::ops::Range as Bytes;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Largest file read \[bytes\]. The largest compliance table takes a third of it.
-const LARGEST_FILE: u64 = 16 << 20;
+/// Largest file read \[MB\]. The largest compliance table takes a third of it.
+const LARGEST_FILE: u64 = 16;
 
 impl Scene {
     /// Reads a preset file.
     ///
     /// # Errors
     ///
-    /// The file cannot be read, is not TOML, or breaks a rule; all faults at once, with their lines.
+    /// The file cannot be read, is not TOML, or breaks a rule; the first ten faults at once, with their lines.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let text = read_text(path).map_err(|what| SceneError::from(what).at(path))?;
+        let text =
+            input::read_text(path, LARGEST_FILE).map_err(|error| SceneError::from(What::Read(error)).at(path))?;
         Self::from_toml(&text, path)
     }
 
@@ -35,72 +37,47 @@ impl Scene {
     ///
     /// As [`Scene::load`].
     pub fn from_toml(text: &str, origin: impl AsRef<Path>) -> Result<Self, SceneError> {
-        let mut reader = Reader { text, origin: origin.as_ref(), faults: Vec::new(), spans: HashMap::new() };
+        let origin = origin.as_ref();
+        let mut reader = Reader { text, origin, faults: SceneError::none(), spans: HashMap::new() };
         let scene = reader.read();
-        SceneError::unless_empty(reader.faults)?;
         // A scene is missing only together with a fault.
-        scene.ok_or_else(|| What::SchemaMissing { supported: SCHEMA }.into())
+        reader.faults.or(())?;
+        scene.ok_or_else(|| What::SchemaMissing.into())
     }
-}
-
-/// The text of a file.
-pub(super) fn read_text(path: &Path) -> Result<String, What> {
-    let unreadable = |error: std::io::Error| What::Unreadable { reason: error.to_string() };
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(What::TooLarge { limit: LARGEST_FILE });
-    }
-    String::from_utf8(bytes).map_err(|_| What::NotText)
 }
 
 /// Reads the CSV file at `path`; `given` is the value of the key, for the message. `wavelength` in \[m\].
-pub(super) fn read_compliance(given: &str, path: &Path, wavelength: f64) -> Result<Vec<(f64, f64)>, Vec<Fault>> {
-    let text = read_text(path).map_err(|fault| {
-        let (given, path) = (show_text(given), path.to_owned());
-        vec![Fault::from(What::Csv { given, path, fault: Box::new(fault) })]
-    })?;
-    compliance::read_csv(&text, path, wavelength)
+pub(super) fn read_compliance(given: &str, path: &Path, wavelength: f64) -> Result<Value, SceneError> {
+    let unreadable = |fault| What::Csv { given: show_text(given), path: path.to_owned(), fault };
+    let text = input::read_text(path, LARGEST_FILE).map_err(unreadable)?;
+    compliance::read_csv(&text, path, wavelength).map(Value::Rows)
 }
 
-/// The value of a parameter from the text of `--set`.
-pub(super) fn value_from_text(parameter: &'static Parameter, text: &str) -> Result<Value, What> {
-    let wrong_type = || What::WrongType { parameter, found: show_text(text) };
-    match parameter.kind {
-        ParameterKind::Number { .. } => text.parse().map(Value::Number).map_err(|_| wrong_type()),
-        ParameterKind::Whole { .. } => text.parse().map(Value::Whole).map_err(|_| wrong_type()),
-        ParameterKind::Flag { .. } => text.parse().map(Value::Flag).map_err(|_| wrong_type()),
-        ParameterKind::Choice { .. } | ParameterKind::Text { .. } => Ok(Value::Text(text.to_owned())),
-        ParameterKind::CsvPath => Err(wrong_type()),
-        ParameterKind::Rows => {
-            let tree = DeValue::parse(text).map_err(|_| wrong_type())?;
-            let faults = |mut faults: Vec<Placed>| {
-                if faults.is_empty() { wrong_type() } else { faults.swap_remove(0).1 }
-            };
-            rows_from_toml(parameter, &tree, text).map(Value::Rows).map_err(faults)
-        }
-    }
+/// The rows of a compliance table from the text of `--set`, written as in TOML.
+pub(super) fn rows_from_text(parameter: &'static Parameter, text: &str) -> Result<Value, SceneError> {
+    let tree = DeValue::parse(text).map_err(|_| What::wrong_type(parameter, show_text(text)))?;
+    let mut faults = SceneError::none();
+    let rows = rows_from_toml(parameter, &tree, text, &mut |_, what| faults.push(what));
+    faults.or(Value::Rows(rows))
 }
-
-/// What is wrong, and where in the text.
-type Placed = (Bytes<usize>, What);
 
 struct Reader<'t> {
     text: &'t str,
     origin: &'t Path,
-    faults: Vec<Fault>,
+    faults: SceneError,
     /// Where the value of each key of the file is.
     spans: HashMap<&'static str, Bytes<usize>>,
 }
+
+/// A key of the file: where its name is, the dotted key, its value.
+type Entry<'a, 't> = (Bytes<usize>, String, &'a Spanned<DeValue<'t>>);
 
 impl Reader<'_> {
     fn read(&mut self) -> Option<Scene> {
         let tree = match DeTable::parse(self.text) {
             Ok(tree) => tree,
             Err(error) => {
-                let message = syntax_message(error.message());
-                self.fault(error.span(), What::Syntax { message });
+                self.fault(error.span(), || What::Syntax(syntax_message(error.message())));
                 return None;
             }
         };
@@ -109,191 +86,167 @@ impl Reader<'_> {
             return None;
         }
         let mut scene = self.empty_scene(root)?;
-        let model_known = self.rotor_model(root, &mut scene);
-        for (key, value) in root {
-            let name = key.get_ref().as_ref();
-            match (TABLES.iter().find(|table| **table == name), value.get_ref()) {
-                _ if matches!(name, "schema" | "scene") => {}
-                (Some(table), DeValue::Table(entries)) => {
-                    if self.table_applies(&scene, table, key.span()) {
-                        for (key, value) in entries {
-                            self.key(&mut scene, &format!("{table}.{}", key.get_ref()), key.span(), value, model_known);
-                        }
-                    }
-                }
-                (Some(table), _) => {
-                    let found = self.written(value.span());
-                    self.fault(Some(value.span()), What::NotATable { table, found });
-                }
-                (None, DeValue::Table(_)) => {
-                    let siblings = scene.tables();
-                    let nearest = nearest(name, siblings.iter().copied()).map(|table| format!("[{table}]"));
-                    self.fault(Some(key.span()), What::UnknownTable { table: show_text(name), nearest, siblings });
-                }
-                (None, _) => self.key(&mut scene, name, key.span(), value, model_known),
-            }
+        let mut entries = self.entries(root, &scene);
+        // What chooses a model comes first, as it decides which keys there are, and a table of harmonics last, as it needs
+        // the wavelength. Apart from that, in the order of the file.
+        entries.sort_by_cached_key(|(at, key, _)| {
+            let parameter = Parameter::find(key);
+            let rank = |p: &Parameter| i32::from(p.kind == ParameterKind::CsvPath) - i32::from(p.selects());
+            (parameter.map_or(0, rank), at.start)
+        });
+        for (at, key, value) in entries {
+            self.key(&mut scene, at, &key, value);
         }
-        self.csv(root, &mut scene);
         self.rules(&scene);
         Some(scene)
     }
 
     /// Whether the file is of a schema this program reads.
     fn schema(&mut self, root: &DeTable<'_>) -> bool {
-        let Some(value) = root.get("schema") else {
-            self.fault(None, What::SchemaMissing { supported: SCHEMA });
-            return false;
-        };
-        if integer(value.get_ref()) == Some(SCHEMA) {
-            return true;
+        match root.get("schema") {
+            None => self.fault(None, || What::SchemaMissing),
+            Some(value) if integer(value.get_ref()) == Some(SCHEMA) => return true,
+            Some(value) => {
+                let found = self.written(value.span());
+                self.fault(Some(value.span()), || What::SchemaUnsupported(found));
+            }
         }
-        let found = self.written(value.span());
-        self.fault(Some(value.span()), What::SchemaUnsupported { found, supported: SCHEMA });
         false
     }
 
     /// The default scene of the kind the file asks for.
     fn empty_scene(&mut self, root: &DeTable<'_>) -> Option<Scene> {
         let Some(value) = root.get("scene") else { return Some(Scene::motor()) };
-        match value.get_ref().as_str() {
-            Some("motor") => Some(Scene::motor()),
-            Some("plate") => Some(Scene::plate()),
-            other => {
-                let nearest = other.and_then(|name| nearest(name, SCENES.iter().copied())).map(str::to_owned);
-                let found = self.written(value.span());
-                self.fault(Some(value.span()), What::UnknownScene { found, nearest });
-                None
-            }
+        let name = value.get_ref().as_str().unwrap_or_default();
+        let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name);
+        if kind.is_none() {
+            let nearest = nearest(name, Kind::ALL.map(Kind::name)).map(str::to_owned);
+            let found = self.written(value.span());
+            self.fault(Some(value.span()), || What::UnknownScene { found, nearest });
         }
+        kind.map(Scene::new)
     }
 
-    /// Sets the rotor's model, on which the meaning of the other rotor keys depends. False if it is not a model.
-    fn rotor_model(&mut self, root: &DeTable<'_>, scene: &mut Scene) -> bool {
-        let model = root.get("rotor").and_then(|rotor| rotor.get_ref().get("model"));
-        match (model.map(|model| model.get_ref().as_str()), Parameter::find("rotor.model")) {
-            (Some(Some(name)), Some(parameter)) => scene.assign(parameter, Value::Text(name.to_owned())).is_ok(),
-            (Some(None), _) => false,
-            _ => true,
-        }
-    }
-
-    fn table_applies(&mut self, scene: &Scene, table: &'static str, span: Bytes<usize>) -> bool {
-        let foreign = PARAMETERS.iter().find(|p| p.table() == table).and_then(|p| match scene.applies(p) {
-            Err(What::OtherScene { needs, scene, .. }) => Some((needs, scene)),
-            _ => None,
-        });
-        if let Some((needs, scene)) = foreign {
-            self.fault(Some(span), What::OtherScene { key: format!("[{table}]"), needs, scene });
-        }
-        foreign.is_none()
-    }
-
-    fn key(
-        &mut self,
-        scene: &mut Scene,
-        key: &str,
-        span: Bytes<usize>,
-        value: &Spanned<DeValue<'_>>,
-        model_known: bool,
-    ) {
-        let Some(parameter) = Parameter::find(key) else {
-            let what = scene.unknown_key(key);
-            return self.fault(Some(span), what);
-        };
-        self.spans.insert(parameter.key, value.span());
-        if let Err(what) = scene.applies(parameter) {
-            if model_known {
-                self.fault(Some(span), what);
-            }
-            return;
-        }
-        match parameter.kind {
-            ParameterKind::Rows => match rows_from_toml(parameter, value, self.text) {
-                Ok(rows) => {
-                    if let Err(what) = scene.assign(parameter, Value::Rows(rows)) {
-                        self.fault(Some(value.span()), what);
+    /// The keys of all tables that the scene has.
+    fn entries<'a, 't>(&mut self, root: &'a DeTable<'t>, scene: &Scene) -> Vec<Entry<'a, 't>> {
+        let (mut entries, tables) = (Vec::new(), tables());
+        let mut root: Vec<_> = root.iter().collect();
+        root.sort_by_key(|(key, _)| key.span().start);
+        for (key, value) in root {
+            let (name, at) = (key.get_ref().as_ref(), key.span());
+            match (tables.iter().copied().find(|table| *table == name), value.get_ref()) {
+                _ if matches!(name, "schema" | "scene") => {}
+                (Some(table), DeValue::Table(inside)) => match scene.has_table(table, format!("[{table}]")) {
+                    Err(foreign) => self.fault(Some(at), || foreign),
+                    Ok(()) => {
+                        let dotted = |key: &str| format!("{table}.{key}");
+                        entries.extend(inside.iter().map(|(key, value)| (key.span(), dotted(key.get_ref()), value)));
                     }
-                }
-                Err(faults) => faults.into_iter().for_each(|(span, what)| self.fault(Some(span), what)),
-            },
-            // Read at the end, when the wavelength is known.
-            ParameterKind::CsvPath => {}
-            _ => {
-                let read = value_from_toml(parameter, value.get_ref()).unwrap_or_else(|| {
+                },
+                (Some(table), _) => {
                     let found = self.written(value.span());
-                    Err(What::WrongType { parameter, found })
-                });
-                if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
-                    self.fault(Some(value.span()), what);
+                    self.fault(Some(value.span()), || What::NotATable { table, found });
                 }
+                (None, DeValue::Table(_)) => self.fault(Some(at), || {
+                    let siblings = scene.tables();
+                    let nearest = nearest(name, siblings.iter().copied()).map(|table| format!("[{table}]"));
+                    What::Unknown { kind: "table", key: format!("[{}]", show_text(name)), nearest, siblings }
+                }),
+                (None, _) => entries.push((at, name.to_owned(), value)),
             }
         }
+        entries
     }
 
-    /// Reads the compliance from the CSV file, if the rotor is a table and names one.
-    fn csv(&mut self, root: &DeTable<'_>, scene: &mut Scene) {
-        let Some(RotorModel::Table { .. }) = scene.rotor_model() else { return };
-        let rotor = root.get("rotor").map(Spanned::get_ref);
-        let (csv, inline) =
-            (rotor.and_then(|rotor| rotor.get("compliance_csv")), rotor.and_then(|rotor| rotor.get("compliance")));
-        let (Some(parameter), Some(rows)) =
-            (Parameter::find("rotor.compliance_csv"), Parameter::find("rotor.compliance"))
-        else {
-            return;
+    fn key(&mut self, scene: &mut Scene, at: Bytes<usize>, key: &str, value: &Spanned<DeValue<'_>>) {
+        let Some(parameter) = Parameter::find(key) else {
+            return self.fault(Some(at), || scene.unknown_key(key));
         };
-        match (csv, inline) {
-            (Some(csv), Some(_)) => self.fault(Some(csv.span()), What::ComplianceTwice),
-            (Some(csv), None) => {
-                let Some(given) = csv.get_ref().as_str() else {
-                    let found = self.written(csv.span());
-                    return self.fault(Some(csv.span()), What::WrongType { parameter, found });
-                };
-                if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
+        let span = value.span();
+        self.spans.insert(parameter.key, span.clone());
+        match scene.applies(parameter) {
+            // Which keys there are is not known where the model is at fault itself.
+            Err(What::Elsewhere { selector, .. }) if self.at_fault(&[selector]) => return,
+            Err(what) => return self.fault(Some(at), || what),
+            Ok(()) => {}
+        }
+        let read = match parameter.kind {
+            ParameterKind::Rows => {
+                let mut in_order = true;
+                let rows = rows_from_toml(parameter, value, self.text, &mut |span, what| {
+                    in_order = false;
+                    self.fault(Some(span), || what);
+                });
+                if !in_order {
                     return;
                 }
-                let path: PathBuf = self.origin.parent().unwrap_or(Path::new("")).join(given);
-                match read_compliance(given, &path, scene.wavelength()) {
-                    Ok(read) => {
-                        if let Err(what) = scene.assign(rows, Value::Rows(read)) {
-                            self.fault(Some(csv.span()), what);
-                        }
-                    }
-                    Err(faults) => {
-                        for fault in faults {
-                            match fault.origin {
-                                Some(_) => self.faults.push(fault),
-                                None => self.fault(Some(csv.span()), fault.what),
-                            }
-                        }
-                    }
-                }
+                Ok(Value::Rows(rows))
             }
-            (None, None) => {
-                let span = self.spans.get("rotor.model").cloned();
-                self.fault(span, What::ComplianceMissing);
+            ParameterKind::CsvPath => return self.csv(scene, parameter, value),
+            _ => value_from_toml(parameter, value.get_ref())
+                .ok_or_else(|| What::wrong_type(parameter, self.written(span.clone()))),
+        };
+        if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
+            let found = self.written(span.clone());
+            self.fault(Some(span), || match what {
+                // As it is written in the file, rather than as it was read.
+                What::Refused { parameter, why: "of the wrong type", .. } => What::wrong_type(parameter, found),
+                what => what,
+            });
+        }
+    }
+
+    /// Reads the compliance from the CSV file that a key names.
+    fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, value: &Spanned<DeValue<'_>>) {
+        let span = Some(value.span());
+        let Some(given) = value.get_ref().as_str() else {
+            let found = self.written(value.span());
+            return self.fault(span, || What::wrong_type(parameter, found));
+        };
+        if self.spans.contains_key("rotor.compliance") {
+            let message = "rotor.compliance and rotor.compliance_csv are both given: keep one".to_owned();
+            return self.fault(span, || What::Rule { key: parameter.key, message });
+        }
+        if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
+            return;
+        }
+        let path = self.origin.parent().unwrap_or(Path::new("")).join(given);
+        let read =
+            scene.wavelength().map_err(SceneError::from).and_then(|length| read_compliance(given, &path, length));
+        let set = read.and_then(|rows| Ok(scene.assign(scene.parameter("rotor.compliance")?, rows)?));
+        if let Err(error) = set {
+            match error.faults() {
+                // About the file as such, and not about a line of it.
+                [Fault { origin: None, what, .. }, ..] => self.fault(span, || what.clone()),
+                _ => self.faults.join(error),
             }
-            (None, Some(_)) => {}
         }
     }
 
     /// The rules between keys, for keys that are themselves in order.
     fn rules(&mut self, scene: &Scene) {
-        for broken in scene.broken_rules() {
-            if !self.at_fault(broken.keys) {
+        for (keys, what) in scene.broken_rules() {
+            // A CSV file that was not read, as its wavelength is at fault, may be one.
+            let unread = keys.contains(&"rotor.compliance_csv") && self.spans.contains_key("rotor.compliance_csv");
+            if !self.at_fault(keys) && !unread {
                 // The line of the first key of the rule that the file gives.
-                let span = broken.keys.iter().find_map(|key| self.spans.get(key)).cloned();
-                self.fault(span, broken.what);
+                let span = keys.iter().find_map(|key| self.spans.get(key)).cloned();
+                self.fault(span, || what);
             }
         }
     }
 
     fn at_fault(&self, keys: &[&str]) -> bool {
-        self.faults.iter().any(|fault| fault.what.key().is_some_and(|key| keys.contains(&key)))
+        self.faults.faults().iter().any(|fault| fault.what.key().is_some_and(|key| keys.contains(&key)))
     }
 
-    fn fault(&mut self, span: Option<Bytes<usize>>, what: What) {
+    /// Adds a fault. What is wrong is found out only if it will be told: a hostile file has a fault on every line.
+    fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce() -> What) {
+        if self.faults.is_full() {
+            return self.faults.count_one();
+        }
         let (line, column) = span.map(|span| line_and_column(self.text, span.start)).unzip();
-        self.faults.push(Fault { origin: Some(self.origin.to_owned()), line, column, what });
+        self.faults.push(Fault { origin: Some(self.origin.to_owned()), line, column, what: what() });
     }
 
     /// A value as it is written in the file.
@@ -302,64 +255,52 @@ impl Reader<'_> {
     }
 }
 
-/// The value of a parameter from TOML; `None` if it is of a type the parameter never has.
-fn value_from_toml(parameter: &'static Parameter, value: &DeValue<'_>) -> Option<Result<Value, What>> {
-    Some(match (parameter.kind, value) {
-        (ParameterKind::Number { .. }, value) => Ok(Value::Number(number(value)?)),
-        (ParameterKind::Whole { .. }, value @ DeValue::Integer(_)) => match integer(value) {
-            Some(whole) => Ok(Value::Whole(whole)),
-            // Beyond 64 bits, hence beyond every range.
-            None => {
-                let (value, range) = (Value::Number(number(value)?), parameter.range()?);
-                Err(What::OutOfRange { parameter, value, range })
-            }
-        },
-        (ParameterKind::Whole { .. }, DeValue::Float(_)) => {
-            let value = number(value).filter(|value| !value.is_finite())?;
-            Err(What::NotFinite { parameter, value })
-        }
-        (ParameterKind::Flag { .. }, DeValue::Boolean(flag)) => Ok(Value::Flag(*flag)),
-        (ParameterKind::Choice { .. } | ParameterKind::Text { .. }, DeValue::String(text)) => {
-            Ok(Value::Text(text.clone().into_owned()))
-        }
-        _ => return None,
-    })
+/// The value from TOML; `None` if it is of a type that no parameter has, or a fraction where whole numbers are meant.
+fn value_from_toml(parameter: &Parameter, value: &DeValue<'_>) -> Option<Value> {
+    let whole = matches!(parameter.kind, ParameterKind::Whole { .. });
+    match value {
+        DeValue::Float(_) => number(value).filter(|number| !whole || !number.is_finite()).map(Value::Number),
+        // Beyond 64 bits, a number.
+        DeValue::Integer(_) => integer(value).map(Value::Whole).or_else(|| number(value).map(Value::Number)),
+        DeValue::Boolean(flag) => Some(Value::Flag(*flag)),
+        DeValue::String(text) => Some(Value::Text(text.clone().into_owned())),
+        _ => None,
+    }
 }
 
-/// Rows `[[wavenumber_per_m, compliance_m2_per_n], …]`, or each fault with the place of its row.
+/// Rows `[[wavenumber_per_m, compliance_m2_per_n], …]`, those that are in order; `fault` is told of the others, with the place
+/// of each.
 fn rows_from_toml(
     parameter: &'static Parameter,
     value: &Spanned<DeValue<'_>>,
     text: &str,
-) -> Result<Vec<(f64, f64)>, Vec<Placed>> {
+    fault: &mut dyn FnMut(Bytes<usize>, What),
+) -> Vec<(f64, f64)> {
     let written = |span: Bytes<usize>| show_text(text.get(span).unwrap_or_default());
     let key = parameter.key;
-    let Some(array) = value.get_ref().as_array() else {
-        return Err(vec![(value.span(), What::WrongType { parameter, found: written(value.span()) })]);
-    };
-    if array.is_empty() || array.len() > MOST_ROWS {
-        return Err(vec![(value.span(), What::TooManyRows { key, rows: array.len(), limit: MOST_ROWS })]);
-    }
-    let mut rows: Vec<(f64, f64)> = Vec::with_capacity(array.len());
-    let mut faults = Vec::new();
-    for (i, row) in array.iter().enumerate() {
-        let pair = row.get_ref().as_array().and_then(|pair| {
-            let mut numbers = pair.iter().map(|value| number(value.get_ref()));
-            match (numbers.next(), numbers.next(), numbers.next()) {
-                (Some(Some(wavenumber)), Some(Some(compliance)), None) => Some((wavenumber, compliance)),
-                _ => None,
+    let mut rows: Vec<(f64, f64)> = Vec::new();
+    match value.get_ref().as_array() {
+        None => fault(value.span(), What::wrong_type(parameter, written(value.span()))),
+        Some(array) if array.is_empty() || array.len() > MOST_ROWS => {
+            fault(value.span(), What::TooManyRows { key, rows: array.len(), limit: MOST_ROWS });
+        }
+        Some(array) => {
+            for (row, i) in array.iter().zip(1..) {
+                let numbers = row.get_ref().as_array().map(|pair| pair.iter().map(|value| number(value.get_ref())));
+                let checked = match numbers.map(Vec::from_iter).as_deref() {
+                    Some([Some(wavenumber), Some(compliance)]) => {
+                        let pair = (*wavenumber, *compliance);
+                        check_row(pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
+                    }
+                    _ => Err(What::NotAPair(written(row.span()))),
+                };
+                if let Err(wrong) = checked {
+                    fault(row.span(), What::Row { key, row: i, fault: wrong.into() });
+                }
             }
-        });
-        let before = rows.last().map(|row| row.0);
-        let checked = pair
-            .ok_or_else(|| RowFault::NotAPair { found: written(row.span()) })
-            .and_then(|row| check_row(row, before).map(|()| row));
-        match checked {
-            Ok(row) => rows.push(row),
-            Err(fault) => faults.push((row.span(), What::Row { key, row: i + 1, fault })),
         }
     }
-    if faults.is_empty() { Ok(rows) } else { Err(faults) }
+    rows
 }
 
 /// A TOML integer or float as a number.

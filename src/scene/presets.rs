@@ -1,9 +1,9 @@
 //! The presets built into the program, and how a PRESET argument is resolved.
 
-use super::Scene;
 use super::error::{SceneError, What};
 use super::nearest::nearest;
 use super::value::show_text;
+use super::values::Scene;
 use std::path::Path;
 
 /// A preset built into the program.

@@ -1,9 +1,11 @@
 //! A value of one key, whatever its type, and how numbers are shown to people.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The value of one key of a scene.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub enum Value {
     /// A number, in the unit of its key.
     Number(f64),

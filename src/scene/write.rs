@@ -1,10 +1,10 @@
 //! A scene as TOML text, and to disk. Every key is present, absent optional ones as comments; numbers are written with
 //! the fewest digits that read back to the same bits.
 
-use super::error::{Fault, SceneError, What};
+use super::error::{Fault, SCHEMA, SceneError, What};
 use super::parameter::Parameter;
 use super::value::{Value, is_unseen};
-use super::{SCHEMA, Scene};
+use super::values::Scene;
 use crate::atomic::write_file;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -44,7 +44,7 @@ impl Scene {
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
         self.check()?;
         write_file(path, |out| out.write_all(self.to_toml().as_bytes())).map_err(|error| {
-            let what = What::Unwritable { reason: error.source.to_string() };
+            let what = What::Unwritable(error.source.to_string());
             Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
         })
     }

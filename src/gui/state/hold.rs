@@ -98,7 +98,7 @@ impl HoldState {
 
     /// Whether `scene` has another plate.
     pub fn stale(&self, scene: &Scene) -> bool {
-        self.scene.kind != scene.kind
+        !self.scene.same_model(scene)
     }
 
     /// The plate.

@@ -220,7 +220,7 @@ impl StartupState {
 
     /// Whether `scene` is another one than was started.
     pub fn stale(&self, scene: &Scene) -> bool {
-        self.scene.kind != scene.kind || self.scene.numerics != scene.numerics
+        !self.scene.same_model(scene) || self.scene.numerics() != scene.numerics()
     }
 
     /// Name of the scene that was started.

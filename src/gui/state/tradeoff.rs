@@ -104,7 +104,7 @@ impl TradeoffState {
 
     /// Whether `scene` is another one than was measured. Its grid does not matter: each setting brings its own.
     pub fn stale(&self, scene: &Scene) -> bool {
-        self.scene.kind != scene.kind || without_grid(&self.scene.numerics) != without_grid(&scene.numerics)
+        !self.scene.same_model(scene) || without_grid(&self.scene.numerics()) != without_grid(&scene.numerics())
     }
 }
 

@@ -7,7 +7,7 @@ use crate::gui::state::document::{Document, Next};
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::Modal;
 use crate::problem::Numerics;
-use crate::scene::{Kind, Parameter, ParameterKind, Scene, SceneError, presets};
+use crate::scene::{Parameter, ParameterKind, Scene, SceneError, presets};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 
@@ -39,19 +39,15 @@ impl Updater {
             self.edit(key, false, Change::Unset);
             return;
         }
-        let default = match self.state.document.scene().kind {
-            Kind::Motor { .. } => Scene::motor(),
-            Kind::Plate { .. } => Scene::plate(),
-        };
-        if let Some(value) = default.get(key) {
+        if let Some(value) = parameter.default() {
             self.edit(key, false, Change::Value(value));
         }
     }
 
     /// Other numerics and another fidelity, as one edit.
     pub(super) fn use_setting(&mut self, target: Fidelity, numerics: Numerics) {
-        let next = Scene { numerics, ..self.state.document.scene().clone() };
-        match next.check() {
+        let mut next = self.state.document.scene().clone();
+        match next.set_numerics(&numerics).and_then(|()| next.check()) {
             Ok(()) => {
                 if self.state.document.change(next, target) {
                     self.state.switches.edited();

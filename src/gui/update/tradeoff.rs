@@ -23,7 +23,7 @@ impl Updater {
         let Some(problem) = self.problem() else { return };
         let scene = self.state.document.scene().clone();
         let (mut candidates, effort) = (self.platform.measure)(&problem);
-        with_present(&mut candidates, self.state.document.target(), scene.numerics);
+        with_present(&mut candidates, self.state.document.target(), scene.numerics());
         let now = self.platform.now;
         match job::tradeoff::measure(problem, candidates, effort, now, self.wake(MEASURE_INTERVAL)) {
             Ok(task) => self.state.tradeoff = Some(TradeoffState::new(task, scene, now())),

@@ -164,7 +164,7 @@ impl Row<'_> {
 
     /// Up to which fidelity edits are solved.
     fn target(&self, ui: &mut egui::Ui) {
-        let (target, numerics) = (self.document().target(), self.document().scene().numerics);
+        let (target, numerics) = (self.document().target(), self.document().scene().numerics());
         ui.horizontal(|ui| {
             let label = ui.label(RichText::new("Solved up to").color(self.cx.colours.quiet));
             let combo = egui::ComboBox::from_id_salt("target")
@@ -220,7 +220,7 @@ impl Row<'_> {
                 film_nodes_across: None,
                 steps_per_cycle: None,
                 tolerance: None,
-                ..self.document().scene().numerics
+                ..self.document().scene().numerics()
             };
             self.overruled(ui, decision, Command::Use { target: self.document().target(), numerics });
         }

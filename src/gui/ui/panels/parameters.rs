@@ -45,10 +45,7 @@ const FRAME_MARGIN: i8 = 6;
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
     let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
-    let defaults = match scene.kind {
-        Kind::Motor { .. } => Scene::motor(),
-        Kind::Plate { .. } => Scene::plate(),
-    };
+    let defaults = Scene::new(scene.kind());
     egui::ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| {
         let mut panel = Panel { scene, defaults: &defaults, plan, units: 0.0, cx };
         panel.all(ui);
@@ -123,7 +120,7 @@ impl Panel<'_> {
         let inside = |p: &&'static Parameter| p.table() == table && !is_main(self.scene, p);
         let mut parameters: Vec<_> = self.scene.parameters().filter(inside).collect();
         if table == "rotor"
-            && self.scene.rotor_model().is_some()
+            && self.scene.kind() == Kind::Motor
             && !parameters.iter().any(|p| p.kind == ParameterKind::CsvPath)
         {
             // A file that is given to a beam replaces it.

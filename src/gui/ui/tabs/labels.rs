@@ -12,7 +12,7 @@ use eframe::egui;
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = cx.state;
     let (present, pinned, solved) = (state.view.tab, state.pins.runs().len(), state.run.is_some());
-    let plate = matches!(state.document.scene().kind, Kind::Plate { .. });
+    let plate = state.document.scene().kind() == Kind::Plate;
     let row = ui.horizontal_wrapped(|ui| {
         for &(tab, _) in Tab::ALL {
             let name = tab.label(plate);

@@ -138,7 +138,7 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
 
 /// Whether the window solves with just this setting.
 fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
-    is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics)
+    is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics())
 }
 
 fn usable(ended: &Ended) -> bool {

@@ -1,0 +1,220 @@
+//! A scene changed from outside, key by key, and what to call it then.
+
+use super::error::{SceneError, What};
+use super::parameter::{Parameter, ParameterKind};
+use super::parse;
+use super::value::Value;
+use super::values::Scene;
+use std::path::Path;
+
+impl Scene {
+    /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes.
+    /// `none` or nothing removes an optional key. A path given for `rotor.compliance_csv` is relative to the current
+    /// folder. Giving a compliance table makes `rotor.model` "table".
+    ///
+    /// # Errors
+    ///
+    /// An unknown key, a key of another scene or rotor model, a value of the wrong type or outside the key's own range;
+    /// the scene is then unchanged. Rules between keys are left to [`Scene::check`], so that several keys can be set
+    /// one by one; [`Scene::set_all`] does both.
+    pub fn set(&mut self, key: &str, text: &str) -> Result<(), SceneError> {
+        let parameter = self.settable(key)?;
+        let text = text.trim();
+        if parameter.absent.is_some() && (text.is_empty() || text == "none") {
+            self.reset(parameter);
+            return Ok(());
+        }
+        let value = match parameter.kind {
+            ParameterKind::Rows => parse::rows_from_text(parameter, text)?,
+            ParameterKind::CsvPath => {
+                let rows = parse::read_compliance(text, Path::new(text), self.wavelength()?)?;
+                return Ok(self.assign(self.parameter("rotor.compliance")?, rows)?);
+            }
+            _ => parameter.read(text)?,
+        };
+        Ok(self.assign(parameter, value)?)
+    }
+
+    /// Sets a dotted key from a value in the key's unit. A number without a fraction is accepted for a whole number.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::set`].
+    pub fn set_value(&mut self, key: &str, value: Value) -> Result<(), SceneError> {
+        let parameter = self.settable(key)?;
+        Ok(self.assign(parameter, value)?)
+    }
+
+    /// Removes an optional key, or gives another key its default.
+    ///
+    /// # Errors
+    ///
+    /// An unknown key, or a key of another scene or rotor model.
+    pub fn unset(&mut self, key: &str) -> Result<(), SceneError> {
+        let parameter = self.settable(key)?;
+        self.reset(parameter);
+        Ok(())
+    }
+
+    /// Applies `key=value` pairs as one change: in any order, with the rules between keys checked at the end. The last
+    /// of several values for one key holds.
+    ///
+    /// # Errors
+    ///
+    /// The faults of all pairs; the scene is then unchanged.
+    pub fn set_all<'a>(&mut self, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<(), SceneError> {
+        let mut pairs: Vec<_> = pairs.into_iter().collect();
+        // The model decides which of its keys exist, and a table of harmonics needs the wavelength.
+        pairs.sort_by_key(|(key, _)| match Parameter::find(key) {
+            Some(parameter) if parameter.selects() => 0,
+            Some(Parameter { kind: ParameterKind::Rows | ParameterKind::CsvPath, .. }) => 2,
+            _ => 1,
+        });
+        let mut changed = self.clone();
+        let mut faults = SceneError::none();
+        for (key, text) in pairs {
+            changed.set(key, text).unwrap_or_else(|error| faults.join(error));
+        }
+        faults.or(())?;
+        changed.check()?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// The parameter of a key, if it exists and applies. A compliance table may be given to a beam: it replaces it.
+    fn settable(&self, key: &str) -> Result<&'static Parameter, What> {
+        match key {
+            "schema" => return Err(What::Fixed("schema")),
+            "scene" => return Err(What::Fixed("scene")),
+            _ => {}
+        }
+        let parameter = self.parameter(key)?;
+        match (self.applies(parameter), parameter.kind) {
+            (Ok(()), _) if !self.heeds(key) => Err(What::NoEffect { key: parameter.key, scene: self.scene() }),
+            (Err(What::Elsewhere { selector, .. }), ParameterKind::Rows | ParameterKind::CsvPath)
+                if selector != "scene" =>
+            {
+                Ok(parameter)
+            }
+            (applies, _) => applies.map(|()| parameter),
+        }
+    }
+
+    /// The keys, but for name and description, in which this scene differs from `original`.
+    pub fn changed<'a>(&'a self, original: &'a Self) -> impl Iterator<Item = &'static Parameter> + 'a {
+        let told = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
+        told.filter(move |parameter| self.get(parameter.key) != original.get(parameter.key))
+    }
+
+    /// What to call a scene that was made of `original`: `Fundamental case, changed: 3 keys`, unless it has a name of its own.
+    pub fn title(&self, original: &Self) -> String {
+        match self.changed(original).count() {
+            keys if keys > 0 && self.name == original.name => {
+                format!("{}, changed: {keys} {}", self.name, if keys == 1 { "key" } else { "keys" })
+            }
+            _ => self.name.clone(),
+        }
+    }
+
+    /// Gives a scene that was made of `original` a name and a description that claim no more than is true: its [`Scene::title`], and
+    /// what was changed. Words of its own are kept.
+    pub fn retitle(&mut self, original: &Self) {
+        let shown = |scene: &Self, Parameter { key, unit, .. }: &Parameter| match scene.get(key) {
+            None => "none".to_owned(),
+            Some(Value::Rows(_)) => "another table".to_owned(),
+            Some(value) => format!("{value} {unit}").trim_end().to_owned(),
+        };
+        let changes = self.changed(original).map(|parameter| {
+            format!("{} = {}, was {}", parameter.key, shown(self, parameter), shown(original, parameter))
+        });
+        let changes = changes.collect::<Vec<_>>().join("; ");
+        let title = self.title(original);
+        if !changes.is_empty() && self.about == original.about {
+            self.about = format!("{} with {changes}.", original.name);
+        }
+        self.name = title;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Problem;
+    use crate::scene::{Kind, PARAMETERS};
+
+    fn table() -> Scene {
+        let mut scene = Scene::motor();
+        scene.set("rotor.compliance", "[[100, 1e-9]]").unwrap();
+        scene
+    }
+
+    /// Values that a key takes, other than its default.
+    fn others(parameter: &'static Parameter) -> Vec<Value> {
+        let all = match parameter.kind {
+            ParameterKind::Number { range, .. } => vec![Value::Number(range.min), Value::Number(range.max)],
+            ParameterKind::Whole { min, max, .. } => vec![Value::Whole(min.into()), Value::Whole(max.into())],
+            ParameterKind::Flag { .. } => vec![Value::Flag(false), Value::Flag(true)],
+            ParameterKind::Choice { options, .. } => options.iter().map(|name| Value::Text((*name).into())).collect(),
+            ParameterKind::Text { .. } => vec![Value::Text("other".into())],
+            ParameterKind::Rows => vec![Value::Rows(vec![(7.0, 1e-9)])],
+            ParameterKind::CsvPath => Vec::new(),
+        };
+        all.into_iter().filter(|value| parameter.default().as_ref() != Some(value)).collect()
+    }
+
+    #[test]
+    fn every_value_of_every_key_reaches_the_problem() {
+        for base in [Scene::motor(), table(), Scene::plate()] {
+            let keys = base.parameters().filter(|parameter| base.heeds(parameter.key) && parameter.key != "about");
+            for parameter in keys {
+                let mut problems = vec![Problem::of(&base).unwrap()];
+                for value in
+                    others(parameter).into_iter().filter(|value| base.get(parameter.key).as_ref() != Some(value))
+                {
+                    let mut scene = base.clone();
+                    scene.set_value(parameter.key, value.clone()).unwrap();
+                    assert_eq!(scene.get(parameter.key), Some(value), "{}", parameter.key);
+                    // Rules between keys aside.
+                    let problem = Problem::of(&scene).unwrap();
+                    assert!(!problems.contains(&problem), "{}", parameter.key);
+                    problems.push(problem);
+                    scene.unset(parameter.key).unwrap();
+                    let same = base.get(parameter.key) != parameter.default() || scene == base;
+                    assert!(same, "{}", parameter.key);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn numerics_are_the_keys_of_their_table() {
+        for kind in Kind::ALL {
+            let mut scene = Scene::new(kind);
+            for parameter in PARAMETERS.iter().filter(|parameter| parameter.table() == "numerics") {
+                scene.assign(parameter, others(parameter).swap_remove(0)).unwrap();
+            }
+            let mut copy = Scene::new(kind);
+            copy.set_numerics(&scene.numerics()).unwrap();
+            assert_eq!(copy, scene);
+            copy.set_numerics(&Default::default()).unwrap();
+            assert_eq!(copy, Scene::new(kind));
+            let wrong = crate::problem::Numerics { steps_per_cycle: Some(3), ..scene.numerics() };
+            assert_eq!(
+                scene.set_numerics(&wrong).unwrap_err().faults()[0].what.key(),
+                Some("numerics.steps_per_cycle")
+            );
+        }
+    }
+
+    #[test]
+    fn a_new_model_brings_its_defaults() {
+        let mut scene = table();
+        scene.set("rotor.model", "beam").unwrap();
+        assert_eq!(scene, Scene::motor());
+        scene.set("rotor.decay_length_mm", "3").unwrap();
+        scene.set("rotor.model", "table").unwrap();
+        assert!(scene.check().unwrap_err().to_string().contains("needs rotor.compliance_csv"));
+        scene.set("rotor.model", "beam").unwrap();
+        assert_eq!(scene, Scene::motor());
+    }
+}

@@ -1,0 +1,226 @@
+//! Every key a scene can have: its unit, range, default and meaning. This table is the only place that says so; files,
+//! `--set`, checks, sliders, sweeps and the documentation all read it. Beside it, a new key needs its field in
+//! `problem.rs`, filled in `convert.rs`; a key of `[numerics]` needs a field of the same name in
+//! [`Numerics`](crate::problem::Numerics), and is filled by itself.
+
+use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
+use super::parameter::ParameterKind::{CsvPath, Rows};
+use super::parameter::Scale::{Linear, Log};
+use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
+use std::fmt::Write as _;
+
+const BEAM: (&str, &str) = ("rotor.model", "beam");
+const TABLE: (&str, &str) = ("rotor.model", "table");
+const LEFT_OPEN: &str = "left to the fidelity";
+
+/// Every key of a scene file except `schema` and `scene`, in the order they are written. Of a number: key, unit, scenes
+/// that have it, range, part of the range worth a slider and how that is spaced, default, meaning.
+#[rustfmt::skip]
+pub static PARAMETERS: &[Parameter] = &[
+    text("name", "Untitled", "Name shown with every result"),
+    text("about", "", "One line: what this scene is"),
+
+    number("motor.contact_radius_mm", "mm", Motor, (1.0, 500.0), (5.0, 100.0), Log, 29.0,
+        "Radius at which the teeth touch the rotor"),
+    whole("motor.waves", Motor, (1, 100), 7, "Wavelengths round the ring"),
+    number("motor.load_per_wave_n", "N", Motor, (0.01, 100.0), (0.1, 20.0), Log, 2.45, "Axial load on one wavelength"),
+    number("motor.dry_friction", "", Motor, (0.0, 2.0), (0.0, 1.0), Linear, 0.7,
+        "Friction coefficient where tooth and rotor touch"),
+    number("motor.rotor_speed_rpm", "rpm", Motor, (-10000.0, 10000.0), (-300.0, 300.0), Linear, 0.0,
+        "Speed of the rotor, towards +x (against the wave) if positive"),
+
+    number("stator.frequency_khz", "kHz", Motor, (0.001, 10000.0), (1.0, 200.0), Log, 30.0, "Frequency of the vibration"),
+    number("stator.normal_amplitude_um", "µm", Motor, (0.0, 20.0), (0.0, 5.0), Linear, 1.3,
+        "Amplitude of the travelling wave, normal to the face"),
+    number("stator.tangential_amplitude_um", "µm", Motor, (0.0, 20.0), (0.0, 5.0), Linear, 1.0,
+        "Amplitude of the tooth tops along the ring"),
+    whole("stator.teeth_per_wave", Motor, (1, 64), 9, "Teeth in one wavelength"),
+    number("stator.tooth_width_mm", "mm", Motor, (1e-6, 3142.0), (0.1, 5.0), Linear, 1.7353,
+        "Width of a tooth along the ring; from 1 % to 100 % of the tooth pitch"),
+    number("stator.tooth_radius_m", "m", Motor, (0.01, 1e6), (1.0, 100.0), Log, 6.5,
+        "Radius of a crowned tooth top").absent("flat teeth"),
+
+    number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
+    choice("rotor.model", Motor, &["beam", "table"], "beam", "How the rotor's compliance is described"),
+    number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
+        "Length over which the deflection under a point load dies out").when(BEAM),
+    number("rotor.point_compliance_um_per_n", "µm/N", Motor, (1e-3, 100.0), (0.05, 10.0), Log, 0.64,
+        "Deflection of the beam under a unit point load").when(BEAM),
+    number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
+        "Local (Winkler) compliance in series with the beam").when(BEAM),
+    other("rotor.compliance_csv", Motor, CsvPath, "CSV file of the compliance, relative to the preset's folder").when(TABLE),
+    other("rotor.compliance", Motor, Rows, "Compliance per wavenumber, inline").when(TABLE),
+
+    number("plate.length_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0, "Length of the plate along x"),
+    number("plate.width_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0,
+        "Width of the plate along y").absent("infinitely wide strip, forces per metre of width"),
+    number("plate.mean_gap_um", "µm", Plate, (0.01, 1000.0), (0.1, 100.0), Log, 1.0, "Mean gap under the plate"),
+    number("plate.amplitude_um", "µm", Plate, (0.0, 1000.0), (0.0, 10.0), Linear, 0.5,
+        "Amplitude of the vibration; smaller than the mean gap"),
+    number("plate.frequency_khz", "kHz", Plate, (0.001, 10000.0), (0.01, 1000.0), Log, 30.0, "Frequency of the vibration"),
+
+    number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
+        "Spacing that roughness leaves where the faces touch; unused by a plate"),
+    number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the gas around"),
+    number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas"),
+    number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
+        "Mean free path of the gas at the ambient pressure given"),
+    choice("film.slip", Any, Slip::NAMES, "first-order", "How the gas slips at the walls"),
+    flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); unused by a plate"),
+
+    whole("numerics.film_nodes_along", Any, (5, 2001), 101,
+        "Film nodes along a tooth or plate, both ends counted").absent(LEFT_OPEN),
+    whole("numerics.film_nodes_across", Any, (3, 501), 21, "Film nodes across the full width, both ends counted").absent(LEFT_OPEN),
+    whole("numerics.contact_nodes", IdleOnPlate, (19, 5001), 361,
+        "Contact nodes on one wavelength for --method paper, both ends counted").absent(LEFT_OPEN),
+    whole("numerics.steps_per_cycle", Any, (8, 100_000), 360, "Time steps in one cycle").absent(LEFT_OPEN),
+    number("numerics.tolerance", "", Any, (1e-9, 1e-2), (1e-7, 1e-2), Log, 1e-4,
+        "Relative change of the trapped gas at which the cycle counts as repeating").absent(LEFT_OPEN),
+    choice("numerics.wedge", IdleOnPlate, Wedge::NAMES, "auto",
+        "The wedge term of sliding: solved (on), left out (off), or as the scene needs"),
+    choice("numerics.teeth", IdleOnPlate, Teeth::NAMES, "auto",
+        "Teeth whose film is solved: one by lag symmetry, or all; the result is the same"),
+    choice("numerics.width", IdleOnPlate, Width::NAMES, "auto",
+        "Width of the film that is solved: half by symmetry, or full; the result is the same"),
+    choice("numerics.flow", IdleOnPlate, Flow::NAMES, "auto",
+        "Where the film flows: in the plane, or only across or along a tooth"),
+    choice("numerics.time", IdleOnPlate, Time::NAMES, "auto",
+        "The film in time: marched step by step, or trapped, with no time to move"),
+];
+
+impl Parameter {
+    /// The parameter of a dotted key.
+    pub fn find(key: &str) -> Option<&'static Self> {
+        PARAMETERS.iter().find(|parameter| parameter.key == key)
+    }
+
+    /// Whether other keys belong to one of its values, as those of a beam to `rotor.model = "beam"`.
+    pub(super) fn selects(&self) -> bool {
+        PARAMETERS.iter().any(|parameter| parameter.when.is_some_and(|(selector, _)| selector == self.key))
+    }
+
+    const fn when(self, model: (&'static str, &'static str)) -> Self {
+        Self { when: Some(model), ..self }
+    }
+
+    const fn absent(self, meaning: &'static str) -> Self {
+        Self { absent: Some(meaning), ..self }
+    }
+}
+
+const fn number(
+    key: &'static str,
+    unit: &'static str,
+    belongs: Belongs,
+    range: (f64, f64),
+    slider: (f64, f64),
+    scale: Scale,
+    default: f64,
+    about: &'static str,
+) -> Parameter {
+    let (range, slider) = (Range::new(range.0, range.1), Range::new(slider.0, slider.1));
+    Parameter { unit, ..other(key, belongs, ParameterKind::Number { range, slider, scale, default }, about) }
+}
+
+const fn whole(
+    key: &'static str,
+    belongs: Belongs,
+    (min, max): (u32, u32),
+    default: u32,
+    about: &'static str,
+) -> Parameter {
+    other(key, belongs, ParameterKind::Whole { min, max, default }, about)
+}
+
+const fn choice(
+    key: &'static str,
+    belongs: Belongs,
+    options: &'static [&'static str],
+    default: &'static str,
+    about: &'static str,
+) -> Parameter {
+    other(key, belongs, ParameterKind::Choice { options, default }, about)
+}
+
+const fn flag(key: &'static str, belongs: Belongs, default: bool, about: &'static str) -> Parameter {
+    other(key, belongs, ParameterKind::Flag { default }, about)
+}
+
+const fn text(key: &'static str, default: &'static str, about: &'static str) -> Parameter {
+    other(key, Any, ParameterKind::Text { default }, about)
+}
+
+const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Parameter {
+    Parameter { key, unit: "", belongs, when: None, absent: None, kind, about }
+}
+
+/// The tables of a scene file, in the order they are written.
+pub(super) fn tables() -> Vec<&'static str> {
+    let mut tables: Vec<_> = PARAMETERS.iter().map(Parameter::table).filter(|table| !table.is_empty()).collect();
+    tables.dedup();
+    tables
+}
+
+/// All keys as a Markdown table, for the documentation.
+pub fn markdown() -> String {
+    let mut page = "| key | unit | accepts | default | meaning |\n| --- | --- | --- | --- | --- |\n".to_owned();
+    for p in PARAMETERS {
+        let accepts = match p.range() {
+            Some(range) => range.to_string(),
+            None => Parameter { absent: None, ..*p }.accepts(),
+        };
+        let _ = writeln!(page, "| `{}` | {} | {accepts} | {} | {} |", p.key, p.unit, p.default_words(), p.about);
+    }
+    page
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn keys_are_unique_and_written_table_by_table() {
+        let keys: HashSet<_> = PARAMETERS.iter().map(|p| p.key).collect();
+        assert_eq!(keys.len(), PARAMETERS.len());
+        assert_eq!(tables().len(), tables().into_iter().collect::<HashSet<_>>().len());
+        // The keys above all tables come first.
+        assert!(PARAMETERS.is_sorted_by_key(|p| !p.table().is_empty()));
+    }
+
+    #[test]
+    fn a_model_that_has_keys_of_its_own_can_be_chosen() {
+        for p in PARAMETERS {
+            let Some((selector, model)) = p.when else { continue };
+            let selector = Parameter::find(selector).unwrap();
+            let ParameterKind::Choice { options, .. } = selector.kind else { panic!("{}", selector.key) };
+            assert!(options.contains(&model) && selector.belongs == p.belongs, "{}", p.key);
+        }
+    }
+
+    #[test]
+    fn defaults_and_sliders_are_inside_the_range() {
+        for p in PARAMETERS {
+            match p.kind {
+                ParameterKind::Number { range, slider, scale, default } => {
+                    assert!(range.contains(default) && slider.contains(default), "{}", p.key);
+                    assert!(range.contains(slider.min) && range.contains(slider.max), "{}", p.key);
+                    assert!(slider.min < slider.max, "{}", p.key);
+                    assert!(scale == Linear || slider.min > 0.0, "{}: a log slider from zero", p.key);
+                }
+                ParameterKind::Whole { min, max, default } => {
+                    assert!((min..=max).contains(&default), "{}", p.key);
+                }
+                ParameterKind::Choice { options, default } => assert!(options.contains(&default), "{}", p.key),
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn markdown_has_a_row_per_key() {
+        assert_eq!(markdown().lines().count(), PARAMETERS.len() + 2);
+        assert!(markdown().contains("| `film.min_spacing_nm` | nm | 5 to 10000 | 200 |"));
+    }
+}

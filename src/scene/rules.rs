@@ -1,0 +1,149 @@
+//! The rules between the keys of a scene. What a key accepts by itself is in [`super::PARAMETERS`], and is checked where
+//! it is set.
+
+use super::error::{SceneError, What};
+use super::parameter::{Parameter, Range};
+use super::value::show_number;
+use super::values::Scene;
+
+/// Narrowest tooth, as a share of the pitch; the widest is the pitch itself.
+const NARROWEST_TOOTH: f64 = 0.01;
+
+/// A rule between keys.
+struct Rule {
+    /// What the rule is about. It holds where the first of them matters.
+    keys: &'static [&'static str],
+    /// What is wrong, if anything is.
+    check: fn(&Scene) -> Result<(), What>,
+}
+
+static RULES: &[Rule] = &[
+    Rule { keys: &["rotor.model", "rotor.compliance", "rotor.compliance_csv"], check: table_is_given },
+    Rule { keys: &["numerics.wedge", "film.shear"], check: wedge_is_there },
+    Rule {
+        keys: &["stator.tooth_width_mm", "motor.contact_radius_mm", "motor.waves", "stator.teeth_per_wave"],
+        check: tooth_fits_the_pitch,
+    },
+    Rule { keys: &["plate.amplitude_um", "plate.mean_gap_um"], check: plate_stays_clear },
+];
+
+impl Scene {
+    /// Checks the rules between keys; each key's own range is checked when it is set.
+    ///
+    /// # Errors
+    ///
+    /// All rules that are broken.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let mut faults = SceneError::none();
+        self.broken_rules().for_each(|(_, what)| faults.push(what));
+        faults.or(())
+    }
+
+    /// The rules that are broken, each with the keys it is about.
+    pub(super) fn broken_rules(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
+        let has = |parameter: &'static Parameter| self.applies(parameter).is_ok() && self.heeds(parameter.key);
+        let matters = move |rule: &&Rule| Parameter::find(rule.keys[0]).is_some_and(has);
+        RULES.iter().filter(matters).filter_map(|rule| (rule.check)(self).err().map(|what| (rule.keys, what)))
+    }
+
+    /// The range of a key in this scene: its own, narrowed by what the other keys leave. `None` for a key that is not a
+    /// number or does not apply. The upper end of `plate.amplitude_um` is itself not allowed.
+    pub fn range(&self, key: &str) -> Option<Range> {
+        let parameter = Parameter::find(key)?;
+        self.applies(parameter).ok()?;
+        let own = parameter.range()?;
+        let narrower = match key {
+            "stator.tooth_width_mm" => self.tooth_widths_mm().ok()?,
+            "plate.amplitude_um" => Range::new(0.0, self.number("plate.mean_gap_um").ok()?),
+            _ => own,
+        };
+        Some(Range::new(narrower.min.max(own.min), narrower.max.min(own.max)))
+    }
+
+    /// Tooth widths the pitch allows \[mm\].
+    fn tooth_widths_mm(&self) -> Result<Range, What> {
+        let pitch = self.wavelength()? * 1e3 / self.number("stator.teeth_per_wave")?;
+        Ok(Range::new(NARROWEST_TOOTH * pitch, pitch))
+    }
+}
+
+fn table_is_given(scene: &Scene) -> Result<(), What> {
+    let missing = scene.text("rotor.model")? == "table" && scene.compliance().is_empty();
+    let message = || "rotor.model = \"table\" needs rotor.compliance_csv or rotor.compliance".to_owned();
+    unless(missing, "rotor.model", message)
+}
+
+fn wedge_is_there(scene: &Scene) -> Result<(), What> {
+    let ruled_out = scene.text("numerics.wedge")? == "on" && !scene.flag("film.shear")?;
+    unless(ruled_out, "numerics.wedge", || {
+        "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: change one of the two"
+            .to_owned()
+    })
+}
+
+fn tooth_fits_the_pitch(scene: &Scene) -> Result<(), What> {
+    let (range, width) = (scene.tooth_widths_mm()?, scene.number("stator.tooth_width_mm")?);
+    let (radius, waves) = (scene.number("motor.contact_radius_mm")?, scene.number("motor.waves")?);
+    let teeth = scene.number("stator.teeth_per_wave")?;
+    unless(!range.contains(width), "stator.tooth_width_mm", || {
+        let [width, radius] = [width, radius].map(show_number);
+        format!(
+            "stator.tooth_width_mm = {width} is out of range: allowed {} mm, 1 % to 100 % of the tooth pitch \
+             2π × {radius} mm / {waves} waves / {teeth} teeth",
+            rounded_inwards(range)
+        )
+    })
+}
+
+fn plate_stays_clear(scene: &Scene) -> Result<(), What> {
+    let (amplitude, gap) = (scene.number("plate.amplitude_um")?, scene.number("plate.mean_gap_um")?);
+    unless(amplitude >= gap, "plate.amplitude_um", || {
+        let [amplitude, gap] = [amplitude, gap].map(show_number);
+        format!(
+            "plate.amplitude_um = {amplitude} is out of range: allowed 0 to below plate.mean_gap_um = {gap} µm, or the plate \
+             touches"
+        )
+    })
+}
+
+fn unless(broken: bool, key: &'static str, message: impl FnOnce() -> String) -> Result<(), What> {
+    if broken { Err(What::Rule { key, message: message() }) } else { Ok(()) }
+}
+
+/// The range to six digits, so rounded that what is shown is allowed.
+fn rounded_inwards(range: Range) -> Range {
+    let digits = |value: f64| 10f64.powi(5 - value.log10().floor() as i32);
+    let (low, high) = (digits(range.min), digits(range.max));
+    Range::new((range.min * low).ceil() / low, (range.max * high).floor() / high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shown_range_is_inside_the_real_one() {
+        let range = Range::new(0.028_921_741_3, 2.892_174_13);
+        assert_eq!(rounded_inwards(range), Range::new(0.028_921_8, 2.892_17));
+    }
+
+    #[test]
+    fn the_range_of_a_key_follows_the_other_keys() {
+        let mut scene = Scene::motor();
+        let pitch = std::f64::consts::TAU * 29.0 / 63.0;
+        let range = scene.range("stator.tooth_width_mm").unwrap();
+        assert!((range.max / pitch - 1.0).abs() < 1e-14 && (range.min / pitch - 0.01).abs() < 1e-14);
+        scene.set("stator.teeth_per_wave", "18").unwrap();
+        assert!((scene.range("stator.tooth_width_mm").unwrap().max / pitch - 0.5).abs() < 1e-14);
+        assert_eq!(scene.range("plate.amplitude_um"), None);
+        assert_eq!(Scene::plate().range("plate.amplitude_um"), Some(Range::new(0.0, 1.0)));
+        assert_eq!(scene.range("film.min_spacing_nm"), Some(Range::new(5.0, 10000.0)));
+    }
+
+    #[test]
+    fn a_rule_is_about_keys_that_exist() {
+        for rule in RULES {
+            assert!(rule.keys.iter().all(|key| Parameter::find(key).is_some()), "{:?}", rule.keys);
+        }
+    }
+}

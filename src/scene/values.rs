@@ -1,0 +1,273 @@
+//! A scene: the values of its keys, and which keys it has.
+
+use super::error::{SCHEMA, SceneError, What};
+use super::keys::{PARAMETERS, tables};
+use super::nearest::nearest_key;
+use super::parameter::{Belongs, Parameter, ParameterKind};
+use super::value::{Value, show_text};
+use crate::problem::Numerics;
+use std::collections::BTreeMap;
+
+/// What is to be solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A ring-type travelling-wave motor.
+    Motor,
+    /// A plate vibrating above a wall.
+    Plate,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Motor, Self::Plate];
+
+    /// The name in the file: "motor" or "plate".
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Motor => "motor",
+            Self::Plate => "plate",
+        }
+    }
+}
+
+/// One scene: a preset, whether built in, on disk or in the window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Name, shown with every result.
+    pub name: String,
+    /// One line: what this scene is.
+    pub about: String,
+    kind: Kind,
+    /// The values of all other keys, by dotted key: those that are not the key's default, of keys that this scene has. Each
+    /// has been accepted by its [`Parameter`], so that only the rules between keys can be broken.
+    values: BTreeMap<&'static str, Value>,
+}
+
+impl Scene {
+    /// A scene with every key at its default.
+    pub fn new(kind: Kind) -> Self {
+        let mut scene = Self { name: String::new(), about: String::new(), kind, values: BTreeMap::new() };
+        PARAMETERS.iter().filter(|parameter| parameter.table().is_empty()).for_each(|parameter| scene.reset(parameter));
+        scene
+    }
+
+    /// A motor with every key at its default: the fundamental case.
+    pub fn motor() -> Self {
+        Self::new(Kind::Motor)
+    }
+
+    /// A plate with every key at its default: an infinitely wide strip.
+    pub fn plate() -> Self {
+        Self::new(Kind::Plate)
+    }
+
+    /// What is to be solved.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// The kind of scene as named in the file: "motor" or "plate".
+    pub fn scene(&self) -> &'static str {
+        self.kind.name()
+    }
+
+    /// The value of a dotted key, in the key's unit. `None` for an optional key that is absent, a key of another scene
+    /// or rotor model, an unknown key, and `rotor.compliance_csv` (the scene keeps the rows, under `rotor.compliance`).
+    pub fn get(&self, key: &str) -> Option<Value> {
+        match key {
+            "schema" => Some(Value::Whole(SCHEMA)),
+            "scene" => Some(Value::Text(self.scene().to_owned())),
+            "name" => Some(Value::Text(self.name.clone())),
+            "about" => Some(Value::Text(self.about.clone())),
+            _ => self.values.get(key).cloned().or_else(|| {
+                let parameter = Parameter::find(key).filter(|parameter| self.applies(parameter).is_ok())?;
+                parameter.default()
+            }),
+        }
+    }
+
+    /// The parameters that apply to this scene and its rotor model, in the order of the file, the absent ones included.
+    pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> + '_ {
+        PARAMETERS.iter().filter(|parameter| self.applies(parameter).is_ok())
+    }
+
+    /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics
+    /// that only a motor heeds; to set or to vary one is refused.
+    pub fn heeds(&self, key: &str) -> bool {
+        let idle = |parameter: &Parameter| parameter.belongs == Belongs::IdleOnPlate;
+        self.kind == Kind::Motor || !Parameter::find(key).is_some_and(idle)
+    }
+
+    /// Whether `other` is the same motor or plate: equal but for name, description and numerics.
+    pub fn same_model(&self, other: &Self) -> bool {
+        let [ours, theirs] =
+            [self, other].map(|scene| scene.values.iter().filter(|(key, _)| !key.starts_with("numerics.")));
+        self.kind == other.kind && ours.eq(theirs)
+    }
+
+    /// The table `[numerics]`.
+    pub fn numerics(&self) -> Numerics {
+        let given = self.values.iter().filter_map(|(key, value)| Some((key.strip_prefix("numerics.")?, value)));
+        let table = toml::Table::try_from(given.collect::<BTreeMap<_, _>>()).ok();
+        // Every key of the table is a field, of the same name and type: a test sets them all.
+        table.and_then(|table| table.try_into().ok()).unwrap_or_default()
+    }
+
+    /// Replaces the table `[numerics]`.
+    ///
+    /// # Errors
+    ///
+    /// A number outside its range; the scene is then unchanged.
+    pub fn set_numerics(&mut self, numerics: &Numerics) -> Result<(), SceneError> {
+        let mut changed = self.clone();
+        let table = toml::Table::try_from(numerics).ok();
+        let mut given: BTreeMap<String, Value> = table.and_then(|table| table.try_into().ok()).unwrap_or_default();
+        for parameter in PARAMETERS.iter().filter(|parameter| parameter.table() == "numerics") {
+            match given.remove(parameter.leaf()) {
+                Some(value) => changed.assign(parameter, value)?,
+                None => changed.reset(parameter),
+            }
+        }
+        *self = changed;
+        Ok(())
+    }
+
+    /// Whether a key applies to this scene; if not, why.
+    pub(super) fn applies(&self, parameter: &'static Parameter) -> Result<(), What> {
+        let needs = match (parameter.belongs, self.kind) {
+            (Belongs::Motor, Kind::Plate) => Kind::Motor,
+            (Belongs::Plate, Kind::Motor) => Kind::Plate,
+            _ => self.kind,
+        };
+        let elsewhere = |selector, needs, chosen: &str| {
+            let (key, chosen) = (parameter.key.to_owned(), chosen.to_owned());
+            What::Elsewhere { key, selector, needs, chosen }
+        };
+        if needs != self.kind {
+            return Err(elsewhere("scene", needs.name(), self.scene()));
+        }
+        let Some((selector, needs)) = parameter.when else { return Ok(()) };
+        match self.text(selector)? {
+            chosen if chosen == needs => Ok(()),
+            chosen => Err(elsewhere(selector, needs, chosen)),
+        }
+    }
+
+    /// The fault of a key that does not exist.
+    pub(super) fn unknown_key(&self, key: &str) -> What {
+        let table = key.split_once('.').map_or("", |(table, _)| table);
+        let keys_of = |table: &str| self.parameters().filter(|p| p.table() == table).map(|p| p.key).collect::<Vec<_>>();
+        let unknown = |nearest: Option<&str>, siblings| {
+            let (key, nearest) = (show_text(key), nearest.map(str::to_owned));
+            What::Unknown { kind: "key", key, nearest, siblings }
+        };
+        if tables().contains(&key) {
+            return unknown(None, keys_of(key));
+        }
+        if let Err(foreign) = self.has_table(table, show_text(key)) {
+            return foreign;
+        }
+        let known: Vec<_> = self.parameters().map(|parameter| parameter.key).collect();
+        let siblings = if keys_of(table).is_empty() { self.tables() } else { keys_of(table) };
+        unknown(nearest_key(key, &known), siblings)
+    }
+
+    /// The tables this scene has.
+    pub(super) fn tables(&self) -> Vec<&'static str> {
+        tables().into_iter().filter(|table| self.parameters().any(|p| p.table() == *table)).collect()
+    }
+
+    /// Whether this kind of scene has a table; if not, why, said of `key`. A table that does not exist is no fault here.
+    pub(super) fn has_table(&self, table: &str, key: String) -> Result<(), What> {
+        match PARAMETERS.iter().find(|p| p.table() == table).map(|p| self.applies(p)) {
+            Some(Err(What::Elsewhere { selector, needs, chosen, .. })) if selector == "scene" => {
+                Err(What::Elsewhere { key, selector, needs, chosen })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Checks a value against the key's own type and range, and stores it.
+    pub(super) fn assign(&mut self, parameter: &'static Parameter, value: Value) -> Result<(), What> {
+        let value = parameter.accept(value)?;
+        // A table that is given chooses the model that it belongs to.
+        if let (ParameterKind::Rows, Some((selector, model))) = (parameter.kind, parameter.when) {
+            self.assign(self.parameter(selector)?, Value::Text(model.to_owned()))?;
+        }
+        self.put(parameter, Some(value));
+        Ok(())
+    }
+
+    /// Gives a key its default, or removes it if it is optional.
+    pub(super) fn reset(&mut self, parameter: &'static Parameter) {
+        self.put(parameter, parameter.default());
+    }
+
+    /// Stores a value that has been accepted, or none. Where it chooses a model, the keys of the others are dropped.
+    fn put(&mut self, parameter: &'static Parameter, value: Option<Value>) {
+        match (parameter.key, value) {
+            ("name", Some(Value::Text(name))) => self.name = name,
+            ("about", Some(Value::Text(about))) => self.about = about,
+            (key, Some(value)) if parameter.default().as_ref() != Some(&value) => {
+                self.values.insert(key, value);
+            }
+            (key, _) => {
+                self.values.remove(key);
+            }
+        }
+        if parameter.selects() {
+            let foreign = PARAMETERS.iter().filter(|parameter| self.applies(parameter).is_err());
+            for key in foreign.map(|parameter| parameter.key).collect::<Vec<_>>() {
+                self.values.remove(key);
+            }
+        }
+    }
+
+    /// The parameter of a key that the program itself asks for.
+    pub(super) fn parameter(&self, key: &str) -> Result<&'static Parameter, What> {
+        Parameter::find(key).ok_or_else(|| self.unknown_key(key))
+    }
+
+    /// The number of a key, a whole one too; `None` if it is absent.
+    pub(super) fn optional_number(&self, parameter: &'static Parameter) -> Option<f64> {
+        let stored = self.values.get(parameter.key).and_then(Value::as_number);
+        stored.or_else(|| parameter.default()?.as_number())
+    }
+
+    /// The number of a key, in its unit.
+    pub(super) fn number(&self, key: &str) -> Result<f64, What> {
+        self.optional_number(self.parameter(key)?).ok_or_else(|| self.unknown_key(key))
+    }
+
+    /// The text of a key, or the name of its choice.
+    pub(super) fn text(&self, key: &str) -> Result<&str, What> {
+        match (self.values.get(key), self.parameter(key)?.kind) {
+            (Some(Value::Text(text)), _) => Ok(text),
+            (_, ParameterKind::Choice { default, .. } | ParameterKind::Text { default }) => Ok(default),
+            _ => Err(self.unknown_key(key)),
+        }
+    }
+
+    /// Whether a key is true.
+    pub(super) fn flag(&self, key: &str) -> Result<bool, What> {
+        match (self.values.get(key), self.parameter(key)?.kind) {
+            (Some(Value::Flag(flag)), _) => Ok(*flag),
+            (_, ParameterKind::Flag { default }) => Ok(default),
+            _ => Err(self.unknown_key(key)),
+        }
+    }
+
+    /// The rows of the rotor's compliance table; none of another model.
+    pub(super) fn compliance(&self) -> &[(f64, f64)] {
+        match self.values.get("rotor.compliance") {
+            Some(Value::Rows(rows)) => rows,
+            _ => &[],
+        }
+    }
+
+    /// Wavelength \[m\] of a motor, 2πr/waves.
+    pub(super) fn wavelength(&self) -> Result<f64, What> {
+        let radius = self.number("motor.contact_radius_mm")? / 1e3;
+        Ok(std::f64::consts::TAU * radius / self.number("motor.waves")?)
+    }
+}
