@@ -147,15 +147,13 @@ pub fn solve_from(
     let mut solution = match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
             let plan = motor_plan(motor, problem, settings, &spec);
-            let found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
+            let mut found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
+            let other = touching(&mut found, motor, &plan, observer, cancel);
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
             let result = &found.result;
             Solution {
                 accuracy: accuracy(&plan, result.alpha_error, motor::unit(result.alpha), cancel),
-                warnings: warnings(&found.status)
-                    .into_iter()
-                    .chain(found.other.map(|other| bistable(&other)))
-                    .collect(),
+                warnings: warnings(&found.status).into_iter().chain(other.as_ref().map(bistable)).collect(),
                 status: found.status,
                 outcome: Outcome::Motor(found.result),
                 performance: None,
@@ -224,6 +222,31 @@ fn model(plan: &Plan, teeth_solved: usize) -> Model {
         remarks: Vec::new(),
         decisions: plan.decisions.clone(),
     }
+}
+
+/// α of the state in which teeth touch, if the one `found` floats, or nearly, and the motor has both. Looked for where fields are kept,
+/// which a sweep does not, and more than a draft is asked for; if `found` is less certain, it is replaced.
+fn touching(
+    found: &mut motor::Periodic,
+    motor: &Motor,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Option<Estimate> {
+    let floats = |alpha: f64| alpha > motor::NEARLY_FLOATS;
+    if !plan.maps || plan.aim >= 1e-2 || !found.alphas.iter().any(|alpha| floats(*alpha)) {
+        return None;
+    }
+    let other = motor::touching(motor, plan, found.stats, observer, cancel)?;
+    let [here, there] =
+        [&found.result, &other.result].map(|result| Estimate { value: result.alpha, error: result.alpha_error });
+    if found.status == Status::Converged && floats(here.value) {
+        return Some(there).filter(|there| here.value - there.value > here.error + there.error);
+    }
+    if found.status != Status::Converged || there.error < here.error {
+        *found = other;
+    }
+    None
 }
 
 fn bistable(other: &Estimate) -> String {

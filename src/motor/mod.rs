@@ -52,10 +52,9 @@ const WARM_ROUNDS: usize = 12;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
 
-/// Error asked for below which what floats is also looked for with teeth that touch, share of the load on the film of any
-/// grid that counts as floating, and the loads, over its own, from which that state is followed.
-const FINDS_BOTH: f64 = 1e-2;
-const NEARLY_FLOATS: f64 = 0.95;
+/// Share of the load on the film from which on a rotor counts as floating, or nearly.
+pub const NEARLY_FLOATS: f64 = 0.95;
+/// Loads, over its own, through which the state of a motor whose teeth touch is followed.
 const HEAVIER: [f64; 7] = [4.0, 2.8, 2.0, 1.5, 1.25, 1.1, 1.0];
 
 /// A share of the load that no one minds: an error below it is no reason to call a result unresolved.
@@ -87,8 +86,6 @@ pub struct Periodic {
     pub alphas: Vec<f64>,
     /// What the last polynomial across changed of α on the coarsest grid; 0 with finite volumes.
     pub across: f64,
-    /// α of the state in which teeth touch, of a motor that may float as well, and does in this result.
-    pub other: Option<Estimate>,
     /// What it cost, all grids.
     pub stats: Stats,
     /// Fields of one cycle on the finest grid.
@@ -136,48 +133,36 @@ pub fn periodic_from(
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
     let mut search = Search { motor, plan, observer, cancel, stats: &mut stats };
-    let mut found = climb(&mut search, plan, last.as_ref(), cancel)?;
-    let mut other = None;
-    if plan.maps
-        && plan.aim < FINDS_BOTH
-        && found.headlines.iter().any(|mean| mean.all > NEARLY_FLOATS)
-        && let Some(pressed) = pressed(&mut search, plan)?
-    {
-        let [here, there] = [&found, &pressed].map(|found| stated(motor, plan, found));
-        if found.status == Status::Converged && here.value > NEARLY_FLOATS {
-            other = Some(there).filter(|there| here.value - there.value > here.error + there.error);
-        } else if found.status != Status::Converged || there.error < here.error {
-            found = pressed;
-        }
-    }
-    let mut result = finish(motor, plan, &found, stats);
-    result.other = other;
+    let found = climb(&mut search, plan, last.as_ref(), cancel)?;
+    let result = finish(motor, plan, &found, stats);
     if found.status == Status::Converged {
         warm.found = Some(found);
     }
     Ok(result)
 }
 
-/// The state in which teeth touch of a motor that may float as well, followed from heavier loads under which it cannot.
-fn pressed(search: &mut Search<'_>, plan: &Plan) -> Result<Option<Found<Level>>, MotorError> {
+/// The state in which teeth touch of a motor that may float as well, followed from heavier loads under which it cannot; `None` if
+/// there is none, or it was not found. `stats`: what it has cost so far.
+pub fn touching(
+    motor: &Motor,
+    plan: &Plan,
+    mut stats: Stats,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Option<Periodic> {
     let unrefined = Plan { most_grids: plan.grids.len(), ..plan.clone() };
     let mut last: Option<Found<Level>> = None;
     for heavier in HEAVIER {
         let plan = if heavier > 1.0 { &unrefined } else { plan };
-        let motor = Motor { load: heavier * search.motor.load, ..search.motor.clone() };
-        let (observer, stats, cancel) = (&mut *search.observer, &mut *search.stats, search.cancel);
-        let found = climb_once(
-            &mut Search { motor: &motor, plan: &plan, observer, cancel, stats },
-            &plan,
-            last.as_ref(),
-            cancel,
-        )?;
+        let motor = Motor { load: heavier * motor.load, ..motor.clone() };
+        let mut search = Search { motor: &motor, plan, observer: &mut *observer, cancel, stats: &mut stats };
+        let found = climb_once(&mut search, plan, last.as_ref(), cancel).ok()?;
         if found.status != Status::Converged || found.levels.last().is_some_and(Level::floats) {
-            return Ok(None);
+            return None;
         }
         last = Some(found);
     }
-    Ok(last)
+    last.map(|found| finish(motor, plan, &found, stats))
 }
 
 /// One solve of a motor by a plan.
@@ -393,7 +378,6 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
             result: MotorResult::default(),
             alphas,
             across,
-            other: None,
             stats,
             recording: Recording::default(),
         };
@@ -416,7 +400,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
     stats.film_nodes = level.film_nodes();
     stats.contact_nodes = level.contact_nodes();
     stats.steps_per_cycle = level.steps();
-    Periodic { status, result, alphas, across, other: None, stats, recording }
+    Periodic { status, result, alphas, across, stats, recording }
 }
 
 /// Cycle means and extremes of a recording.

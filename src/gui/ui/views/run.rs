@@ -72,6 +72,9 @@ mod tests {
             harness.drag_at(at);
             harness.drop_at(at);
             harness.run_steps(1);
+            // The pointer is still there.
+            harness.hover_at(at);
+            harness.run_steps(2);
         }
         let (state, commands) = harness.state();
         (state.view.clone(), commands.clone())
