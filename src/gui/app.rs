@@ -5,8 +5,9 @@ use super::state::document::{Document, Next};
 use super::state::lessons::LessonState;
 use super::state::window::State;
 use super::ui::context::DrawContext;
+use super::ui::keys::{self, Obstacles, Scope};
 use super::ui::modals::glossary::is_searched;
-use super::ui::{keys, layout, theme};
+use super::ui::{layout, theme};
 use super::update::platform::Platform;
 use super::update::updater::Updater;
 use crate::scene::Scene;
@@ -22,6 +23,8 @@ pub struct App {
     updater: Updater,
     /// Text is being typed, other than what is looked for in the glossary.
     typing: bool,
+    /// What was asked for while text was being typed: it is carried out once the text is taken.
+    after_text: Vec<Command>,
     last_frame: Option<Instant>,
 }
 
@@ -49,7 +52,7 @@ impl App {
         theme::install(&context.egui_ctx);
         let state = restored(context.storage, opened)?;
         let updater = Updater::start(&context.egui_ctx, state, platform)?;
-        Ok(Self { updater, typing: false, last_frame: None })
+        Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None })
     }
 
     /// All that the window knows.
@@ -70,14 +73,36 @@ impl App {
             (None, Some(_)) => Command::Glossary(false),
             (None, None) => return None,
         };
-        let other = self.covered() || egui::Popup::is_any_open(ctx);
+        let Obstacles { modal, typing } = self.obstacles();
+        let other = modal || typing || egui::Popup::is_any_open(ctx);
         let pressed = !other && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
         pressed.then_some(close)
     }
 
-    /// Whether plain keys belong to something that is in the way, or to a text.
-    fn covered(&self) -> bool {
-        self.state().modal.is_some() || self.state().shortcuts || self.typing
+    fn obstacles(&self) -> Obstacles {
+        Obstacles { modal: self.state().modal.is_some() || self.state().shortcuts, typing: self.typing }
+    }
+
+    /// Carries `commands` out, in a frame or two if text is being typed, which has to be taken first.
+    fn after_text(&mut self, ctx: &egui::Context, commands: Vec<Command>) {
+        if commands.is_empty() || !ctx.text_edit_focused() {
+            commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        } else {
+            self.after_text.extend(commands);
+            ctx.request_repaint();
+        }
+    }
+
+    /// Carries out what has waited for a text, once that is taken; not if it was refused.
+    fn text_taken(&mut self, ctx: &egui::Context, asked: &[&'static str]) {
+        if self.after_text.is_empty() || ctx.text_edit_focused() {
+            return;
+        }
+        let commands = std::mem::take(&mut self.after_text);
+        if asked.iter().all(|key| self.state().rejected.of(key).is_none()) {
+            commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        }
+        ctx.request_repaint();
     }
 }
 
@@ -92,21 +117,27 @@ impl eframe::App for App {
         }
         self.last_frame = Some(now);
         self.updater.follow_torque();
+        if !self.after_text.is_empty() {
+            // The field hands its text over when the cursor leaves it.
+            ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));
+        }
         let mut commands: Vec<Command> = self.escape(ctx).into_iter().collect();
-        keys::pressed(ctx, self.covered(), self.state().view.tab, &mut commands);
+        let pressed = keys::pressed(ctx, self.obstacles(), self.state().view.tab);
+        let (waiting, at_once): (Vec<_>, Vec<_>) =
+            pressed.into_iter().partition(|shortcut| shortcut.scope == Scope::Window);
+        commands.extend(at_once.iter().map(|shortcut| (shortcut.command)()));
         let dropped = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_path_buf()).collect());
         let dropped: Vec<PathBuf> = dropped;
         let named = dropped.into_iter().filter(|path| !path.as_os_str().is_empty());
         commands.extend(named.map(|path| Command::Proceed(Next::File(path))));
-        let State { lessons, document, quitting, .. } = self.state();
-        if ctx.input(|input| input.viewport().close_requested())
-            && !quitting
-            && lessons.student_document(document).is_dirty()
-        {
-            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            commands.push(Command::Proceed(Next::Quit));
-        }
         commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
+        let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;
+        if closing && (ctx.text_edit_focused() || self.updater.quitting_loses()) {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            waiting.push(Command::Proceed(Next::Quit));
+        }
+        self.after_text(ctx, waiting);
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
@@ -126,7 +157,9 @@ impl eframe::App for App {
             // And written away.
             ctx.request_repaint_after(SAVE_INTERVAL + Duration::from_millis(500));
         }
+        let asked: Vec<&'static str> = commands.iter().filter_map(Command::edited).collect();
         commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        self.text_taken(&ctx, &asked);
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

@@ -260,6 +260,14 @@ commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold
 commands_of!(Proceed(Next));
 
 impl Command {
+    /// The parameter that it edits.
+    pub fn edited(&self) -> Option<&'static str> {
+        match self {
+            Self::Set { key, .. } | Self::SetText { key, .. } => Some(key),
+            _ => None,
+        }
+    }
+
     /// What is done with the path that was chosen for `purpose`.
     pub fn with_path(purpose: Purpose, path: PathBuf) -> Self {
         match purpose {

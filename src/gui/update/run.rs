@@ -96,7 +96,8 @@ impl Updater {
             Command::Screenshot => self.take_picture(),
             Command::ToggleParameters => state.view.parameters = !state.view.parameters,
             Command::ToggleResults => state.view.results = !state.view.results,
-            Command::ToggleShortcuts => state.shortcuts = !state.shortcuts,
+            // Not below a question.
+            Command::ToggleShortcuts => state.shortcuts = !state.shortcuts && state.modal.is_none(),
             Command::Tour(stop) => state.lessons.show_tour(stop, &mut state.view),
             Command::Glossary(shown) => state.lessons.glossary = shown.then(String::new),
             Command::SearchGlossary(query) => state.lessons.glossary = Some(query),

@@ -6,6 +6,7 @@ use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::document::{Document, Next};
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::Modal;
+use crate::gui::state::window::State;
 use crate::problem::Numerics;
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError, presets};
 use eframe::egui;
@@ -82,6 +83,12 @@ impl Updater {
             }
         }
         self.proceed_now(next);
+    }
+
+    /// Whether something would be lost if the window closed now.
+    pub fn quitting_loses(&self) -> bool {
+        let State { lessons, document, .. } = &self.state;
+        lessons.student_document(document).is_dirty()
     }
 
     /// The same without a question.

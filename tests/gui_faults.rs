@@ -1,0 +1,184 @@
+//! What the window must not do: lose what was typed or asked for, act behind a question, or show old results as new ones.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod memory;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use squeezefilm::gui::app::App;
+use squeezefilm::gui::state::dialogs::{Answer, Purpose};
+use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::scene::{Scene, Value, presets};
+use std::path::PathBuf;
+use std::time::Duration;
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const SPACING: &str = "film.min_spacing_nm";
+const FIELD: &str = "Minimum spacing H_m in nm";
+
+fn window(ask: fn(Purpose, &str) -> Answer, opened: (Scene, Option<PathBuf>)) -> Harness<'static, App> {
+    let platform = Platform { ask, ..Platform::default() };
+    Harness::builder()
+        .with_size(Vec2::new(1400.0, 900.0))
+        .build_eframe(move |context| App::on_platform(context, Some(opened), platform).unwrap())
+}
+
+/// A window on a plate, which is solved at once, whose file dialogs are cancelled.
+fn plate() -> Harness<'static, App> {
+    window(|_, _| Answer::Cancelled, (presets::find("plate-crossover").unwrap(), None))
+}
+
+/// Steps until `ready`, at most a minute of waiting in all.
+fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
+    for _ in 0..6000 {
+        window.step();
+        if ready(window.state()) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what}: did not happen");
+}
+
+/// Types into the field of a parameter, and leaves the cursor there.
+fn start_typing(window: &mut Harness<'static, App>, field: &str, text: &str) {
+    window.get_by_role_and_label(Role::TextInput, field).click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
+    window.step();
+}
+
+fn press(window: &mut Harness<'static, App>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(3);
+}
+
+fn value(app: &App, key: &str) -> Value {
+    app.state().document.scene().get(key).unwrap()
+}
+
+#[test]
+fn what_is_being_typed_is_saved_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let scene = presets::find("fundamental").unwrap();
+    scene.save(&path).unwrap();
+    let mut window = window(|_, _| Answer::Cancelled, (scene, Some(path.clone())));
+    start_typing(&mut window, FIELD, "120");
+    press(&mut window, CTRL, Key::S);
+    assert_eq!(Scene::load(&path).unwrap().get(SPACING), Some(Value::Number(120.0)));
+    assert!(!window.state().state().document.is_dirty());
+    // What is refused is not taken for saved: the field says why, and the file is as it was.
+    let before = std::fs::metadata(&path).unwrap().modified().unwrap();
+    start_typing(&mut window, FIELD, "3");
+    press(&mut window, CTRL, Key::S);
+    window.get_by_label_contains("allowed 5 to 10000 nm");
+    assert_eq!(std::fs::metadata(&path).unwrap().modified().unwrap(), before);
+}
+
+#[test]
+fn what_is_being_typed_is_asked_about_before_the_window_closes() {
+    for by_key in [true, false] {
+        let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
+        start_typing(&mut window, FIELD, "120");
+        if by_key {
+            press(&mut window, CTRL, Key::Q);
+        } else {
+            close(&mut window);
+        }
+        assert!(!window.state().state().quitting, "by key: {by_key}");
+        window.get_by_label_contains("Save the changes");
+        assert_eq!(value(window.state(), SPACING), Value::Number(120.0));
+    }
+}
+
+/// The system asks the window to close, as its button and the Dock do.
+fn close(window: &mut Harness<'static, App>) {
+    let id = window.input().viewport_id;
+    window.input_mut().viewports.entry(id).or_default().events.push(eframe::egui::ViewportEvent::Close);
+    window.step();
+    window.input_mut().viewports.entry(id).or_default().events.clear();
+    window.run_steps(3);
+}
+
+#[test]
+fn shortcuts_do_not_act_behind_a_question_or_in_a_text() {
+    let mut window = plate();
+    let key = "plate.frequency_khz";
+    start_typing(&mut window, "Frequency in kHz", "12");
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+    // A text has an undo of its own.
+    start_typing(&mut window, "Frequency in kHz", "13");
+    press(&mut window, CTRL, Key::Z);
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    // Behind the question nothing is undone, pinned or opened; the theme may be changed.
+    press(&mut window, CTRL, Key::Q);
+    window.get_by_label_contains("Save the changes");
+    let tab = window.state().state().view.tab;
+    for asked in [Key::Z, Key::D, Key::Num3] {
+        press(&mut window, CTRL, asked);
+    }
+    let state = window.state().state();
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+    assert!(state.pins.runs().is_empty() && state.view.tab == tab && state.dark);
+    press(&mut window, CTRL, Key::T);
+    assert!(!window.state().state().dark);
+    window.get_by_label("Keep editing").click();
+    window.run_steps(2);
+    press(&mut window, CTRL, Key::Z);
+    assert_ne!(value(window.state(), key), Value::Number(12.0));
+    press(&mut window, CTRL, Key::Y);
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+}
+
+#[test]
+fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
+    let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
+    let torque = |app: &App| app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run));
+    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    press(&mut window, CTRL, Key::Num4);
+    until(&mut window, "torque over speed", torque);
+    window.run_steps(2);
+    window.get_by_label_contains("✔ Converged");
+    assert!(window.query_by_label_contains("Of the scene before this edit").is_none());
+    // A scene that no memory holds is refused at once: what is shown is of the one before.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("large.toml");
+    let mut large = presets::find("fundamental").unwrap();
+    let sizes = [("film_nodes_along", "2001"), ("film_nodes_across", "501"), ("steps_per_cycle", "100000")];
+    sizes.iter().for_each(|(key, size)| large.set(&format!("numerics.{key}"), size).unwrap());
+    large.set("numerics.teeth", "all").unwrap();
+    large.save(&path).unwrap();
+    drop_file(&mut window, path);
+    until(&mut window, "the refusal", |app| app.state().activity.failure.is_some());
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("✔ Converged").is_none());
+    assert_eq!(window.query_all_by_label_contains("Of the scene before this edit; the present one has no").count(), 2);
+}
+
+fn drop_file(window: &mut Harness<'static, App>, path: PathBuf) {
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path)));
+    window.step();
+    window.input_mut().dropped_files.clear();
+    window.run_steps(2);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl eframe::egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
