@@ -126,9 +126,15 @@ impl State {
         periods.fold([recording.period; 2], |[low, high], period| [low.min(period), high.max(period)])
     }
 
+    /// Whether `run` is of another scene than the present one.
+    pub fn stale(&self, run: &SolvedScene) -> bool {
+        let scene = self.document.scene();
+        run.scene.kind != scene.kind || run.scene.numerics != scene.numerics
+    }
+
     /// Whether the newest scene is still without a result, and without a reason why.
     pub fn awaits_result(&self) -> bool {
-        self.run.as_ref().is_none_or(|run| self.activity.stale(run)) && self.activity.failure.is_none()
+        self.run.as_ref().is_none_or(|run| run.number < self.activity.number) && self.activity.failure.is_none()
     }
 
     /// Whether there is what `export` writes.
