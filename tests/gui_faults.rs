@@ -10,20 +10,22 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
-use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::update::platform::{DialogStart, Platform};
 use squeezefilm::scene::{Scene, Value, presets};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SPACING: &str = "film.min_spacing_nm";
 const FIELD: &str = "Minimum spacing H_m in nm";
 
-fn window(ask: fn(Purpose, &str) -> Answer, opened: (Scene, Option<PathBuf>)) -> Harness<'static, App> {
+fn window(ask: fn(Purpose, &DialogStart) -> Answer, (scene, path): (Scene, Option<PathBuf>)) -> Harness<'static, App> {
     let platform = Platform { ask, ..Platform::default() };
     Harness::builder()
         .with_size(Vec2::new(1400.0, 900.0))
-        .build_eframe(move |context| App::on_platform(context, Some(opened), platform).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, path)), platform).unwrap())
 }
 
 /// A window on a plate, which is solved at once, whose file dialogs are cancelled.
@@ -181,4 +183,99 @@ impl eframe::egui::DroppedFile for Dropped {
     fn bytes(&self) -> Result<Vec<u8>, String> {
         std::fs::read(&self.0).map_err(|error| error.to_string())
     }
+}
+
+#[test]
+fn cancelling_one_dialog_leaves_the_others_alone_and_none_is_there_twice() {
+    static SHOWN: AtomicUsize = AtomicUsize::new(0);
+    static CANCELLED: AtomicBool = AtomicBool::new(false);
+    // "Save" is answered only after "Open" was cancelled.
+    fn ask(purpose: Purpose, _: &DialogStart) -> Answer {
+        match purpose {
+            Purpose::Save(_) => {
+                SHOWN.fetch_add(1, Ordering::SeqCst);
+                while !CANCELLED.load(Ordering::SeqCst) {
+                    std::thread::sleep(Duration::from_millis(5));
+                }
+                Answer::Path(std::env::temp_dir().join(format!("squeezefilm-{}.toml", std::process::id())))
+            }
+            _ => Answer::Cancelled,
+        }
+    }
+    let mut window = window(ask, (presets::find("plate-crossover").unwrap(), None));
+    start_typing(&mut window, "Frequency in kHz", "12");
+    press(&mut window, CTRL, Key::Q);
+    window.get_by_label("Save").click();
+    window.run_steps(2);
+    press(&mut window, CTRL | Modifiers::SHIFT, Key::S);
+    press(&mut window, CTRL, Key::O);
+    std::thread::sleep(Duration::from_millis(50));
+    window.run_steps(3);
+    CANCELLED.store(true, Ordering::SeqCst);
+    until(&mut window, "saved, and closed as asked", |app| app.state().quitting);
+    assert_eq!(SHOWN.load(Ordering::SeqCst), 1);
+    let path = window.state().state().document.path().unwrap().to_owned();
+    assert_eq!(Scene::load(&path).unwrap().get("plate.frequency_khz"), Some(Value::Number(12.0)));
+    std::fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn a_path_is_kept_in_full() {
+    let path = PathBuf::from("presets/plate-crossover.toml");
+    let window = window(|_, _| Answer::Cancelled, (Scene::load(&path).unwrap(), Some(path.clone())));
+    let state = window.state().state();
+    assert_eq!(state.document.path(), Some(std::env::current_dir().unwrap().join(&path).as_path()));
+}
+
+/// The scene on screen is exported or its picture is taken, under the path that is typed.
+fn save_as(window: &mut Harness<'static, App>, path: &std::path::Path) {
+    for _ in 0..500 {
+        window.step();
+        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    window.run_steps(2);
+    window.key_press_modifiers(CTRL, Key::A);
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+}
+
+#[test]
+fn a_file_holds_what_its_name_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(|_, _| Answer::NoDialog, (presets::find("plate-crossover").unwrap(), None));
+    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    let export = |window: &mut Harness<'static, App>, name: &str, path: &std::path::Path| {
+        window.get_by_label("File").click();
+        window.run_steps(2);
+        window.get_by_label("Export").click();
+        window.run_steps(2);
+        window.get_by_label(name).click();
+        window.run_steps(2);
+        save_as(window, path);
+    };
+    // Another kind of file is refused, and nothing is written.
+    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x.jpg"));
+    window.get_by_label_contains("allowed .npz");
+    window.get_by_label("Close").click();
+    window.run_steps(2);
+    assert!(!folder.path().join("x.jpg").exists());
+    // Without an extension it gets its own, but replaces nothing that nobody was asked about.
+    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
+    until(&mut window, "written", |app| app.state().exports.written().is_some());
+    assert!(folder.path().join("x.npz").is_file() && !folder.path().join("x").exists());
+    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
+    window.get_by_label_contains("give its whole name");
+    window.get_by_label("Close").click();
+    window.run_steps(2);
+    export(&mut window, "Animation…", &folder.path().join("cycle"));
+    until(&mut window, "the animation is under way or done", |app| {
+        app.state().exports.running().is_some() || app.state().exports.written().is_some()
+    });
+    until(&mut window, "the animation", |app| app.state().exports.running().is_none());
+    assert!(folder.path().join("cycle.gif").is_file() && !folder.path().join("cycle").exists());
 }

@@ -35,7 +35,7 @@ impl App {
     /// If the solver's thread cannot be started.
     pub fn new(
         context: &eframe::CreationContext<'_>,
-        opened: Option<(Scene, Option<PathBuf>)>,
+        opened: Option<Document>,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         Self::on_platform(context, opened, Platform::default())
     }
@@ -46,12 +46,12 @@ impl App {
     /// If the solver's thread cannot be started.
     pub fn on_platform(
         context: &eframe::CreationContext<'_>,
-        opened: Option<(Scene, Option<PathBuf>)>,
+        opened: Option<Document>,
         platform: Platform,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
         let state = restored(context.storage, opened)?;
-        let updater = Updater::start(&context.egui_ctx, state, platform)?;
+        let updater = Updater::start(&context.egui_ctx, state, platform, rfd::FileDialog::new().set_parent(context))?;
         Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None })
     }
 
@@ -192,13 +192,13 @@ impl eframe::App for App {
 /// The state that the last window was left in; with the scene that was `opened`, if one was.
 fn restored(
     storage: Option<&dyn eframe::Storage>,
-    opened: Option<(Scene, Option<PathBuf>)>,
+    opened: Option<Document>,
 ) -> Result<State, Box<dyn std::error::Error + Send + Sync>> {
     let stored = |key: &str| storage.and_then(|storage| storage.get_string(key));
     // The tour is for whoever has never seen the window, and not over a file that was asked for.
     let first_start = opened.is_none() && storage.is_some() && stored("tour").is_none() && stored("scene").is_none();
     let document = match opened {
-        Some((scene, path)) => Document::opened(scene, path),
+        Some(document) => document,
         None => match last_document(&stored) {
             Some(document) => document,
             None => Document::fundamental()?,
@@ -223,6 +223,6 @@ fn last_document(stored: &dyn Fn(&str) -> Option<String>) -> Option<Document> {
     let parse = |key: &str| Scene::from_toml(&stored(key)?, "the last window").ok();
     let scene = parse("scene")?;
     let saved = parse("saved").unwrap_or_else(|| scene.clone());
-    let path = stored("path").filter(|path| !path.is_empty()).map(PathBuf::from);
+    let path = stored("path").map(PathBuf::from).filter(|path| path.is_absolute());
     Some(Document::restored(scene, saved, path))
 }

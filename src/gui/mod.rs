@@ -11,8 +11,8 @@ pub mod state;
 pub mod ui;
 pub mod update;
 
-use crate::scene::Scene;
 use eframe::egui;
+use state::document::Document;
 use std::path::PathBuf;
 
 /// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
@@ -20,7 +20,7 @@ use std::path::PathBuf;
 ///
 /// # Errors
 /// If there is no display, or no way to draw on it.
-pub fn open(opened: Option<(Scene, Option<PathBuf>)>, lessons: Option<PathBuf>) -> Result<(), eframe::Error> {
+pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), eframe::Error> {
     let options = eframe::NativeOptions {
         renderer: eframe::Renderer::Glow,
         // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.

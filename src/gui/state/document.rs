@@ -20,6 +20,11 @@ pub enum Next {
     Quit,
 }
 
+/// `path` in full, so that it means the same in another folder.
+pub fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// A scene and where it came from.
 #[derive(Clone, Debug)]
 pub struct Document {
@@ -38,7 +43,7 @@ pub struct Document {
 impl Document {
     /// A scene as it was opened, from a file or built in.
     pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {
-        let saved = scene.clone();
+        let (saved, path) = (scene.clone(), path.as_deref().map(absolute));
         Self { saved, scene, target: TARGET, path, undo: Vec::new(), redo: Vec::new(), dragging: None, practice: false }
     }
 
@@ -163,7 +168,7 @@ impl Document {
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         self.scene.save(path)?;
         self.saved = self.scene.clone();
-        self.path = Some(path.to_path_buf());
+        self.path = Some(absolute(path));
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use super::activity::Activity;
 use super::dialogs::Export;
-use super::document::Document;
+use super::document::{Document, absolute};
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
 use super::hold::HoldState;
@@ -102,8 +102,9 @@ impl State {
 
     /// Puts `path` first among the files remembered.
     pub fn remember(&mut self, path: &Path) {
-        self.recent.retain(|other| other != path);
-        self.recent.insert(0, path.to_owned());
+        let path = absolute(path);
+        self.recent.retain(|other| *other != path);
+        self.recent.insert(0, path);
         self.recent.truncate(RECENT);
     }
 
@@ -129,7 +130,7 @@ impl State {
     /// Whether `run` is of another scene than the present one.
     pub fn stale(&self, run: &SolvedScene) -> bool {
         let scene = self.document.scene();
-        run.scene.kind != scene.kind || run.scene.numerics != scene.numerics
+        !run.scene.same_model(scene) || run.scene.numerics() != scene.numerics()
     }
 
     /// Whether the newest scene is still without a result, and without a reason why.

@@ -117,27 +117,26 @@ impl Updater {
     }
 
     /// Saves to the scene's file, or asks for one.
-    pub(super) fn save(&mut self) {
+    pub(super) fn save(&mut self, then: Option<Next>) {
         match self.state.document.path().map(Path::to_path_buf) {
-            Some(path) => self.save_to(&path),
-            None => self.save_as(),
+            Some(path) => self.save_to(&path, then),
+            None => self.save_as(then),
         }
     }
 
     /// Asks for a file and saves there.
-    pub(super) fn save_as(&mut self) {
+    pub(super) fn save_as(&mut self, then: Option<Next>) {
         let name = self.state.suggested_name();
         let name = Path::new(&name).file_name().map(|name| name.to_string_lossy().into_owned());
-        self.ask(Purpose::Save, &name.unwrap_or_default());
+        self.ask(Purpose::Save(then), &name.unwrap_or_default());
     }
 
     /// Saves to this file, and goes on with what waited for it.
-    pub(super) fn save_to(&mut self, path: &Path) {
-        let next = self.after_save.take();
+    pub(super) fn save_to(&mut self, path: &Path, then: Option<Next>) {
         match self.state.document.save(path) {
             Ok(()) => {
                 self.state.remember(path);
-                next.into_iter().for_each(|next| self.proceed_now(next));
+                then.into_iter().for_each(|next| self.proceed_now(next));
             }
             Err(error) => self.state.fail(error),
         }
@@ -145,7 +144,6 @@ impl Updater {
 
     /// Gives unsaved changes up, then goes on.
     pub(super) fn discard_then(&mut self, next: Next) {
-        self.after_save = None;
         if next == Next::Quit {
             // The next window begins with what is saved. A file that is opened replaces the scene only if it is good.
             let document = &self.state.document;
