@@ -279,3 +279,48 @@ fn a_file_holds_what_its_name_says() {
     until(&mut window, "the animation", |app| app.state().exports.running().is_none());
     assert!(folder.path().join("cycle.gif").is_file() && !folder.path().join("cycle").exists());
 }
+
+#[test]
+fn quitting_asks_about_work_that_goes_on() {
+    let mut window = plate();
+    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    press(&mut window, CTRL, Key::Num3);
+    window.get_by_role_and_label(Role::TextInput, "Values along x").click();
+    window.run_steps(2);
+    window.key_press_modifiers(CTRL, Key::A);
+    window.get_by_role_and_label(Role::TextInput, "Values along x").type_text("2000");
+    window.run_steps(2);
+    window.get_by_label("Start the sweep").click();
+    until(&mut window, "the sweep", |app| app.state().sweep.swept().is_some_and(|swept| swept.running()));
+    close(&mut window);
+    assert!(!window.state().state().quitting);
+    window.get_by_label_contains("of 2000 points");
+    window.get_by_label("Keep the window open").click();
+    window.run_steps(2);
+    assert!(window.state().state().sweep.swept().is_some_and(|swept| swept.running()));
+    press(&mut window, CTRL, Key::Q);
+    window.get_by_label("Quit anyway").click();
+    window.run_steps(2);
+    assert!(window.state().state().quitting);
+}
+
+#[test]
+fn pins_that_were_removed_together_come_back() {
+    let mut window = plate();
+    let waits = |app: &App| app.state().activity.running.is_some() || app.state().awaits_result();
+    for frequency in ["12", "13"] {
+        start_typing(&mut window, "Frequency in kHz", frequency);
+        window.key_press(Key::Enter);
+        window.run_steps(2);
+        until(&mut window, "solved", |app| !waits(app));
+        press(&mut window, CTRL, Key::D);
+    }
+    press(&mut window, CTRL, Key::Num2);
+    assert_eq!(window.state().state().pins.runs().len(), 2);
+    window.get_by_label("Remove all").click();
+    window.run_steps(3);
+    assert!(window.state().state().pins.runs().is_empty());
+    window.get_by_label("Bring the pins back").click();
+    window.run_steps(3);
+    assert_eq!(window.state().state().pins.runs().len(), 2);
+}

@@ -59,6 +59,8 @@ pub enum Command {
     SavePath(PathBuf, Option<Next>),
     /// Saves, asking for a file if there is none, then does this.
     SaveThen(Next),
+    /// Closes the window although work goes on; asks about unsaved changes.
+    QuitAnyway,
     /// Gives unsaved changes up, then does this.
     DiscardThen(Next),
     /// Takes away what is in the way.
@@ -148,6 +150,8 @@ pub enum PinCommand {
     Remove(u64),
     /// Takes all pins away.
     Clear,
+    /// Brings back what was taken away together.
+    Restore,
     /// Makes the scene of a pin the present scene: one edit.
     Open(u64),
     /// Shows this of them.

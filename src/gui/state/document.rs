@@ -114,6 +114,11 @@ impl Document {
         }
     }
 
+    /// The pointer has let go of what it dragged: the next edit is another one.
+    pub fn end_drag(&mut self) {
+        self.dragging = None;
+    }
+
     /// Replaces the scene and what it is solved up to: one edit. Whether anything changed.
     pub fn change(&mut self, next: Scene, target: Fidelity) -> bool {
         let changed = next != self.scene || target != self.target;
@@ -200,6 +205,16 @@ mod tests {
         assert!(!document.undo() && !document.is_dirty());
         assert!(document.redo() && document.redo() && !document.redo());
         assert_eq!(document.scene(), &with_spacing(&document, "100"));
+    }
+
+    #[test]
+    fn a_drag_that_ends_on_a_refused_value_is_ended() {
+        let mut document = Document::fundamental().unwrap();
+        document.edit(with_spacing(&document, "190"), "film.min_spacing_nm", true);
+        document.end_drag();
+        document.edit(with_spacing(&document, "150"), "film.min_spacing_nm", true);
+        assert!(document.undo());
+        assert_eq!(document.scene(), &with_spacing(&document, "190"));
     }
 
     #[test]

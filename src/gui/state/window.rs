@@ -152,6 +152,14 @@ impl State {
         }
     }
 
+    /// Work that was asked for and would be lost if the window closed now, in words.
+    pub fn unfinished(&self) -> Vec<String> {
+        let export = self.exports.running().map(|running| format!("An export: {}", running.export.title()));
+        let swept = self.sweep.swept().filter(|swept| swept.running());
+        let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows().len(), swept.sweep().len()));
+        export.into_iter().chain(sweep).collect()
+    }
+
     /// What a new file of the scene is called at first.
     pub fn suggested_name(&self) -> String {
         self.document.path().map_or_else(

@@ -31,6 +31,7 @@ impl Updater {
             Command::SaveAs => self.save_as(None),
             Command::SavePath(path, then) => self.save_to(&path, then),
             Command::SaveThen(next) => self.save(Some(next)),
+            Command::QuitAnyway => self.quit(),
             Command::DiscardThen(next) => self.discard_then(next),
             Command::CloseModal => state.modal = None,
             Command::TypePath(path) => {

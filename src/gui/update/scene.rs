@@ -30,7 +30,12 @@ impl Updater {
                     self.refine();
                 }
             }
-            Err(error) => self.state.rejected.reject(key, change, error.to_string()),
+            Err(error) => {
+                if !dragging {
+                    self.state.document.end_drag();
+                }
+                self.state.rejected.reject(key, change, error.to_string());
+            }
         }
     }
 
@@ -69,6 +74,20 @@ impl Updater {
 
     /// Opens a preset, or closes the window; asks first if that would lose unsaved changes.
     pub(super) fn proceed(&mut self, next: Next) {
+        let unfinished = self.state.unfinished();
+        if next == Next::Quit && !unfinished.is_empty() && !self.state.quitting {
+            self.state.modal = Some(Modal::Unfinished(unfinished));
+        } else {
+            self.proceed_with_document(next);
+        }
+    }
+
+    /// Closes the window although work goes on; asks about unsaved changes.
+    pub(super) fn quit(&mut self) {
+        self.proceed_with_document(Next::Quit);
+    }
+
+    fn proceed_with_document(&mut self, next: Next) {
         // A file that cannot be opened takes nothing away, and a lesson goes on.
         let loses = match &next {
             Next::Preset(_) | Next::Quit => true,
@@ -88,7 +107,7 @@ impl Updater {
     /// Whether something would be lost if the window closed now.
     pub fn quitting_loses(&self) -> bool {
         let State { lessons, document, .. } = &self.state;
-        lessons.student_document(document).is_dirty()
+        lessons.student_document(document).is_dirty() || !self.state.unfinished().is_empty()
     }
 
     /// The same without a question.

@@ -20,6 +20,7 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
         match modal {
             Modal::Error(message) => error(ui, message),
             Modal::Unsaved { name, next } => unsaved(ui, name, next),
+            Modal::Unfinished(work) => unfinished(ui, work),
             Modal::Path(prompt) => path(ui, prompt, cx),
         }
     });
@@ -67,6 +68,23 @@ fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {
             (keep, Vec::new()),
         ];
         answers.into_iter().find(|(button, _)| button.clicked()).map(|(_, commands)| commands)
+    })
+    .inner
+}
+
+fn unfinished(ui: &mut Ui, work: &[String]) -> Answer {
+    heading(ui, "Quit before this is done?");
+    for what in work {
+        ui.add(egui::Label::new(what).wrap());
+    }
+    ui.add_space(12.0);
+    ui.horizontal_wrapped(|ui| {
+        let quit = ui.button("Quit anyway").clicked();
+        let wait = ui.button("Keep the window open");
+        if ui.memory(|memory| memory.focused().is_none()) {
+            wait.request_focus();
+        }
+        if quit { Some(vec![Command::QuitAnyway]) } else { wait.clicked().then(Vec::new) }
     })
     .inner
 }
