@@ -8,6 +8,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use memory::Memory;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
 use squeezefilm::gui::state::document::Document;
@@ -323,4 +324,40 @@ fn pins_that_were_removed_together_come_back() {
     window.get_by_label("Bring the pins back").click();
     window.run_steps(3);
     assert_eq!(window.state().state().pins.runs().len(), 2);
+}
+
+#[test]
+fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("app.ron");
+    let open = |memory: Memory, file: PathBuf| {
+        let memory: &'static Memory = Box::leak(Box::new(memory));
+        let platform = Platform { storage: Some(file), ask: |_, _| Answer::Cancelled, ..Platform::default() };
+        Harness::builder().with_size(Vec2::new(1400.0, 900.0)).build_eframe(move |context| {
+            context.storage = Some(memory);
+            App::on_platform(context, None, platform).unwrap()
+        })
+    };
+    let kept = || std::fs::read_dir(folder.path()).unwrap().count();
+    // A scene of a later version.
+    std::fs::write(&file, "the whole file").unwrap();
+    let later = "schema = 1\nname = \"later\"\n[film]\nnot_yet_known = 3\n".to_owned();
+    let mut window = open(Memory([("scene".to_owned(), later)].into()), file.clone());
+    window.run_steps(2);
+    window.get_by_label_contains("not_yet_known");
+    window.get_by_label_contains("app.unreadable-1.ron");
+    assert_eq!(kept(), 2);
+    drop(window);
+    // A file that eframe cannot read is as if there were nothing in it.
+    let mut window = open(Memory::default(), file.clone());
+    window.run_steps(2);
+    window.get_by_label_contains("this is not what a window of this version writes");
+    assert_eq!(std::fs::read_to_string(folder.path().join("app.unreadable-2.ron")).unwrap(), "the whole file");
+    drop(window);
+    // The first window of all has nothing to complain about.
+    std::fs::remove_file(&file).unwrap();
+    let mut window = open(Memory::default(), file);
+    window.run_steps(2);
+    assert!(window.query_by_label("This did not work").is_none());
+    assert_eq!(kept(), 2);
 }

@@ -9,6 +9,7 @@ use super::ui::keys::{self, Obstacles, Scope};
 use super::ui::modals::glossary::is_searched;
 use super::ui::{layout, theme};
 use super::update::platform::Platform;
+use super::update::storage::keep;
 use super::update::updater::Updater;
 use crate::scene::Scene;
 use eframe::egui;
@@ -50,7 +51,7 @@ impl App {
         platform: Platform,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
-        let state = restored(context.storage, opened)?;
+        let state = restored(context.storage, opened, platform.storage.as_deref())?;
         let updater = Updater::start(&context.egui_ctx, state, platform, rfd::FileDialog::new().set_parent(context))?;
         Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None })
     }
@@ -193,18 +194,24 @@ impl eframe::App for App {
 fn restored(
     storage: Option<&dyn eframe::Storage>,
     opened: Option<Document>,
+    file: Option<&Path>,
 ) -> Result<State, Box<dyn std::error::Error + Send + Sync>> {
     let stored = |key: &str| storage.and_then(|storage| storage.get_string(key));
     // The tour is for whoever has never seen the window, and not over a file that was asked for.
-    let first_start = opened.is_none() && storage.is_some() && stored("tour").is_none() && stored("scene").is_none();
+    let empty = stored("tour").is_none() && stored("scene").is_none();
+    let mut faults = Vec::new();
+    if let (true, Some(file)) = (empty, file.filter(|file| file.metadata().is_ok_and(|known| known.len() > 0))) {
+        faults.push(format!("{}: this is not what a window of this version writes.", file.display()));
+    }
+    let first_start = opened.is_none() && storage.is_some() && empty && faults.is_empty();
     let document = match opened {
         Some(document) => document,
-        None => match last_document(&stored) {
+        None => match last_document(&stored, &mut faults) {
             Some(document) => document,
             None => Document::fundamental()?,
         },
     };
-    let target = stored("fidelity").and_then(|name| name.parse().ok());
+    let target = stored("fidelity").and_then(|name| name.parse().map_err(|fault| faults.push(fault)).ok());
     let mut state = State::new(target.into_iter().fold(document, Document::with_target));
     state.lessons = LessonState::new(stored("lessons"));
     state.recent = stored("recent").map(|text| text.lines().map(PathBuf::from).collect()).unwrap_or_default();
@@ -213,14 +220,26 @@ fn restored(
     state.lessons.tour = first_start.then_some(0);
     // What cannot be read is told, and the rest is there.
     if let Some(Err(fault)) = stored("pins").map(|text| state.pins.restore(&text)) {
-        state.fail(format!("Not all pinned runs of the last window can be read.\n{fault}"));
+        faults.push(format!("Not all pinned runs of the last window can be read.\n{fault}"));
+    }
+    if !faults.is_empty() {
+        // The next save replaces it.
+        match file.map_or(Ok(None), keep) {
+            Ok(Some(copy)) => faults.push(format!("What the last window left is kept in {}.", copy.display())),
+            Ok(None) => {}
+            Err(error) => faults.push(format!("What the last window left cannot be kept: {error}")),
+        }
+        state.fail(faults.join("\n\n"));
     }
     Ok(state)
 }
 
-/// The scene that the last window was left with.
-fn last_document(stored: &dyn Fn(&str) -> Option<String>) -> Option<Document> {
-    let parse = |key: &str| Scene::from_toml(&stored(key)?, "the last window").ok();
+/// The scene that the last window was left with; what cannot be read of it is added to the faults.
+fn last_document(stored: &dyn Fn(&str) -> Option<String>, faults: &mut Vec<String>) -> Option<Document> {
+    let mut parse = |key: &str| {
+        let read = Scene::from_toml(&stored(key)?, "the last window");
+        read.map_err(|fault| faults.push(format!("The scene of the last window cannot be read.\n{fault}"))).ok()
+    };
     let scene = parse("scene")?;
     let saved = parse("saved").unwrap_or_else(|| scene.clone());
     let path = stored("path").map(PathBuf::from).filter(|path| path.is_absolute());

@@ -3,15 +3,18 @@
 use crate::analysis::tradeoff::{Candidate, Effort, candidates};
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::problem::Problem;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// The clock, the file dialogs and the effort of measurements.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Platform {
     /// The present moment.
     pub now: fn() -> Instant,
     /// Asks for a file; blocks until there is an answer.
     pub ask: fn(Purpose, &DialogStart) -> Answer,
+    /// The file in which the window keeps what the next one begins with; none if it keeps nothing in a file.
+    pub storage: Option<PathBuf>,
     /// What to measure for the trade-off, and how long.
     pub measure: fn(&Problem) -> (Vec<Candidate>, Effort),
 }
@@ -27,7 +30,12 @@ pub struct DialogStart {
 
 impl Default for Platform {
     fn default() -> Self {
-        Self { now: Instant::now, ask: native_dialog, measure: |problem| (candidates(problem), Effort::default()) }
+        Self {
+            now: Instant::now,
+            ask: native_dialog,
+            storage: None,
+            measure: |problem| (candidates(problem), Effort::default()),
+        }
     }
 }
 
