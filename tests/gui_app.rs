@@ -599,6 +599,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
         window.step();
         window.key_press(Key::Enter);
         window.run_steps(3);
+        until(&mut window, "written", |app| app.state().exports.written().is_some());
         assert!(std::fs::read_to_string(&path).unwrap().starts_with(begins), "{file}");
     }
 
