@@ -251,11 +251,17 @@ fn a_file_holds_what_its_name_says() {
     let mut window = window(|_, _| Answer::NoDialog, (presets::find("plate-crossover").unwrap(), None));
     until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
     let export = |window: &mut Harness<'static, App>, name: &str, path: &std::path::Path| {
-        window.get_by_label("File").click();
-        window.run_steps(2);
-        window.get_by_label("Export").click();
-        window.run_steps(2);
-        window.get_by_label(name).click();
+        // A question that has just been closed takes the first click while it fades.
+        for _ in 0..5 {
+            window.get_by_label("File").click();
+            window.run_steps(10);
+            if window.query_by_label("Export").is_some() {
+                break;
+            }
+        }
+        window.get_by_label("Export").hover();
+        window.run_steps(5);
+        window.get_by_label_contains(name).click();
         window.run_steps(2);
         save_as(window, path);
     };

@@ -440,7 +440,7 @@ fn what_is_exported_is_what_the_command_line_writes() {
     window.get_by_label_contains("cannot be written");
     click(&mut window, "Close");
     export(&mut window, "Animation…", &at("cycle.avi"));
-    window.get_by_label_contains("animations are written as .gif");
+    window.get_by_label_contains("allowed .gif, .mp4, .png, .apng");
     click(&mut window, "Close");
     assert!(!missing.exists() && !at("cycle.avi").exists());
 }
