@@ -13,6 +13,7 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::lessons::StepWork;
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
@@ -31,9 +32,9 @@ fn platform() -> Platform {
 /// A window tall enough that nothing has to be scrolled.
 fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
-    Harness::builder()
-        .with_size(Vec2::new(1400.0, 1700.0))
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform()).unwrap())
+    Harness::builder().with_size(Vec2::new(1400.0, 1700.0)).build_eframe(move |context| {
+        App::on_platform(context, Some(Document::opened(scene, None)), platform()).unwrap()
+    })
 }
 
 /// A window that was there before, or never, and opens no file.

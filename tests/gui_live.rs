@@ -9,6 +9,7 @@ use egui_kittest::kittest::Queryable;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::startup::StartupState;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
@@ -25,7 +26,7 @@ fn window(preset: &str, tab: Key) -> Harness<'static, App> {
     let platform = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
     let mut window = Harness::builder()
         .with_size(Vec2::new(1400.0, 900.0))
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap());
+        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, None)), platform).unwrap());
     window.key_press_modifiers(Modifiers::COMMAND, tab);
     window.run_steps(3);
     window

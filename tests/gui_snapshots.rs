@@ -18,6 +18,7 @@ use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::job::SolvedScene;
@@ -101,12 +102,12 @@ fn pollster_wait<T>(future: impl std::future::Future<Output = T>) -> T {
 /// The window on a preset, solved, standing at a phase in which several teeth touch.
 fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let platform = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few };
+    let platform = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few, storage: None };
     let mut window = Harness::builder()
         .with_size(Vec2::from(size))
         .with_pixels_per_point(1.0)
         .renderer(WgpuTestRenderer::new())
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap());
+        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, None)), platform).unwrap());
     // How long the solver takes decides how long a cursor has been blinking.
     window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
     window.key_press(Key::Space);

@@ -18,6 +18,7 @@ use squeezefilm::export::compare::{difference_text, value_text};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;
+use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::pins::Page;
 use squeezefilm::gui::state::sweep::Swept;
 use squeezefilm::gui::state::view::Tab;
@@ -49,7 +50,7 @@ fn window(preset: &str) -> Window {
     let platform = Platform { ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
     Harness::builder()
         .with_size(Vec2::new(1400.0, 1000.0))
-        .build_eframe(move |context| App::on_platform(context, Some((scene, None)), platform).unwrap())
+        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, None)), platform).unwrap())
 }
 
 /// Steps until `ready`, at most a minute of waiting in all: solvers work on their own threads.
@@ -439,7 +440,7 @@ fn what_is_exported_is_what_the_command_line_writes() {
     window.get_by_label_contains("cannot be written");
     click(&mut window, "Close");
     export(&mut window, "Animation…", &at("cycle.avi"));
-    window.get_by_label_contains("animations are written as .gif");
+    window.get_by_label_contains("allowed .gif, .mp4, .png, .apng");
     click(&mut window, "Close");
     assert!(!missing.exists() && !at("cycle.avi").exists());
 }

@@ -3,6 +3,7 @@
 use super::exit::{CliError, Exit};
 use super::options::{MemoryOptions, STANDARD_INPUT, SceneOptions};
 use crate::gui;
+use crate::gui::state::document::Document;
 use crate::scene::presets::BUILT_IN;
 use clap::Args;
 use std::path::PathBuf;
@@ -33,8 +34,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let opened = match &arguments.preset {
         Some(preset) => {
             let built_in = BUILT_IN.iter().any(|built_in| built_in.name == preset);
+            // What --set changed is not in the file.
+            let (saved, scene) = arguments.scene.original_and_changed(preset)?;
             let is_file = !built_in && preset != STANDARD_INPUT;
-            Some((arguments.scene.scene(preset)?, is_file.then(|| PathBuf::from(preset))))
+            Some(Document::restored(scene, saved, is_file.then(|| PathBuf::from(preset))))
         }
         None if !arguments.scene.changes.is_empty() => {
             return Err(CliError::Usage("--set needs a PRESET to change: squeezefilm gui fundamental --set …"));

@@ -29,12 +29,17 @@ pub(super) struct SceneOptions {
 impl SceneOptions {
     /// The scene of a PRESET argument with the changes made, and a name that says so.
     pub(super) fn scene(&self, preset: &str) -> Result<Scene, CliError> {
+        self.original_and_changed(preset).map(|(_, scene)| scene)
+    }
+
+    /// The scene as the PRESET argument has it, and as [`Self::scene`] changes it.
+    pub(super) fn original_and_changed(&self, preset: &str) -> Result<(Scene, Scene), CliError> {
         let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };
         let mut scene = original.clone();
         scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
         // What was changed is no longer what the preset's name and description claim.
         scene.retitle(&original);
-        Ok(scene)
+        Ok((original, scene))
     }
 
     /// The command that solves this scene alone, to be copied into a shell and added to.

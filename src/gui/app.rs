@@ -5,9 +5,11 @@ use super::state::document::{Document, Next};
 use super::state::lessons::LessonState;
 use super::state::window::State;
 use super::ui::context::DrawContext;
+use super::ui::keys::{self, Obstacles, Scope};
 use super::ui::modals::glossary::is_searched;
-use super::ui::{keys, layout, theme};
+use super::ui::{layout, theme};
 use super::update::platform::Platform;
+use super::update::storage::keep;
 use super::update::updater::Updater;
 use crate::scene::Scene;
 use eframe::egui;
@@ -22,6 +24,8 @@ pub struct App {
     updater: Updater,
     /// Text is being typed, other than what is looked for in the glossary.
     typing: bool,
+    /// What was asked for while text was being typed: it is carried out once the text is taken.
+    after_text: Vec<Command>,
     last_frame: Option<Instant>,
 }
 
@@ -32,7 +36,7 @@ impl App {
     /// If the solver's thread cannot be started.
     pub fn new(
         context: &eframe::CreationContext<'_>,
-        opened: Option<(Scene, Option<PathBuf>)>,
+        opened: Option<Document>,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         Self::on_platform(context, opened, Platform::default())
     }
@@ -43,13 +47,13 @@ impl App {
     /// If the solver's thread cannot be started.
     pub fn on_platform(
         context: &eframe::CreationContext<'_>,
-        opened: Option<(Scene, Option<PathBuf>)>,
+        opened: Option<Document>,
         platform: Platform,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
-        let state = restored(context.storage, opened)?;
-        let updater = Updater::start(&context.egui_ctx, state, platform)?;
-        Ok(Self { updater, typing: false, last_frame: None })
+        let state = restored(context.storage, opened, platform.storage.as_deref())?;
+        let updater = Updater::start(&context.egui_ctx, state, platform, rfd::FileDialog::new().set_parent(context))?;
+        Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None })
     }
 
     /// All that the window knows.
@@ -70,14 +74,36 @@ impl App {
             (None, Some(_)) => Command::Glossary(false),
             (None, None) => return None,
         };
-        let other = self.covered() || egui::Popup::is_any_open(ctx);
+        let Obstacles { modal, typing } = self.obstacles();
+        let other = modal || typing || egui::Popup::is_any_open(ctx);
         let pressed = !other && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
         pressed.then_some(close)
     }
 
-    /// Whether plain keys belong to something that is in the way, or to a text.
-    fn covered(&self) -> bool {
-        self.state().modal.is_some() || self.state().shortcuts || self.typing
+    fn obstacles(&self) -> Obstacles {
+        Obstacles { modal: self.state().modal.is_some() || self.state().shortcuts, typing: self.typing }
+    }
+
+    /// Carries `commands` out, in a frame or two if text is being typed, which has to be taken first.
+    fn after_text(&mut self, ctx: &egui::Context, commands: Vec<Command>) {
+        if commands.is_empty() || !ctx.text_edit_focused() {
+            commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        } else {
+            self.after_text.extend(commands);
+            ctx.request_repaint();
+        }
+    }
+
+    /// Carries out what has waited for a text, once that is taken; not if it was refused.
+    fn text_taken(&mut self, ctx: &egui::Context, asked: &[&'static str]) {
+        if self.after_text.is_empty() || ctx.text_edit_focused() {
+            return;
+        }
+        let commands = std::mem::take(&mut self.after_text);
+        if asked.iter().all(|key| self.state().rejected.of(key).is_none()) {
+            commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        }
+        ctx.request_repaint();
     }
 }
 
@@ -92,21 +118,27 @@ impl eframe::App for App {
         }
         self.last_frame = Some(now);
         self.updater.follow_torque();
+        if !self.after_text.is_empty() {
+            // The field hands its text over when the cursor leaves it.
+            ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));
+        }
         let mut commands: Vec<Command> = self.escape(ctx).into_iter().collect();
-        keys::pressed(ctx, self.covered(), self.state().view.tab, &mut commands);
+        let pressed = keys::pressed(ctx, self.obstacles(), self.state().view.tab);
+        let (waiting, at_once): (Vec<_>, Vec<_>) =
+            pressed.into_iter().partition(|shortcut| shortcut.scope == Scope::Window);
+        commands.extend(at_once.iter().map(|shortcut| (shortcut.command)()));
         let dropped = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_path_buf()).collect());
         let dropped: Vec<PathBuf> = dropped;
         let named = dropped.into_iter().filter(|path| !path.as_os_str().is_empty());
         commands.extend(named.map(|path| Command::Proceed(Next::File(path))));
-        let State { lessons, document, quitting, .. } = self.state();
-        if ctx.input(|input| input.viewport().close_requested())
-            && !quitting
-            && lessons.student_document(document).is_dirty()
-        {
-            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            commands.push(Command::Proceed(Next::Quit));
-        }
         commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
+        let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;
+        if closing && (ctx.text_edit_focused() || self.updater.quitting_loses()) {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            waiting.push(Command::Proceed(Next::Quit));
+        }
+        self.after_text(ctx, waiting);
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
@@ -126,7 +158,9 @@ impl eframe::App for App {
             // And written away.
             ctx.request_repaint_after(SAVE_INTERVAL + Duration::from_millis(500));
         }
+        let asked: Vec<&'static str> = commands.iter().filter_map(Command::edited).collect();
         commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        self.text_taken(&ctx, &asked);
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
@@ -159,19 +193,25 @@ impl eframe::App for App {
 /// The state that the last window was left in; with the scene that was `opened`, if one was.
 fn restored(
     storage: Option<&dyn eframe::Storage>,
-    opened: Option<(Scene, Option<PathBuf>)>,
+    opened: Option<Document>,
+    file: Option<&Path>,
 ) -> Result<State, Box<dyn std::error::Error + Send + Sync>> {
     let stored = |key: &str| storage.and_then(|storage| storage.get_string(key));
     // The tour is for whoever has never seen the window, and not over a file that was asked for.
-    let first_start = opened.is_none() && storage.is_some() && stored("tour").is_none() && stored("scene").is_none();
+    let empty = stored("tour").is_none() && stored("scene").is_none();
+    let mut faults = Vec::new();
+    if let (true, Some(file)) = (empty, file.filter(|file| file.metadata().is_ok_and(|known| known.len() > 0))) {
+        faults.push(format!("{}: this is not what a window of this version writes.", file.display()));
+    }
+    let first_start = opened.is_none() && storage.is_some() && empty && faults.is_empty();
     let document = match opened {
-        Some((scene, path)) => Document::opened(scene, path),
-        None => match last_document(&stored) {
+        Some(document) => document,
+        None => match last_document(&stored, &mut faults) {
             Some(document) => document,
             None => Document::fundamental()?,
         },
     };
-    let target = stored("fidelity").and_then(|name| name.parse().ok());
+    let target = stored("fidelity").and_then(|name| name.parse().map_err(|fault| faults.push(fault)).ok());
     let mut state = State::new(target.into_iter().fold(document, Document::with_target));
     state.lessons = LessonState::new(stored("lessons"));
     state.recent = stored("recent").map(|text| text.lines().map(PathBuf::from).collect()).unwrap_or_default();
@@ -180,16 +220,28 @@ fn restored(
     state.lessons.tour = first_start.then_some(0);
     // What cannot be read is told, and the rest is there.
     if let Some(Err(fault)) = stored("pins").map(|text| state.pins.restore(&text)) {
-        state.fail(format!("Not all pinned runs of the last window can be read.\n{fault}"));
+        faults.push(format!("Not all pinned runs of the last window can be read.\n{fault}"));
+    }
+    if !faults.is_empty() {
+        // The next save replaces it.
+        match file.map_or(Ok(None), keep) {
+            Ok(Some(copy)) => faults.push(format!("What the last window left is kept in {}.", copy.display())),
+            Ok(None) => {}
+            Err(error) => faults.push(format!("What the last window left cannot be kept: {error}")),
+        }
+        state.fail(faults.join("\n\n"));
     }
     Ok(state)
 }
 
-/// The scene that the last window was left with.
-fn last_document(stored: &dyn Fn(&str) -> Option<String>) -> Option<Document> {
-    let parse = |key: &str| Scene::from_toml(&stored(key)?, "the last window").ok();
+/// The scene that the last window was left with; what cannot be read of it is added to the faults.
+fn last_document(stored: &dyn Fn(&str) -> Option<String>, faults: &mut Vec<String>) -> Option<Document> {
+    let mut parse = |key: &str| {
+        let read = Scene::from_toml(&stored(key)?, "the last window");
+        read.map_err(|fault| faults.push(format!("The scene of the last window cannot be read.\n{fault}"))).ok()
+    };
     let scene = parse("scene")?;
     let saved = parse("saved").unwrap_or_else(|| scene.clone());
-    let path = stored("path").filter(|path| !path.is_empty()).map(PathBuf::from);
+    let path = stored("path").map(PathBuf::from).filter(|path| path.is_absolute());
     Some(Document::restored(scene, saved, path))
 }

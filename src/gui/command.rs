@@ -1,6 +1,6 @@
 //! Everything that a panel or a key asks for. `ui` pushes commands; `update` alone carries them out.
 
-use super::state::dialogs::{Export, Purpose};
+use super::state::dialogs::{Export, Picture, Purpose};
 use super::state::document::Next;
 use super::state::pins::Page;
 use super::state::view::Tab;
@@ -55,14 +55,14 @@ pub enum Command {
     Save,
     /// Asks for a file and saves there.
     SaveAs,
-    /// Saves to this file.
-    SavePath(PathBuf),
+    /// Saves to this file, then does this.
+    SavePath(PathBuf, Option<Next>),
     /// Saves, asking for a file if there is none, then does this.
     SaveThen(Next),
+    /// Closes the window although work goes on; asks about unsaved changes.
+    QuitAnyway,
     /// Gives unsaved changes up, then does this.
     DiscardThen(Next),
-    /// A question was left unanswered.
-    Dismissed,
     /// Takes away what is in the way.
     CloseModal,
     /// What is typed into the prompt for a path.
@@ -121,8 +121,8 @@ pub enum Command {
     ToggleResults,
     /// Takes a picture of the window and asks where to save it.
     Screenshot,
-    /// Saves the picture that was taken to this file.
-    WritePicture(PathBuf),
+    /// Saves a picture of the window to this file.
+    WritePicture(Picture, PathBuf),
     /// Shows or hides the sheet of shortcuts.
     ToggleShortcuts,
     /// About lessons.
@@ -150,6 +150,8 @@ pub enum PinCommand {
     Remove(u64),
     /// Takes all pins away.
     Clear,
+    /// Brings back what was taken away together.
+    Restore,
     /// Makes the scene of a pin the present scene: one edit.
     Open(u64),
     /// Shows this of them.
@@ -260,13 +262,21 @@ commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold
 commands_of!(Proceed(Next));
 
 impl Command {
+    /// The parameter that it edits.
+    pub fn edited(&self) -> Option<&'static str> {
+        match self {
+            Self::Set { key, .. } | Self::SetText { key, .. } => Some(key),
+            _ => None,
+        }
+    }
+
     /// What is done with the path that was chosen for `purpose`.
     pub fn with_path(purpose: Purpose, path: PathBuf) -> Self {
         match purpose {
             Purpose::Open => Self::Proceed(Next::File(path)),
             Purpose::Lessons => Self::Lesson(LessonCommand::LoadFolder(path)),
-            Purpose::Save => Self::SavePath(path),
-            Purpose::Screenshot => Self::WritePicture(path),
+            Purpose::Save(then) => Self::SavePath(path, then),
+            Purpose::Picture(picture) => Self::WritePicture(picture, path),
             Purpose::Export(export) => Self::WriteExport(export, path),
         }
     }

@@ -11,16 +11,21 @@ pub mod state;
 pub mod ui;
 pub mod update;
 
-use crate::scene::Scene;
 use eframe::egui;
+use state::document::Document;
 use std::path::PathBuf;
+use update::platform::Platform;
+use update::storage::StorageFile;
 
 /// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
 /// beside the built-in ones.
 ///
 /// # Errors
 /// If there is no display, or no way to draw on it.
-pub fn open(opened: Option<(Scene, Option<PathBuf>)>, lessons: Option<PathBuf>) -> Result<(), eframe::Error> {
+pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), eframe::Error> {
+    // Without a file of its own it keeps nothing: another window's is left alone.
+    let file = eframe::storage_dir("squeezefilm").and_then(|folder| StorageFile::claim(&folder).ok());
+    let storage = file.as_ref().map(|file| file.path().to_owned());
     let options = eframe::NativeOptions {
         renderer: eframe::Renderer::Glow,
         // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.
@@ -31,10 +36,12 @@ pub fn open(opened: Option<(Scene, Option<PathBuf>)>, lessons: Option<PathBuf>) 
             .with_inner_size([1400.0, 900.0])
             .with_min_inner_size([900.0, 600.0])
             .with_drag_and_drop(true),
+        persistence_path: storage.clone(),
         ..Default::default()
     };
     let start = |context: &eframe::CreationContext<'_>| {
-        let mut app = app::App::new(context, opened)?;
+        let platform = Platform { storage, ..Platform::default() };
+        let mut app = app::App::on_platform(context, opened, platform)?;
         if let Some(folder) = lessons {
             app.load_lessons(&folder);
         }

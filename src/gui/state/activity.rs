@@ -2,7 +2,6 @@
 
 use crate::control::Progress;
 use crate::fidelity::Fidelity;
-use crate::job::SolvedScene;
 
 /// What the solver is doing.
 #[derive(Clone, Debug, Default)]
@@ -50,10 +49,5 @@ impl Activity {
             level: (progress.level, progress.levels, progress.iteration),
             decay: (same.map_or(now, |running| running.decay.0), now, progress.tolerance.ln()),
         });
-    }
-
-    /// Whether `run` is of an earlier scene.
-    pub fn stale(&self, run: &SolvedScene) -> bool {
-        run.number < self.number
     }
 }

@@ -1,6 +1,8 @@
 //! What file dialogs are for, what came of one, and what can be exported.
 
-use std::path::PathBuf;
+use super::document::Next;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What can be written to a file, or into a folder, of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,25 +101,89 @@ impl Export {
         }
     }
 
+    /// `path` with the extension of a format that this is written in: without one it gets the usual one.
+    ///
+    /// # Errors
+    /// If its extension is that of something else, or if there is a file already under the completed name, which nobody has
+    /// agreed to replace.
+    pub fn complete(self, path: PathBuf) -> Result<PathBuf, String> {
+        self.filter().map_or(Ok(path.clone()), |(kind, extensions)| complete(path, kind, extensions))
+    }
+
     /// Whether it is several files, which go into a folder.
     pub fn is_folder(self) -> bool {
         self.filter().is_none()
     }
 }
 
-/// What a dialog is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// `path` with one of `extensions`, the first if it has none.
+fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, String> {
+    let Some(extension) = path.extension().map(|extension| extension.to_string_lossy().to_lowercase()) else {
+        let mut named = path.into_os_string();
+        named.push(format!(".{}", extensions[0]));
+        let named = PathBuf::from(named);
+        return if named.exists() {
+            Err(format!("{}: there is such a file already; give its whole name to replace it", named.display()))
+        } else {
+            Ok(named)
+        };
+    };
+    if extensions.contains(&extension.as_str()) {
+        return Ok(path);
+    }
+    let allowed = extensions.iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ");
+    Err(format!(
+        "{}: “.{extension}” is none of the formats of a {}: allowed {allowed}",
+        path.display(),
+        kind.to_lowercase()
+    ))
+}
+
+/// A picture of the window.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels across and down.
+    pub size: [usize; 2],
+    /// Red, green, blue and opacity of each pixel, row by row from the top.
+    pub rgba: Arc<[u8]>,
+}
+
+impl Picture {
+    /// What it is called at first.
+    pub const FILE_NAME: &str = "squeezefilm.png";
+
+    /// `path` with the extension of a PNG.
+    ///
+    /// # Errors
+    /// As [`Export::complete`].
+    pub fn complete(path: &Path) -> Result<PathBuf, String> {
+        complete(path.to_owned(), "picture of the window", &["png"])
+    }
+}
+
+/// What a dialog is for, with all that its answer needs.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Purpose {
     /// Open a preset.
     Open,
-    /// Save the preset.
-    Save,
-    /// Save a picture of the window.
-    Screenshot,
+    /// Save the preset, then do this.
+    Save(Option<Next>),
+    /// Save this picture of the window.
+    Picture(Picture),
     /// Export results.
     Export(Export),
     /// Open a folder of lessons.
     Lessons,
+}
+
+impl Purpose {
+    /// Whether both are dialogs for the same kind of thing: there is never more than one of them.
+    pub fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Export(one), Self::Export(other)) => one == other,
+            _ => std::mem::discriminant(self) == std::mem::discriminant(other),
+        }
+    }
 }
 
 /// What came of a dialog.

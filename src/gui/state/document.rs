@@ -20,6 +20,11 @@ pub enum Next {
     Quit,
 }
 
+/// `path` in full, so that it means the same in another folder.
+pub fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// A scene and where it came from.
 #[derive(Clone, Debug)]
 pub struct Document {
@@ -38,7 +43,7 @@ pub struct Document {
 impl Document {
     /// A scene as it was opened, from a file or built in.
     pub fn opened(scene: Scene, path: Option<PathBuf>) -> Self {
-        let saved = scene.clone();
+        let (saved, path) = (scene.clone(), path.as_deref().map(absolute));
         Self { saved, scene, target: TARGET, path, undo: Vec::new(), redo: Vec::new(), dragging: None, practice: false }
     }
 
@@ -109,6 +114,11 @@ impl Document {
         }
     }
 
+    /// The pointer has let go of what it dragged: the next edit is another one.
+    pub fn end_drag(&mut self) {
+        self.dragging = None;
+    }
+
     /// Replaces the scene and what it is solved up to: one edit. Whether anything changed.
     pub fn change(&mut self, next: Scene, target: Fidelity) -> bool {
         let changed = next != self.scene || target != self.target;
@@ -163,7 +173,7 @@ impl Document {
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         self.scene.save(path)?;
         self.saved = self.scene.clone();
-        self.path = Some(path.to_path_buf());
+        self.path = Some(absolute(path));
         Ok(())
     }
 }
@@ -195,6 +205,16 @@ mod tests {
         assert!(!document.undo() && !document.is_dirty());
         assert!(document.redo() && document.redo() && !document.redo());
         assert_eq!(document.scene(), &with_spacing(&document, "100"));
+    }
+
+    #[test]
+    fn a_drag_that_ends_on_a_refused_value_is_ended() {
+        let mut document = Document::fundamental().unwrap();
+        document.edit(with_spacing(&document, "190"), "film.min_spacing_nm", true);
+        document.end_drag();
+        document.edit(with_spacing(&document, "150"), "film.min_spacing_nm", true);
+        assert!(document.undo());
+        assert_eq!(document.scene(), &with_spacing(&document, "190"));
     }
 
     #[test]

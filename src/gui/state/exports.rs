@@ -47,11 +47,6 @@ impl ExportState {
         self.running = Some(RunningExport { export, task, started, drawn: (0, 0), cancelled: false });
     }
 
-    /// One ended at once.
-    pub fn wrote(&mut self, paths: Vec<PathBuf>) {
-        self.written = Some(paths);
-    }
-
     /// Asks the one under way to end; nothing is written.
     pub fn cancel(&mut self) {
         if let Some(running) = &mut self.running {

@@ -15,6 +15,8 @@ pub enum Modal {
         /// What would lose them.
         next: Next,
     },
+    /// Work that would end with the window: what it is.
+    Unfinished(Vec<String>),
     /// A path to type.
     Path(PathPrompt),
 }

@@ -89,6 +89,8 @@ pub struct Pins {
     /// Whether parameters are listed that do not differ.
     pub all_parameters: bool,
     note: Option<Note>,
+    /// What "Remove all" took away, until there is a new pin.
+    cleared: Option<Box<Self>>,
 }
 
 impl Pins {
@@ -132,6 +134,7 @@ impl Pins {
     }
 
     fn number(&mut self) -> u64 {
+        self.cleared = None;
         self.next += 1;
         self.next
     }
@@ -297,9 +300,25 @@ impl Pins {
         }
     }
 
-    /// Takes all away, also those that are being solved.
+    /// Takes all away, also those that are being solved, until [`Self::restore_cleared`].
     pub fn clear(&mut self) {
-        *self = Self { next: self.next, page: self.page, all_parameters: self.all_parameters, ..Self::default() };
+        let fresh = Self { next: self.next, page: self.page, all_parameters: self.all_parameters, ..Self::default() };
+        let mut cleared = std::mem::replace(self, fresh);
+        cleared.waiting.iter_mut().for_each(|waiting| waiting.task = None);
+        cleared.cleared = None;
+        self.cleared = Some(Box::new(cleared));
+    }
+
+    /// Whether what was taken away can be brought back.
+    pub fn can_restore(&self) -> bool {
+        self.cleared.is_some()
+    }
+
+    /// Brings back what [`Self::clear`] took away; those that were being solved wait for their turn again.
+    pub fn restore_cleared(&mut self) {
+        if let Some(cleared) = self.cleared.take() {
+            *self = Self { page: self.page, all_parameters: self.all_parameters, ..*cleared };
+        }
     }
 
     fn tabulate(&mut self) {
@@ -375,5 +394,12 @@ mod tests {
         assert_eq!(pins.results()[0].cells.len(), 3);
         pins.clear();
         assert!(pins.runs().is_empty() && pins.results().is_empty());
+        // All come back, until there is another one.
+        pins.restore_cleared();
+        assert_eq!((pins.runs().len(), pins.results()[0].cells.len()), (3, 3));
+        assert!(!pins.can_restore());
+        pins.clear();
+        pins.add(solved("plate-viscous", &[], Fidelity::Draft));
+        assert!(!pins.can_restore());
     }
 }

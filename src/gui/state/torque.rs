@@ -5,9 +5,7 @@ use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
 use crate::job::task::Task;
 use crate::problem::Scenario;
-
-/// Of which run: its number and its fidelity.
-type Key = (u64, Fidelity);
+use std::sync::Arc;
 
 /// The computation: curves, or why there are none; nothing if it was cancelled.
 pub type TorqueTask = Task<(), Option<Result<TorqueCurves, String>>>;
@@ -15,37 +13,41 @@ pub type TorqueTask = Task<(), Option<Result<TorqueCurves, String>>>;
 /// What is known, and what is being computed.
 #[derive(Debug, Default)]
 pub struct TorqueState {
-    asked: Option<Key>,
+    asked: Option<Arc<SolvedScene>>,
     task: Option<TorqueTask>,
-    found: Option<(Key, Result<TorqueCurves, String>)>,
+    found: Option<(Arc<SolvedScene>, Result<TorqueCurves, String>)>,
 }
 
 impl TorqueState {
     /// Whether the curves of `run` are still to be computed.
     pub fn lacks(&self, run: &SolvedScene) -> bool {
-        self.asked != Some((run.number, run.fidelity)) && matches!(run.problem.scenario, Scenario::Motor(_))
+        !self.asked.as_ref().is_some_and(|asked| same(asked, run)) && matches!(run.problem.scenario, Scenario::Motor(_))
     }
 
     /// `task` computes those of `run`. Those before stay until then.
-    pub fn begin(&mut self, run: &SolvedScene, task: std::io::Result<TorqueTask>) {
-        let key = (run.number, run.fidelity);
-        self.asked = Some(key);
+    pub fn begin(&mut self, run: &Arc<SolvedScene>, task: std::io::Result<TorqueTask>) {
+        self.asked = Some(Arc::clone(run));
         match task {
             Ok(task) => self.task = Some(task),
-            Err(error) => self.found = Some((key, Err(format!("no thread can be started: {error}")))),
+            Err(error) => self.found = Some((Arc::clone(run), Err(format!("no thread can be started: {error}")))),
         }
     }
 
     /// Takes what was found since the last time.
     pub fn drain(&mut self) {
-        if let (Some(end), Some(key)) = (self.task.as_ref().and_then(|task| task.drain().end), self.asked) {
+        if let (Some(end), Some(of)) = (self.task.as_ref().and_then(|task| task.drain().end), self.asked.clone()) {
             self.task = None;
             match end {
-                Ok(Some(found)) => self.found = Some((key, found)),
+                Ok(Some(found)) => self.found = Some((of, found)),
                 Ok(None) => {}
-                Err(panic) => self.found = Some((key, Err(format!("it failed: {panic}")))),
+                Err(panic) => self.found = Some((of, Err(format!("it failed: {panic}")))),
             }
         }
+    }
+
+    /// The run that the newest that is known is of.
+    pub fn found_of(&self) -> Option<&SolvedScene> {
+        self.found.as_ref().map(|(of, _)| of.as_ref())
     }
 
     /// The newest that is known.
@@ -56,12 +58,16 @@ impl TorqueState {
     /// Those of the scene of `run`, of a solve that is good enough to judge by: while a finer one is under way, of the one before.
     pub fn of(&self, run: &SolvedScene) -> Option<&TorqueCurves> {
         let good = run.fidelity.min(Fidelity::Standard);
-        let (_, found) = self.found.as_ref().filter(|((number, found), _)| *number == run.number && *found >= good)?;
+        let (_, found) = self.found.as_ref().filter(|(of, _)| of.number == run.number && of.fidelity >= good)?;
         found.as_ref().ok()
     }
 
     /// Whether what is known is of `run`.
     pub fn is_of(&self, run: &SolvedScene) -> bool {
-        self.found.as_ref().is_some_and(|(key, _)| *key == (run.number, run.fidelity))
+        self.found.as_ref().is_some_and(|(of, _)| same(of, run))
     }
+}
+
+fn same(a: &SolvedScene, b: &SolvedScene) -> bool {
+    (a.number, a.fidelity) == (b.number, b.fidelity)
 }

@@ -2,7 +2,7 @@
 
 use super::activity::Activity;
 use super::dialogs::Export;
-use super::document::Document;
+use super::document::{Document, absolute};
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
 use super::hold::HoldState;
@@ -102,8 +102,9 @@ impl State {
 
     /// Puts `path` first among the files remembered.
     pub fn remember(&mut self, path: &Path) {
-        self.recent.retain(|other| other != path);
-        self.recent.insert(0, path.to_owned());
+        let path = absolute(path);
+        self.recent.retain(|other| *other != path);
+        self.recent.insert(0, path);
         self.recent.truncate(RECENT);
     }
 
@@ -126,9 +127,15 @@ impl State {
         periods.fold([recording.period; 2], |[low, high], period| [low.min(period), high.max(period)])
     }
 
+    /// Whether `run` is of another scene than the present one.
+    pub fn stale(&self, run: &SolvedScene) -> bool {
+        let scene = self.document.scene();
+        !run.scene.same_model(scene) || run.scene.numerics() != scene.numerics()
+    }
+
     /// Whether the newest scene is still without a result, and without a reason why.
     pub fn awaits_result(&self) -> bool {
-        self.run.as_ref().is_none_or(|run| self.activity.stale(run)) && self.activity.failure.is_none()
+        self.run.as_ref().is_none_or(|run| run.number < self.activity.number) && self.activity.failure.is_none()
     }
 
     /// Whether there is what `export` writes.
@@ -143,6 +150,14 @@ impl State {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff().points.is_empty())
             }
         }
+    }
+
+    /// Work that was asked for and would be lost if the window closed now, in words.
+    pub fn unfinished(&self) -> Vec<String> {
+        let export = self.exports.running().map(|running| format!("An export: {}", running.export.title()));
+        let swept = self.sweep.swept().filter(|swept| swept.running());
+        let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows().len(), swept.sweep().len()));
+        export.into_iter().chain(sweep).collect()
     }
 
     /// What a new file of the scene is called at first.

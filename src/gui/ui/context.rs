@@ -4,6 +4,7 @@ use super::highlight;
 use super::theme::{Palette, palette};
 use crate::gui::command::Command;
 use crate::gui::state::window::State;
+use crate::job::SolvedScene;
 use eframe::egui::{self, Color32, Rect, RichText, Ui};
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
@@ -56,6 +57,17 @@ impl<'a> DrawContext<'a> {
     /// Secondary text over as many lines as it takes.
     pub fn note(&self, ui: &mut Ui, text: impl Into<String>) {
         self.say(ui, text, self.colours.quiet);
+    }
+
+    /// Says so if `run` is not of the present scene; whether it is not.
+    pub fn say_if_stale(&self, ui: &mut Ui, run: &SolvedScene) -> bool {
+        let stale = self.state.stale(run);
+        if stale && self.state.activity.failure.is_some() {
+            self.say(ui, "Of the scene before this edit; the present one has no result", self.colours.alarm);
+        } else if stale {
+            self.note(ui, "Of the scene before this edit");
+        }
+        stale
     }
 
     /// Says that the part of the window called `name` is at `rect`; it gets a ring if it is highlighted.

@@ -5,17 +5,41 @@ use crate::gui::state::document::Next;
 use crate::gui::state::view::Tab;
 use eframe::egui::{Context, Key, KeyboardShortcut, ModifierNames, Modifiers, Popup};
 
+/// When a shortcut acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Always: it changes only how the window looks.
+    Always,
+    /// Unless a question is in the way. Text that is being typed is taken first.
+    Window,
+    /// Neither behind a question nor in a text field, which has an undo of its own.
+    History,
+    /// Only while nothing else listens to the keyboard.
+    Idle,
+}
+
+/// What is in the way of shortcuts.
+#[derive(Clone, Copy, Debug)]
+pub struct Obstacles {
+    /// A question or the sheet of shortcuts is open.
+    pub modal: bool,
+    /// Text is being typed.
+    pub typing: bool,
+}
+
 /// A shortcut, what it is called, and what it asks for.
 #[derive(Clone, Copy, Debug)]
 pub struct Shortcut {
     /// The keys.
     pub keys: KeyboardShortcut,
+    /// Other keys for the same.
+    pub also: Option<KeyboardShortcut>,
     /// What it does.
     pub about: &'static str,
     /// What it asks for.
     pub command: fn() -> Command,
-    /// Also while text is typed.
-    pub while_typing: bool,
+    /// When it acts.
+    pub scope: Scope,
 }
 
 const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
@@ -26,12 +50,24 @@ const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
+const fn shortcut(scope: Scope, keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
+    Shortcut { keys, also: None, about, command, scope }
+}
+
 const fn always(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
-    Shortcut { keys, about, command, while_typing: true }
+    shortcut(Scope::Always, keys, about, command)
+}
+
+const fn window(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
+    shortcut(Scope::Window, keys, about, command)
+}
+
+const fn history(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
+    shortcut(Scope::History, keys, about, command)
 }
 
 const fn idle(keys: KeyboardShortcut, about: &'static str, command: fn() -> Command) -> Shortcut {
-    Shortcut { keys, about, command, while_typing: false }
+    shortcut(Scope::Idle, keys, about, command)
 }
 
 /// The group of the keys that move the cycle.
@@ -64,9 +100,9 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
         "Scene",
         &[
-            always(key(CTRL, Key::Z), "Undo", || Command::Undo),
-            always(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo),
-            always(key(CTRL, Key::D), "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
+            history(key(CTRL, Key::Z), "Undo", || Command::Undo),
+            Shortcut { also: Some(key(CTRL, Key::Y)), ..history(key(CTRL_SHIFT, Key::Z), "Redo", || Command::Redo) },
+            window(key(CTRL, Key::D), "Pin the run on screen", || Command::Pin(PinCommand::Shown)),
             idle(key(NONE, Key::Escape), "Stop solving", || Command::CancelSolve),
         ],
     ),
@@ -80,27 +116,27 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
         "File",
         &[
-            always(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
-            always(key(CTRL, Key::S), "Save", || Command::Save),
-            always(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
-            always(key(CTRL, Key::Q), "Quit", || Command::Proceed(Next::Quit)),
+            window(key(CTRL, Key::O), "Open a preset", || Command::OpenDialog),
+            window(key(CTRL, Key::S), "Save", || Command::Save),
+            window(key(CTRL_SHIFT, Key::S), "Save under another name", || Command::SaveAs),
+            window(key(CTRL, Key::Q), "Quit", || Command::Proceed(Next::Quit)),
         ],
     ),
     (
         "Window",
         &[
-            always(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
-            always(key(CTRL, Key::Num2), "Compare pinned runs", || Command::Show(Tab::Compare)),
-            always(key(CTRL, Key::Num3), "Sweep a parameter", || Command::Show(Tab::Sweep)),
-            always(key(CTRL, Key::Num4), "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
-            always(key(CTRL, Key::Num5), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
-            always(key(CTRL, Key::Num6), "Show the start-up", || Command::Show(Tab::Startup)),
-            always(key(CTRL, Key::Num7), "Hold a plate", || Command::Show(Tab::Hold)),
+            window(key(CTRL, Key::Num1), "Show the motion", || Command::Show(Tab::Motion)),
+            window(key(CTRL, Key::Num2), "Compare pinned runs", || Command::Show(Tab::Compare)),
+            window(key(CTRL, Key::Num3), "Sweep a parameter", || Command::Show(Tab::Sweep)),
+            window(key(CTRL, Key::Num4), "Show the torque, of a plate exact results", || Command::Show(Tab::Torque)),
+            window(key(CTRL, Key::Num5), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
+            window(key(CTRL, Key::Num6), "Show the start-up", || Command::Show(Tab::Startup)),
+            window(key(CTRL, Key::Num7), "Hold a plate", || Command::Show(Tab::Hold)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
-            always(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
-            always(key(NONE, Key::F3), "Show or hide the results", || Command::ToggleResults),
-            always(key(CTRL, Key::P), "Picture of the window", || Command::Screenshot),
+            window(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),
+            window(key(NONE, Key::F3), "Show or hide the results", || Command::ToggleResults),
+            window(key(CTRL, Key::P), "Picture of the window", || Command::Screenshot),
             always(key(NONE, Key::F1), "This sheet", || Command::ToggleShortcuts),
         ],
     ),
@@ -110,10 +146,17 @@ fn all() -> impl Iterator<Item = &'static Shortcut> {
     GROUPS.iter().flat_map(|(_, shortcuts)| shortcuts.iter())
 }
 
-/// Commands of the shortcuts pressed in this frame. `modal`: a modal is open, or text is typed. The plain keys are then its own,
-/// and those of an open menu. `tab`: the keys of the motion are its own.
-pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>) {
-    let typing = modal || ctx.egui_wants_keyboard_input() || Popup::is_any_open(ctx);
+/// The shortcuts pressed in this frame. `tab`: the keys of the motion are its own, and so are those of a held plate.
+pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
+    let text = ctx.text_edit_focused();
+    let idle = !obstacles.typing && !ctx.egui_wants_keyboard_input() && !Popup::is_any_open(ctx);
+    let acts = |scope: Scope| match scope {
+        Scope::Always => true,
+        Scope::Window => !obstacles.modal,
+        Scope::History => !obstacles.modal && !text,
+        Scope::Idle => !obstacles.modal && idle,
+    };
+    let mut found = Vec::new();
     ctx.input_mut(|input| {
         // Ctrl+Z answers to Ctrl+Shift+Z too: the longer ones first.
         for shift in [true, false] {
@@ -122,14 +165,16 @@ pub fn pressed(ctx: &Context, modal: bool, tab: Tab, commands: &mut Vec<Command>
                 HOLDING => tab == Tab::Hold,
                 _ => true,
             });
-            let shortcuts = groups.flat_map(|(_, shortcuts)| shortcuts.iter());
-            for shortcut in shortcuts.filter(|shortcut| shortcut.keys.modifiers.shift == shift) {
-                if (shortcut.while_typing || !typing) && input.consume_shortcut(&shortcut.keys) {
-                    commands.push((shortcut.command)());
+            for shortcut in groups.flat_map(|(_, shortcuts)| shortcuts.iter()).filter(|shortcut| acts(shortcut.scope)) {
+                let keys = [Some(shortcut.keys), shortcut.also].into_iter().flatten();
+                let mut of_turn = keys.filter(|keys| keys.modifiers.shift == shift);
+                if of_turn.any(|keys| input.consume_shortcut(&keys)) {
+                    found.push(*shortcut);
                 }
             }
         }
     });
+    found
 }
 
 /// The keys as they are printed on a keyboard.
@@ -185,6 +230,7 @@ mod tests {
         for (i, a) in all().enumerate() {
             for b in all().skip(i + 1) {
                 assert!(a.keys != b.keys && a.about != b.about, "{}", a.about);
+                assert!(a.also != Some(b.keys) && b.also != Some(a.keys), "{}", a.about);
             }
         }
     }

@@ -1,40 +1,55 @@
 //! File dialogs, off the window's thread: they block, and answer later.
 
+use super::platform::DialogStart;
 use crate::gui::state::dialogs::{Answer, Purpose};
 use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// Shows a file dialog; blocks until there is an answer.
+type Ask = fn(Purpose, &DialogStart) -> Answer;
 
 /// Runs dialogs and collects their answers.
 #[derive(Debug)]
 pub struct Dialogs {
-    ask: fn(Purpose, &str) -> Answer,
+    ask: Ask,
+    /// A dialog over the window.
+    parent: rfd::FileDialog,
+    /// What the dialogs that are open are for.
+    open: Vec<Purpose>,
     sender: Sender<(Purpose, Answer)>,
     receiver: Receiver<(Purpose, Answer)>,
 }
 
 impl Dialogs {
-    /// Dialogs that are shown by `ask`.
-    pub fn new(ask: fn(Purpose, &str) -> Answer) -> Self {
+    /// Dialogs that are shown by `ask`, over the window of `parent`.
+    pub fn new(ask: Ask, parent: rfd::FileDialog) -> Self {
         let (sender, receiver) = channel();
-        Self { ask, sender, receiver }
+        Self { ask, parent, open: Vec::new(), sender, receiver }
     }
 
-    /// Shows a dialog; its answer comes through [`Self::drain`], after a call of `wake`.
+    /// Shows a dialog, unless one like it is open; its answer comes through [`Self::drain`], after a call of `wake`.
     ///
     /// # Errors
     /// If no thread can be started.
-    pub fn show(&self, purpose: Purpose, name: &str, wake: impl Fn() + Send + 'static) -> std::io::Result<()> {
-        let (ask, sender) = (self.ask, self.sender.clone());
-        let name = name.to_owned();
+    pub fn show(&mut self, purpose: Purpose, name: &str, wake: impl Fn() + Send + 'static) -> std::io::Result<()> {
+        if self.open.iter().any(|open| open.is_like(&purpose)) {
+            return Ok(());
+        }
+        let (ask, sender, theirs) = (self.ask, self.sender.clone(), purpose.clone());
+        let start = DialogStart { name: name.to_owned(), native: self.parent.clone() };
         std::thread::Builder::new().name("squeezefilm-dialog".to_owned()).spawn(move || {
+            let answer = ask(theirs.clone(), &start);
             // The window may be gone: then nobody waits for the answer.
-            let _ = sender.send((purpose, ask(purpose, &name)));
+            let _ = sender.send((theirs, answer));
             wake();
         })?;
+        self.open.push(purpose);
         Ok(())
     }
 
     /// Answers that have come.
-    pub fn drain(&self) -> impl Iterator<Item = (Purpose, Answer)> + '_ {
-        self.receiver.try_iter()
+    pub fn drain(&mut self) -> Vec<(Purpose, Answer)> {
+        let answers: Vec<(Purpose, Answer)> = self.receiver.try_iter().collect();
+        self.open.retain(|open| answers.iter().all(|(answered, _)| !open.is_like(answered)));
+        answers
     }
 }

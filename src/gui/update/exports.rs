@@ -3,13 +3,15 @@
 use super::updater::Updater;
 use crate::analysis::compare;
 use crate::analysis::torque::TorqueCurves;
+use crate::analysis::tradeoff::Wish;
+use crate::atomic::write_file;
 use crate::control::Cancel;
 use crate::export::animation::Options;
 use crate::export::figure::{Format, to_bytes};
 use crate::export::files::{self, Control, ExportError, Solved};
-use crate::export::folder::write_file;
 use crate::export::json::Summary;
 use crate::export::sweep::{figure_of, write_csv};
+use crate::export::tradeoff;
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::pins::{fidelity, to_compare};
@@ -33,15 +35,15 @@ type Work = Box<dyn FnOnce(&Control<'_>) -> Result<Vec<PathBuf>, ExportError> + 
 
 impl Updater {
     pub(super) fn export(&mut self, export: Export, path: &Path) {
-        if matches!(export, Export::TradeoffTable | Export::TradeoffFigure) {
-            self.write_tradeoff(export, path);
-            return;
-        }
         if self.state.exports.running().is_some() {
             self.state.fail("Another export goes on: wait until it has ended, or cancel it.");
             return;
         }
-        let Some(work) = self.export_work(export, path.to_owned()) else { return };
+        let path = match export.complete(path.to_owned()) {
+            Ok(path) => path,
+            Err(reason) => return self.state.fail(reason),
+        };
+        let Some(work) = self.export_work(export, path) else { return };
         let task = Task::start("export", self.wake(REDRAW), move |cancel, tell| {
             let control = Control { cancel, drawn: &|drawn, all| tell((drawn, all)) };
             work(&control).map_err(|error| match error {
@@ -129,7 +131,21 @@ impl Updater {
                     _ => Ok(files::swept(&path, &sweep, &rows, &[], &BESIDE_DATA)?),
                 })
             }
-            Export::TradeoffTable | Export::TradeoffFigure => return None,
+            Export::TradeoffTable | Export::TradeoffFigure => {
+                let measured = self.state.tradeoff.as_ref()?;
+                let (name, tradeoff) = (measured.name().to_owned(), measured.tradeoff().clone());
+                let wishes = [Wish::Accuracy(self.state.view.accuracy), Wish::Budget(self.state.view.budget)];
+                Box::new(move |_| {
+                    if export == Export::TradeoffTable {
+                        write_file(&path, |out| tradeoff::write_csv(&tradeoff, out))?;
+                    } else {
+                        let chosen: Vec<usize> = wishes.into_iter().filter_map(|wish| tradeoff.choose(wish)).collect();
+                        let bytes = to_bytes(&tradeoff::figure(&name, &tradeoff, &chosen), Format::of(&path)?)?;
+                        write_file(&path, |out| out.write_all(&bytes))?;
+                    }
+                    Ok(vec![path])
+                })
+            }
         })
     }
 }

@@ -9,6 +9,7 @@ mod pins;
 pub mod platform;
 mod run;
 mod scene;
+pub mod storage;
 mod sweep;
 mod tradeoff;
 pub mod updater;

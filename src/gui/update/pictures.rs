@@ -1,12 +1,12 @@
 //! Pictures of the window: taken, and written.
 
 use super::updater::Updater;
-use crate::gui::state::dialogs::Purpose;
-use eframe::egui;
+use crate::atomic::write_file;
+use crate::gui::state::dialogs::{Picture, Purpose};
+use crate::job::task::Task;
+use std::io::Cursor;
 use std::path::Path;
-
-/// What a picture is called at first.
-pub(super) const PICTURE_NAME: &str = "squeezefilm.png";
+use std::time::Duration;
 
 impl Updater {
     /// Takes a picture of the next frame.
@@ -19,30 +19,43 @@ impl Updater {
         });
     }
 
-    /// Asks for a file for each picture that was taken.
+    /// Asks for a file for each picture that was taken, and says what became of those that were written.
     pub(super) fn receive_pictures(&mut self) {
-        while let Ok(picture) = self.pictures.1.try_recv() {
-            self.picture = Some(picture);
-            self.ask(Purpose::Screenshot, PICTURE_NAME);
+        while let Ok(image) = self.pictures.1.try_recv() {
+            let rgba = image.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
+            self.ask(Purpose::Picture(Picture { size: image.size, rgba }), Picture::FILE_NAME);
         }
+        let mut failed = None;
+        self.writing.retain(|task| {
+            let end = task.drain().end;
+            let running = end.is_none();
+            failed = end.and_then(|end| end.and_then(|written| written).err()).or(failed.take());
+            running
+        });
+        failed.into_iter().for_each(|error| self.state.fail(error));
     }
 
-    /// Writes the picture that was taken to this file.
-    pub(super) fn write_picture(&mut self, path: &Path) {
-        let Some(picture) = self.picture.take() else { return };
-        if let Err(error) = write_png(&picture, path) {
-            self.state.fail(format!("{}: the picture cannot be written: {error}", path.display()));
+    /// Writes a picture to this file.
+    pub(super) fn write_picture(&mut self, picture: Picture, path: &Path) {
+        let path = match Picture::complete(path) {
+            Ok(path) => path,
+            Err(reason) => return self.state.fail(reason),
+        };
+        let task = Task::start("picture", self.wake(Duration::ZERO), move |_, _: &(dyn Fn(()) + Sync)| {
+            write_png(&picture, &path).map_err(|error| error.to_string())
+        });
+        match task {
+            Ok(task) => self.writing.push(task),
+            Err(error) => self.state.fail(format!("The picture cannot be written: {error}")),
         }
     }
 }
 
-/// Writes a picture as PNG.
-fn write_png(picture: &egui::ColorImage, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let [width, height] = picture.size;
-    let bytes: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
-    let buffer = image::RgbaImage::from_raw(width as u32, height as u32, bytes).ok_or("the picture is incomplete")?;
-    let mut encoded = std::io::Cursor::new(Vec::new());
+fn write_png(picture: &Picture, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let [width, height] = picture.size.map(|pixels| pixels as u32);
+    let mut encoded = Cursor::new(Vec::new());
+    let buffer = image::ImageBuffer::<image::Rgba<u8>, _>::from_raw(width, height, &picture.rgba[..])
+        .ok_or("the picture is incomplete")?;
     buffer.write_to(&mut encoded, image::ImageFormat::Png)?;
-    crate::atomic::write_file(path, |out| out.write_all(encoded.get_ref()))?;
-    Ok(())
+    Ok(write_file(path, |out| out.write_all(encoded.get_ref()))?)
 }

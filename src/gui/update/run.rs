@@ -1,10 +1,9 @@
 //! One place where every command is carried out, and one where all that has happened is taken.
 
-use super::pictures::PICTURE_NAME;
 use super::updater::Updater;
 use crate::analysis::tradeoff::Wish;
 use crate::gui::command::Command;
-use crate::gui::state::dialogs::{Answer, Purpose};
+use crate::gui::state::dialogs::{Answer, Picture, Purpose};
 use crate::gui::state::document::Document;
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
@@ -25,28 +24,22 @@ impl Updater {
             Command::Proceed(next) => self.proceed(next),
             Command::OpenDialog => self.ask(Purpose::Open, ""),
             Command::OpenPathPrompt => {
-                let prompt = PathPrompt::asked(&[Purpose::Open, Purpose::Save], state.suggested_name());
+                let prompt = PathPrompt::asked(&[Purpose::Open, Purpose::Save(None)], state.suggested_name());
                 state.modal = Some(Modal::Path(prompt));
             }
-            Command::Save => self.save(),
-            Command::SaveAs => self.save_as(),
-            Command::SavePath(path) => self.save_to(&path),
-            Command::SaveThen(next) => {
-                self.after_save = Some(next);
-                self.save();
-            }
+            Command::Save => self.save(None),
+            Command::SaveAs => self.save_as(None),
+            Command::SavePath(path, then) => self.save_to(&path, then),
+            Command::SaveThen(next) => self.save(Some(next)),
+            Command::QuitAnyway => self.quit(),
             Command::DiscardThen(next) => self.discard_then(next),
-            Command::Dismissed => {
-                self.after_save = None;
-                self.picture = None;
-            }
             Command::CloseModal => state.modal = None,
             Command::TypePath(path) => {
                 if let Some(Modal::Path(prompt)) = &mut state.modal {
                     (prompt.path, prompt.fresh) = (path, false);
                 }
             }
-            Command::WritePicture(path) => self.write_picture(&path),
+            Command::WritePicture(picture, path) => self.write_picture(picture, &path),
             Command::Refine(fidelity) => self.solve(&[fidelity]),
             Command::CancelSolve => {
                 self.solver.cancel();
@@ -96,7 +89,8 @@ impl Updater {
             Command::Screenshot => self.take_picture(),
             Command::ToggleParameters => state.view.parameters = !state.view.parameters,
             Command::ToggleResults => state.view.results = !state.view.results,
-            Command::ToggleShortcuts => state.shortcuts = !state.shortcuts,
+            // Not below a question.
+            Command::ToggleShortcuts => state.shortcuts = !state.shortcuts && state.modal.is_none(),
             Command::Tour(stop) => state.lessons.show_tour(stop, &mut state.view),
             Command::Glossary(shown) => state.lessons.glossary = shown.then(String::new),
             Command::SearchGlossary(query) => state.lessons.glossary = Some(query),
@@ -144,8 +138,7 @@ impl Updater {
                 startup.cancel();
             }
         }
-        let answers: Vec<(Purpose, Answer)> = self.dialogs.drain().collect();
-        answers.into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
+        self.dialogs.drain().into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
         self.receive_pictures();
         self.update_hold();
     }
@@ -153,12 +146,12 @@ impl Updater {
     fn answered(&mut self, purpose: Purpose, answer: Answer) {
         match answer {
             Answer::Path(path) => self.carry_out(Command::with_path(purpose, path)),
-            Answer::Cancelled => self.carry_out(Command::Dismissed),
+            Answer::Cancelled => {}
             Answer::NoDialog => {
-                let path = match purpose {
+                let path = match &purpose {
                     Purpose::Open | Purpose::Lessons => String::new(),
-                    Purpose::Save => self.state.suggested_name(),
-                    Purpose::Screenshot => PICTURE_NAME.to_owned(),
+                    Purpose::Save(_) => self.state.suggested_name(),
+                    Purpose::Picture(_) => Picture::FILE_NAME.to_owned(),
                     Purpose::Export(export) => export.file_name().to_owned(),
                 };
                 self.state.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));

@@ -6,6 +6,7 @@ use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::document::{Document, Next};
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::Modal;
+use crate::gui::state::window::State;
 use crate::problem::Numerics;
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError, presets};
 use eframe::egui;
@@ -29,7 +30,12 @@ impl Updater {
                     self.refine();
                 }
             }
-            Err(error) => self.state.rejected.reject(key, change, error.to_string()),
+            Err(error) => {
+                if !dragging {
+                    self.state.document.end_drag();
+                }
+                self.state.rejected.reject(key, change, error.to_string());
+            }
         }
     }
 
@@ -68,6 +74,20 @@ impl Updater {
 
     /// Opens a preset, or closes the window; asks first if that would lose unsaved changes.
     pub(super) fn proceed(&mut self, next: Next) {
+        let unfinished = self.state.unfinished();
+        if next == Next::Quit && !unfinished.is_empty() && !self.state.quitting {
+            self.state.modal = Some(Modal::Unfinished(unfinished));
+        } else {
+            self.proceed_with_document(next);
+        }
+    }
+
+    /// Closes the window although work goes on; asks about unsaved changes.
+    pub(super) fn quit(&mut self) {
+        self.proceed_with_document(Next::Quit);
+    }
+
+    fn proceed_with_document(&mut self, next: Next) {
         // A file that cannot be opened takes nothing away, and a lesson goes on.
         let loses = match &next {
             Next::Preset(_) | Next::Quit => true,
@@ -82,6 +102,12 @@ impl Updater {
             }
         }
         self.proceed_now(next);
+    }
+
+    /// Whether something would be lost if the window closed now.
+    pub fn quitting_loses(&self) -> bool {
+        let State { lessons, document, .. } = &self.state;
+        lessons.student_document(document).is_dirty() || !self.state.unfinished().is_empty()
     }
 
     /// The same without a question.
@@ -110,27 +136,26 @@ impl Updater {
     }
 
     /// Saves to the scene's file, or asks for one.
-    pub(super) fn save(&mut self) {
+    pub(super) fn save(&mut self, then: Option<Next>) {
         match self.state.document.path().map(Path::to_path_buf) {
-            Some(path) => self.save_to(&path),
-            None => self.save_as(),
+            Some(path) => self.save_to(&path, then),
+            None => self.save_as(then),
         }
     }
 
     /// Asks for a file and saves there.
-    pub(super) fn save_as(&mut self) {
+    pub(super) fn save_as(&mut self, then: Option<Next>) {
         let name = self.state.suggested_name();
         let name = Path::new(&name).file_name().map(|name| name.to_string_lossy().into_owned());
-        self.ask(Purpose::Save, &name.unwrap_or_default());
+        self.ask(Purpose::Save(then), &name.unwrap_or_default());
     }
 
     /// Saves to this file, and goes on with what waited for it.
-    pub(super) fn save_to(&mut self, path: &Path) {
-        let next = self.after_save.take();
+    pub(super) fn save_to(&mut self, path: &Path, then: Option<Next>) {
         match self.state.document.save(path) {
             Ok(()) => {
                 self.state.remember(path);
-                next.into_iter().for_each(|next| self.proceed_now(next));
+                then.into_iter().for_each(|next| self.proceed_now(next));
             }
             Err(error) => self.state.fail(error),
         }
@@ -138,7 +163,6 @@ impl Updater {
 
     /// Gives unsaved changes up, then goes on.
     pub(super) fn discard_then(&mut self, next: Next) {
-        self.after_save = None;
         if next == Next::Quit {
             // The next window begins with what is saved. A file that is opened replaces the scene only if it is good.
             let document = &self.state.document;

@@ -1,14 +1,8 @@
-//! Error against time: measured, and written.
+//! Error against time: measured.
 
 use super::updater::Updater;
-use crate::analysis::tradeoff::Wish;
-use crate::export::figure::{Format, to_bytes};
-use crate::export::folder::write_file;
-use crate::export::tradeoff::{figure, write_csv};
-use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, with_present};
 use crate::job;
-use std::path::Path;
 use std::time::Duration;
 
 /// A measurement is drawn anew at most this often: what draws it is measured too.
@@ -28,28 +22,6 @@ impl Updater {
         match job::tradeoff::measure(problem, candidates, effort, now, self.wake(MEASURE_INTERVAL)) {
             Ok(task) => self.state.tradeoff = Some(TradeoffState::new(task, scene, now())),
             Err(error) => self.state.fail(format!("The measurement cannot be started: {error}")),
-        }
-    }
-
-    pub(super) fn write_tradeoff(&mut self, export: Export, path: &Path) {
-        let Some(measured) = &self.state.tradeoff else { return };
-        let tradeoff = measured.tradeoff();
-        let written = match export {
-            Export::TradeoffTable => write_file(path, |out| write_csv(tradeoff, out)),
-            _ => {
-                let wishes = [Wish::Accuracy(self.state.view.accuracy), Wish::Budget(self.state.view.budget)];
-                let chosen: Vec<usize> = wishes.into_iter().filter_map(|wish| tradeoff.choose(wish)).collect();
-                let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-                let named = Format::ALL.into_iter().find(|format| extension.as_deref() == Some(format.name()));
-                let figure = figure(measured.name(), tradeoff, &chosen);
-                write_file(path, |out| {
-                    out.write_all(&to_bytes(&figure, named.unwrap_or(Format::Svg)).map_err(std::io::Error::other)?)
-                })
-            }
-        };
-        match written {
-            Ok(()) => self.state.exports.wrote(vec![path.to_owned()]),
-            Err(error) => self.state.fail(error),
         }
     }
 }

@@ -4,8 +4,8 @@ use super::dialogs::Dialogs;
 use super::platform::Platform;
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::document::Next;
 use crate::gui::state::window::State;
+use crate::job::task::Task;
 use crate::job::{Request, Solver};
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -25,23 +25,26 @@ pub struct Updater {
     pub(super) solver: Solver,
     pub(super) dialogs: Dialogs,
     pub(super) pictures: (Sender<Arc<egui::ColorImage>>, Receiver<Arc<egui::ColorImage>>),
-    /// A picture of the window that waits for its file.
-    pub(super) picture: Option<Arc<egui::ColorImage>>,
-    /// What to do after a save that a question led to.
-    pub(super) after_save: Option<Next>,
+    /// Pictures of the window that are being written.
+    pub(super) writing: Vec<Task<(), Result<(), String>>>,
 }
 
 impl Updater {
-    /// Begins with `state`, and starts to solve its scene.
+    /// Begins with `state`, and starts to solve its scene. `parent`: a file dialog over the window.
     ///
     /// # Errors
     /// If the solver's thread cannot be started.
-    pub fn start(ctx: &egui::Context, state: State, platform: Platform) -> std::io::Result<Self> {
+    pub fn start(
+        ctx: &egui::Context,
+        state: State,
+        platform: Platform,
+        parent: rfd::FileDialog,
+    ) -> std::io::Result<Self> {
         let wake = ctx.clone();
         let solver = Solver::start_with_clock(platform.now, move || wake.request_repaint())?;
-        let dialogs = Dialogs::new(platform.ask);
+        let dialogs = Dialogs::new(platform.ask, parent);
         let (ctx, pictures) = (ctx.clone(), channel());
-        let mut updater = Self { state, platform, ctx, solver, dialogs, pictures, picture: None, after_save: None };
+        let mut updater = Self { state, platform, ctx, solver, dialogs, pictures, writing: Vec::new() };
         updater.apply_theme();
         updater.refine();
         Ok(updater)

@@ -3,11 +3,11 @@
 use super::frame::frame;
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::document::Next;
+use crate::gui::state::document::{Next, absolute};
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::ui::context::DrawContext;
 use eframe::egui::{self, Id, Key, RichText, Ui};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Widest text.
 const WIDTH: f32 = 460.0;
@@ -20,10 +20,11 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
         match modal {
             Modal::Error(message) => error(ui, message),
             Modal::Unsaved { name, next } => unsaved(ui, name, next),
+            Modal::Unfinished(work) => unfinished(ui, work),
             Modal::Path(prompt) => path(ui, prompt, cx),
         }
     });
-    let closed = response.should_close().then(|| vec![Command::Dismissed]);
+    let closed = response.should_close().then(Vec::new);
     if let Some(commands) = response.inner.or(closed) {
         cx.push(Command::CloseModal);
         commands.into_iter().for_each(|command| cx.push(command));
@@ -62,11 +63,28 @@ fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {
         let discard = ui.button("Don't save");
         let keep = ui.button("Keep editing");
         let answers = [
-            (save, Command::SaveThen(next.clone())),
-            (discard, Command::DiscardThen(next.clone())),
-            (keep, Command::Dismissed),
+            (save, vec![Command::SaveThen(next.clone())]),
+            (discard, vec![Command::DiscardThen(next.clone())]),
+            (keep, Vec::new()),
         ];
-        answers.into_iter().find(|(button, _)| button.clicked()).map(|(_, command)| vec![command])
+        answers.into_iter().find(|(button, _)| button.clicked()).map(|(_, commands)| commands)
+    })
+    .inner
+}
+
+fn unfinished(ui: &mut Ui, work: &[String]) -> Answer {
+    heading(ui, "Quit before this is done?");
+    for what in work {
+        ui.add(egui::Label::new(what).wrap());
+    }
+    ui.add_space(12.0);
+    ui.horizontal_wrapped(|ui| {
+        let quit = ui.button("Quit anyway").clicked();
+        let wait = ui.button("Keep the window open");
+        if ui.memory(|memory| memory.focused().is_none()) {
+            wait.request_focus();
+        }
+        if quit { Some(vec![Command::QuitAnyway]) } else { wait.clicked().then(Vec::new) }
     })
     .inner
 }
@@ -76,9 +94,9 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
         ui,
         match prompt.purposes[..] {
             [Purpose::Open] => "Open a preset",
-            [Purpose::Save] => "Save the preset",
+            [Purpose::Save(_)] => "Save the preset",
             [Purpose::Lessons] => "Open a folder of lessons",
-            [Purpose::Screenshot] => "Save a picture of the window",
+            [Purpose::Picture(_)] => "Save a picture of the window",
             [Purpose::Export(export)] => export.title(),
             _ => "Open or save a preset",
         },
@@ -109,30 +127,30 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         let mut answer = None;
-        for (i, &purpose) in prompt.purposes.iter().enumerate() {
+        for (i, purpose) in prompt.purposes.iter().enumerate() {
             let text = match purpose {
                 Purpose::Open | Purpose::Lessons => "Open",
                 _ if replaces => "Replace",
-                Purpose::Save | Purpose::Screenshot | Purpose::Export(_) => "Save",
+                Purpose::Save(_) | Purpose::Picture(_) | Purpose::Export(_) => "Save",
             };
             let clicked = ui.add_enabled(named, egui::Button::new(text)).clicked();
             // Enter takes the first, but replaces nothing.
-            let replacing = replaces && purpose != Purpose::Open;
+            let replacing = replaces && *purpose != Purpose::Open;
             if clicked || (entered && named && i == 0 && !replacing) {
-                answer = Some(vec![Command::with_path(purpose, path.clone())]);
+                answer = Some(vec![Command::with_path(purpose.clone(), path.clone())]);
             }
         }
         let cancelled = ui.button("Cancel").clicked();
-        answer.or(cancelled.then(|| vec![Command::Dismissed]))
+        answer.or(cancelled.then(Vec::new))
     })
     .inner
 }
 
-/// A typed path, `~/` being the home folder.
+/// A typed path in full, `~/` being the home folder.
 fn expanded(path: &str) -> PathBuf {
     let path = path.trim();
     match (path.strip_prefix("~/"), std::env::home_dir()) {
         (Some(rest), Some(home)) => home.join(rest),
-        _ => PathBuf::from(path),
+        _ => absolute(Path::new(path)),
     }
 }

@@ -49,7 +49,8 @@ fn group(ui: &mut egui::Ui, title: &str, shortcuts: &[Shortcut], widest: f32, cx
         |ui| {
             for shortcut in shortcuts {
                 ui.label(RichText::new(keys::name(&shortcut.keys)).monospace().strong());
-                ui.add(egui::Label::new(shortcut.about).extend());
+                let also = shortcut.also.map_or_else(String::new, |keys| format!(" (also {})", keys::name(&keys)));
+                ui.add(egui::Label::new(format!("{}{also}", shortcut.about)).extend());
                 ui.end_row();
             }
         },

@@ -179,7 +179,9 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 }
 
 fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
+    let stale = cx.say_if_stale(ui, run);
     match &run.solution.status {
+        Status::Converged if stale => {}
         Status::Converged => {
             let last = run.history.last();
             let text = last.map_or_else(String::new, |last| {

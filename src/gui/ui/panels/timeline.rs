@@ -85,15 +85,18 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha_error),
                 Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load_error),
             };
-            let ended = if run.solution.status == Status::Converged { "converged, " } else { "" };
+            let stale = cx.state.stale(run);
+            let ended = if run.solution.status == Status::Converged && !stale { "converged, " } else { "" };
             let text = format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s);
             let label = ui.label(text);
             glossary::hover(ui, label, "Fidelity");
             match run.solution.status {
                 Status::NotConverged { .. } => drop(ui.label(RichText::new("not converged").color(cx.colours.alarm))),
                 Status::NotResolved { .. } => drop(ui.label(RichText::new("not resolved").color(cx.colours.alarm))),
-                _ if activity.stale(run) => drop(ui.label(RichText::new("of the scene before this edit").weak())),
                 _ => {}
+            }
+            if stale {
+                ui.label(RichText::new("of the scene before this edit").weak());
             }
         } else {
             ui.label("Nothing solved yet");
@@ -109,7 +112,7 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 }
                 ui.add(ProgressBar::new(running.fraction()).desired_width(120.0));
                 ui.label(running.text());
-            } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !activity.stale(run)) {
+            } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !cx.state.stale(run)) {
                 let text = "Solve for reference";
                 let hover = "Some seconds: the error falls to a few millionths";
                 if ui.small_button(text).hint(hover).clicked() {

@@ -33,6 +33,9 @@ const HEADS: [f32; 2] = [11.0, 7.5];
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     if pins.runs().is_empty() && pins.waiting().is_empty() {
+        if pins.can_restore() && ui.button("Bring the pins back").hint("Those that were removed together").clicked() {
+            cx.push(PinCommand::Restore);
+        }
         introduction(ui, cx);
         return;
     }
@@ -108,7 +111,12 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         ui.separator();
         add_buttons(ui, cx);
-        if pins.runs().len() > 1 && ui.button("Remove all").hint("Takes all pins away").clicked() {
+        if pins.runs().len() > 1
+            && ui
+                .button("Remove all")
+                .hint("Takes all pins away; until there is another one they can be brought back")
+                .clicked()
+        {
             cx.push(PinCommand::Clear);
         }
         if pins.runs().len() > 1 {

@@ -94,6 +94,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         ui.set_max_width(ui.available_width() - 14.0);
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
+        cx.say_if_stale(ui, run);
         title(ui, "Spring and damping against the squeeze number", "Squeeze number");
         coefficients(ui, &known, aspect(plate), tall(0), cx);
         ui.add_space(4.0);

@@ -33,11 +33,13 @@ const CHARTS: [(&str, &str); 3] =
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
-    let Scenario::Motor(motor) = &run.problem.scenario else { return };
+    let of = cx.state.torque.found_of().unwrap_or(run);
+    let Scenario::Motor(motor) = &of.problem.scenario else { return };
     let height = ui.available_height();
     egui::ScrollArea::vertical().id_salt("torque").auto_shrink(false).show(ui, |ui| {
         // Room for the scroll bar, which floats, and for half a number at the end of an axis.
         ui.set_max_width(ui.available_width() - 14.0);
+        cx.say_if_stale(ui, of);
         match cx.state.torque.found() {
             None => drop(ui.label("Solving the contact without film…")),
             Some(Err(why)) => {

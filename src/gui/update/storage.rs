@@ -1,0 +1,96 @@
+//! The file in which a window keeps what the next one begins with. Each window that is open at the same time has its own, so
+//! that none replaces what another one wrote; and what cannot be read is kept before it is replaced.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// So many windows at once have files of their own.
+const MOST: usize = 64;
+
+/// The file of this window: no other has it until this is dropped.
+#[derive(Debug)]
+pub struct StorageFile {
+    path: PathBuf,
+    /// Locked. The system unlocks it at the end of the process, however that comes.
+    _lock: File,
+}
+
+impl StorageFile {
+    /// The first file in `folder` that no window has. One that was never used begins as a copy of the first.
+    ///
+    /// # Errors
+    /// If the folder cannot be made, or no file can be locked.
+    pub fn claim(folder: &Path) -> io::Result<Self> {
+        fs::create_dir_all(folder)?;
+        let first = folder.join("app.ron");
+        for number in 1..=MOST {
+            let path = if number == 1 { first.clone() } else { folder.join(format!("app-{number}.ron")) };
+            let lock = File::options().create(true).append(true).open(path.with_extension("lock"))?;
+            match lock.try_lock() {
+                Ok(()) => {
+                    if !path.exists() && first.exists() {
+                        fs::copy(&first, &path)?;
+                    }
+                    return Ok(Self { path, _lock: lock });
+                }
+                Err(fs::TryLockError::WouldBlock) => {}
+                Err(fs::TryLockError::Error(error)) => return Err(error),
+            }
+        }
+        Err(io::Error::other(format!("{MOST} windows are open")))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Copies the file at `path` beside it, under a name that is free, and returns that; nothing if there is no such file.
+///
+/// # Errors
+/// If it cannot be copied.
+pub fn keep(path: &Path) -> io::Result<Option<PathBuf>> {
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let free = (1..).map(|number| path.with_extension(format!("unreadable-{number}.ron"))).find(|copy| !copy.exists());
+    if let Some(copy) = &free {
+        fs::copy(path, copy)?;
+    }
+    Ok(free)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_window_has_its_own_file_and_a_new_one_begins_with_that_of_the_first() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("app.ron"), "first").unwrap();
+        let one = StorageFile::claim(folder.path()).unwrap();
+        let other = StorageFile::claim(folder.path()).unwrap();
+        assert_eq!(one.path(), folder.path().join("app.ron"));
+        assert_ne!(one.path(), other.path());
+        assert_eq!(fs::read_to_string(other.path()).unwrap(), "first");
+        drop(one);
+        assert_eq!(StorageFile::claim(folder.path()).unwrap().path(), folder.path().join("app.ron"));
+    }
+
+    #[test]
+    fn what_is_kept_replaces_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("app.ron");
+        assert_eq!(keep(&path).unwrap(), None);
+        fs::write(&path, "one").unwrap();
+        let first = keep(&path).unwrap().unwrap();
+        fs::write(&path, "two").unwrap();
+        let second = keep(&path).unwrap().unwrap();
+        assert_eq!(
+            (fs::read_to_string(first).unwrap(), fs::read_to_string(second).unwrap()),
+            ("one".into(), "two".into())
+        );
+    }
+}

@@ -1,0 +1,369 @@
+//! What the window must not do: lose what was typed or asked for, act behind a question, or show old results as new ones.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod memory;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use memory::Memory;
+use squeezefilm::gui::app::App;
+use squeezefilm::gui::state::dialogs::{Answer, Purpose};
+use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::update::platform::{DialogStart, Platform};
+use squeezefilm::scene::{Scene, Value, presets};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const SPACING: &str = "film.min_spacing_nm";
+const FIELD: &str = "Minimum spacing H_m in nm";
+
+fn window(ask: fn(Purpose, &DialogStart) -> Answer, (scene, path): (Scene, Option<PathBuf>)) -> Harness<'static, App> {
+    let platform = Platform { ask, ..Platform::default() };
+    Harness::builder()
+        .with_size(Vec2::new(1400.0, 900.0))
+        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, path)), platform).unwrap())
+}
+
+/// A window on a plate, which is solved at once, whose file dialogs are cancelled.
+fn plate() -> Harness<'static, App> {
+    window(|_, _| Answer::Cancelled, (presets::find("plate-crossover").unwrap(), None))
+}
+
+/// Steps until `ready`, at most a minute of waiting in all.
+fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
+    for _ in 0..6000 {
+        window.step();
+        if ready(window.state()) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what}: did not happen");
+}
+
+/// Types into the field of a parameter, and leaves the cursor there.
+fn start_typing(window: &mut Harness<'static, App>, field: &str, text: &str) {
+    window.get_by_role_and_label(Role::TextInput, field).click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
+    window.step();
+}
+
+fn press(window: &mut Harness<'static, App>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(3);
+}
+
+fn value(app: &App, key: &str) -> Value {
+    app.state().document.scene().get(key).unwrap()
+}
+
+#[test]
+fn what_is_being_typed_is_saved_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let scene = presets::find("fundamental").unwrap();
+    scene.save(&path).unwrap();
+    let mut window = window(|_, _| Answer::Cancelled, (scene, Some(path.clone())));
+    start_typing(&mut window, FIELD, "120");
+    press(&mut window, CTRL, Key::S);
+    assert_eq!(Scene::load(&path).unwrap().get(SPACING), Some(Value::Number(120.0)));
+    assert!(!window.state().state().document.is_dirty());
+    // What is refused is not taken for saved: the field says why, and the file is as it was.
+    let before = std::fs::metadata(&path).unwrap().modified().unwrap();
+    start_typing(&mut window, FIELD, "3");
+    press(&mut window, CTRL, Key::S);
+    window.get_by_label_contains("allowed 5 to 10000 nm");
+    assert_eq!(std::fs::metadata(&path).unwrap().modified().unwrap(), before);
+}
+
+#[test]
+fn what_is_being_typed_is_asked_about_before_the_window_closes() {
+    for by_key in [true, false] {
+        let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
+        start_typing(&mut window, FIELD, "120");
+        if by_key {
+            press(&mut window, CTRL, Key::Q);
+        } else {
+            close(&mut window);
+        }
+        assert!(!window.state().state().quitting, "by key: {by_key}");
+        window.get_by_label_contains("Save the changes");
+        assert_eq!(value(window.state(), SPACING), Value::Number(120.0));
+    }
+}
+
+/// The system asks the window to close, as its button and the Dock do.
+fn close(window: &mut Harness<'static, App>) {
+    let id = window.input().viewport_id;
+    window.input_mut().viewports.entry(id).or_default().events.push(eframe::egui::ViewportEvent::Close);
+    window.step();
+    window.input_mut().viewports.entry(id).or_default().events.clear();
+    window.run_steps(3);
+}
+
+#[test]
+fn shortcuts_do_not_act_behind_a_question_or_in_a_text() {
+    let mut window = plate();
+    let key = "plate.frequency_khz";
+    start_typing(&mut window, "Frequency in kHz", "12");
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+    // A text has an undo of its own.
+    start_typing(&mut window, "Frequency in kHz", "13");
+    press(&mut window, CTRL, Key::Z);
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    // Behind the question nothing is undone, pinned or opened; the theme may be changed.
+    press(&mut window, CTRL, Key::Q);
+    window.get_by_label_contains("Save the changes");
+    let tab = window.state().state().view.tab;
+    for asked in [Key::Z, Key::D, Key::Num3] {
+        press(&mut window, CTRL, asked);
+    }
+    let state = window.state().state();
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+    assert!(state.pins.runs().is_empty() && state.view.tab == tab && state.dark);
+    press(&mut window, CTRL, Key::T);
+    assert!(!window.state().state().dark);
+    window.get_by_label("Keep editing").click();
+    window.run_steps(2);
+    press(&mut window, CTRL, Key::Z);
+    assert_ne!(value(window.state(), key), Value::Number(12.0));
+    press(&mut window, CTRL, Key::Y);
+    assert_eq!(value(window.state(), key), Value::Number(12.0));
+}
+
+#[test]
+fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
+    let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
+    let torque = |app: &App| app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run));
+    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    press(&mut window, CTRL, Key::Num4);
+    until(&mut window, "torque over speed", torque);
+    window.run_steps(2);
+    window.get_by_label_contains("✔ Converged");
+    assert!(window.query_by_label_contains("Of the scene before this edit").is_none());
+    // A scene that no memory holds is refused at once: what is shown is of the one before.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("large.toml");
+    let mut large = presets::find("fundamental").unwrap();
+    let sizes = [("film_nodes_along", "2001"), ("film_nodes_across", "501"), ("steps_per_cycle", "100000")];
+    sizes.iter().for_each(|(key, size)| large.set(&format!("numerics.{key}"), size).unwrap());
+    large.set("numerics.teeth", "all").unwrap();
+    large.save(&path).unwrap();
+    drop_file(&mut window, path);
+    until(&mut window, "the refusal", |app| app.state().activity.failure.is_some());
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("✔ Converged").is_none());
+    assert_eq!(window.query_all_by_label_contains("Of the scene before this edit; the present one has no").count(), 2);
+}
+
+fn drop_file(window: &mut Harness<'static, App>, path: PathBuf) {
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path)));
+    window.step();
+    window.input_mut().dropped_files.clear();
+    window.run_steps(2);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl eframe::egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn cancelling_one_dialog_leaves_the_others_alone_and_none_is_there_twice() {
+    static SHOWN: AtomicUsize = AtomicUsize::new(0);
+    static CANCELLED: AtomicBool = AtomicBool::new(false);
+    // "Save" is answered only after "Open" was cancelled.
+    fn ask(purpose: Purpose, _: &DialogStart) -> Answer {
+        match purpose {
+            Purpose::Save(_) => {
+                SHOWN.fetch_add(1, Ordering::SeqCst);
+                while !CANCELLED.load(Ordering::SeqCst) {
+                    std::thread::sleep(Duration::from_millis(5));
+                }
+                Answer::Path(std::env::temp_dir().join(format!("squeezefilm-{}.toml", std::process::id())))
+            }
+            _ => Answer::Cancelled,
+        }
+    }
+    let mut window = window(ask, (presets::find("plate-crossover").unwrap(), None));
+    start_typing(&mut window, "Frequency in kHz", "12");
+    press(&mut window, CTRL, Key::Q);
+    window.get_by_label("Save").click();
+    window.run_steps(2);
+    press(&mut window, CTRL | Modifiers::SHIFT, Key::S);
+    press(&mut window, CTRL, Key::O);
+    std::thread::sleep(Duration::from_millis(50));
+    window.run_steps(3);
+    CANCELLED.store(true, Ordering::SeqCst);
+    until(&mut window, "saved, and closed as asked", |app| app.state().quitting);
+    assert_eq!(SHOWN.load(Ordering::SeqCst), 1);
+    let path = window.state().state().document.path().unwrap().to_owned();
+    assert_eq!(Scene::load(&path).unwrap().get("plate.frequency_khz"), Some(Value::Number(12.0)));
+    std::fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn a_path_is_kept_in_full() {
+    let path = PathBuf::from("presets/plate-crossover.toml");
+    let window = window(|_, _| Answer::Cancelled, (Scene::load(&path).unwrap(), Some(path.clone())));
+    let state = window.state().state();
+    assert_eq!(state.document.path(), Some(std::env::current_dir().unwrap().join(&path).as_path()));
+}
+
+/// The scene on screen is exported or its picture is taken, under the path that is typed.
+fn save_as(window: &mut Harness<'static, App>, path: &std::path::Path) {
+    for _ in 0..500 {
+        window.step();
+        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    window.run_steps(2);
+    window.key_press_modifiers(CTRL, Key::A);
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+}
+
+#[test]
+fn a_file_holds_what_its_name_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(|_, _| Answer::NoDialog, (presets::find("plate-crossover").unwrap(), None));
+    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    let export = |window: &mut Harness<'static, App>, name: &str, path: &std::path::Path| {
+        // A question that has just been closed takes the first click while it fades.
+        for _ in 0..5 {
+            window.get_by_label("File").click();
+            window.run_steps(10);
+            if window.query_by_label("Export").is_some() {
+                break;
+            }
+        }
+        window.get_by_label("Export").hover();
+        window.run_steps(5);
+        window.get_by_label_contains(name).click();
+        window.run_steps(2);
+        save_as(window, path);
+    };
+    // Another kind of file is refused, and nothing is written.
+    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x.jpg"));
+    window.get_by_label_contains("allowed .npz");
+    window.get_by_label("Close").click();
+    window.run_steps(2);
+    assert!(!folder.path().join("x.jpg").exists());
+    // Without an extension it gets its own, but replaces nothing that nobody was asked about.
+    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
+    until(&mut window, "written", |app| app.state().exports.written().is_some());
+    assert!(folder.path().join("x.npz").is_file() && !folder.path().join("x").exists());
+    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
+    window.get_by_label_contains("give its whole name");
+    window.get_by_label("Close").click();
+    window.run_steps(2);
+    export(&mut window, "Animation…", &folder.path().join("cycle"));
+    until(&mut window, "the animation is under way or done", |app| {
+        app.state().exports.running().is_some() || app.state().exports.written().is_some()
+    });
+    until(&mut window, "the animation", |app| app.state().exports.running().is_none());
+    assert!(folder.path().join("cycle.gif").is_file() && !folder.path().join("cycle").exists());
+}
+
+#[test]
+fn quitting_asks_about_work_that_goes_on() {
+    let mut window = plate();
+    until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
+    press(&mut window, CTRL, Key::Num3);
+    window.get_by_role_and_label(Role::TextInput, "Values along x").click();
+    window.run_steps(2);
+    window.key_press_modifiers(CTRL, Key::A);
+    window.get_by_role_and_label(Role::TextInput, "Values along x").type_text("2000");
+    window.run_steps(2);
+    window.get_by_label("Start the sweep").click();
+    until(&mut window, "the sweep", |app| app.state().sweep.swept().is_some_and(|swept| swept.running()));
+    close(&mut window);
+    assert!(!window.state().state().quitting);
+    window.get_by_label_contains("of 2000 points");
+    window.get_by_label("Keep the window open").click();
+    window.run_steps(2);
+    assert!(window.state().state().sweep.swept().is_some_and(|swept| swept.running()));
+    press(&mut window, CTRL, Key::Q);
+    window.get_by_label("Quit anyway").click();
+    window.run_steps(2);
+    assert!(window.state().state().quitting);
+}
+
+#[test]
+fn pins_that_were_removed_together_come_back() {
+    let mut window = plate();
+    let waits = |app: &App| app.state().activity.running.is_some() || app.state().awaits_result();
+    for frequency in ["12", "13"] {
+        start_typing(&mut window, "Frequency in kHz", frequency);
+        window.key_press(Key::Enter);
+        window.run_steps(2);
+        until(&mut window, "solved", |app| !waits(app));
+        press(&mut window, CTRL, Key::D);
+    }
+    press(&mut window, CTRL, Key::Num2);
+    assert_eq!(window.state().state().pins.runs().len(), 2);
+    window.get_by_label("Remove all").click();
+    window.run_steps(3);
+    assert!(window.state().state().pins.runs().is_empty());
+    window.get_by_label("Bring the pins back").click();
+    window.run_steps(3);
+    assert_eq!(window.state().state().pins.runs().len(), 2);
+}
+
+#[test]
+fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("app.ron");
+    let open = |memory: Memory, file: PathBuf| {
+        let memory: &'static Memory = Box::leak(Box::new(memory));
+        let platform = Platform { storage: Some(file), ask: |_, _| Answer::Cancelled, ..Platform::default() };
+        Harness::builder().with_size(Vec2::new(1400.0, 900.0)).build_eframe(move |context| {
+            context.storage = Some(memory);
+            App::on_platform(context, None, platform).unwrap()
+        })
+    };
+    let kept = || std::fs::read_dir(folder.path()).unwrap().count();
+    // A scene of a later version.
+    std::fs::write(&file, "the whole file").unwrap();
+    let later = "schema = 1\nname = \"later\"\n[film]\nnot_yet_known = 3\n".to_owned();
+    let mut window = open(Memory([("scene".to_owned(), later)].into()), file.clone());
+    window.run_steps(2);
+    window.get_by_label_contains("not_yet_known");
+    window.get_by_label_contains("app.unreadable-1.ron");
+    assert_eq!(kept(), 2);
+    drop(window);
+    // A file that eframe cannot read is as if there were nothing in it.
+    let mut window = open(Memory::default(), file.clone());
+    window.run_steps(2);
+    window.get_by_label_contains("this is not what a window of this version writes");
+    assert_eq!(std::fs::read_to_string(folder.path().join("app.unreadable-2.ron")).unwrap(), "the whole file");
+    drop(window);
+    // The first window of all has nothing to complain about.
+    std::fs::remove_file(&file).unwrap();
+    let mut window = open(Memory::default(), file);
+    window.run_steps(2);
+    assert!(window.query_by_label("This did not work").is_none());
+    assert_eq!(kept(), 2);
+}
