@@ -217,7 +217,7 @@ fn files_and_json_agree_and_are_gone_on_with() {
     assert_eq!(run(&[&other[..], &["--restart"]].concat(), Some(&again)).status.code(), Some(0));
     assert!(!left.exists());
     // What somebody has changed is not taken for a result.
-    let changed = String::from_utf8(saved).unwrap().replacen(",converged,0.", ",converged,1.", 1);
+    let changed = String::from_utf8(saved).unwrap().replacen(",converged,,0.", ",converged,,1.", 1);
     fs::write(&left, &changed).unwrap();
     let output = run(&COMMAND, Some(&again));
     let said = String::from_utf8_lossy(&output.stderr);
