@@ -55,7 +55,7 @@ impl Edited {
                 rejected.review(&next);
                 self.state.document.edit(next, key, false);
             }
-            Err(error) => rejected.reject(key, change, error.to_string()),
+            Err(error) => rejected.reject(key, change, error),
         }
     }
 
@@ -214,13 +214,20 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
     type_into(&mut harness, name, "thick");
     harness.key_press(Key::Tab);
     harness.run();
-    harness.get_by_label_contains("wrong type");
+    harness.get_by_label_contains("expected a number from 5 to 10000 nm, in nm, µm, mm, cm, m");
     assert_eq!(shown(&harness).as_deref(), Some("thick"));
     type_into(&mut harness, name, "150");
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(shown(&harness).as_deref(), Some("150"));
-    assert!(harness.query_by_label_contains("wrong type").is_none());
+    assert!(harness.query_by_label_contains("expected a number").is_none());
+    // Units, decimal commas and sums.
+    for (text, nanometres) in [("0,25 µm", "250"), ("(0.1 + 0.02) um", "120")] {
+        type_into(&mut harness, name, text);
+        harness.key_press(Key::Enter);
+        harness.run();
+        assert_eq!(shown(&harness).as_deref(), Some(nanometres));
+    }
 }
 
 #[test]

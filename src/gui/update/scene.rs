@@ -29,7 +29,7 @@ impl Updater {
                     self.refine();
                 }
             }
-            Err(error) => self.state.rejected.reject(key, change, error.to_string()),
+            Err(error) => self.state.rejected.reject(key, change, error),
         }
     }
 
