@@ -65,9 +65,7 @@ impl Updater {
 
     /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted.
     pub(super) fn refine(&mut self) {
-        let target = self.state.document.target();
-        let fidelities: Vec<Fidelity> = Fidelity::ALL.into_iter().filter(|fidelity| *fidelity <= target).collect();
-        self.solve(&fidelities);
+        self.solve(&self.state.document.target().and_coarser());
     }
 
     /// Asks for the present scene at these fidelities.

@@ -152,7 +152,7 @@ fn regime_numbers(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 
 fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let stats = &run.solution.stats;
-    number(ui, cx, "Fidelity", run.fidelity.name(), "");
+    number(ui, cx, "Fidelity", &run.fidelity.to_string(), "");
     match &run.solution.outcome {
         Outcome::Motor(result) => number(ui, cx, "Error of α", &rough(result.alpha_error), ""),
         Outcome::Plate(result) => {
