@@ -714,3 +714,42 @@ fn a_plate_has_exact_results_in_place_of_torque() {
         assert!(window.state().state().torque.found().is_none());
     }
 }
+
+#[test]
+fn an_accuracy_is_typed_in_place_of_a_name() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.get_by_role_and_label(Role::ComboBox, "Solved up to").click();
+    window.run_steps(3);
+    let type_in = |window: &mut Harness<'static, App>, text: &str| {
+        window.get_by_role_and_label(Role::TextInput, "Accuracy").focus();
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::TextInput, "Accuracy").type_text(text);
+        window.run_steps(2);
+        window.key_press(Key::Enter);
+        window.run_steps(3);
+    };
+    type_in(&mut window, "0,7 %");
+    let asked = Fidelity::to(0.007);
+    assert_eq!(window.state().state().document.target(), asked);
+    until(&mut window, "it is solved for", |app| app.state().run.as_deref().is_some_and(|run| run.fidelity == asked));
+    window.get_by_label("0.7%");
+    window.get_by_role_and_label(Role::ComboBox, "Solved up to").click();
+    window.run_steps(3);
+    type_in(&mut window, "70%");
+    window.get_by_label_contains("a relative error from 0.0001% to 50%");
+    assert_eq!(window.state().state().document.target(), asked);
+}
+
+#[test]
+fn light_and_dark_leave_the_zoom_alone() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.ctx.set_zoom_factor(1.2);
+    window.run_steps(2);
+    for (key, zoom) in [(Key::T, 1.2), (Key::L, 1.2 * 1.35), (Key::T, 1.2 * 1.35), (Key::L, 1.2)] {
+        window.key_press_modifiers(Modifiers::COMMAND, key);
+        window.run_steps(2);
+        assert!((window.ctx.zoom_factor() - zoom).abs() < 1e-4, "{key:?}: {}", window.ctx.zoom_factor());
+    }
+}

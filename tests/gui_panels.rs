@@ -350,7 +350,17 @@ fn run(preset: &str) -> SolvedScene {
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
     let validity = outside(&problem, Some(&solution));
-    SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
+    SolvedScene {
+        number: 1,
+        scene,
+        problem,
+        fidelity: Fidelity::Draft,
+        solution,
+        validity,
+        wall_s: 0.0123,
+        warm: false,
+        history,
+    }
 }
 
 fn shown(run: SolvedScene, width: f32, size: f32) -> Harness<'static, SolvedScene> {
@@ -377,9 +387,14 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     let alpha = squeezefilm::digits::with_error(result.alpha, result.alpha_error);
     harness.get_by_label_contains(&alpha);
     harness.get_by_label("share of the load carried by air");
-    for name in
-        ["Film load", "Contact load", "Stall torque", "Maximum operating torque", "The same without air", "Least gap"]
-    {
+    for name in [
+        "Film load",
+        "Contact load",
+        "Stall torque",
+        "Maximum operating torque",
+        "The same without air",
+        "Least film thickness",
+    ] {
         harness.get_by_label(name);
     }
     for name in ["Highest pressure", "Squeeze number σ"] {

@@ -1,7 +1,7 @@
 //! One place where every command is carried out, and one where all that has happened is taken.
 
 use super::pictures::PICTURE_NAME;
-use super::updater::Updater;
+use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Wish;
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::{Answer, Purpose};
@@ -25,7 +25,10 @@ impl Updater {
             Command::Proceed(next) => self.proceed(next),
             Command::OpenDialog => self.ask(Purpose::Open, ""),
             Command::OpenPathPrompt => {
-                let prompt = PathPrompt::asked(&[Purpose::Open, Purpose::Save], state.suggested_name());
+                let prompt = PathPrompt::asked(
+                    &[Purpose::Open, Purpose::Save],
+                    state.failed_path.take().unwrap_or_else(|| state.suggested_name()),
+                );
                 state.modal = Some(Modal::Path(prompt));
             }
             Command::Save => self.save(),
@@ -91,7 +94,9 @@ impl Updater {
             }
             Command::ToggleLecture => {
                 state.lecture = !state.lecture;
-                self.apply_theme();
+                // The user's own zoom stays.
+                let zoom = if state.lecture { LECTURE_ZOOM } else { LECTURE_ZOOM.recip() };
+                self.ctx.set_zoom_factor(self.ctx.zoom_factor() * zoom);
             }
             Command::Screenshot => self.take_picture(),
             Command::ToggleParameters => state.view.parameters = !state.view.parameters,

@@ -105,7 +105,10 @@ impl Updater {
                 self.state.document = Document::opened(scene, path).with_target(self.state.document.target());
                 self.scene_replaced();
             }
-            Err(error) => self.state.fail(error),
+            Err(error) => {
+                self.state.failed_path = path.map(|path| path.display().to_string());
+                self.state.fail(error);
+            }
         }
     }
 
@@ -132,7 +135,10 @@ impl Updater {
                 self.state.remember(path);
                 next.into_iter().for_each(|next| self.proceed_now(next));
             }
-            Err(error) => self.state.fail(error),
+            Err(error) => {
+                self.state.failed_path = Some(path.display().to_string());
+                self.state.fail(error);
+            }
         }
     }
 

@@ -43,6 +43,7 @@ impl Updater {
         let (ctx, pictures) = (ctx.clone(), channel());
         let mut updater = Self { state, platform, ctx, solver, dialogs, pictures, picture: None, after_save: None };
         updater.apply_theme();
+        updater.ctx.set_zoom_factor(if updater.state.lecture { LECTURE_ZOOM } else { 1.0 });
         updater.refine();
         Ok(updater)
     }
@@ -106,9 +107,8 @@ impl Updater {
 
     pub(super) fn apply_theme(&self) {
         self.ctx.set_theme(if self.state.dark { egui::Theme::Dark } else { egui::Theme::Light });
-        self.ctx.set_zoom_factor(if self.state.lecture { LECTURE_ZOOM } else { 1.0 });
     }
 }
 
-/// Zoom of the lecture size.
-const LECTURE_ZOOM: f32 = 1.35;
+/// Zoom of the lecture size, relative to the user's own.
+pub(super) const LECTURE_ZOOM: f32 = 1.35;

@@ -215,6 +215,10 @@ impl Panel<'_> {
             let field = FIELD_WIDTH * em;
             let gaps = 2.0 * ui.spacing().item_spacing.x;
             ui.spacing_mut().slider_width = (ui.available_width() - field - self.units - gaps).max(SHORTEST_SLIDER);
+            // What has no effect here can be read, and not set.
+            if words::unused(self.scene, parameter).is_some() {
+                ui.disable();
+            }
             let slider = self.slider(ui, parameter, value);
             let slider = beside(ui.clip_rect(), slider, &explanation);
             match name {
