@@ -7,7 +7,7 @@ mod memory;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use memory::Memory;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, Ended, candidates};
 use squeezefilm::fidelity::Fidelity;
@@ -752,4 +752,33 @@ fn light_and_dark_leave_the_zoom_alone() {
         window.run_steps(2);
         assert!((window.ctx.zoom_factor() - zoom).abs() < 1e-4, "{key:?}: {}", window.ctx.zoom_factor());
     }
+}
+
+#[test]
+fn panels_are_as_wide_again_as_before_the_window_was_small() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    let width = |window: &Harness<'static, App>| {
+        window.get_by_role_and_label(Role::Slider, "Minimum spacing H_m").rect().width()
+    };
+    let before = width(&window);
+    window.set_size(Vec2::new(800.0, 600.0));
+    window.run_steps(4);
+    assert!(width(&window) < before);
+    window.set_size(Vec2::new(1400.0, 900.0));
+    window.run_steps(4);
+    assert_eq!(width(&window), before);
+}
+
+#[test]
+fn a_key_without_effect_on_a_plate_is_read_and_not_set() {
+    let mut window = window_in("plate-crossover", 2400.0, Platform::default());
+    solved(&mut window);
+    window.get_by_label("Film").click();
+    window.run_steps(10);
+    let disabled = |name: &str| {
+        let slider = window.get_by_role_and_label(Role::Slider, name);
+        slider.accesskit_node().is_disabled()
+    };
+    assert!(disabled("Minimum spacing H_m") && !disabled("Ambient pressure"));
 }
