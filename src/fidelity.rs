@@ -5,11 +5,12 @@
 //! zero spacing (the scheme is of second order in both), and how they come closer is the error estimate. Finer grids follow until that
 //! is what was asked for (`ladder`). The measured error and cost of each level are in `docs/validation.md`.
 
+use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
-/// How much accuracy to buy.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+/// How much accuracy to buy. The more exact is the greater one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Fidelity {
     /// For dragging a slider: 2 %.
     Draft,
@@ -78,6 +79,11 @@ impl Fidelity {
     /// The level whose stated relative error of the headline is to be at most `accuracy`, from 1e-6 to 0.5.
     pub fn to(accuracy: f64) -> Self {
         Self::To((1e6 * accuracy.clamp(ACCURACY[0], ACCURACY[1])).round() as u32)
+    }
+
+    /// The named levels that are coarser, then this one.
+    pub fn and_coarser(self) -> Vec<Self> {
+        Self::ALL.into_iter().filter(|level| level.accuracy() > self.accuracy()).chain([self]).collect()
     }
 
     /// The option of the command line that asks for it.
@@ -204,7 +210,21 @@ impl Spec {
     }
 }
 
-/// An accuracy as people write it: `0.1%`, `0.1 %` or `0.001`.
+impl Ord for Fidelity {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // Of one accuracy by name and by number, the number is the greater: no two are equal that are not the same.
+        let by_number = |level: &Self| matches!(level, Self::To(_));
+        other.accuracy().total_cmp(&self.accuracy()).then_with(|| by_number(self).cmp(&by_number(other)))
+    }
+}
+
+impl PartialOrd for Fidelity {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// An accuracy as people write it: `0.1%`, `0,1 %` or `0.001`.
 ///
 /// # Errors
 /// Words that name the value and what is allowed.
@@ -213,7 +233,7 @@ pub fn parse_accuracy(text: &str) -> Result<f64, String> {
         Some(number) => (number, 0.01),
         None => (text, 1.0),
     };
-    let value = number.trim().parse::<f64>().ok().map(|value| value * unit);
+    let value = number.trim().replace(',', ".").parse::<f64>().ok().map(|value| value * unit);
     match value {
         Some(value) if (ACCURACY[0]..=ACCURACY[1]).contains(&value) => Ok(value),
         _ => Err(format!("accuracy = {text} is not allowed: a relative error from 0.0001% to 50%, as 0.1% or 0.001")),
@@ -223,7 +243,7 @@ pub fn parse_accuracy(text: &str) -> Result<f64, String> {
 impl fmt::Display for Fidelity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::To(_) => write!(f, "{}%", 100.0 * self.accuracy()),
+            Self::To(millionths) => write!(f, "{}%", f64::from(*millionths) / 1e4),
             _ => f.write_str(self.name()),
         }
     }
@@ -233,9 +253,37 @@ impl FromStr for Fidelity {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|level| level.name() == text)
-            .ok_or_else(|| format!("fidelity = {text} is not known: allowed draft, standard, fine, reference"))
+        match Self::ALL.into_iter().find(|level| level.name() == text) {
+            Some(level) => Ok(level),
+            None if text.ends_with('%') => parse_accuracy(text).map(Self::to),
+            None => Err(format!(
+                "fidelity = {text} is not known: allowed draft, standard, fine, reference, or an accuracy as 0.1%"
+            )),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_accuracy_stands_between_the_names() {
+        let to = |text: &str| Fidelity::to(parse_accuracy(text).unwrap());
+        assert!(Fidelity::Draft < to("1 %") && to("1 %") < Fidelity::Standard && Fidelity::Reference < to("0,01%"));
+        assert!(Fidelity::Fine < to("0.1%") && to("0.1%") < Fidelity::Reference && to("50%") < Fidelity::Draft);
+        assert!(Fidelity::ALL.is_sorted());
+        assert_eq!(to("0.3%").and_coarser(), [Fidelity::Draft, Fidelity::Standard, to("0.3%")]);
+        assert_eq!(Fidelity::Fine.and_coarser(), [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine]);
+        assert_eq!(to("50%").and_coarser(), [to("50%")]);
+    }
+
+    #[test]
+    fn what_is_shown_is_read() {
+        for fidelity in Fidelity::ALL.into_iter().chain([1, 7, 3000, 7000, 500_000].map(Fidelity::To)) {
+            assert_eq!(fidelity.to_string().parse(), Ok(fidelity));
+        }
+        assert_eq!(Fidelity::to(0.007).to_string(), "0.7%");
+        assert!("0%".parse::<Fidelity>().is_err() && "0.1".parse::<Fidelity>().is_err());
     }
 }

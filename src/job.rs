@@ -41,6 +41,8 @@ pub struct SolvedScene {
     pub validity: Vec<Excess>,
     /// Wall time of this fidelity's solve \[s\].
     pub wall_s: f64,
+    /// Whether it was started from the fields of a scene before it: effort, not the result, then depends on that one.
+    pub warm: bool,
     /// Residual of each round, all grids, in order: the convergence history.
     pub history: Vec<Progress>,
 }
@@ -236,6 +238,7 @@ fn refine(
         };
         let settings = Settings { fidelity, ..Settings::default() };
         let warm = warm.entry(fidelity).or_default();
+        let started_warm = !warm.is_empty();
         let solved = caught(|| solve_from(warm, &request.problem, &settings, &mut listen, cancel));
         let wall_s = now().duration_since(started).as_secs_f64();
         let message = match solved {
@@ -249,6 +252,7 @@ fn refine(
                     validity: outside(&request.problem, Some(&solution)),
                     solution,
                     wall_s,
+                    warm: started_warm,
                     history,
                 })));
                 continue;

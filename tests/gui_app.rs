@@ -7,7 +7,7 @@ mod memory;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use memory::Memory;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, Ended, candidates};
 use squeezefilm::fidelity::Fidelity;
@@ -718,4 +718,72 @@ fn a_plate_has_exact_results_in_place_of_torque() {
         }
         assert!(window.state().state().torque.found().is_none());
     }
+}
+
+#[test]
+fn an_accuracy_is_typed_in_place_of_a_name() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.get_by_role_and_label(Role::ComboBox, "Solved up to").click();
+    window.run_steps(3);
+    let type_in = |window: &mut Harness<'static, App>, text: &str| {
+        window.get_by_role_and_label(Role::TextInput, "Accuracy").focus();
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::TextInput, "Accuracy").type_text(text);
+        window.run_steps(2);
+        window.key_press(Key::Enter);
+        window.run_steps(3);
+    };
+    type_in(&mut window, "0,7 %");
+    let asked = Fidelity::to(0.007);
+    assert_eq!(window.state().state().document.target(), asked);
+    until(&mut window, "it is solved for", |app| app.state().run.as_deref().is_some_and(|run| run.fidelity == asked));
+    window.get_by_label("0.7%");
+    window.get_by_role_and_label(Role::ComboBox, "Solved up to").click();
+    window.run_steps(3);
+    type_in(&mut window, "70%");
+    window.get_by_label_contains("a relative error from 0.0001% to 50%");
+    assert_eq!(window.state().state().document.target(), asked);
+}
+
+#[test]
+fn light_and_dark_leave_the_zoom_alone() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    window.ctx.set_zoom_factor(1.2);
+    window.run_steps(2);
+    for (key, zoom) in [(Key::T, 1.2), (Key::L, 1.2 * 1.35), (Key::T, 1.2 * 1.35), (Key::L, 1.2)] {
+        window.key_press_modifiers(Modifiers::COMMAND, key);
+        window.run_steps(2);
+        assert!((window.ctx.zoom_factor() - zoom).abs() < 1e-4, "{key:?}: {}", window.ctx.zoom_factor());
+    }
+}
+
+#[test]
+fn panels_are_as_wide_again_as_before_the_window_was_small() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    let width = |window: &Harness<'static, App>| {
+        window.get_by_role_and_label(Role::Slider, "Minimum spacing H_m").rect().width()
+    };
+    let before = width(&window);
+    window.set_size(Vec2::new(800.0, 600.0));
+    window.run_steps(4);
+    assert!(width(&window) < before);
+    window.set_size(Vec2::new(1400.0, 900.0));
+    window.run_steps(4);
+    assert_eq!(width(&window), before);
+}
+
+#[test]
+fn a_key_without_effect_on_a_plate_is_read_and_not_set() {
+    let mut window = window_in("plate-crossover", 2400.0, Platform::default());
+    solved(&mut window);
+    window.get_by_label("Film").click();
+    window.run_steps(10);
+    let disabled = |name: &str| {
+        let slider = window.get_by_role_and_label(Role::Slider, name);
+        slider.accesskit_node().is_disabled()
+    };
+    assert!(disabled("Minimum spacing H_m") && !disabled("Ambient pressure"));
 }

@@ -55,7 +55,7 @@ impl Edited {
                 rejected.review(&next);
                 self.state.document.edit(next, key, false);
             }
-            Err(error) => rejected.reject(key, change, error.to_string()),
+            Err(error) => rejected.reject(key, change, error),
         }
     }
 
@@ -214,13 +214,20 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
     type_into(&mut harness, name, "thick");
     harness.key_press(Key::Tab);
     harness.run();
-    harness.get_by_label_contains("wrong type");
+    harness.get_by_label_contains("expected a number from 5 to 10000 nm, in nm, µm, mm, cm, m");
     assert_eq!(shown(&harness).as_deref(), Some("thick"));
     type_into(&mut harness, name, "150");
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(shown(&harness).as_deref(), Some("150"));
-    assert!(harness.query_by_label_contains("wrong type").is_none());
+    assert!(harness.query_by_label_contains("expected a number").is_none());
+    // Units, decimal commas and sums.
+    for (text, nanometres) in [("0,25 µm", "250"), ("(0.1 + 0.02) um", "120")] {
+        type_into(&mut harness, name, text);
+        harness.key_press(Key::Enter);
+        harness.run();
+        assert_eq!(shown(&harness).as_deref(), Some(nanometres));
+    }
 }
 
 #[test]
@@ -343,7 +350,17 @@ fn run(preset: &str) -> SolvedScene {
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);
     let solution = solve(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
     let validity = outside(&problem, Some(&solution));
-    SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0123, history }
+    SolvedScene {
+        number: 1,
+        scene,
+        problem,
+        fidelity: Fidelity::Draft,
+        solution,
+        validity,
+        wall_s: 0.0123,
+        warm: false,
+        history,
+    }
 }
 
 fn shown(run: SolvedScene, width: f32, size: f32) -> Harness<'static, SolvedScene> {
@@ -370,9 +387,14 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     let alpha = squeezefilm::digits::with_error(result.alpha, result.alpha_error);
     harness.get_by_label_contains(&alpha);
     harness.get_by_label("share of the load carried by air");
-    for name in
-        ["Film load", "Contact load", "Stall torque", "Maximum operating torque", "The same without air", "Least gap"]
-    {
+    for name in [
+        "Film load",
+        "Contact load",
+        "Stall torque",
+        "Maximum operating torque",
+        "The same without air",
+        "Least film thickness",
+    ] {
         harness.get_by_label(name);
     }
     for name in ["Highest pressure", "Squeeze number σ"] {

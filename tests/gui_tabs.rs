@@ -781,3 +781,34 @@ fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
         assert_eq!(window.state().state().pins.runs().len(), left_over);
     }
 }
+
+#[test]
+fn a_chart_is_dragged_and_a_double_click_brings_it_back() {
+    let mut window = window("plate-crossover");
+    solved(&mut window);
+    ctrl(&mut window, Key::Num4);
+    window.run_steps(3);
+    let name = "Load over the cycle and its limits";
+    let id = eframe::egui::Id::unique(("chart", name));
+    let left = |window: &Window| egui_plot::PlotMemory::load(&window.ctx, id).unwrap().bounds().min()[0];
+    assert_eq!(left(&window), 0.0);
+    let middle = window.get_by_role_and_label(Role::Image, name).rect().center();
+    window.drag_at(middle);
+    window.run_steps(2);
+    window.hover_at(middle + Vec2::new(80.0, 0.0));
+    window.run_steps(2);
+    window.drop_at(middle + Vec2::new(80.0, 0.0));
+    window.run_steps(2);
+    let dragged = left(&window);
+    assert!(dragged < -0.01, "{dragged}");
+    window.run_steps(3);
+    assert_eq!(left(&window), dragged, "it stays where it is");
+    // Every event has a step of its own, and its time.
+    window.ctx.options_mut(|options| options.input_options.max_double_click_delay = 10.0);
+    for _ in 0..2 {
+        window.drag_at(middle);
+        window.drop_at(middle);
+    }
+    window.run_steps(3);
+    assert_eq!(left(&window), 0.0);
+}

@@ -180,7 +180,7 @@ impl eframe::App for App {
         storage.set_string("tour", "seen".to_owned());
         let recent: Vec<String> = state.recent.iter().map(|path| path.display().to_string()).collect();
         storage.set_string("recent", recent.join("\n"));
-        storage.set_string("fidelity", state.document.target().name().to_owned());
+        storage.set_string("fidelity", state.document.target().to_string());
         storage.set_string("theme", if state.dark { "dark" } else { "light" }.to_owned());
         storage.set_string("lecture", state.lecture.to_string());
     }

@@ -34,7 +34,8 @@ pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), ef
             .with_title("squeezefilm")
             .with_app_id("squeezefilm")
             .with_inner_size([1400.0, 900.0])
-            .with_min_inner_size([900.0, 600.0])
+            // Fits a screen of 1366 × 768 at 125 %, with its bars.
+            .with_min_inner_size([800.0, 520.0])
             .with_drag_and_drop(true),
         persistence_path: storage.clone(),
         ..Default::default()

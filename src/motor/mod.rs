@@ -100,6 +100,13 @@ pub struct Warm {
     found: Option<Found<Level>>,
 }
 
+impl Warm {
+    /// Whether there is nothing to start from.
+    pub fn is_empty(&self) -> bool {
+        self.found.is_none()
+    }
+}
+
 impl std::fmt::Debug for Warm {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Warm").field("grids", &self.found.as_ref().map_or(0, |found| found.levels.len())).finish()

@@ -110,7 +110,11 @@ impl Scene {
     pub fn title(&self, original: &Self) -> String {
         match self.changed(original).count() {
             keys if keys > 0 && self.name == original.name => {
-                format!("{}, changed: {keys} {}", self.name, if keys == 1 { "key" } else { "keys" })
+                let keys = format!("{keys} {}", if keys == 1 { "key" } else { "keys" });
+                match self.name.split_once(", changed") {
+                    Some((name, _)) => format!("{name}, changed again: {keys}"),
+                    None => format!("{}, changed: {keys}", self.name),
+                }
             }
             _ => self.name.clone(),
         }

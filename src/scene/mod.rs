@@ -31,6 +31,7 @@ mod nearest;
 mod parameter;
 mod parse;
 pub mod presets;
+pub mod quantity_text;
 mod rules;
 pub mod table1;
 mod value;

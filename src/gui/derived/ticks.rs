@@ -14,7 +14,12 @@ pub struct Ticks {
 impl Ticks {
     /// About `about` steps of 1, 2 or 5 times a power of ten over `range`.
     pub fn new(range: [f64; 2], about: usize) -> Self {
-        let step = round_up((range[1] - range[0]) / about.max(1) as f64);
+        Self::apart(range, (range[1] - range[0]) / about.max(1) as f64)
+    }
+
+    /// Steps of 1, 2 or 5 times a power of ten over `range`, of `least` or more.
+    pub fn apart(range: [f64; 2], least: f64) -> Self {
+        let step = round_up(least);
         let decimals = (-step.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
         Self {
             step,
@@ -29,10 +34,33 @@ impl Ticks {
         (self.first..=self.last.min(self.first.saturating_add(50))).map(move |k| k as f64 * self.step)
     }
 
+    /// From one to the next.
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
     /// `value` with as many decimals as the step needs.
     pub fn format(&self, value: f64) -> String {
         signed(format!("{value:.*}", self.decimals))
     }
+}
+
+/// Fewer decades than this have ticks at 2 and 5 too.
+const FEW_DECADES: f64 = 2.5;
+
+/// Ticks of an axis of log₁₀, ascending: the powers of ten, thinned to about `most`; if they are few and `between` is asked for,
+/// 2 and 5 times them as well.
+pub fn decades(range: [f64; 2], most: f64, between: bool) -> Vec<f64> {
+    let count = range[1] - range[0];
+    if !count.is_finite() || count <= 0.0 {
+        return Vec::new();
+    }
+    let every = (count / most.max(1.0)).ceil().max(1.0);
+    let steps: &[f64] = if between && count < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    ((range[0] / every).floor() as i64..=(range[1] / every).ceil() as i64)
+        .flat_map(|k| steps.iter().map(move |step| k as f64 * every + step.log10()))
+        .filter(|value| (range[0] - 1e-9..=range[1] + 1e-9).contains(value))
+        .collect()
 }
 
 /// The least of 1, 2, 5 × 10ⁿ that is not below `value`.
@@ -64,6 +92,16 @@ mod tests {
         assert_eq!(texts, ["0.00", "0.01", "0.02", "0.03"]);
         assert!(Ticks::new([0.0, 0.0], 3).values().count() < 60);
         assert!(Ticks::new([1e300, -1e300], 0).values().count() < 60);
+    }
+
+    #[test]
+    fn decades_are_thinned_where_they_are_many_and_filled_where_they_are_few() {
+        assert_eq!(decades([-1.5, 3.4], 10.0, true), [-1.0, 0.0, 1.0, 2.0, 3.0]);
+        assert_eq!(decades([-4.0, 5.0], 3.0, false), [-3.0, 0.0, 3.0]);
+        assert_eq!(decades([0.0, 1.0], 9.0, true), [0.0, 2f64.log10(), 5f64.log10(), 1.0]);
+        for range in [[0.0, 0.0], [f64::NEG_INFINITY, f64::INFINITY]] {
+            assert!(decades(range, 4.0, true).is_empty());
+        }
     }
 
     #[test]

@@ -166,13 +166,18 @@ impl Document {
         !self.redo.is_empty()
     }
 
-    /// Saves to `path` (a temporary name, then renamed).
+    /// Saves to `path` (a temporary name, then renamed). A preset that was changed no longer claims to be what it was.
     ///
     /// # Errors
     /// If the file cannot be written; nothing changes then.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
-        self.scene.save(path)?;
-        self.saved = self.scene.clone();
+        let mut scene = self.scene.clone();
+        if self.path.is_none() {
+            scene.retitle(&self.saved);
+        }
+        scene.save(path)?;
+        self.saved = scene.clone();
+        self.scene = scene;
         self.path = Some(absolute(path));
         Ok(())
     }
@@ -238,5 +243,34 @@ mod tests {
         document.save(&path).unwrap();
         assert!(!document.is_dirty());
         assert_eq!(&Scene::load(&path).unwrap(), document.scene());
+    }
+    #[test]
+    fn a_changed_preset_is_saved_under_a_name_that_says_so() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.toml");
+        let mut document = Document::fundamental().unwrap();
+        for (spacing, name) in
+            [("150", "Fundamental case, changed: 1 key"), ("140", "Fundamental case, changed: 1 key")]
+        {
+            document.edit(with_spacing(&document, spacing), "film.min_spacing_nm", false);
+            document.save(&path).unwrap();
+            assert_eq!(document.scene().name, name);
+            assert!(!document.is_dirty() && Scene::load(&path).unwrap() == *document.scene());
+        }
+        // A changed preset that is changed once more is not "changed: 1 key, changed: 1 key".
+        let mut again = with_spacing(&document, "130");
+        again.retitle(document.scene());
+        assert_eq!(again.name, "Fundamental case, changed again: 1 key");
+        let mut third = with_spacing(&document, "120");
+        third.name.clone_from(&again.name);
+        third.retitle(&again);
+        assert_eq!(third.name, "Fundamental case, changed again: 1 key");
+        // A name of its own is kept.
+        let mut document = Document::fundamental().unwrap();
+        let mut named = with_spacing(&document, "150");
+        named.name = "Mine".to_owned();
+        document.edit(named, "name", false);
+        document.save(&path).unwrap();
+        assert_eq!(document.scene().name, "Mine");
     }
 }

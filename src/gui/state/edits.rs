@@ -1,6 +1,6 @@
 //! An edit of one parameter, and the edits that were rejected.
 
-use crate::scene::{Scene, SceneError, Value};
+use crate::scene::{Parameter, Scene, Value, quantity_text};
 use std::collections::BTreeMap;
 
 /// What happens to a parameter.
@@ -19,14 +19,18 @@ impl Change {
     ///
     /// # Errors
     /// If the value is not allowed, or not together with the other keys.
-    pub fn applied(&self, scene: &Scene, key: &str) -> Result<Scene, SceneError> {
+    pub fn applied(&self, scene: &Scene, key: &str) -> Result<Scene, String> {
         let mut next = scene.clone();
-        match self {
-            Self::Value(value) => next.set_value(key, value.clone())?,
-            Self::Text(text) => next.set(key, text)?,
-            Self::Unset => next.unset(key)?,
-        }
-        next.check()?;
+        let number = Parameter::find(key).filter(|parameter| parameter.range().is_some());
+        let set = match (self, number) {
+            (Self::Value(value), _) => next.set_value(key, value.clone()),
+            (Self::Text(text), Some(parameter)) if !matches!(text.trim(), "" | "none") => {
+                next.set_value(key, Value::Number(quantity_text::read(parameter, text)?))
+            }
+            (Self::Text(text), _) => next.set(key, text),
+            (Self::Unset, _) => next.unset(key),
+        };
+        set.and_then(|()| next.check()).map_err(|error| error.to_string())?;
         Ok(next)
     }
 }
@@ -61,7 +65,7 @@ impl RejectedEdits {
         self.0.retain(|key, (change, message)| match change.applied(scene, key) {
             Ok(_) => false,
             Err(error) => {
-                *message = error.to_string();
+                *message = error;
                 true
             }
         });
@@ -80,7 +84,7 @@ mod tests {
         for (key, value) in [(radius, 5.0), (viscosity, 0.0)] {
             let change = Change::Value(Value::Number(value));
             let error = change.applied(&scene, key).unwrap_err();
-            rejected.reject(key, change, error.to_string());
+            rejected.reject(key, change, error);
         }
         assert!(rejected.of(radius).unwrap().contains("of the tooth pitch"));
         // A little narrower: other numbers in the reason. Much narrower: no reason left.

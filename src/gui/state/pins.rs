@@ -214,7 +214,7 @@ impl Pins {
         });
         let waiting = self.waiting.iter().map(|waiting| {
             let (label, scene) = (waiting.name.clone(), waiting.scene.to_toml());
-            (waiting.id, Stored { label, slot: waiting.slot, fidelity: waiting.fidelity.name().to_owned(), scene })
+            (waiting.id, Stored { label, slot: waiting.slot, fidelity: waiting.fidelity.to_string(), scene })
         });
         let mut all: Vec<(u64, Stored)> = pinned.chain(waiting).collect();
         all.sort_by_key(|(id, _)| *id);

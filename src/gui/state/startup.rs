@@ -254,7 +254,7 @@ fn as_solved(
         recording,
     };
     let (validity, history) = (Vec::new(), Vec::new());
-    SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, history }
+    SolvedScene { number, scene, problem, fidelity, solution, validity, wall_s: 0.0, warm: false, history }
 }
 
 #[cfg(test)]

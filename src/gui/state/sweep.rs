@@ -9,7 +9,7 @@ use crate::gui::derived::sliders::slider_range;
 use crate::gui::derived::words::unused;
 use crate::job::task::{News, Task};
 use crate::problem::Problem;
-use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value};
+use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value, quantity_text};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -79,13 +79,9 @@ impl AxisForm {
     /// # Errors
     /// What is wrong with it, in a sentence that tells what is allowed.
     pub fn vary(&self, scene: &Scene) -> Result<Vary, String> {
-        let number = |text: &str| {
-            let text = text.trim().replace(',', ".").replace('−', "-");
-            let found = text.parse::<f64>().ok().filter(|number| number.is_finite());
-            found.ok_or_else(|| {
-                let accepts = Parameter::find(self.key).map(Parameter::accepts).unwrap_or_default();
-                format!("“{text}” is no number: allowed is {accepts}")
-            })
+        let number = |text: &str| match Parameter::find(self.key) {
+            Some(parameter) => quantity_text::read(parameter, text),
+            None => Err(format!("{} is not known", self.key)),
         };
         let (from, to) = (number(&self.from)?, number(&self.to)?);
         let counted = self.count.trim().parse::<usize>();

@@ -54,6 +54,8 @@ pub struct State {
     pub startup: Option<StartupState>,
     /// The plate that is held, once its tab was shown.
     pub hold: Option<HoldState>,
+    /// The path that the last file could not be opened from or saved to, for the next prompt.
+    pub failed_path: Option<String>,
     /// What is in the way until it is answered.
     pub modal: Option<Modal>,
     /// Whether the sheet of shortcuts is shown.
@@ -86,6 +88,7 @@ impl State {
             lessons: LessonState::new(None),
             startup: None,
             hold: None,
+            failed_path: None,
             modal: None,
             shortcuts: false,
             recent: Vec::new(),

@@ -1,8 +1,9 @@
 //! What charts have in common.
 
+use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::ui::glossary;
-use eframe::egui::{self, Color32, Rect, RichText, TextStyle};
-use egui_plot::{AxisHints, GridInput, GridMark, Line, LineStyle, Plot, PlotPoints};
+use eframe::egui::{self, Color32, Id, Rect, RichText, TextStyle};
+use egui_plot::{AxisHints, GridInput, GridMark, Line, LineStyle, Plot, PlotMemory, PlotPoints, PlotResponse, PlotUi};
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
 const NUMBERS: f32 = 3.6;
@@ -15,17 +16,38 @@ pub(in crate::gui::ui) const SOLID: LineStyle = LineStyle::Dashed { length: 1e6 
 /// Length of a sample of a line in a legend, in heights of the text.
 const SAMPLE: f32 = 1.5;
 
-/// A plot that is looked at, not moved.
-pub(in crate::gui::ui) fn still<'a>(id: &str, height: f32) -> Plot<'a> {
-    Plot::new(id.to_owned())
+/// A plot: dragged to see what is beside, zoomed with Ctrl and the wheel or by a box drawn with the right button, and back with a
+/// double click. The wheel alone scrolls the tab that it is in.
+pub(in crate::gui::ui) fn bare<'a>(name: &str, height: f32) -> Plot<'a> {
+    Plot::new(name.to_owned())
+        .id(id(name))
         .height(height)
-        .allow_zoom(false)
-        .allow_drag(false)
         .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
         .allow_axis_zoom_drag(false)
         .show_crosshair(false)
+}
+
+fn id(name: &str) -> Id {
+    Id::unique(("chart", name))
+}
+
+/// Shows the chart `name` from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
+pub(in crate::gui::ui) fn framed<'a, R>(
+    ui: &mut egui::Ui,
+    (name, plot): (&str, Plot<'a>),
+    [x, y]: [[f64; 2]; 2],
+    add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
+) -> PlotResponse<R> {
+    // What is new is as after a double click: the ranges are followed until something is zoomed.
+    let fresh = PlotMemory::load(ui.ctx(), id(name)).is_none();
+    let wide = |[low, high]: [f64; 2]| if high > low { [low, high] } else { [low - 0.5, low + 0.5] };
+    let ([left, right], [bottom, top]) = (wide(x), wide(y));
+    plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
+        if fresh {
+            plot.set_auto_bounds(true);
+        }
+        add(plot)
+    })
 }
 
 /// A line that does not answer to the pointer.
@@ -33,14 +55,14 @@ pub(in crate::gui::ui) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: 
     Line::new("", PlotPoints::from(points.to_vec())).color(colour).width(width).style(style).allow_hover(false)
 }
 
-/// A chart that is looked at, not moved: values are read below it.
-pub(in crate::gui::ui) fn chart<'a>(ui: &egui::Ui, id: &str, height: f32) -> Plot<'a> {
+/// A chart with its axes: values are read below it.
+pub(in crate::gui::ui) fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> Plot<'a> {
     let em = ui.text_style_height(&TextStyle::Body);
     let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
     let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
     // The spacers leave room for every number: none is to fade because others are near.
     let near = egui::Rangef::new(0.0, 1.0);
-    still(id, height)
+    bare(name, height)
         .custom_x_axes(vec![AxisHints::new_x().label_spacing(near)])
         .custom_y_axes(vec![AxisHints::new_y().label_spacing(near)])
         .show_x(false)
@@ -110,16 +132,10 @@ pub(in crate::gui::ui) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, L
     });
 }
 
-/// Ticks of an axis of log₁₀: powers of ten, thinned to at most `most`.
-pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64) -> Vec<GridMark> {
+/// Ticks of an axis of log₁₀: powers of ten, at most about `most`, and 2 and 5 times them if they are few and that is `between`.
+pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64, between: bool) -> Vec<GridMark> {
     let (from, to) = input.bounds;
-    let count = to - from;
-    if !count.is_finite() || count <= 0.0 {
-        return Vec::new();
-    }
-    let every = (count / most.max(1.0)).ceil().max(1.0);
-    let [first, last] = [(from / every).ceil() as i64, (to / every).floor() as i64];
-    (first..=last).map(|k| GridMark { value: k as f64 * every, step_size: every }).collect()
+    decades([from, to], most, between).into_iter().map(|value| GridMark { value, step_size: 1.0 }).collect()
 }
 
 /// As many decimals as the steps between ticks need, with a true minus sign.
@@ -130,15 +146,17 @@ fn tick(mark: GridMark) -> String {
 
 /// Ticks at 1, 2 or 5 times a power of ten, at most about `most`.
 fn round_ticks(input: &GridInput, most: f64) -> Vec<GridMark> {
+    apart(input, (input.bounds.1 - input.bounds.0) / most.max(1.0))
+}
+
+/// Ticks at 1, 2 or 5 times a power of ten that is at least `least`.
+pub(in crate::gui::ui) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
     let (from, to) = input.bounds;
-    let least = (to - from) / most.max(1.0);
     if !(least.is_finite() && least > 0.0) {
         return Vec::new();
     }
-    let power = 10f64.powf(least.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|lead| lead * power).find(|step| *step >= least).unwrap_or(least);
-    let [first, last] = [(from / step).ceil() as i64, (to / step).floor() as i64];
-    (first..=last.min(first + 50)).map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
+    let ticks = Ticks::apart([from, to], least);
+    ticks.values().map(|value| GridMark { value, step_size: ticks.step() }).collect()
 }
 
 #[cfg(test)]
@@ -154,12 +172,10 @@ mod tests {
         let input = |bounds| GridInput { bounds, base_step_size: 1.0 };
         assert_eq!(values(&round_ticks(&input((0.0, 104.0)), 4.0)), [0.0, 50.0, 100.0]);
         assert_eq!(values(&round_ticks(&input((-30.0, 150.0)), 5.0)), [0.0, 50.0, 100.0, 150.0]);
-        assert_eq!(values(&powers(&input((-1.5, 3.4)), 10.0)), [-1.0, 0.0, 1.0, 2.0, 3.0]);
-        assert_eq!(values(&powers(&input((-4.0, 5.0)), 3.0)), [-3.0, 0.0, 3.0]);
         let texts: Vec<String> = round_ticks(&input((-0.5, 1.6)), 5.0).into_iter().map(tick).collect();
         assert_eq!(texts, ["−0.5", "0.0", "0.5", "1.0", "1.5"]);
         for bounds in [(0.0, 0.0), (f64::NEG_INFINITY, f64::INFINITY)] {
-            assert!(round_ticks(&input(bounds), 4.0).is_empty() && powers(&input(bounds), 4.0).is_empty());
+            assert!(round_ticks(&input(bounds), 4.0).is_empty());
         }
     }
 }

@@ -179,6 +179,17 @@ pub fn pressed(ctx: &Context, obstacles: Obstacles, tab: Tab) -> Vec<Shortcut> {
 
 /// The keys as they are printed on a keyboard.
 pub fn name(keys: &KeyboardShortcut) -> String {
+    name_on(MAC, keys)
+}
+
+/// `text`, which names keys as most keyboards have them, for the keyboard of this system.
+pub fn in_text(text: &str) -> String {
+    if MAC { text.replace("Ctrl+", ModifierNames::SYMBOLS.mac_cmd) } else { text.to_owned() }
+}
+
+const MAC: bool = cfg!(target_os = "macos");
+
+fn name_on(mac: bool, keys: &KeyboardShortcut) -> String {
     let key = match keys.logical_key {
         Key::ArrowLeft => "←",
         Key::ArrowRight => "→",
@@ -187,7 +198,10 @@ pub fn name(keys: &KeyboardShortcut) -> String {
         Key::Escape => "Esc",
         other => other.symbol_or_name(),
     };
-    let modifiers = ModifierNames::NAMES.format(&keys.modifiers, cfg!(target_os = "macos"));
+    if mac {
+        return format!("{}{key}", ModifierNames::SYMBOLS.format(&keys.modifiers, true));
+    }
+    let modifiers = ModifierNames::NAMES.format(&keys.modifiers, false);
     if modifiers.is_empty() { key.to_owned() } else { format!("{modifiers}+{key}") }
 }
 
@@ -212,9 +226,10 @@ mod tests {
         assert_eq!(of(&Command::NextTooth(1)), "]");
         assert_eq!(of(&Command::CancelSolve), "Esc");
         assert_eq!(of(&Command::TogglePlay), "Space");
-        if cfg!(not(target_os = "macos")) {
-            assert_eq!(of(&Command::Redo), "Ctrl+Shift+Z");
-        }
+        let names = |keys| [false, true].map(|mac| name_on(mac, &keys));
+        assert_eq!(names(key(CTRL, Key::Z)), ["Ctrl+Z", "⌘Z"]);
+        assert_eq!(names(key(CTRL_SHIFT, Key::S)), ["Ctrl+Shift+S", "⇧⌘S"]);
+        assert_eq!(names(key(NONE, Key::F1)), ["F1", "F1"]);
         assert_eq!(of(&Command::OpenPathPrompt), "");
     }
 

@@ -23,9 +23,13 @@ const LESSON: Side = Side { default: 392.0, least: 240.0, share: 0.36 };
 const RESULTS: Side = Side { default: 304.0, least: 190.0, share: 0.29 };
 
 impl Side {
+    fn most(&self, window: f32) -> f32 {
+        (self.share * window).max(self.least)
+    }
+
     /// Fits `panel` into a window of this width: what is in the middle stays the widest.
     fn fit(&self, panel: egui::Panel, window: f32) -> egui::Panel {
-        let most = (self.share * window).max(self.least);
+        let most = self.most(window);
         panel.default_size(self.default.min(most)).size_range(self.least..=most).resizable(true)
     }
 }
@@ -40,18 +44,22 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         timeline::status(ui, cx);
     });
     let width = ui.available_width();
-    // Each size of text remembers its own widths.
-    let id = |name: &str| if state.lecture { format!("{name}, lecture") } else { name.to_owned() };
+    // Each size of text remembers its own widths, and so does a window too narrow for the usual ones: made wide again, it has
+    // those that it had.
+    let id = |name: &str, side: &Side| {
+        let size = if state.lecture { ", lecture" } else { "" };
+        format!("{name}{size}{}", if side.most(width) < side.default { ", narrow" } else { "" })
+    };
     if state.view.parameters {
-        PARAMETERS.fit(egui::Panel::left(id("parameters")), width).show(ui, |ui| {
+        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).show(ui, |ui| {
             cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
             parameters::show(ui, cx);
         });
     }
     if state.view.results && state.lessons.running().is_some_and(|running| !running.all_results) {
-        LESSON.fit(egui::Panel::right(id("lesson")), width).show(ui, |ui| lesson::show(ui, cx));
+        LESSON.fit(egui::Panel::right(id("lesson", &LESSON)), width).show(ui, |ui| lesson::show(ui, cx));
     } else if state.view.results {
-        RESULTS.fit(egui::Panel::right(id("results")), width).show(ui, |ui| {
+        RESULTS.fit(egui::Panel::right(id("results", &RESULTS)), width).show(ui, |ui| {
             // As wide before the first result as after it.
             ui.set_min_width(ui.available_width());
             if state.lessons.running().is_some() && ui.button("Back to the lesson").clicked() {

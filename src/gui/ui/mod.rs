@@ -3,6 +3,7 @@
 pub mod cache;
 pub mod chart;
 pub mod context;
+pub mod fidelity;
 pub mod formula;
 pub mod glossary;
 pub mod highlight;

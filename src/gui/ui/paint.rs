@@ -284,6 +284,12 @@ pub(in crate::gui::ui) fn title_with_bar(
     range: [f64; 2],
 ) {
     let ends = range.map(|pascal| number(pascal / 1e3));
+    // Of one value there is no scale.
+    if ends[0] == ends[1] {
+        let everywhere = titles.map(|title| format!("{title}: {} kPa everywhere", ends[1]));
+        style.title(painter, plot, word, &everywhere.each_ref().map(String::as_str), &[]);
+        return;
+    }
     title_with_ends(painter, style, plot, word, titles, [&ends[0], &format!("{} kPa", ends[1])]);
 }
 

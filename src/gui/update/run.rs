@@ -1,6 +1,6 @@
 //! One place where every command is carried out, and one where all that has happened is taken.
 
-use super::updater::Updater;
+use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Wish;
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::{Answer, Picture, Purpose};
@@ -24,7 +24,10 @@ impl Updater {
             Command::Proceed(next) => self.proceed(next),
             Command::OpenDialog => self.ask(Purpose::Open, ""),
             Command::OpenPathPrompt => {
-                let prompt = PathPrompt::asked(&[Purpose::Open, Purpose::Save(None)], state.suggested_name());
+                let prompt = PathPrompt::asked(
+                    &[Purpose::Open, Purpose::Save(None)],
+                    state.failed_path.take().unwrap_or_else(|| state.suggested_name()),
+                );
                 state.modal = Some(Modal::Path(prompt));
             }
             Command::Save => self.save(None),
@@ -84,7 +87,9 @@ impl Updater {
             }
             Command::ToggleLecture => {
                 state.lecture = !state.lecture;
-                self.apply_theme();
+                // The user's own zoom stays.
+                let zoom = if state.lecture { LECTURE_ZOOM } else { LECTURE_ZOOM.recip() };
+                self.ctx.set_zoom_factor(self.ctx.zoom_factor() * zoom);
             }
             Command::Screenshot => self.take_picture(),
             Command::ToggleParameters => state.view.parameters = !state.view.parameters,

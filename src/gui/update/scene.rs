@@ -34,7 +34,7 @@ impl Updater {
                 if !dragging {
                     self.state.document.end_drag();
                 }
-                self.state.rejected.reject(key, change, error.to_string());
+                self.state.rejected.reject(key, change, error);
             }
         }
     }
@@ -131,7 +131,10 @@ impl Updater {
                 self.state.document = Document::opened(scene, path).with_target(self.state.document.target());
                 self.scene_replaced();
             }
-            Err(error) => self.state.fail(error),
+            Err(error) => {
+                self.state.failed_path = path.map(|path| path.display().to_string());
+                self.state.fail(error);
+            }
         }
     }
 
@@ -157,7 +160,10 @@ impl Updater {
                 self.state.remember(path);
                 then.into_iter().for_each(|next| self.proceed_now(next));
             }
-            Err(error) => self.state.fail(error),
+            Err(error) => {
+                self.state.failed_path = Some(path.display().to_string());
+                self.state.fail(error);
+            }
         }
     }
 

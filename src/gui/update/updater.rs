@@ -46,6 +46,7 @@ impl Updater {
         let (ctx, pictures) = (ctx.clone(), channel());
         let mut updater = Self { state, platform, ctx, solver, dialogs, pictures, writing: Vec::new() };
         updater.apply_theme();
+        updater.ctx.set_zoom_factor(if updater.state.lecture { LECTURE_ZOOM } else { 1.0 });
         updater.refine();
         Ok(updater)
     }
@@ -68,9 +69,7 @@ impl Updater {
 
     /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted.
     pub(super) fn refine(&mut self) {
-        let target = self.state.document.target();
-        let fidelities: Vec<Fidelity> = Fidelity::ALL.into_iter().filter(|fidelity| *fidelity <= target).collect();
-        self.solve(&fidelities);
+        self.solve(&self.state.document.target().and_coarser());
     }
 
     /// Asks for the present scene at these fidelities.
@@ -111,9 +110,8 @@ impl Updater {
 
     pub(super) fn apply_theme(&self) {
         self.ctx.set_theme(if self.state.dark { egui::Theme::Dark } else { egui::Theme::Light });
-        self.ctx.set_zoom_factor(if self.state.lecture { LECTURE_ZOOM } else { 1.0 });
     }
 }
 
-/// Zoom of the lecture size.
-const LECTURE_ZOOM: f32 = 1.35;
+/// Zoom of the lecture size, relative to the user's own.
+pub(super) const LECTURE_ZOOM: f32 = 1.35;

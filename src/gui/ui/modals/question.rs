@@ -6,6 +6,7 @@ use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::document::{Next, absolute};
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::panels::field::select_all;
 use eframe::egui::{self, Id, Key, RichText, Ui};
 use std::path::{Path, PathBuf};
 
@@ -112,6 +113,8 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     let field = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(f32::INFINITY)).labelled_by(label.id);
     if prompt.fresh {
         field.request_focus();
+        // What is typed replaces the name that is there.
+        select_all(ui, field.id, &typed);
     }
     if prompt.fresh || field.changed() {
         cx.push(Command::TypePath(typed.clone()));

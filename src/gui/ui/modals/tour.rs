@@ -4,6 +4,7 @@ use crate::gui::command::Command;
 use crate::gui::state::tour::STOPS;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::highlight;
+use crate::gui::ui::keys;
 use eframe::egui::{self, Align, Id, Layout, Order, Rect, RichText, Vec2, pos2, vec2};
 
 /// Width of the callout.
@@ -60,7 +61,7 @@ pub fn show(ctx: &egui::Context, stop: usize, cx: &DrawContext<'_>) {
                 });
             });
             ui.add_space(4.0);
-            ui.add(egui::Label::new(shown.text).wrap());
+            ui.add(egui::Label::new(keys::in_text(shown.text)).wrap());
             ui.add_space(8.0);
             ui.horizontal(|ui| {
                 let last = stop + 1 == STOPS.len();

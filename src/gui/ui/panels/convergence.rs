@@ -2,26 +2,30 @@
 
 use crate::control::Progress;
 use crate::gui::derived::format::power_of_ten;
-use crate::gui::ui::chart::{line, still};
+use crate::gui::ui::chart::{apart, bare, line, powers};
 use crate::gui::ui::context::DrawContext;
 use eframe::egui;
-use egui_plot::{GridMark, HLine, LineStyle, PlotPoints, Points};
+use egui_plot::{HLine, LineStyle, PlotPoints, Points};
 
 /// Height of the plot, in lines of text.
 const HEIGHT: f32 = 9.0;
-/// At most this many ticks on the axis of decades.
+/// At most this many ticks on an axis.
 const TICKS: f64 = 5.0;
 
 /// Shows the rounds of `history`: one line for each grid, and dashed what each had to fall below.
 pub fn show(ui: &mut egui::Ui, history: &[Progress], cx: &DrawContext<'_>) {
     let grids = history.iter().map(|progress| progress.level).max().map_or(0, |level| level + 1);
     let height = HEIGHT * ui.text_style_height(&egui::TextStyle::Body);
-    let plot = still("convergence", height)
+    let plot = bare("convergence", height)
         .x_axis_label("round")
         .y_axis_label("relative change")
-        .y_grid_spacer(|input| decades(input.bounds))
+        .y_grid_spacer(|input| powers(&input, TICKS, false))
         .y_axis_formatter(|mark, _| power_of_ten(mark.value))
-        .x_grid_spacer(|input| whole(input.bounds))
+        .x_grid_spacer(|input| {
+            let mut ticks = apart(&input, ((input.bounds.1 - input.bounds.0) / TICKS).max(1.0));
+            ticks.retain(|tick| tick.value >= 1.0);
+            ticks
+        })
         .x_axis_formatter(|mark, _| format!("{}", mark.value))
         .label_formatter(|at| match at {
             egui_plot::HoverPosition::NearDataPoint { plot_name, position, .. } if !plot_name.is_empty() => {
@@ -66,35 +70,9 @@ fn rounds(history: &[Progress], grid: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn marks((from, to): (f64, f64), step: f64) -> Vec<GridMark> {
-    let (first, last) = ((from / step).ceil(), (to / step).floor());
-    let count = if last >= first { (last - first) as usize + 1 } else { 0 };
-    (0..count).map(|k| GridMark { value: (first + k as f64) * step, step_size: step }).collect()
-}
-
-fn decades(bounds: (f64, f64)) -> Vec<GridMark> {
-    marks(bounds, ((bounds.1 - bounds.0) / TICKS).ceil().clamp(1.0, 1e3))
-}
-
-fn whole(bounds: (f64, f64)) -> Vec<GridMark> {
-    let rough = ((bounds.1 - bounds.0) / TICKS).max(1.0);
-    let unit = 10f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * unit).find(|step| *step >= rough).unwrap_or(rough);
-    marks((bounds.0.max(1.0), bounds.1), step)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ticks_are_whole_and_few() {
-        for bounds in [(-8.2, 0.3), (-3.1, -2.9), (-40.0, 0.0)] {
-            let marks = decades(bounds);
-            assert!(marks.len() <= 7 && marks.iter().all(|mark| mark.value.fract() == 0.0), "{bounds:?}");
-        }
-        assert!(whole((0.0, 37.0)).len() <= 6);
-    }
 
     #[test]
     fn a_residual_of_zero_is_left_out() {

@@ -158,7 +158,8 @@ fn keep(ui: &egui::Ui, id: Id, text: String, stage: Stage) {
     ui.data_mut(|data| data.insert_temp(id, Edit { text, stage }));
 }
 
-fn select_all(ui: &egui::Ui, id: Id, text: &str) {
+/// Selects all of a text field.
+pub fn select_all(ui: &egui::Ui, id: Id, text: &str) {
     let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
     let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));
     state.cursor.set_char_range(Some(all));

@@ -3,7 +3,6 @@
 
 use crate::analysis::decision;
 use crate::digits::significant;
-use crate::fidelity::Fidelity;
 use crate::gui::command::Command;
 use crate::gui::derived::format::power_of_ten;
 use crate::gui::derived::format::{capitalised, digits};
@@ -11,7 +10,7 @@ use crate::gui::derived::words;
 use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
+use crate::gui::ui::fidelity;
 use crate::gui::ui::hint::{Hint, beside, text_width};
 use crate::job::SolvedScene;
 use crate::plan::Decision;
@@ -167,20 +166,12 @@ impl Row<'_> {
         let (target, numerics) = (self.document().target(), self.document().scene().numerics());
         ui.horizontal(|ui| {
             let label = ui.label(RichText::new("Solved up to").color(self.cx.colours.quiet));
-            let combo = egui::ComboBox::from_id_salt("target")
-                .selected_text(target.name())
-                .width(ui.available_width())
-                .truncate()
-                .show_ui(ui, |ui| {
-                    for fidelity in Fidelity::ALL {
-                        let entry = ui.selectable_label(fidelity == target, fidelity.name());
-                        if glossary::hover(ui, entry, fidelity.name()).clicked() && fidelity != target {
-                            self.cx.push(Command::Use { target: fidelity, numerics });
-                        }
-                    }
-                });
+            let (combo, chosen) = fidelity::choose(ui, "target", target, Some(ui.available_width()), self.cx);
+            if let Some(target) = chosen {
+                self.cx.push(Command::Use { target, numerics });
+            }
             let hint = "Every edit is solved at draft first, then refined up to this";
-            beside(ui.clip_rect(), combo.response, hint).labelled_by(label.id);
+            beside(ui.clip_rect(), combo, hint).labelled_by(label.id);
         });
         ui.add_space(4.0);
     }
@@ -312,6 +303,7 @@ fn cell<R>(ui: &mut egui::Ui, width: f32, height: f32, align: Align, add: impl F
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fidelity::Fidelity;
 
     #[test]
     fn a_change_is_one_sentence() {

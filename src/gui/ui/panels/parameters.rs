@@ -215,6 +215,10 @@ impl Panel<'_> {
             let field = FIELD_WIDTH * em;
             let gaps = 2.0 * ui.spacing().item_spacing.x;
             ui.spacing_mut().slider_width = (ui.available_width() - field - self.units - gaps).max(SHORTEST_SLIDER);
+            // What has no effect here can be read, and not set.
+            if !self.scene.heeds(parameter.key) {
+                ui.disable();
+            }
             let slider = self.slider(ui, parameter, value);
             let slider = beside(ui.clip_rect(), slider, &explanation);
             match name {
@@ -291,7 +295,8 @@ impl Panel<'_> {
         let explanation = self.explanation(parameter);
         self.beside_reset(ui, parameter, |ui| {
             let mut on = on;
-            let checkbox = ui.checkbox(&mut on, label(parameter));
+            let heeded = self.scene.heeds(parameter.key);
+            let checkbox = ui.add_enabled(heeded, egui::Checkbox::new(&mut on, label(parameter)));
             if beside(ui.clip_rect(), checkbox, &explanation).changed() {
                 self.cx.push(Command::Set { key: parameter.key, value: Value::Flag(on), dragging: false });
             }

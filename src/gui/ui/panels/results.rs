@@ -117,7 +117,7 @@ fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &P
 }
 
 fn extremes(ui: &mut egui::Ui, cx: &DrawContext<'_>, gap: f64, pressure: f64, ambient: f64) {
-    number(ui, cx, "Least gap", &shown(gap * 1e9), "nm");
+    number(ui, cx, "Least film thickness", &shown(gap * 1e9), "nm");
     number(ui, cx, "Highest pressure", &shown(pressure * 1e-3), "kPa");
     number(ui, cx, "Relative to ambient", &format!("{} ×", significant(pressure / ambient, 3)), "");
 }
@@ -152,7 +152,7 @@ fn regime_numbers(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 
 fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let stats = &run.solution.stats;
-    number(ui, cx, "Fidelity", run.fidelity.name(), "");
+    number(ui, cx, "Fidelity", &run.fidelity.to_string(), "");
     match &run.solution.outcome {
         Outcome::Motor(result) => number(ui, cx, "Error of α", &rough(result.alpha_error), ""),
         Outcome::Plate(result) => {
@@ -165,7 +165,7 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     } else {
         number(ui, cx, "Rounds", &stats.cycles.to_string(), "");
     }
-    number(ui, cx, "Film steps", &stats.film_steps.to_string(), "");
+    number(ui, cx, "Film steps", &format!("{}{}", stats.film_steps, if run.warm { ", warm start" } else { "" }), "");
     number(ui, cx, "Film nodes, finest grid", &stats.film_nodes.to_string(), "");
     number(ui, cx, "Steps in a cycle", &stats.steps_per_cycle.to_string(), "");
     let (time, unit) = if run.wall_s < 1.0 { (run.wall_s * 1e3, "ms") } else { (run.wall_s, "s") };

@@ -212,6 +212,8 @@ fn name_field(ui: &mut Ui, pin: u64, run: &Run, width: f32, cx: &DrawContext<'_>
 fn numbers(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pins = &cx.state.pins;
     let quiet = |text: &str| RichText::new(text).color(cx.colours.quiet);
+    // Bars that stay, so that columns beyond the edge are not missed.
+    ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     egui::ScrollArea::both().id_salt("numbers of pins").auto_shrink(false).show(ui, |ui| {
         let [motors, plates] = ["motor", "plate"].map(|kind| pins.runs().iter().any(|run| run.scene.scene() == kind));
         if pins.runs().len() < 2 {

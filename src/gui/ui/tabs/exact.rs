@@ -8,7 +8,7 @@ use crate::gui::derived::exact::{ExactCurves, small_amplitude};
 use crate::gui::derived::format::uncertain;
 use crate::gui::derived::format::{digits, power_of_ten};
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, powers, title};
+use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, powers, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::rich::{self, Look};
@@ -135,11 +135,9 @@ fn coefficients(ui: &mut Ui, known: &ExactCurves, aspect: Option<f64>, height: f
     let whole = place(ui, height);
     let plot = chart(ui, name, height)
         .x_axis_label("σ/Q")
-        .x_grid_spacer(move |input| powers(&input, most))
+        .x_grid_spacer(move |input| powers(&input, most, false))
         .x_axis_formatter(|mark, _| power_of_ten(mark.value.round()));
-    let shown = plot.show(ui, |plot| {
-        plot.set_plot_bounds_x(known.window[0]..=known.window[1]);
-        plot.set_plot_bounds_y(0.0..=1.12 * top);
+    let shown = framed(ui, (name, plot), [known.window, [0.0, 1.12 * top]], |plot| {
         let present = known.comparison.effective_squeeze_number.log10();
         plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
         for (points, (_, colour)) in [(&curves.0, spring), (&curves.1, damping)] {
@@ -166,9 +164,8 @@ fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
     );
     let name = "Load over the cycle and its limits";
     let whole = place(ui, height);
-    let shown = chart(ui, name, height).x_axis_label("t/T").show(ui, |plot| {
-        plot.set_plot_bounds_x(0.0..=1.0);
-        plot.set_plot_bounds_y(known.bounds[0]..=known.bounds[1]);
+    let plot = chart(ui, name, height).x_axis_label("t/T");
+    let shown = framed(ui, (name, plot), [[0.0, 1.0], known.bounds], |plot| {
         plot.hline(HLine::new("", 0.0).color(cx.colours.quiet).width(1.0).allow_hover(false));
         let lines = [
             (&known.boyle, boyle, dash),

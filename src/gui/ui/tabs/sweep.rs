@@ -2,12 +2,12 @@
 
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::Ending;
-use crate::fidelity::Fidelity;
 use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::{capitalised, rough};
 use crate::gui::derived::words::label;
 use crate::gui::state::sweep::{AxisForm, Form, Swept, candidates};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::fidelity;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::panels::menu::{SWEEP, export_button};
@@ -158,16 +158,12 @@ fn buttons(ui: &mut Ui, form: &Form, good: bool, cx: &DrawContext<'_>) {
                 if ui.add_enabled(good, egui::Button::new("Start the sweep")).hint(about).clicked() {
                     cx.push(SweepCommand::Start);
                 }
-                let combo = ComboBox::from_id_salt("fidelity").selected_text(form.fidelity.name()).show_ui(ui, |ui| {
-                    for fidelity in Fidelity::ALL {
-                        let entry = ui.selectable_label(fidelity == form.fidelity, fidelity.name());
-                        if glossary::hover(ui, entry, fidelity.name()).clicked() {
-                            cx.push(SweepCommand::Fidelity(fidelity));
-                        }
-                    }
-                });
-                combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
-                glossary::here(ui, combo.response, "Fidelity");
+                let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, None, cx);
+                if let Some(fidelity) = chosen {
+                    cx.push(SweepCommand::Fidelity(fidelity));
+                }
+                combo.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Fidelity of the sweep"));
+                glossary::here(ui, combo, "Fidelity");
             }
         }
         quantity(ui, cx);

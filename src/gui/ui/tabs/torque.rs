@@ -5,7 +5,7 @@ use crate::analysis::torque::TorqueCurves;
 use crate::digits::significant;
 use crate::estimate::Estimate;
 use crate::gui::derived::format::{digits, uncertain};
-use crate::gui::ui::chart::{SOLID, axes, chart, legend, line, place, title};
+use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::job::SolvedScene;
@@ -138,9 +138,7 @@ fn panel(
     if bottom {
         plot = plot.x_axis_label("speed of the rotor, rpm");
     }
-    let shown = plot.show(ui, |plot| {
-        plot.set_plot_bounds_x(0.0..=fastest);
-        plot.set_plot_bounds_y(0.0..=top);
+    let shown = framed(ui, (name, plot), [[0.0, fastest], [0.0, top]], |plot| {
         if (0.0..=fastest).contains(&present) {
             plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
         }

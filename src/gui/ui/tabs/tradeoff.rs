@@ -9,13 +9,13 @@ use crate::gui::command::Command;
 use crate::gui::derived::format::{rough, trimmed};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
-use crate::gui::ui::chart::{axes, line, place as chart_place, still};
+use crate::gui::ui::chart::{axes, bare, line, place as chart_place, powers};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::solve::Method;
 use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
-use egui_plot::{GridMark, HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, Points, VLine};
+use egui_plot::{HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, Points, VLine};
 
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
@@ -23,8 +23,6 @@ const LEAST_LINES: f32 = 12.0;
 /// Radius of a point, and of the ring round the present setting.
 const RADIUS: f32 = 4.5;
 const RING: f32 = 9.0;
-/// Fewer decades than this have ticks at 2 and 5 too.
-const FEW_DECADES: f64 = 2.5;
 /// Around the points, a share of their range.
 const MARGIN: egui::Vec2 = egui::vec2(0.12, 0.12);
 /// Between a point and its name, a share of their range.
@@ -211,12 +209,12 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
     let whole = chart_place(ui, height);
     // For screen readers the table below says it all.
-    let plot = still("trade-off plot", height)
+    let plot = bare("trade-off plot", height)
         .grid_color(grid)
         .x_axis_label("solve time")
         .y_axis_label(judged)
-        .x_grid_spacer(move |input| decades(input.bounds, most))
-        .y_grid_spacer(|input| decades(input.bounds, 12.0))
+        .x_grid_spacer(move |input| powers(&input, most, true))
+        .y_grid_spacer(|input| powers(&input, 12.0, true))
         .x_axis_formatter(|mark, _| duration(10f64.powf(mark.value)))
         .y_axis_formatter(|mark, _| percent(10f64.powf(mark.value - 2.0)))
         .label_formatter(|at| match at {
@@ -378,23 +376,6 @@ fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
     });
 }
 
-/// Ticks of an axis of log₁₀: decades, thinned if there are many, and 2 and 5 if there are few.
-fn decades((from, to): (f64, f64), most: f64) -> Vec<GridMark> {
-    let count = to - from;
-    if !count.is_finite() || count <= 0.0 {
-        return Vec::new();
-    }
-    let every = (count / most).ceil().max(1.0);
-    let steps: &[f64] = if count < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
-    let first = (from / every).floor() as i64;
-    let last = (to / every).ceil() as i64;
-    (first..=last)
-        .flat_map(|k| steps.iter().map(move |step| k as f64 * every + step.log10()))
-        .filter(|value| (from..=to).contains(value))
-        .map(|value| GridMark { value, step_size: every })
-        .collect()
-}
-
 /// A time in the unit that suits it, three digits.
 fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
@@ -425,15 +406,5 @@ mod tests {
         }
         let percents = [percent(0.01), percent(0.0213), percent(1e-6)];
         assert_eq!(percents, ["1\u{a0}%", "2.1\u{a0}%", "0.0001\u{a0}%"]);
-    }
-
-    #[test]
-    fn ticks_are_within_and_not_too_many() {
-        for bounds in [(-3.2, 1.1), (-2.9, -2.1), (-40.0, 3.0)] {
-            let marks = decades(bounds, 12.0);
-            assert!((2..=14).contains(&marks.len()), "{bounds:?}: {}", marks.len());
-            assert!(marks.iter().all(|mark| mark.value >= bounds.0 && mark.value <= bounds.1));
-        }
-        assert!(decades((f64::NEG_INFINITY, f64::INFINITY), 12.0).is_empty());
     }
 }

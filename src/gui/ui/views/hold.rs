@@ -142,7 +142,7 @@ fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFram
     let exaggerated = format!("   vertical {}", times(scale / along));
     let titles = [format!("{numbers}{more}{exaggerated}"), format!("{numbers}{more}"), numbers];
     let titles = titles.each_ref().map(String::as_str);
-    let legend = [("plate", style.palette.rotor), ("stator", style.palette.stator)];
+    let legend = [("plate", style.palette.rotor), ("wall", style.palette.stator)];
     style.title(painter, rect, "Held plate", &titles, &legend);
 
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));

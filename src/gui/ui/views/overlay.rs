@@ -257,7 +257,8 @@ fn over_cycle(
     let traces: Vec<_> =
         curves.iter().map(|(colour, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour }).collect();
     let range = common(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]));
-    let series = Series { title, legend: &[], traces: &traces, range, unit, period, phase };
+    let word = title.split(',').next().unwrap_or(title);
+    let series = Series { titles: &[title], word, legend: &[], traces: &traces, range, unit, period, phase };
     let axes = series.draw(painter, style, rect);
     seek(ui, &axes, title, cx);
 }

@@ -184,7 +184,8 @@ fn draw_load(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFram
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
     let series = Series {
-        title: &format!("Film load, {name}"),
+        titles: &[&format!("Film load, {name}")],
+        word: "Film load",
         legend: &[],
         traces: &[Trace { curve, lag, offset: 0.0, colour: style.palette.film }],
         range: [low, high],

@@ -40,7 +40,17 @@ mod tests {
         let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
         let (validity, history) = (Vec::new(), Vec::new());
-        SolvedScene { number: 1, scene, problem, fidelity: Fidelity::Draft, solution, validity, wall_s: 0.0, history }
+        SolvedScene {
+            number: 1,
+            scene,
+            problem,
+            fidelity: Fidelity::Draft,
+            solution,
+            validity,
+            wall_s: 0.0,
+            warm: false,
+            history,
+        }
     }
 
     /// Draws a few frames at several phases and cursors; returns the state of the view and what was asked.

@@ -17,8 +17,10 @@ pub(super) struct Trace<'a> {
 
 /// A small plot over the cycle.
 pub(super) struct Series<'a> {
-    /// With the unit.
-    pub(super) title: &'a str,
+    /// With the unit, long to short.
+    pub(super) titles: &'a [&'a str],
+    /// What the glossary explains it under.
+    pub(super) word: &'a str,
     /// Shown at the right end of the title, if it fits.
     pub(super) legend: &'a [(&'a str, Color32)],
     pub(super) traces: &'a [Trace<'a>],
@@ -35,13 +37,13 @@ pub(super) struct Series<'a> {
 impl Series<'_> {
     /// Draws the plot into `rect`, its title above and the time below.
     pub(super) fn draw(&self, painter: &Painter, style: &PlotStyle, rect: Rect) -> Axes {
-        let [low, high] = self.range;
+        // Of nothing at all the unit is the scale.
+        let [low, high] = if self.range == [0.0; 2] { [-0.5, 0.5].map(|end| end * self.unit) } else { self.range };
         let margin = 0.08 * (high - low);
         let axes = Axes::new(rect, [0.0, 1.0], [low - margin, high + margin]);
         axes.canvas(painter, style);
         axes.y_ticks(painter, style, self.unit);
-        let word = self.title.split(',').next().unwrap_or(self.title);
-        style.title(painter, rect, word, &[self.title], self.legend);
+        style.title(painter, rect, self.word, self.titles, self.legend);
         let quiet = style.palette.quiet;
         let top = rect.bottom() + 1.0;
         let (scale, unit) = if self.period < 1e-3 { (1e6, "µs") } else { (1e3, "ms") };

@@ -10,7 +10,7 @@ use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::{capitalised, digits, trimmed};
 use crate::gui::derived::scales::span;
-use crate::gui::derived::ticks::Ticks;
+use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::derived::words::label;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, title_with_ends};
@@ -32,8 +32,6 @@ const NEAR: f32 = 40.0;
 const LEVELS: usize = 7;
 /// An end of the colours that is less than this share of the range is zero.
 const NOTHING: f64 = 1e-3;
-/// An axis of equal ratios has ticks at 2 and 5 if it spans fewer decades than this.
-const FEW_DECADES: f64 = 2.5;
 /// Values whose greatest is more than this many times the least have many sizes.
 const MANY_SIZES: f64 = 300.0;
 /// An axis of values that reach below this share of the greatest begins at zero.
@@ -134,15 +132,8 @@ fn ends(axis: &Axis) -> [f64; 2] {
 /// Values with their places, about as many as there is room for.
 fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<(f64, String)> {
     if axis.scale == Scale::Log {
-        let decades = range[1] - range[0];
-        let steps: &[f64] = if decades < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let every = (decades / most.max(1) as f64).ceil().max(1.0) as i64;
-        let found: Vec<(f64, String)> = (range[0].floor() as i64..=range[1].ceil() as i64)
-            .filter(|power| power.rem_euclid(every) == 0)
-            .flat_map(|power| steps.iter().map(move |step| step * 10f64.powi(power as i32)))
-            .filter(|value| (range[0] - 1e-9..=range[1] + 1e-9).contains(&value.log10()))
-            .map(|value| (value.log10(), short(value)))
-            .collect();
+        let found = decades(range, most as f64, true);
+        let found: Vec<(f64, String)> = found.into_iter().map(|at| (at, short(10f64.powf(at)))).collect();
         if (2..=most.max(2)).contains(&found.len()) {
             return found;
         }

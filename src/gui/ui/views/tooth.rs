@@ -54,7 +54,8 @@ pub(super) fn draw(
     let spacing = [Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text }];
     let [low, high] = curves.thickness.range();
     let series = Series {
-        title: "Least gap, µm",
+        titles: &[&format!("Least gap of tooth {}, µm", shown.tooth), "Least gap, µm", "Gap, µm"],
+        word: "Least gap",
         legend: &[],
         traces: &spacing,
         range: [(low - minimum).min(0.0), (high - minimum).max(0.0)],
@@ -67,13 +68,17 @@ pub(super) fn draw(
         Trace { curve: &curves.contact, lag, offset: 0.0, colour: style.palette.contact },
         Trace { curve: &curves.film, lag, offset: 0.0, colour: style.palette.film },
     ];
-    let kilo = shown.scales.tooth_load[1] > 2.0;
+    let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
     let series = Series {
-        title: if kilo { "Loads, N" } else { "Loads, mN" },
+        titles: &[
+            &format!("Loads of tooth {}, {}", shown.tooth, unit.0),
+            &format!("Tooth {}, {}", shown.tooth, unit.0),
+        ],
+        word: "Loads",
         legend: &[("contact", style.palette.contact), ("film", style.palette.film)],
         traces: &loads,
         range: shown.scales.tooth_load,
-        unit: if kilo { 1.0 } else { 1e-3 },
+        unit: unit.1,
         ..series
     };
     drawn.plots.push(series.draw(painter, style, places[2]));

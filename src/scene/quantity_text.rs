@@ -1,0 +1,254 @@
+//! Numbers as people type them: `250nm` for a key in micrometres, `0,3`, `2 × (1.5mm − 200um)`. The result is in the unit of the key.
+
+use super::parameter::Parameter;
+
+/// Units of one kind: how they are written (with `u` for µ), and their size, relative to each other.
+type Kind = &'static [(&'static str, f64)];
+
+const KINDS: &[Kind] = &[
+    &[("nm", 1e-9), ("um", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)],
+    &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
+    &[("Pa", 1.0), ("hPa", 1e2), ("kPa", 1e3), ("MPa", 1e6), ("mbar", 1e2), ("bar", 1e5), ("atm", 101_325.0)],
+    &[("uN", 1e-6), ("mN", 1e-3), ("N", 1.0), ("kN", 1e3)],
+    &[("uPas", 1e-6), ("mPas", 1e-3), ("Pas", 1.0)],
+    &[("nm/N", 1e-9), ("um/N", 1e-6), ("mm/N", 1e-3), ("m/N", 1.0)],
+    &[("mm2/N", 1e-6), ("m2/N", 1.0)],
+    &[("rpm", 1.0)],
+];
+
+/// Longest text that is read: no parameter needs more, and parentheses cannot be nested deeper.
+const LONGEST: usize = 200;
+/// Significant decimals of what was computed, without the last bits of the conversion.
+const DECIMALS: usize = 13;
+
+/// The number that `text` is for `parameter`, in its unit: with a decimal point or comma, in any unit of the same kind, as a sum,
+/// difference, product or quotient with parentheses. What has no unit is in that of the key.
+///
+/// # Errors
+/// Key, text and what is allowed.
+pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
+    let units = kind_of(parameter.unit);
+    value(units, spelled(parameter.unit).as_str(), text).ok_or_else(|| {
+        let others: Vec<&str> = units.iter().map(|(name, _)| *name).filter(|name| *name != "atm").collect();
+        let others =
+            if others.is_empty() { String::new() } else { format!(", in {}", others.join(", ").replace('u', "µ")) };
+        let accepts = parameter.accepts();
+        format!(
+            "{} = {} is no number here: expected {accepts}{others}, or a sum as (1 + 2) × 3",
+            parameter.key,
+            text.trim()
+        )
+    })
+}
+
+fn kind_of(unit: &str) -> Kind {
+    let unit = spelled(unit);
+    KINDS.iter().find(|kind| kind.iter().any(|(name, _)| *name == unit)).copied().unwrap_or(&[])
+}
+
+/// Without spaces, and with one way of writing each sign.
+fn spelled(text: &str) -> String {
+    let sign = |c: char| match c {
+        'µ' | 'μ' => 'u',
+        '²' => '2',
+        '−' => '-',
+        '×' | '·' => '*',
+        '÷' => '/',
+        ',' => '.',
+        other => other,
+    };
+    text.chars().filter(|c| !c.is_whitespace()).map(sign).collect()
+}
+
+fn value(units: Kind, unit: &str, text: &str) -> Option<f64> {
+    if text.len() > LONGEST {
+        return None;
+    }
+    let parts: Vec<&str> = text.split_whitespace().collect();
+    // "1 2" is two numbers.
+    let apart = |pair: &[&str]| {
+        pair[0].ends_with(|c: char| c.is_ascii_digit()) && pair[1].starts_with(|c: char| c.is_ascii_digit())
+    };
+    if parts.windows(2).any(apart) {
+        return None;
+    }
+    let text = spelled(text);
+    if let Ok(plain) = text.parse::<f64>() {
+        return plain.is_finite().then_some(plain);
+    }
+    let mut reader = Reader { rest: &text, units, with_unit: false };
+    let found = reader.sum()?;
+    let size = units.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, size)| *size);
+    let power = i32::from(reader.with_unit);
+    let number = if power == 1 { found.number / size } else { found.number };
+    let good = reader.rest.is_empty() && found.power == power && number.is_finite();
+    // Through text, so that no stray bits are left.
+    if good { format!("{number:.DECIMALS$e}").parse().ok() } else { None }
+}
+
+/// A number and how often its unit is a factor of it.
+#[derive(Clone, Copy)]
+struct Term {
+    number: f64,
+    power: i32,
+}
+
+struct Reader<'t> {
+    rest: &'t str,
+    units: Kind,
+    /// Whether any number had a unit.
+    with_unit: bool,
+}
+
+impl Reader<'_> {
+    fn takes(&mut self, word: &str) -> bool {
+        let rest = self.rest.strip_prefix(word);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
+    fn sum(&mut self) -> Option<Term> {
+        let mut sum = self.product()?;
+        loop {
+            let sign = if self.takes("+") {
+                1.0
+            } else if self.takes("-") {
+                -1.0
+            } else {
+                return Some(sum);
+            };
+            let next = self.product()?;
+            if next.power != sum.power {
+                return None;
+            }
+            sum.number += sign * next.number;
+        }
+    }
+
+    fn product(&mut self) -> Option<Term> {
+        let mut product = self.factor()?;
+        loop {
+            if self.takes("*") {
+                let next = self.factor()?;
+                product = Term { number: product.number * next.number, power: product.power + next.power };
+            } else if self.takes("/") {
+                let next = self.factor()?;
+                product = Term { number: product.number / next.number, power: product.power - next.power };
+            } else {
+                return Some(product);
+            }
+        }
+    }
+
+    fn factor(&mut self) -> Option<Term> {
+        if self.takes("-") {
+            let factor = self.factor()?;
+            return Some(Term { number: -factor.number, ..factor });
+        }
+        let term = if self.takes("(") {
+            let inner = self.sum()?;
+            self.takes(")").then_some(inner)?
+        } else {
+            Term { number: self.digits()?, power: 0 }
+        };
+        let longest =
+            self.units.iter().filter(|(name, _)| self.rest.starts_with(name)).max_by_key(|(name, _)| name.len());
+        let Some(&(name, size)) = longest else { return Some(term) };
+        self.takes(name);
+        self.with_unit = true;
+        Some(Term { number: term.number * size, power: term.power + 1 })
+    }
+
+    fn digits(&mut self) -> Option<f64> {
+        let mantissa = self.rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(self.rest.len());
+        let exponent = self.rest[mantissa..].strip_prefix(['e', 'E']).map_or(0, |power| {
+            let unsigned = power.trim_start_matches(['+', '-']);
+            let digits = unsigned.find(|c: char| !c.is_ascii_digit()).unwrap_or(unsigned.len());
+            if digits == 0 { 0 } else { 1 + power.len() - unsigned.len() + digits }
+        });
+        let (number, rest) = self.rest.split_at(mantissa + exponent);
+        self.rest = rest;
+        number.parse().ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::PARAMETERS;
+
+    fn of(key: &str, text: &str) -> Result<f64, String> {
+        read(Parameter::find(key).unwrap(), text)
+    }
+
+    #[test]
+    fn numbers_are_read_as_people_type_them() {
+        for (key, text, expected) in [
+            ("film.min_spacing_nm", "250nm", 250.0),
+            ("film.min_spacing_nm", "0.2um", 200.0),
+            ("film.min_spacing_nm", "0,25 µm", 250.0),
+            ("film.min_spacing_nm", "200 + 50", 250.0),
+            ("film.min_spacing_nm", "2 × (150nm − 0.05 um) ÷ 4", 50.0),
+            ("plate.mean_gap_um", "0,3", 0.3),
+            ("plate.mean_gap_um", "0.001mm", 1.0),
+            ("plate.mean_gap_um", "-(-1 + 1e-1)", 0.9),
+            ("plate.mean_gap_um", "(1+2)um", 3.0),
+            ("plate.mean_gap_um", "2um*3um/1um", 6.0),
+            ("stator.frequency_khz", "40 000Hz", f64::NAN),
+            ("stator.frequency_khz", "40000Hz", 40.0),
+            ("stator.frequency_khz", "4e4 Hz", 40.0),
+            ("film.ambient_pressure_kpa", "1 bar", 100.0),
+            ("film.ambient_pressure_kpa", "1atm", 101.325),
+            ("film.ambient_pressure_kpa", "1013.25 hPa", 101.325),
+            ("motor.load_per_wave_n", "2450mN", 2.45),
+            ("film.viscosity_upa_s", "0.0181 mPa s", 18.1),
+            ("rotor.point_compliance_um_per_n", "640 nm/N", 0.64),
+            ("rotor.local_compliance_m2_per_n", "1.05e-10 m²/N", 1.05e-10),
+            ("motor.waves", "3 + 4", 7.0),
+            // The last bits of a plain number are the user's.
+            ("film.min_spacing_nm", "200.00000000000003", 200.000_000_000_000_03),
+        ] {
+            match of(key, text) {
+                Ok(found) => assert_eq!(found, expected, "{key} = {text}"),
+                Err(message) => assert!(expected.is_nan(), "{message}"),
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_of_this_kind_is_refused_with_what_is_allowed() {
+        let nested = "(".repeat(150) + "1";
+        let long = "1+".repeat(200) + "1";
+        for text in [
+            "",
+            "wide",
+            "250kHz",
+            "250nm + 3",
+            "1um*1um",
+            "1mm/1um",
+            "1 2",
+            "1.2.3",
+            "(1",
+            "1)",
+            "1/0",
+            "nan",
+            "1e999",
+            "+",
+            "2nmm",
+            &nested,
+            &long,
+        ] {
+            let message = of("film.min_spacing_nm", text).unwrap_err();
+            assert!(message.starts_with("film.min_spacing_nm = "), "{message}");
+            assert!(message.contains("from 5 to 10000 nm, in nm, µm, mm, cm, m"), "{message}");
+        }
+        assert!(of("motor.waves", "7 mm").unwrap_err().contains("a whole number from 1 to 100"));
+    }
+
+    #[test]
+    fn every_unit_of_a_key_is_known() {
+        for parameter in PARAMETERS.iter().filter(|parameter| !parameter.unit.is_empty()) {
+            assert!(!kind_of(parameter.unit).is_empty(), "{}", parameter.key);
+        }
+    }
+}
