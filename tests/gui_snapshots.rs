@@ -310,7 +310,7 @@ fn open_by_path(results: &mut SnapshotResults) {
     }
     settle(&mut window);
     window.snapshot("open-by-path");
-    window.get_by_role_and_label(Role::TextInput, "Path").type_text("absent.toml");
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text("/absent.toml");
     window.step();
     window.key_press(Key::Enter);
     settle(&mut window);

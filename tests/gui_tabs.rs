@@ -726,7 +726,9 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
 
     let mut window = next(memory.clone());
     window.step();
-    assert_eq!(window.state().state().pins.waiting().len(), 2, "they are there at once, to be solved");
+    // A slow frame may see the first one solved already.
+    let pins = &window.state().state().pins;
+    assert_eq!(pins.waiting().len() + pins.runs().len(), 2, "they are there at once, to be solved");
     // Closed before they are solved, they are there the next time.
     assert_eq!(left(&mut window).0["pins"], memory.0["pins"]);
     until(&mut window, "the pins", |app| {

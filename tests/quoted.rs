@@ -88,20 +88,18 @@ fn output(command: &str) -> String {
 }
 
 /// The words of a text without what depends on the machine: times, `12.3 ms`, and which setting is `best` for its time.
-fn compared(text: &[&str]) -> Vec<Vec<String>> {
+fn compared(text: &[&str]) -> Vec<String> {
     let unit =
         |word: &str| matches!(word.trim_end_matches([':', ',', ';', '.', '|']), "ns" | "µs" | "ms" | "s" | "min");
-    let line = |line: &&str| {
-        let words: Vec<&str> = line.split_whitespace().filter(|word| *word != "best").collect();
-        let mut kept = Vec::new();
-        for (number, word) in words.iter().enumerate() {
-            let time = words.get(number + 1).is_some_and(|next| unit(next)) && word.parse::<f64>().is_ok();
-            let after = number > 0 && unit(word) && words[number - 1].parse::<f64>().is_ok();
-            kept.push(if time || after { "time".to_owned() } else { (*word).to_owned() });
-        }
-        kept
+    // How long a time is moves the ends of lines that are filled.
+    let words: Vec<&str> =
+        text.iter().flat_map(|line| line.split_whitespace()).filter(|word| *word != "best").collect();
+    let masked = |number: usize| {
+        let time = words.get(number + 1).is_some_and(|next| unit(next)) && words[number].parse::<f64>().is_ok();
+        let after = number > 0 && unit(words[number]) && words[number - 1].parse::<f64>().is_ok();
+        if time || after { "time".to_owned() } else { words[number].to_owned() }
     };
-    text.iter().filter(|line| !line.trim().is_empty()).map(line).collect()
+    (0..words.len()).map(masked).collect()
 }
 
 /// Compares the quotations of every document, or writes what is printed now if `UPDATE_QUOTED` is set.

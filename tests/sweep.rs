@@ -217,7 +217,9 @@ fn files_and_json_agree_and_are_gone_on_with() {
     assert_eq!(run(&[&other[..], &["--restart"]].concat(), Some(&again)).status.code(), Some(0));
     assert!(!left.exists());
     // What somebody has changed is not taken for a result.
-    let changed = String::from_utf8(saved).unwrap().replacen(",converged,,0.", ",converged,,1.", 1);
+    let saved = String::from_utf8(saved).unwrap();
+    let changed = saved.replacen(",converged,slip-law,0.", ",converged,slip-law,1.", 1);
+    assert_ne!(changed, saved);
     fs::write(&left, &changed).unwrap();
     let output = run(&COMMAND, Some(&again));
     let said = String::from_utf8_lossy(&output.stderr);
