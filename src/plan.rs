@@ -399,7 +399,7 @@ impl Plan {
         };
         let steps = round_up(steps);
         let frames_per_step = if clustering_in_time == 0.0 { 1 } else { (follow as usize).div_ceil(steps) };
-        let more_grids = (0..=MORE_GRIDS_OF_PLATE).rev().find(|more| frames_per_step * steps << more <= MOST_FRAMES);
+        let more_grids = (0..=MORE_GRIDS_OF_PLATE).rev().find(|more| (frames_per_step * steps) << more <= MOST_FRAMES);
         let more_grids = more_grids.unwrap_or(0);
         let grid = Choice::PlateGrid { along, across: plate.width.map(|_| across) };
         let mut decisions =

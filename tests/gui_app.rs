@@ -487,7 +487,7 @@ fn a_term_is_switched_and_the_window_says_what_it_changed() {
     window.run_steps(3);
     let decision = |app: &App| {
         let decisions = &app.state().run.as_deref().unwrap().solution.model.decisions;
-        decisions.iter().find(|decision| decision.key() == Some(key)).unwrap().clone()
+        *decisions.iter().find(|decision| decision.key() == Some(key)).unwrap()
     };
     let other = if decision(window.state()).value() == "off" { "Solved" } else { "Left out" };
     window.get_by_role_and_label(Role::ComboBox, "Wedge term").click();

@@ -326,7 +326,7 @@ impl Movie {
                         check(cancel)?;
                         out.write_all(&png_bytes(&pixels, None, &[]).map_err(io::Error::other)?)
                     };
-                    staged.add(&format!("frame-{:04}.png", i + 1), write).map_err(stopped)?;
+                    staged.add(format!("frame-{:04}.png", i + 1), write).map_err(stopped)?;
                 }
                 return Ok(staged.commit()?);
             }

@@ -452,7 +452,7 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
         }
         match &run.solved {
             Ok(solution) => {
-                page.list(&sentences(&solution.model));
+                page.list(sentences(&solution.model));
                 page.text(&format!("The film: {}.", regime::weight(&run.problem, &solution.outcome)));
                 limits(&mut page, &outside(&run.problem, Some(solution)));
                 solution.warnings.iter().for_each(|warning| page.warning(warning));

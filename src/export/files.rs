@@ -90,7 +90,7 @@ pub struct Solved<'a> {
 /// [`WriteError`], also of what cannot be drawn.
 pub fn stage_figure(staged: &mut Staged, name: &str, figure: &Figure, formats: &[Format]) -> Result<(), WriteError> {
     for format in each(formats) {
-        staged.add(&format!("{name}.{}", format.name()), |out| {
+        staged.add(format!("{name}.{}", format.name()), |out| {
             out.write_all(&to_bytes(figure, format).map_err(io::Error::other)?)
         })?;
     }
@@ -266,7 +266,7 @@ pub fn comparison(
     let object = compare::Object::new(runs, settings, command);
     staged.add("compare.json", |out| out.write_all(json::text(&object).as_bytes()))?;
     for (name, gif) in &movies {
-        staged.add(&format!("{name}.gif"), |out| out.write_all(gif))?;
+        staged.add(format!("{name}.gif"), |out| out.write_all(gif))?;
     }
     for (name, figure) in all_figures(runs) {
         control.check()?;

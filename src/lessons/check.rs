@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Comparisons joined by `and`. A comparison is `< <= > >= =` or `about` (within 5 %) between two sums of numbers, names
-//! of results ([`Quantity::name`]), what is read off a tab ([`Live::name`]) and keys of the scene; `start.` before a name is its
+//! of results (`Quantity::name`), what is read off a tab (`Live::name`) and keys of the scene; `start.` before a name is its
 //! value when the step began. A key that is a name or a flag is compared with `=`: `film.slip = "none"`.
 
 mod comparison;

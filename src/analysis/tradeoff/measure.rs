@@ -58,7 +58,7 @@ pub struct Run {
 }
 
 /// Measures `candidates` on `problem`, one run at a time on the caller's thread. `clock` gives seconds from any start.
-/// `told` hears after every run: all runs so far, and the share of the work that is done, 0 to 1; [`Tradeoff::of`]
+/// `told` hears after every run: all runs so far, and the share of the work that is done, 0 to 1; `Tradeoff::of`
 /// makes the present state of them. If it is cancelled, the runs are what was measured.
 pub fn measure(
     problem: &Problem,

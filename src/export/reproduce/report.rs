@@ -108,7 +108,7 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
         for (name, solved) in [("The paper's algorithm", &row.both.paper), ("Converged", &row.both.ours)] {
             if let Ok(solution) = solved {
                 page.heading(name);
-                page.list(&sentences(&solution.model));
+                page.list(sentences(&solution.model));
             }
         }
         if let Ok(solution) = &row.both.ours {

@@ -229,8 +229,8 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
 /// What else follows, in sentences.
 fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContext<'_>) {
     let drag = significant(1e6 * merit.viscous_drag.abs(), 2);
-    cx.note(ui, &format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")));
-    cx.note(ui, &format!("The film's own viscous drag, not counted here, is at most {drag} µN·m."));
+    cx.note(ui, format!("Squeezing the film takes {} from the stator.", stated(Some(merit.film_power), 1.0, "W")));
+    cx.note(ui, format!("The film's own viscous drag, not counted here, is at most {drag} µN·m."));
     if merit.with_film.no_load_speed.is_none() {
         cx.note(ui, "No tooth touches the rotor: nothing but that drag drives it.");
         return;
