@@ -2,7 +2,7 @@
 
 mod startup;
 
-use super::{MotorError, Stop, unit};
+use super::ending::{MotorError, Stop, unit};
 use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
 use crate::control::{Cancel, Reporter};
 use crate::estimate::Mean;

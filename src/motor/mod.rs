@@ -10,42 +10,21 @@
 //! gives the same (tested).
 
 mod dry;
+mod ending;
 mod level;
 
 pub use dry::without_film;
+pub use ending::{MotorError, unit};
 
-use crate::contact::ContactError;
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
-use crate::film::cycle::Interrupted;
-use crate::film::stepper::FilmError;
 use crate::ladder::{Found, Scene, climb, climb_once};
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
 use crate::solution::{MotorResult, Stats, Status};
+use ending::Stop;
 use level::Level;
-
-/// Why a motor could not be solved. No input is known to lead here.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum MotorError {
-    /// A film step failed.
-    #[error("film, step {step} of the cycle: {source}")]
-    Film {
-        /// Which step.
-        step: usize,
-        /// Why.
-        source: FilmError,
-    },
-    /// A contact problem failed.
-    #[error("contact, instant {instant} of the cycle: {source}")]
-    Contact {
-        /// Which instant.
-        instant: usize,
-        /// Why.
-        source: ContactError,
-    },
-}
 
 /// Rounds that a start from another motor's state is given.
 const WARM_ROUNDS: usize = 12;
@@ -59,21 +38,6 @@ const HEAVIER: [f64; 7] = [4.0, 2.8, 2.0, 1.5, 1.25, 1.1, 1.0];
 
 /// A share of the load that no one minds: an error below it is no reason to call a result unresolved.
 const NEGLIGIBLE: f64 = 1e-4;
-
-/// Interrupted or failed: what ends a round early.
-enum Stop {
-    Cancelled,
-    Failed(MotorError),
-}
-
-impl From<Interrupted> for Stop {
-    fn from(interrupted: Interrupted) -> Self {
-        match interrupted {
-            Interrupted::Cancelled => Self::Cancelled,
-            Interrupted::Failed { step, source } => Self::Failed(MotorError::Film { step, source }),
-        }
-    }
-}
 
 /// A motor's periodic state: the numbers, how they were reached, and the fields.
 #[derive(Clone, Debug)]
@@ -244,11 +208,6 @@ impl Scene for Search<'_> {
         let grids = extrapolate_means(&found.headlines).error;
         whole.error <= self.plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
     }
-}
-
-/// What an accuracy of α is relative to: α, or a hundredth of the load where the film carries less than that.
-pub fn unit(alpha: f64) -> f64 {
-    alpha.abs().max(0.01)
 }
 
 /// A motor from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.

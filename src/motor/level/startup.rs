@@ -8,7 +8,7 @@ use super::{CONTACT_SHARE, Level, step_tolerance};
 use crate::contact::{Instant, Shape};
 use crate::control::Cancel;
 use crate::film::stepper::FilmState;
-use crate::motor::{MotorError, Stop};
+use crate::motor::ending::{MotorError, Stop};
 use crate::numerics::anderson::Anderson;
 use crate::recording::Recording;
 use crate::solution::Stats;

@@ -1,0 +1,46 @@
+//! How a solve of a motor ends early, and what its accuracy is relative to.
+
+use crate::contact::ContactError;
+use crate::film::cycle::Interrupted;
+use crate::film::stepper::FilmError;
+
+/// Why a motor could not be solved. No input is known to lead here.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum MotorError {
+    /// A film step failed.
+    #[error("film, step {step} of the cycle: {source}")]
+    Film {
+        /// Which step.
+        step: usize,
+        /// Why.
+        source: FilmError,
+    },
+    /// A contact problem failed.
+    #[error("contact, instant {instant} of the cycle: {source}")]
+    Contact {
+        /// Which instant.
+        instant: usize,
+        /// Why.
+        source: ContactError,
+    },
+}
+
+/// Interrupted or failed: what ends a round early.
+pub(super) enum Stop {
+    Cancelled,
+    Failed(MotorError),
+}
+
+impl From<Interrupted> for Stop {
+    fn from(interrupted: Interrupted) -> Self {
+        match interrupted {
+            Interrupted::Cancelled => Self::Cancelled,
+            Interrupted::Failed { step, source } => Self::Failed(MotorError::Film { step, source }),
+        }
+    }
+}
+
+/// What an accuracy of α is relative to: α, or a hundredth of the load where the film carries less than that.
+pub fn unit(alpha: f64) -> f64 {
+    alpha.abs().max(0.01)
+}
