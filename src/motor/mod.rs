@@ -128,7 +128,8 @@ pub fn touching(
         let motor = Motor { load: heavier * motor.load, ..motor.clone() };
         let mut search = Search { motor: &motor, plan, observer: &mut *observer, cancel, stats: &mut stats };
         let found = climb_once(&mut search, plan, last.as_ref(), cancel).ok()?;
-        if found.status != Status::Converged || found.levels.last().is_some_and(Level::floats) {
+        let floats = |level: &Level| level.alpha(&motor) > NEARLY_FLOATS;
+        if found.status != Status::Converged || found.levels.last().is_some_and(floats) {
             return None;
         }
         last = Some(found);
