@@ -225,7 +225,7 @@ fn model(plan: &Plan, teeth_solved: usize) -> Model {
 }
 
 /// α of the state in which teeth touch, if the one `found` floats, or nearly, and the motor has both. Looked for where fields are kept,
-/// which a sweep does not, and more than a draft is asked for; if `found` is less certain, it is replaced.
+/// which a sweep does not, more than a draft is asked for, and no budget of time is set; if `found` is less certain, it is replaced.
 fn touching(
     found: &mut motor::Periodic,
     motor: &Motor,
@@ -234,7 +234,8 @@ fn touching(
     cancel: &Cancel,
 ) -> Option<Estimate> {
     let floats = |alpha: f64| alpha > motor::NEARLY_FLOATS;
-    if !plan.maps || plan.aim >= 1e-2 || !found.alphas.iter().any(|alpha| floats(*alpha)) {
+    let asked = plan.maps && plan.aim < 1e-2 && !cancel.has_budget();
+    if !asked || !found.alphas.iter().any(|alpha| floats(*alpha)) {
         return None;
     }
     let other = motor::touching(motor, plan, found.stats, observer, cancel)?;
