@@ -94,6 +94,12 @@ fn decimals(size: f64, digits: usize) -> usize {
     places((size / unit).round() * unit * (1.0 + 1e-12)) as usize
 }
 
+/// With a capital first letter.
+pub fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -137,7 +137,7 @@ pub fn climb_once<S: Scene>(
             found.levels.push(level);
         }
         let next = grid.finer(plan.spectral);
-        let worthwhile = || next.work() * plan.aim.sqrt() <= scene.most_work() && !scene.settled(&found);
+        let worthwhile = || next.work() * plan.target_error.sqrt() <= scene.most_work() && !scene.settled(&found);
         let more = number < plan.grids.len()
             || number < plan.most_grids && status == Status::Converged && !cancel.is_spent() && worthwhile();
         finer = Some(next);
@@ -167,7 +167,7 @@ fn settle_across<S: Scene>(
         let level;
         (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
         let change = (scene.headline(&level).all - scene.headline(&narrower).all).abs();
-        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.aim * scene.unit(&level);
+        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.target_error * scene.unit(&level);
         if status == Status::Converged && matters && across < plan.most_across {
             narrower = level;
             across += 1;

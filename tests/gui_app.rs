@@ -9,7 +9,8 @@ use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use memory::Memory;
-use squeezefilm::analysis::tradeoff::{Candidate, Effort, Ended, candidates};
+use squeezefilm::analysis::attempt::RunStatus;
+use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
@@ -555,7 +556,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     let points = &window.state().state().tradeoff.as_ref().unwrap().tradeoff().points;
     let names: Vec<&str> = points.iter().map(|point| point.run.candidate.name.as_str()).collect();
     assert_eq!(names, ["draft", "standard", "present setting"]);
-    assert!(points.iter().all(|point| point.run.ended == Ended::Converged && point.error.is_some()));
+    assert!(points.iter().all(|point| point.run.status == RunStatus::Converged && point.error.is_some()));
 
     // The cheapest that serves is used, which is one edit.
     let aim = |window: &Harness<'static, App>| window.state().state().document.target();

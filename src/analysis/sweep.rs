@@ -15,6 +15,7 @@ use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity, force_unit};
 use super::table1::{Published, published_at};
 use super::validity;
+use crate::analysis::attempt::RunStatus;
 use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
@@ -27,17 +28,6 @@ use std::ops::Range;
 /// Neighbours along the last axis that one thread solves one after the other.
 const CHUNK: usize = 4;
 
-/// How a point ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The cycle repeats to the tolerance.
-    Converged,
-    /// A limit was reached first; the numbers are what was reached.
-    NotConverged,
-    /// There is no solution, and why.
-    Failed(String),
-}
-
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
@@ -46,7 +36,7 @@ pub struct Row {
     /// The value of each axis there.
     pub values: Vec<f64>,
     /// How it ended.
-    pub ending: Ending,
+    pub status: RunStatus,
     /// The numbers; none if it failed.
     pub numbers: Numbers,
     /// Names of the limits of the model that it exceeds; none if it failed.
@@ -254,7 +244,7 @@ impl Sweep {
             let mut row = Row {
                 point,
                 values: values.clone(),
-                ending: Ending::Converged,
+                status: RunStatus::Waiting,
                 numbers: Numbers::default(),
                 outside: Vec::new(),
             };
@@ -263,16 +253,13 @@ impl Sweep {
                 .map_err(Clone::clone)
                 .and_then(|problem| Ok((problem, attempt_from(&mut warm, problem, &settings, &mut (), cancel)?)));
             match solved {
+                Ok((_, solution)) if solution.status == Status::Cancelled => break,
                 Ok((problem, solution)) => {
-                    match solution.status {
-                        Status::Converged => {}
-                        Status::NotConverged { .. } | Status::NotResolved { .. } => row.ending = Ending::NotConverged,
-                        Status::Cancelled => break,
-                    }
+                    row.status = solution.status.into();
                     row.numbers = Numbers::of(problem, &solution);
                     row.outside = validity::names(&validity::outside(problem, Some(&solution)));
                 }
-                Err(reason) => row.ending = Ending::Failed(reason),
+                Err(reason) => row.status = RunStatus::Failed(reason),
             }
             finished(&row);
             rows.push(row);
@@ -405,13 +392,16 @@ mod tests {
     fn points_that_break_a_rule_between_keys_are_marked() {
         let sweep = sweep("fundamental", &["motor.waves=8:20:3"]).unwrap();
         let rows = sweep.run(&[], &Cancel::new(), &|_| ());
-        let Ending::Failed(reason) = &rows[2].ending else { panic!("{rows:?}") };
+        let RunStatus::Failed(reason) = &rows[2].status else { panic!("{rows:?}") };
         assert!(reason.contains("stator.tooth_width_mm = 1.7353 is out of range"), "{reason}");
-        assert_eq!((rows.len(), &rows[0].ending), (3, &Ending::Converged));
+        assert_eq!((rows.len(), &rows[0].status), (3, &RunStatus::Converged));
         // A strip's forces are per metre: they do not stand in one column with those of a plate.
         let strip = super::tests::sweep("plate-crossover", &["plate.width_mm=none,1"]).unwrap();
         let rows = strip.run(&[], &Cancel::new(), &|_| ());
-        assert_eq!(rows[1].ending, Ending::Failed("its forces are in N, those of the other points in N/m".to_owned()));
+        assert_eq!(
+            rows[1].status,
+            RunStatus::Failed("its forces are in N, those of the other points in N/m".to_owned())
+        );
     }
 
     #[test]

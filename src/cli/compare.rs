@@ -9,9 +9,9 @@ use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
 use super::terminal;
-use crate::analysis::compare::{Run, results, runs};
+use crate::analysis::compare::{ComparedRun, results, runs};
 use crate::export::animation::Options;
-use crate::export::compare::{LIMITS, Object, difference_text, ending, frames, parameter_rows, status, value_text};
+use crate::export::compare::{LIMITS, Object, difference_text, frames, parameter_rows, status, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
 use crate::fidelity::Fidelity;
@@ -110,11 +110,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             paths => terminal::note(&written(folder, &paths?)),
         }
     }
-    Ok(Exit::worst(runs.iter().map(|run| Exit::from(&ending(run)))))
+    Ok(Exit::worst(runs.iter().map(|run| Exit::from(&run.status()))))
 }
 
 /// The tables for people. Runs are lettered, so that long names do not widen them.
-fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
+fn text(runs: &[ComparedRun], settings: &Settings, all: bool) -> String {
     let how = match settings.method {
         Method::Auto => format!("fidelity {}", settings.fidelity),
         Method::Paper => "the paper's algorithm".to_owned(),
@@ -166,7 +166,7 @@ fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
         columns.row(cells);
     }
     if runs.iter().any(|run| !run.outside().is_empty()) {
-        let names = |(i, run): (usize, &Run)| {
+        let names = |(i, run): (usize, &ComparedRun)| {
             let names = run.outside().join(", ");
             if i == 0 { vec![names] } else { vec![names, String::new()] }
         };

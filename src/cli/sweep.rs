@@ -9,8 +9,9 @@ use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
 use super::terminal;
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
+use crate::analysis::sweep::{Axis, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
 use crate::digits::{significant, with_error};
 use crate::export::compare::LIMITS;
@@ -125,7 +126,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         return Ok(Exit::Other);
     }
     for row in &rows {
-        if let Ending::Failed(reason) = &row.ending {
+        if let RunStatus::Failed(reason) = &row.status {
             terminal::error(&format!("{}: {reason}", place(&sweep, row)));
         }
     }
@@ -135,7 +136,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if let Some(folder) = &folder {
         terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.figures)?));
     }
-    Ok(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))))
+    Ok(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))))
 }
 
 /// How often what is solved is saved while the rest goes on.
@@ -232,10 +233,10 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
             sweep.axes().iter().zip(&row.values).map(|(axis, value)| axis.text(*value)).collect();
         cells.extend(shown.iter().map(|quantity| number(row, *quantity)));
         cells.push(row.outside.join(", "));
-        cells.push(match &row.ending {
-            Ending::Converged => String::new(),
-            Ending::NotConverged => "NOT CONVERGED".to_owned(),
-            Ending::Failed(_) => "FAILED".to_owned(),
+        cells.push(match &row.status {
+            RunStatus::Converged => String::new(),
+            RunStatus::Failed(_) => "FAILED".to_owned(),
+            other => other.to_string().to_uppercase(),
         });
         columns.row(cells);
     }
@@ -293,16 +294,16 @@ mod tests {
         let sweep = Sweep::new(&scene, &[vary], &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.25);
-        let row = |point: usize, ending: Ending| {
+        let row = |point: usize, status: RunStatus| {
             let outside = if point == 2 { vec!["slip-law", "sound"] } else { Vec::new() };
-            Row { point, values: sweep.values(point).to_vec(), ending, numbers, outside }
+            Row { point, values: sweep.values(point).to_vec(), status, numbers, outside }
         };
-        let mut rows = vec![row(0, Ending::Converged)];
-        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Solved);
-        rows.push(row(1, Ending::NotConverged));
-        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::NotConverged);
-        rows.push(row(2, Ending::Failed("no".to_owned())));
-        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Other);
+        let mut rows = vec![row(0, RunStatus::Converged)];
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Solved);
+        rows.push(row(1, RunStatus::NotConverged));
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::NotConverged);
+        rows.push(row(2, RunStatus::Failed("no".to_owned())));
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Other);
         assert!(!text(&sweep, &rows[..2]).contains("limits exceeded"));
         let shown = text(&sweep, &rows);
         assert!(shown.contains("limits exceeded"), "{shown}");

@@ -8,17 +8,15 @@ use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
 use super::json::{beside_limit, status_name};
-use crate::analysis::compare::{ParameterRow, ResultCell, ResultRow, Run, parameters, results};
+use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
 use crate::analysis::decision::sentences;
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
-use crate::analysis::sweep::Ending;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
 use crate::digits::{significant, with_error};
 use crate::problem::Scenario;
 use crate::scene::Value;
-use crate::solution::Status;
 use crate::solve::{Method, Settings};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
@@ -26,20 +24,8 @@ use std::io::{self, Write};
 /// The version of the object and of the columns.
 pub const SCHEMA: u32 = 1;
 
-/// How a run ended.
-pub fn ending(run: &Run) -> Ending {
-    match &run.solved {
-        Ok(solution) => match solution.status {
-            Status::Converged => Ending::Converged,
-            Status::NotConverged { .. } | Status::NotResolved { .. } => Ending::NotConverged,
-            Status::Cancelled => Ending::Failed("cancelled".to_owned()),
-        },
-        Err(reason) => Ending::Failed(reason.clone()),
-    }
-}
-
 /// `converged`, `not converged`, `cancelled` or `failed: …`.
-pub fn status(run: &Run) -> String {
+pub fn status(run: &ComparedRun) -> String {
     match &run.solved {
         Ok(solution) => status_name(&solution.status).to_owned(),
         Err(reason) => format!("failed: {reason}"),
@@ -79,7 +65,7 @@ pub struct ParameterObject {
 /// One run: the names of `solve --json`, as far as a scene has them.
 #[derive(Clone, Debug)]
 pub struct RunObject<'a> {
-    run: &'a Run,
+    run: &'a ComparedRun,
     differences: Vec<(Quantity, ResultCell)>,
 }
 
@@ -129,7 +115,7 @@ fn json_value(value: &Option<Value>) -> serde_json::Value {
 
 impl<'a> Object<'a> {
     /// The object of runs.
-    pub fn new(runs: &'a [Run], settings: &Settings, command: &'a [String]) -> Self {
+    pub fn new(runs: &'a [ComparedRun], settings: &Settings, command: &'a [String]) -> Self {
         let rows = results(runs);
         let of = |i: usize| rows.iter().map(|row| (row.quantity, row.cells[i])).collect();
         Self {
@@ -153,7 +139,7 @@ impl<'a> Object<'a> {
 }
 
 /// The parameters of the runs' scenes.
-pub fn parameter_rows(runs: &[Run]) -> Vec<ParameterRow> {
+pub fn parameter_rows(runs: &[ComparedRun]) -> Vec<ParameterRow> {
     parameters(&runs.iter().map(|run| &run.scene).collect::<Vec<_>>())
 }
 
@@ -161,7 +147,7 @@ pub fn parameter_rows(runs: &[Run]) -> Vec<ParameterRow> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record([
         "run",
@@ -201,7 +187,7 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_parameters_csv(runs: &[Run], all: bool, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_parameters_csv(runs: &[ComparedRun], all: bool, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     let labels = runs.iter().map(|run| csv_words(&run.label).into_owned());
     writer.write_record(["key", "unit"].map(str::to_owned).into_iter().chain(labels))?;
@@ -218,9 +204,9 @@ pub fn write_parameters_csv(runs: &[Run], all: bool, out: &mut dyn Write) -> io:
 }
 
 /// Runs of motors that have fields.
-fn motor_runs(runs: &[Run]) -> Vec<MotorRun<'_>> {
+fn motor_runs(runs: &[ComparedRun]) -> Vec<MotorRun<'_>> {
     let of = |(i, run)| {
-        let run: &Run = run;
+        let run: &ComparedRun = run;
         let recording = &run.solved.as_ref().ok()?.recording;
         match &run.problem.scenario {
             Scenario::Motor(motor) if recording.frames > 0 => {
@@ -233,9 +219,9 @@ fn motor_runs(runs: &[Run]) -> Vec<MotorRun<'_>> {
 }
 
 /// Runs of plates that have fields.
-fn plate_runs(runs: &[Run]) -> Vec<PlateRun<'_>> {
+fn plate_runs(runs: &[ComparedRun]) -> Vec<PlateRun<'_>> {
     let of = |(i, run)| {
-        let run: &Run = run;
+        let run: &ComparedRun = run;
         let recording = &run.solved.as_ref().ok()?.recording;
         match &run.problem.scenario {
             Scenario::Plate(plate) if recording.frames > 0 => {
@@ -248,10 +234,10 @@ fn plate_runs(runs: &[Run]) -> Vec<PlateRun<'_>> {
 }
 
 /// Where the numbers of a comparison come from.
-pub fn provenance(runs: &[Run]) -> Provenance {
+pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     let fidelity = runs.iter().find_map(|run| Some(run.solved.as_ref().ok()?.model.fidelity.clone()));
     let unsolved = runs.iter().filter(|run| !run.converged()).count();
-    let main = |run: &Run| {
+    let main = |run: &ComparedRun| {
         let numbers = run.numbers();
         let (quantity, name) = match run.problem.scenario {
             Scenario::Motor(_) => (Quantity::Alpha, "α"),
@@ -271,7 +257,7 @@ pub fn provenance(runs: &[Run]) -> Provenance {
 
 /// The figures, each with the name of its file without extension; those of plates begin with `plate-` where there are
 /// motors too.
-pub fn all_figures(runs: &[Run]) -> Vec<(String, Figure)> {
+pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
     let (motors, plates) = (motor_runs(runs), plate_runs(runs));
     let prefix = if motors.is_empty() { "" } else { "plate-" };
     let mut all: Vec<(String, Figure)> =
@@ -290,7 +276,7 @@ pub fn all_figures(runs: &[Run]) -> Vec<(String, Figure)> {
 /// # Errors
 /// [`AnimationError`]: cancelled, or a frame that cannot be drawn.
 pub fn movies(
-    runs: &[Run],
+    runs: &[ComparedRun],
     options: &Options,
     done: &(dyn Fn() + Sync),
     cancel: &Cancel,
@@ -320,7 +306,7 @@ pub fn movies(
 }
 
 /// How many frames [`movies`] draws.
-pub fn frames(runs: &[Run], most: usize) -> usize {
+pub fn frames(runs: &[ComparedRun], most: usize) -> usize {
     figures::common_frames(motor_runs(runs).iter().map(|run| run.recording), most)
         + figures::common_frames(plate_runs(runs).iter().map(|run| run.recording), most)
 }
@@ -376,7 +362,7 @@ pub struct Report<'a> {
 }
 
 /// The comparison as one HTML file that needs nothing else.
-pub fn report(runs: &[Run], report: &Report<'_>) -> String {
+pub fn report(runs: &[ComparedRun], report: &Report<'_>) -> String {
     let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
     let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
     let mut fidelities: Vec<&str> = Vec::new();
@@ -491,7 +477,7 @@ pub const LIMITS: &str = "limits exceeded";
 /// With more runs than this, differences stand below the values instead of beside them.
 const BESIDE: usize = 3;
 
-fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
+fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
     let mut table = Table::new("").heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
     for row in rows {
@@ -507,7 +493,7 @@ fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow
     table
 }
 
-fn result_table(runs: &[Run]) -> Table {
+fn result_table(runs: &[ComparedRun]) -> Table {
     let beside = runs.len() <= BESIDE;
     let mut heads = vec![(Kind::Words, "result".to_owned())];
     for (i, run) in runs.iter().enumerate() {

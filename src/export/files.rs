@@ -6,7 +6,7 @@ use super::compare::{self, Report, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
 use super::{csv, figures, npz, sweep, torque};
-use crate::analysis::compare::Run;
+use crate::analysis::compare::ComparedRun;
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
@@ -230,7 +230,7 @@ pub fn animated_frames(solution: &Solution, options: &Options, format: super::an
 }
 
 /// Animations of several runs as GIF, each with its name.
-fn moving(runs: &[Run], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
+fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
     let options = Options::default();
     let all = compare::frames(runs, options.frames);
     let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;
@@ -251,7 +251,7 @@ fn moving(runs: &[Run], folder: &Path, control: &Control<'_>) -> Result<Vec<(Str
 /// [`ExportError`].
 pub fn comparison(
     folder: &Path,
-    runs: &[Run],
+    runs: &[ComparedRun],
     (settings, all, command): (&Settings, bool, &[String]),
     formats: &[Format],
     control: &Control<'_>,
@@ -282,7 +282,7 @@ pub fn comparison(
 /// [`ExportError`].
 pub fn html(
     path: &Path,
-    runs: &[Run],
+    runs: &[ComparedRun],
     settings: &Settings,
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {

@@ -1,5 +1,4 @@
-//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports, and how
-//! files get into a folder.
+//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports.
 
 pub mod animation;
 pub mod compare;
@@ -21,5 +20,3 @@ pub mod table1;
 pub mod torque;
 pub mod tradeoff;
 mod video;
-
-pub use crate::atomic as folder;

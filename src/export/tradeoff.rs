@@ -1,9 +1,7 @@
 //! Error against time as JSON and as CSV, with the same names, and as a figure.
 
-use super::sweep::status as sweep_status;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::Ending;
-use crate::analysis::tradeoff::{Ended, Family, Point, Tradeoff};
+use crate::analysis::tradeoff::{Family, Point, Tradeoff};
 use crate::export::figure::{
     Anchor, Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text,
 };
@@ -102,7 +100,7 @@ impl SettingObject {
                 Family::Grid => "grid",
                 Family::Paper => "paper",
             },
-            status: status(&run.ended),
+            status: run.status.to_string(),
             median_s: finite(point.median),
             lower_quartile_s: finite(point.quartiles.0),
             upper_quartile_s: finite(point.quartiles.1),
@@ -120,17 +118,6 @@ impl SettingObject {
             contact_solves: count(Quantity::ContactSolves),
             options: run.candidate.options.clone(),
         }
-    }
-}
-
-/// How a setting ended, in words.
-pub fn status(ended: &Ended) -> String {
-    match ended {
-        Ended::Waiting => "waiting".to_owned(),
-        Ended::Converged => sweep_status(&Ending::Converged),
-        Ended::NotConverged => sweep_status(&Ending::NotConverged),
-        Ended::GivenUp => "given up".to_owned(),
-        Ended::Failed(reason) => sweep_status(&Ending::Failed(reason.clone())),
     }
 }
 

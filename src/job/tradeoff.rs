@@ -32,7 +32,8 @@ pub fn measure(
 mod tests {
     use super::super::task::to_the_end;
     use super::*;
-    use crate::analysis::tradeoff::{Ended, candidates};
+    use crate::analysis::attempt::RunStatus;
+    use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
     use crate::scene::presets;
 
@@ -49,7 +50,7 @@ mod tests {
         let (told, end) = to_the_end(&start(Fidelity::Draft, 3, Instant::now));
         let runs = end.unwrap();
         assert_eq!((runs[0].times.len(), told.last().unwrap().1), (3, 1.0));
-        assert_eq!(runs[0].ended, Ended::Converged);
+        assert_eq!(runs[0].status, RunStatus::Converged);
     }
 
     #[test]

@@ -83,7 +83,7 @@ pub struct Weighed {
     /// The fidelity, and the error of α that it aims at, relative.
     pub fidelity: Fidelity,
     /// See `fidelity`.
-    pub aim: f64,
+    pub target_error: f64,
 }
 
 impl Decision {
@@ -155,7 +155,7 @@ pub struct Plan {
     /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
     pub accuracy: f64,
     /// The error of α that the fidelity aims at, relative, whether or not the grids were asked for.
-    pub aim: f64,
+    pub target_error: f64,
     /// Grids at most, those of `grids` included, and unknown nodes of a polynomial across half the width.
     pub most_grids: usize,
     /// See `most_grids`.

@@ -29,7 +29,7 @@ impl Plan {
         let layer = plate_layer(plate);
         let sides = [Some(plate.length), plate.width];
         let leak = sides.into_iter().flatten().map(|side| LEAK_EFFECT * layer / side).sum::<f64>();
-        let trapped = leak < SHARE * spec.aim || plate.amplitude == 0.0;
+        let trapped = leak < SHARE * spec.target_error || plate.amplitude == 0.0;
         let left_out = if trapped && plate.amplitude > 0.0 { leak } else { 0.0 };
         // Of a long plate the ends reach as far as it is narrow.
         let reach = |other: f64| layer.min(other / PI);
@@ -99,8 +99,8 @@ impl Plan {
             trapped,
             left_out,
             most_harmonics: spec.most_harmonics,
-            accuracy: if custom(numerics) { 0.0 } else { spec.aim },
-            aim: spec.aim,
+            accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
+            target_error: spec.target_error,
             most_grids: if custom(numerics) { GRIDS } else { GRIDS + more_grids },
             most_across: if asked_across.is_some() { across } else { 24 },
             robust,

@@ -30,11 +30,11 @@ struct Reduction {
 impl Reduction {
     fn decide(self, fidelity: Fidelity, spec: &Spec) -> Decision {
         let Self { choices, asked, effect, unresolved, number } = self;
-        let allowed = effect <= SHARE * spec.aim || effect < unresolved;
+        let allowed = effect <= SHARE * spec.target_error || effect < unresolved;
         let left_out = asked.unwrap_or(allowed);
         let [_, reduced] = choices;
-        let aim = spec.aim;
-        let weighed = Weighed { reduced, number, asked: asked.is_some(), effect, unresolved, fidelity, aim };
+        let target_error = spec.target_error;
+        let weighed = Weighed { reduced, number, asked: asked.is_some(), effect, unresolved, fidelity, target_error };
         Decision {
             chosen: choices[usize::from(left_out)],
             overruled: asked.is_some_and(|asked| asked != allowed),

@@ -79,7 +79,7 @@ pub enum FigureError {
     },
     /// The file cannot be written.
     #[error(transparent)]
-    Write(#[from] crate::export::folder::WriteError),
+    Write(#[from] crate::atomic::WriteError),
 }
 
 /// The figure as an SVG.
@@ -124,7 +124,7 @@ pub fn to_bytes(figure: &Figure, format: Format) -> Result<Vec<u8>, FigureError>
 /// [`FigureError`]; then no file is left, and an older one of that name is as it was.
 pub fn write(figure: &Figure, path: &Path) -> Result<(), FigureError> {
     let bytes = to_bytes(figure, Format::of(path)?)?;
-    crate::export::folder::write_file(path, |out| out.write_all(&bytes))?;
+    crate::atomic::write_file(path, |out| out.write_all(&bytes))?;
     Ok(())
 }
 

@@ -50,12 +50,6 @@ pub fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
     format!("{scaled}e{exponent}").parse().unwrap_or(value)
 }
 
-/// With a capital first letter.
-pub fn capitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
-}
-
 /// `10⁻⁶`, with the digits that the fonts have.
 pub fn power_of_ten(exponent: f64) -> String {
     let raised = |c: char| match c {

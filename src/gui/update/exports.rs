@@ -3,7 +3,7 @@
 use super::updater::Updater;
 use crate::analysis::compare;
 use crate::analysis::torque::TorqueCurves;
-use crate::analysis::tradeoff::Wish;
+use crate::analysis::tradeoff::Target;
 use crate::atomic::write_file;
 use crate::control::Cancel;
 use crate::export::animation::Options;
@@ -97,7 +97,7 @@ impl Updater {
             }
             Export::Report => {
                 let (run, (scene, problem)) = self.named()?;
-                let run = compare::Run { label: scene.name.clone(), scene, problem, ..to_compare(&run) };
+                let run = compare::ComparedRun { label: scene.name.clone(), scene, problem, ..to_compare(&run) };
                 let settings = at(&[fidelity(&run)]);
                 Box::new(move |control| files::html(&path, &[run], &settings, control))
             }
@@ -134,12 +134,13 @@ impl Updater {
             Export::TradeoffTable | Export::TradeoffFigure => {
                 let measured = self.state.tradeoff.as_ref()?;
                 let (name, tradeoff) = (measured.name().to_owned(), measured.tradeoff().clone());
-                let wishes = [Wish::Accuracy(self.state.view.accuracy), Wish::Budget(self.state.view.budget)];
+                let targets = [Target::Accuracy(self.state.view.accuracy), Target::Budget(self.state.view.budget)];
                 Box::new(move |_| {
                     if export == Export::TradeoffTable {
                         write_file(&path, |out| tradeoff::write_csv(&tradeoff, out))?;
                     } else {
-                        let chosen: Vec<usize> = wishes.into_iter().filter_map(|wish| tradeoff.choose(wish)).collect();
+                        let chosen: Vec<usize> =
+                            targets.into_iter().filter_map(|target| tradeoff.choose(target)).collect();
                         let bytes = to_bytes(&tradeoff::figure(&name, &tradeoff, &chosen), Format::of(&path)?)?;
                         write_file(&path, |out| out.write_all(&bytes))?;
                     }

@@ -1,7 +1,8 @@
 //! The panel of a lesson, in place of the results: the step's text, its question, its task, the numbers it is about.
 
+use crate::digits::capitalised;
 use crate::gui::command::{Command, LessonCommand};
-use crate::gui::derived::format::{capitalised, digits};
+use crate::gui::derived::format::digits;
 use crate::gui::state::lessons::StepWork;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;

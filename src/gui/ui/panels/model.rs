@@ -2,10 +2,11 @@
 //! otherwise. After a switch, what it changed.
 
 use crate::analysis::decision;
+use crate::digits::capitalised;
 use crate::digits::significant;
 use crate::gui::command::Command;
+use crate::gui::derived::format::digits;
 use crate::gui::derived::format::power_of_ten;
-use crate::gui::derived::format::{capitalised, digits};
 use crate::gui::derived::words;
 use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
