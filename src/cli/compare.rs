@@ -92,7 +92,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             }),
         }
     }
-    let object = || json::text(&Object::new(&runs, &settings, command));
+    let object = || json::document(&Object::new(&runs, &settings), command);
     terminal::result(arguments.output.json, object, || text(&runs, &settings, arguments.all));
     let presets = if runs.len() == 1 { "preset" } else { "presets" };
     terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));

@@ -5,6 +5,7 @@ use super::terminal;
 use crate::atomic::check_writable;
 use crate::control::Cancel;
 use crate::export::figure::Format;
+use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::memory;
 use crate::scene::{Scene, presets};
@@ -44,11 +45,9 @@ impl SceneOptions {
 
     /// The command that solves this scene alone, to be copied into a shell and added to.
     pub(super) fn command(&self, preset: &str) -> String {
-        let mut command = format!("squeezefilm solve {}", quoted(preset));
-        for (key, value) in &self.changes {
-            command.push_str(&format!(" --set {}", quoted(&format!("{key}={value}"))));
-        }
-        command
+        let mut words = ["squeezefilm", "solve", preset].map(str::to_owned).to_vec();
+        words.extend(self.changes.iter().flat_map(|(key, value)| ["--set".to_owned(), format!("{key}={value}")]));
+        shell(&words)
     }
 }
 
@@ -63,16 +62,6 @@ fn from_standard_input() -> Result<Scene, CliError> {
         Ok(bytes) if bytes as u64 > LARGEST => Err(CliError::Input(io::ErrorKind::FileTooLarge.into())),
         Ok(_) => Ok(Scene::from_toml(&text, "standard input")?),
         Err(error) => Err(CliError::Input(error)),
-    }
-}
-
-/// A word as a shell reads it back.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+%@".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
     }
 }
 

@@ -140,7 +140,7 @@ fn one(
         return Ok((Exit::Other, None));
     }
     let mut result = Summary::new(problem, &solution, wall_s, command);
-    let torque = result.add_torque(TorqueCurves::of_solve(problem, settings.fidelity, &solution, cancel));
+    result.add_torque(TorqueCurves::of_solve(problem, settings.fidelity, &solution, cancel));
     for warning in &result.warnings {
         terminal::warning(warning);
     }
@@ -151,7 +151,7 @@ fn one(
     }
     let mut exit = Exit::of(&solution.status);
     if let Some(folder) = folder {
-        let solved = Solved { scene, problem, solution: &solution, history: &history, torque: torque.as_ref() };
+        let solved = Solved { scene, problem, solution: &solution, history: &history, torque: result.torque.as_ref() };
         if let Some(text) = announced(folder, files::expected_size(problem, &solution.recording)) {
             terminal::note(&text);
         }

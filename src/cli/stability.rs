@@ -11,8 +11,8 @@ use super::summary::duration;
 use super::terminal;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
 use crate::atomic::Staged;
-use crate::export::json;
-use crate::export::stability::{Object, detail, figure, write_csv};
+use crate::export::stability::{CellObject, Object, detail, figure};
+use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
 use crate::scene::show_text;
@@ -92,8 +92,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
     let complete = cells.len() == total;
     if complete {
-        let object = || Object::new(&scene.name, settings.fidelity, &cells, command);
-        terminal::result(arguments.output.json, || json::text(&object()), || human);
+        let object = || Object::new(&scene.name, settings.fidelity, &cells);
+        terminal::result(arguments.output.json, || json::document(&object(), command), || human);
         terminal::note(&format!("{total} cells in {}", duration(wall_s)));
     } else {
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
@@ -103,7 +103,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             let mut staged = Staged::new(folder)?;
             // What was cancelled does not pass for a map.
             let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
-            staged.add(name, |out| write_csv(&cells, out))?;
+            staged.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
             if complete {
                 arguments.figures.stage(&mut staged, "stability", &figure(&scene.name, settings.fidelity, &cells))?;
             }

@@ -12,7 +12,7 @@ use super::terminal;
 use crate::atomic::Staged;
 use crate::digits::{significant, with_error};
 use crate::export::json::{self, force_unit};
-use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, warnings, write_csv};
+use crate::export::startup::{Object, Row, converged, figure, steady, warnings, write_csv};
 use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -116,7 +116,6 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let Accuracy { asked, stated, stopped_by } = ended.accuracy;
 
     let object = Object {
-        schema: SCHEMA,
         preset: &scene.name,
         scene: scene.scene(),
         fidelity: settings.fidelity.to_string(),
@@ -136,17 +135,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         wall_s,
         rows: &rows,
         warnings: &warnings,
-        version: env!("CARGO_PKG_VERSION"),
-        command,
     };
     warnings.iter().for_each(|warning| terminal::warning(warning));
     let human = text(&scene, &problem, &rows, &ended, steady);
-    terminal::result(arguments.output.json, || json::text(&object), || human);
+    terminal::result(arguments.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
         staged.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
-        staged.add("startup.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+        staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let mut drawn = figure(&problem, &rows, steady, &loads);
         drawn.provenance.fidelity = settings.fidelity.to_string();
         if let Some((value, error)) = rows.last().map(Row::main) {

@@ -130,8 +130,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             terminal::error(&format!("{}: {reason}", place(&sweep, row)));
         }
     }
-    let object = Object::new(&sweep, &rows, command);
-    terminal::result(arguments.output.json, || json::text(&object), || human);
+    let object = Object::new(&sweep, &rows);
+    terminal::result(arguments.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
         terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.figures)?));

@@ -14,8 +14,8 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
 use crate::atomic::Staged;
 use crate::digits::significant;
-use crate::export::json;
-use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, write_csv};
+use crate::export::tradeoff::{ChoiceObject, Object, figure, settings};
+use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
 use crate::problem::Problem;
 use crate::scene::show_text;
@@ -93,23 +93,20 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let targets = [arguments.accuracy.map(Target::Accuracy), budget];
     let targets: Vec<Target> = targets.into_iter().flatten().collect();
     let object = Object {
-        schema: SCHEMA,
         preset: &scene.name,
         judged: tradeoff.judged.name(),
         reference: tradeoff.reference.map(|i| tradeoff.points[i].run.candidate.name.as_str()),
         settings: settings(&tradeoff),
         chosen: targets.iter().map(|target| choice(&tradeoff, *target)).collect(),
-        version: env!("CARGO_PKG_VERSION"),
-        command,
     };
     let alone = arguments.scene.command(&arguments.preset) + &arguments.memory.option();
     let advice: String = targets.iter().map(|target| advice(&tradeoff, *target, &alone)).collect();
-    terminal::result(arguments.output.json, || json::text(&object), || human + &advice);
+    terminal::result(arguments.output.json, || json::document(&object, command), || human + &advice);
     terminal::note(&format!("measured in {}", duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
-        staged.add("tradeoff.csv", |out| write_csv(&tradeoff, out))?;
-        staged.add("tradeoff.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+        staged.add("tradeoff.csv", |out| csv::rows(&object.settings, out))?;
+        staged.add("tradeoff.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
         arguments.figures.stage(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
         terminal::note(&written(folder, &staged.commit()?));

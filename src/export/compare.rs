@@ -21,9 +21,6 @@ use crate::solve::{Method, Settings};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
 
-/// The version of the object and of the columns.
-pub const SCHEMA: u32 = 1;
-
 /// `converged`, `not converged`, `cancelled` or `failed: …`.
 pub fn status(run: &ComparedRun) -> String {
     match &run.solved {
@@ -35,8 +32,6 @@ pub fn status(run: &ComparedRun) -> String {
 /// The object of `--json`.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// `auto` or `paper`.
     pub method: &'static str,
     /// `draft`, `standard`, …; of method paper null.
@@ -45,10 +40,6 @@ pub struct Object<'a> {
     pub runs: Vec<RunObject<'a>>,
     /// Keys in which the scenes differ, each with its value in every run, null where there is none.
     pub differing: Vec<ParameterObject>,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// One key.
@@ -115,11 +106,10 @@ fn json_value(value: &Option<Value>) -> serde_json::Value {
 
 impl<'a> Object<'a> {
     /// The object of runs.
-    pub fn new(runs: &'a [ComparedRun], settings: &Settings, command: &'a [String]) -> Self {
+    pub fn new(runs: &'a [ComparedRun], settings: &Settings) -> Self {
         let rows = results(runs);
         let of = |i: usize| rows.iter().map(|row| (row.quantity, row.cells[i])).collect();
         Self {
-            schema: SCHEMA,
             method: settings.method.name(),
             fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
             runs: runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) }).collect(),
@@ -132,8 +122,6 @@ impl<'a> Object<'a> {
                     values: row.values.iter().map(json_value).collect(),
                 })
                 .collect(),
-            version: env!("CARGO_PKG_VERSION"),
-            command,
         }
     }
 }

@@ -11,6 +11,7 @@
 
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
+use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -156,6 +157,16 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
         table.end_row()?;
     }
     table.finish()
+}
+
+/// Writes one row for each object, the header first; what is null is empty.
+///
+/// # Errors
+/// Those of the writer.
+pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    rows.into_iter().try_for_each(|row| writer.serialize(row))?;
+    writer.flush()
 }
 
 /// A text that is not ours, such as a scene's name, as a cell. What a spreadsheet would take for a formula begins with an

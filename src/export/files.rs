@@ -263,8 +263,8 @@ pub fn comparison(
     staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
     staged.add("compare.csv", |out| compare::write_csv(runs, out))?;
     staged.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
-    let object = compare::Object::new(runs, settings, command);
-    staged.add("compare.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+    let object = compare::Object::new(runs, settings);
+    staged.add("compare.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
     for (name, gif) in &movies {
         staged.add(format!("{name}.gif"), |out| out.write_all(gif))?;
     }
@@ -306,8 +306,8 @@ pub fn swept(
 ) -> Result<Vec<PathBuf>, WriteError> {
     let mut staged = Staged::new(folder)?;
     staged.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
-    let object = sweep::Object::new(swept, rows, command);
-    staged.add("sweep.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+    let object = sweep::Object::new(swept, rows);
+    staged.add("sweep.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
     stage_figure(&mut staged, "sweep", &sweep::figure(swept, rows), formats)?;
     staged.add("scene.toml", |out| out.write_all(swept.scene().to_toml().as_bytes()))?;
     staged.commit()

@@ -3,6 +3,7 @@
 pub mod animation;
 pub mod compare;
 pub mod csv;
+mod estimates;
 pub mod exact;
 pub mod figure;
 pub mod figures;

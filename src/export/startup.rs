@@ -9,9 +9,6 @@ use crate::startup::{Cycle, Startup};
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// The version of the object and of the columns.
-pub const SCHEMA: u32 = 1;
-
 /// One cycle. Means and extremes are over this cycle; what its scene does not have is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
@@ -100,8 +97,6 @@ fn finite(value: f64) -> Option<f64> {
 /// The object of `--json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// The scene's name.
     pub preset: &'a str,
     /// `motor` or `plate`.
@@ -141,10 +136,6 @@ pub struct Object<'a> {
     pub rows: &'a [Row],
     /// What the user should know.
     pub warnings: &'a [String],
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// What the periodic solve says of where a start-up ends: α, or the load ratio, and its stated error.
@@ -224,10 +215,6 @@ pub fn figure(problem: &Problem, rows: &[Row], steady: Option<(f64, f64)>, loads
     let mut figure = Figure::new("start-up from rest").panel(means).panel(film);
     figure.caption =
         "From rest, the film pumps up until the cycle repeats: cycle means above, every instant below.".to_owned();
-    figure.provenance = Provenance {
-        preset: problem.name.clone(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        ..Provenance::default()
-    };
+    figure.provenance = Provenance::named(&problem.name);
     figure
 }

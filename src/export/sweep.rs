@@ -18,9 +18,6 @@ use crate::solve::Method;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
 
-/// The version of the object and of the columns.
-pub const SCHEMA: u32 = 1;
-
 /// Columns before those of the keys: which sweep, and which of its points.
 const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
@@ -160,8 +157,6 @@ fn digits(value: f64) -> String {
 /// The object of `--json`.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// Name of the scene that is varied.
     pub preset: &'a str,
     /// `motor` or `plate`.
@@ -182,10 +177,6 @@ pub struct Object<'a> {
     pub rows: Vec<RowObject<'a>>,
     /// Published values of Table I in the plane of the sweep.
     pub published: Vec<PublishedObject>,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// One axis.
@@ -256,10 +247,9 @@ impl From<Published> for PublishedObject {
 
 impl<'a> Object<'a> {
     /// The object of a sweep's rows.
-    pub fn new(sweep: &'a Sweep, rows: &'a [Row], command: &'a [String]) -> Self {
+    pub fn new(sweep: &'a Sweep, rows: &'a [Row]) -> Self {
         let settings = sweep.settings();
         Self {
-            schema: SCHEMA,
             preset: &sweep.scene().name,
             scene: sweep.scene().scene(),
             force_unit: force_unit(sweep.problem()),
@@ -286,8 +276,6 @@ impl<'a> Object<'a> {
                 .map(|row| RowObject { axes: sweep.axes(), quantities: sweep.quantities(), row })
                 .collect(),
             published: sweep.published().into_iter().map(PublishedObject::from).collect(),
-            version: env!("CARGO_PKG_VERSION"),
-            command,
         }
     }
 }

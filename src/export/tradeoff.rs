@@ -6,16 +6,10 @@ use crate::export::figure::{
     Anchor, Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text,
 };
 use serde::Serialize;
-use std::io::{self, Write};
-
-/// The version of the object.
-pub const SCHEMA: u32 = 1;
 
 /// The object of `--json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// Name of the scene.
     pub preset: &'a str,
     /// The number that is judged: `alpha` or `film_load_n`.
@@ -26,10 +20,6 @@ pub struct Object<'a> {
     pub settings: Vec<SettingObject>,
     /// The settings that were asked for, if any.
     pub chosen: Vec<ChoiceObject>,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// A setting chosen.
@@ -127,18 +117,6 @@ pub fn settings(tradeoff: &Tradeoff) -> Vec<SettingObject> {
     tradeoff.points.iter().enumerate().map(object).collect()
 }
 
-/// Writes the settings as CSV, the header first.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_csv(tradeoff: &Tradeoff, out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    for setting in settings(tradeoff) {
-        writer.serialize(setting)?;
-    }
-    writer.flush()
-}
-
 /// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
 /// names at the accuracies, and rings round the settings in `chosen`.
 pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
@@ -177,11 +155,6 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
         }
     }
     let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();
-    let provenance = Provenance {
-        preset: preset.to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        note: format!("medians of {runs} runs"),
-        ..Provenance::default()
-    };
+    let provenance = Provenance { note: format!("medians of {runs} runs"), ..Provenance::named(preset) };
     Figure { provenance, ..Figure::default() }.panel(panel)
 }
