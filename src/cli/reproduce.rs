@@ -2,9 +2,9 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
+
 use super::interrupt::cancel_on_interrupt;
-use super::options::SolveOptions;
+use super::options::{FigureOptions, SolveOptions};
 use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;

@@ -2,9 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
-use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
@@ -13,7 +11,6 @@ use crate::atomic::Staged;
 use crate::digits::{significant, with_error};
 use crate::export::json::{self, force_unit};
 use crate::export::startup::{Object, Row, converged, figure, steady, warnings, write_csv};
-use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
 use crate::solution::{Accuracy, Status, StoppedBy};
@@ -56,16 +53,7 @@ pub(super) struct Arguments {
     tolerance: f64,
 
     #[command(flatten)]
-    scene: SceneOptions,
-
-    #[command(flatten)]
-    solve: SolveOptions,
-
-    #[command(flatten)]
-    output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
+    common: CommonOptions,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -77,14 +65,12 @@ fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.scene.scene(&arguments.preset)?;
+    let scene = arguments.common.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
-    let chosen = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let (folder, chosen, cancel) = arguments.common.begin()?;
     if chosen.method == Method::Paper {
         return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
-    let folder = arguments.output.folder()?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     let settings = startup::Settings {
         fidelity: chosen.fidelity,
         cycles: arguments.cycles as usize,
@@ -138,7 +124,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     };
     warnings.iter().for_each(|warning| terminal::warning(warning));
     let human = text(&scene, &problem, &rows, &ended, steady);
-    terminal::result(arguments.output.json, || json::document(&object, command), || human);
+    terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
@@ -149,7 +135,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         if let Some((value, error)) = rows.last().map(Row::main) {
             drawn.provenance.error = format!("ends at {}", with_error(value, error));
         }
-        arguments.figures.stage(&mut staged, "startup", &drawn)?;
+        arguments.common.figures.stage(&mut staged, "startup", &drawn)?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
         terminal::note(&written(folder, &staged.commit()?));
     }

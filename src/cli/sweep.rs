@@ -2,9 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
-use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::{CommonOptions, FigureOptions};
 use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
@@ -18,7 +16,6 @@ use crate::export::compare::LIMITS;
 use crate::export::files;
 use crate::export::json;
 use crate::export::sweep::{Object, ReadError, read_saved, write_saved};
-use crate::fidelity::Fidelity;
 use crate::scene::show_text;
 use crate::solve::Method;
 use clap::Args;
@@ -69,28 +66,18 @@ pub(super) struct Arguments {
     restart: bool,
 
     #[command(flatten)]
-    scene: SceneOptions,
-
-    #[command(flatten)]
-    solve: SolveOptions,
-
-    #[command(flatten)]
-    output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
+    common: CommonOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.scene.scene(&arguments.preset)?;
-    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let (settings, cancel) = arguments.common.solve.begin()?;
     let sweep = Sweep::new(&scene, &arguments.vary, &settings)?;
-    let folder = arguments.output.out.as_deref().map(|path| Folder::open(path, &sweep)).transpose()?;
+    let folder = arguments.common.output.out.as_deref().map(|path| Folder::open(path, &sweep)).transpose()?;
     let done = match &folder {
         Some(folder) if !arguments.restart => folder.left_over()?,
         _ => Vec::new(),
     };
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     if !done.is_empty() {
         terminal::note(&format!("going on: {} of {} points were solved before", done.len(), sweep.len()));
     }
@@ -131,10 +118,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
     }
     let object = Object::new(&sweep, &rows);
-    terminal::result(arguments.output.json, || json::document(&object, command), || human);
+    terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.figures)?));
+        terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.common.figures)?));
     }
     Ok(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))))
 }

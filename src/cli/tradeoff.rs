@@ -2,9 +2,8 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
-use super::options::{MemoryOptions, OutputOptions, SceneOptions, time};
+use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, time};
 use super::progress::Bar;
 use super::solve::written;
 use super::summary::duration;
