@@ -76,9 +76,6 @@ impl<L> Found<L> {
 /// Climbs the grids of `plan`, and further, started from what was found for a similar scene, until `cancel`'s budget is spent: then
 /// the best so far is what there is. A polynomial across may swing below no pressure at all; a scene that it fails is solved with
 /// finite volumes, which cannot.
-///
-/// # Errors
-/// Those of the scene.
 pub fn climb<S: Scene>(
     scene: &mut S,
     plan: &Plan,
@@ -94,9 +91,6 @@ pub fn climb<S: Scene>(
 }
 
 /// As [`climb`], by this plan alone.
-///
-/// # Errors
-/// Those of the scene.
 pub fn climb_once<S: Scene>(
     scene: &mut S,
     plan: &Plan,

@@ -132,9 +132,6 @@ pub fn parameter_rows(runs: &[ComparedRun]) -> Vec<ParameterRow> {
 }
 
 /// Writes the results as CSV, a row for each run and quantity; what is not there is empty.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record([
@@ -172,9 +169,6 @@ pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes the parameters as CSV, a row for each key and a column for each run.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_parameters_csv(runs: &[ComparedRun], all: bool, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     let labels = runs.iter().map(|run| csv_words(&run.label).into_owned());

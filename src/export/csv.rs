@@ -18,9 +18,6 @@ use std::io::{self, Write};
 
 /// Writes the fields of every tooth, time by time. x runs along the wavelength from the middle of the first tooth; of a
 /// plate, from its middle, and only over the half that was solved.
-///
-/// # Errors
-/// Those of the writer.
 pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     let (motor, per_metre) = match &problem.scenario {
@@ -78,9 +75,6 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
 
 /// Writes the pressure under the first tooth (or the plate), time by time, over the part that was solved: with a
 /// mirrored half width y ≥ 0 only.
-///
-/// # Errors
-/// Those of the writer.
 pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     table.header(&["time_s", "x_m", "y_m", "pressure_kpa"])?;
@@ -100,9 +94,6 @@ pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes what the whole wavelength (or the plate) does, time by time.
-///
-/// # Errors
-/// Those of the writer.
 pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     let motor = match &problem.scenario {
@@ -160,9 +151,6 @@ pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
 }
 
 /// Writes one row for each object, the header first; what is null is empty.
-///
-/// # Errors
-/// Those of the writer.
 pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     rows.into_iter().try_for_each(|row| writer.serialize(row))?;

@@ -116,9 +116,6 @@ pub fn expected_size(problem: &Problem, recording: &Recording) -> u64 {
 }
 
 /// What `squeezefilm solve --out` writes into a folder.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn solve(
     folder: &Path,
     solved: &Solved<'_>,
@@ -143,9 +140,6 @@ pub fn solve(
 }
 
 /// The figures of a solve alone.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn solve_figures(
     folder: &Path,
     solved: &Solved<'_>,
@@ -190,18 +184,12 @@ fn add_figures(
 }
 
 /// The fields of a solve as a NumPy archive.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn fields(path: &Path, solved: &Solved<'_>) -> Result<Vec<PathBuf>, ExportError> {
     write_file(path, |out| npz::write(solved.scene, solved.problem, solved.solution, out))?;
     Ok(vec![path.to_owned()])
 }
 
 /// The cycle of a solve as moving pictures, in the format of its path.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn animation(
     path: &Path,
     solved: &Solved<'_>,
@@ -246,9 +234,6 @@ fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<
 }
 
 /// What `squeezefilm compare --out` writes into a folder. `all`: parameters are listed that do not differ, too.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn comparison(
     folder: &Path,
     runs: &[ComparedRun],
@@ -277,9 +262,6 @@ pub fn comparison(
 }
 
 /// The report of one run, or of several, as one HTML file.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn html(
     path: &Path,
     runs: &[ComparedRun],
@@ -294,9 +276,6 @@ pub fn html(
 }
 
 /// What `squeezefilm sweep --out` writes into a folder.
-///
-/// # Errors
-/// [`WriteError`].
 pub fn swept(
     folder: &Path,
     swept: &Sweep,

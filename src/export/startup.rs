@@ -170,9 +170,6 @@ pub fn unsettled(startup: &Startup) -> Option<String> {
 }
 
 /// Writes the rows as CSV, the header first; what is null is empty. Columns of a strip's forces are named `film_load_n_per_m`.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {

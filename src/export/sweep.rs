@@ -52,9 +52,6 @@ fn record(sweep: &Sweep, row: &Row) -> Vec<String> {
 }
 
 /// Writes the rows as CSV, the header first; what is not there is empty.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep))?;
@@ -63,9 +60,6 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
 }
 
 /// Writes the rows of a sweep that is not complete, to go on with: as [`write_csv`], and with a checksum of each row.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_saved(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep).iter().map(String::as_str).chain([CHECK]))?;

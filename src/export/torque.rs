@@ -67,9 +67,6 @@ impl Serialize for Present<'_> {
 }
 
 /// Writes both curves, one row for each speed. Where a value is not known, or the rotor is not driven, a field is empty.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_csv(curves: &TorqueCurves, out: &mut dyn Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let columns = ["torque_nm", "torque_error_nm", "output_w", "friction_w", "efficiency"];

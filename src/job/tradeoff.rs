@@ -10,9 +10,6 @@ use std::time::Instant;
 pub type Progress = (Vec<Run>, f64);
 
 /// Starts to measure `candidates` on `problem` by the clock `now`. It returns all settings with what was measured.
-///
-/// # Errors
-/// If the thread cannot be started.
 pub fn measure(
     problem: Problem,
     candidates: Vec<Candidate>,
