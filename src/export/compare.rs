@@ -5,7 +5,7 @@
 use super::animation::{AnimationError, Movie, Options};
 use super::csv::words as csv_words;
 use super::figure::{Figure, Provenance};
-use super::figures::compare::{self as figures, MotorRun, PlateRun};
+use super::figures::compare::{self as figures, MotorRun, PlateRun, Run};
 use super::html::{Kind, Page, Table, shell};
 use super::json::{beside_limit, status_name};
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
@@ -16,6 +16,7 @@ use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
 use crate::digits::{significant, with_error};
 use crate::problem::Scenario;
+use crate::recording::Recording;
 use crate::scene::Value;
 use crate::solve::{Method, Settings};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -185,34 +186,19 @@ pub fn write_parameters_csv(runs: &[ComparedRun], all: bool, out: &mut dyn Write
     writer.flush()
 }
 
-/// Runs of motors that have fields.
-fn motor_runs(runs: &[ComparedRun]) -> Vec<MotorRun<'_>> {
-    let of = |(i, run)| {
-        let run: &ComparedRun = run;
-        let recording = &run.solved.as_ref().ok()?.recording;
-        match &run.problem.scenario {
-            Scenario::Motor(motor) if recording.frames > 0 => {
-                Some(MotorRun { name: &run.label, motor, recording, style: figures::style(i) })
-            }
-            _ => None,
-        }
+/// Runs that have fields and whose scene is a motor, or a plate, as `of` says.
+fn runs_of<'a, S>(runs: &'a [ComparedRun], of: impl Fn(&'a Scenario) -> Option<&'a S>) -> Vec<Run<'a, S>> {
+    let drawn = |(i, run): (usize, &'a ComparedRun)| {
+        let recording = &run.solved.as_ref().ok().filter(|solution| solution.recording.frames > 0)?.recording;
+        Some(Run { name: &run.label, scene: of(&run.problem.scenario)?, recording, style: figures::style(i) })
     };
-    runs.iter().enumerate().filter_map(of).collect()
+    runs.iter().enumerate().filter_map(drawn).collect()
 }
 
-/// Runs of plates that have fields.
-fn plate_runs(runs: &[ComparedRun]) -> Vec<PlateRun<'_>> {
-    let of = |(i, run)| {
-        let run: &ComparedRun = run;
-        let recording = &run.solved.as_ref().ok()?.recording;
-        match &run.problem.scenario {
-            Scenario::Plate(plate) if recording.frames > 0 => {
-                Some(PlateRun { name: &run.label, plate, recording, style: figures::style(i) })
-            }
-            _ => None,
-        }
-    };
-    runs.iter().enumerate().filter_map(of).collect()
+fn motors_and_plates(runs: &[ComparedRun]) -> (Vec<MotorRun<'_>>, Vec<PlateRun<'_>>) {
+    let motors = runs_of(runs, |scenario| if let Scenario::Motor(motor) = scenario { Some(motor) } else { None });
+    let plates = runs_of(runs, |scenario| if let Scenario::Plate(plate) = scenario { Some(plate) } else { None });
+    (motors, plates)
 }
 
 /// Where the numbers of a comparison come from.
@@ -240,7 +226,7 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
 /// The figures, each with the name of its file without extension; those of plates begin with `plate-` where there are
 /// motors too.
 pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
-    let (motors, plates) = (motor_runs(runs), plate_runs(runs));
+    let (motors, plates) = motors_and_plates(runs);
     let prefix = if motors.is_empty() { "" } else { "plate-" };
     let mut all: Vec<(String, Figure)> =
         figures::motors(&motors).into_iter().map(|(name, figure)| (name.to_owned(), figure)).collect();
@@ -263,34 +249,34 @@ pub fn movies(
     done: &(dyn Fn() + Sync),
     cancel: &Cancel,
 ) -> Result<Vec<(&'static str, Movie)>, AnimationError> {
-    let (motors, plates) = (motor_runs(runs), plate_runs(runs));
+    let (motors, plates) = motors_and_plates(runs);
     let provenance = provenance(runs);
-    let finish = |mut figure: Figure, phase: f64| {
-        figure.title = format!("t/T = {phase:.2}");
-        figure.provenance = provenance.clone();
-        figure
+    let movie = |recordings: Vec<&Recording>, draw: &(dyn Fn(f64) -> Figure + Sync)| {
+        let count = figures::common_frames(recordings.into_iter(), options.frames);
+        let figure = |frame: usize| {
+            let phase = frame as f64 / count as f64;
+            Figure { title: format!("t/T = {phase:.2}"), provenance: provenance.clone(), ..draw(phase) }
+        };
+        Movie::of(count, options, &figure, done, cancel)
     };
     let mut movies = Vec::new();
     if !motors.is_empty() {
-        let count = figures::common_frames(motors.iter().map(|run| run.recording), options.frames);
-        let phase = |frame: usize| frame as f64 / count as f64;
-        let figure = |frame: usize| finish(figures::moving_motors(&motors, phase(frame)), phase(frame));
-        movies.push(("cycle", Movie::of(count, options, &figure, done, cancel)?));
+        let recordings = motors.iter().map(|run| run.recording).collect();
+        movies.push(("cycle", movie(recordings, &|phase| figures::moving_motors(&motors, phase))?));
     }
     if !plates.is_empty() {
-        let count = figures::common_frames(plates.iter().map(|run| run.recording), options.frames);
-        let phase = |frame: usize| frame as f64 / count as f64;
-        let figure = |frame: usize| finish(figures::moving_plates(&plates, phase(frame)), phase(frame));
+        let recordings = plates.iter().map(|run| run.recording).collect();
         let name = if motors.is_empty() { "cycle" } else { "plate-cycle" };
-        movies.push((name, Movie::of(count, options, &figure, done, cancel)?));
+        movies.push((name, movie(recordings, &|phase| figures::moving_plates(&plates, phase))?));
     }
     Ok(movies)
 }
 
 /// How many frames [`movies`] draws.
 pub fn frames(runs: &[ComparedRun], most: usize) -> usize {
-    figures::common_frames(motor_runs(runs).iter().map(|run| run.recording), most)
-        + figures::common_frames(plate_runs(runs).iter().map(|run| run.recording), most)
+    let (motors, plates) = motors_and_plates(runs);
+    figures::common_frames(motors.iter().map(|run| run.recording), most)
+        + figures::common_frames(plates.iter().map(|run| run.recording), most)
 }
 
 /// A value with its error, as many digits as that justifies; counts whole. With its unit, if runs have it in different ones.
