@@ -5,10 +5,9 @@ use super::exit::{CliError, Exit};
 use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
 use crate::atomic::Staged;
-use crate::digits::{significant, with_error};
+use crate::digits::{duration, percent, significant, with_error};
 use crate::export::json::{self, force_unit};
 use crate::export::startup::{Object, Row, converged, figure, steady, warnings, write_csv};
 use crate::problem::Problem;
@@ -212,7 +211,6 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
 
 /// What was stated of the errors, and what was asked.
 fn exactness(accuracy: &Accuracy) -> String {
-    let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
     let mut text = format!("The mean of every cycle is known to {} of the greatest of them", percent(accuracy.stated));
     if accuracy.asked > 0.0 {
         text.push_str(&format!(" ({} asked for)", percent(accuracy.asked)));

@@ -5,7 +5,7 @@ use crate::analysis::exact::Comparison;
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::Excess;
-use crate::digits::{as_given, percent, significant, with_error};
+use crate::digits::{as_given, duration, percent, significant, with_error};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::export::exact::units;
@@ -14,8 +14,6 @@ use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::{Scene, show_text};
 use crate::solution::{Outcome, Performance};
 use std::fmt::Write as _;
-
-pub(super) use crate::digits::duration;
 
 /// Significant digits of numbers without an error of their own.
 const DIGITS: usize = 4;

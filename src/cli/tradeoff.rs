@@ -6,13 +6,12 @@ use super::interrupt::cancel_on_interrupt;
 use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, time};
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
 use crate::atomic::Staged;
-use crate::digits::significant;
+use crate::digits::{duration, percent, significant};
 use crate::export::tradeoff::{ChoiceObject, Object, figure, settings};
 use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
@@ -146,10 +145,6 @@ fn advice(tradeoff: &Tradeoff, target: Target, alone: &str) -> String {
         point.error.map_or_else(String::new, percent),
         point.run.candidate.options
     )
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", significant(100.0 * share, 2))
 }
 
 /// The table for people.
