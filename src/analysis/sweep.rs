@@ -22,7 +22,9 @@ use crate::problem::Problem;
 use crate::scene::{Scene, SceneError};
 use crate::solution::Status;
 use crate::solve::{Method, Record, Settings, check};
+use fnv::FnvHasher;
 use rayon::prelude::*;
+use std::hash::Hasher;
 use std::ops::Range;
 
 /// Neighbours along the last axis that one thread solves one after the other.
@@ -155,23 +157,18 @@ impl Sweep {
 
     /// Sixteen digits that differ if anything differs that the results depend on: scene, axes, settings or version.
     pub fn fingerprint(&self) -> String {
-        let mut hash = Fnv::default();
-        hash.text(env!("CARGO_PKG_VERSION"));
-        hash.text(&self.scene.to_toml());
-        hash.text(self.settings.method.name());
+        let method = self.settings.method;
         // The paper's method has no fidelity.
-        hash.text(&if self.settings.method == Method::Auto {
-            self.settings.fidelity.to_string()
-        } else {
-            String::new()
-        });
-        hash.text(&CHUNK.to_string());
+        let fidelity = if method == Method::Auto { self.settings.fidelity.to_string() } else { String::new() };
+        let mut texts =
+            vec![env!("CARGO_PKG_VERSION").to_owned(), self.scene.to_toml(), method.name().to_owned(), fidelity];
+        texts.push(CHUNK.to_string());
         for axis in &self.axes {
-            hash.text(axis.parameter.key);
-            axis.values.iter().for_each(|value| hash.bytes(&value.to_bits().to_le_bytes()));
-            axis.words.iter().for_each(|word| hash.text(word));
+            texts.push(axis.parameter.key.to_owned());
+            texts.extend(axis.values.iter().map(|value| format!("{value:?}")));
+            texts.extend(axis.words.iter().cloned());
         }
-        format!("{:016x}", hash.0)
+        digest(texts.iter().map(String::as_str))
     }
 
     /// Published points of Table I whose scene is one of this sweep's but for the keys that are varied, at any value of
@@ -286,34 +283,15 @@ fn varied(scene: &Scene, axes: &[Axis], values: &[f64]) -> Result<Scene, SceneEr
     Ok(scene)
 }
 
-/// Sixteen digits that differ if one of the texts does.
+/// Sixteen digits that differ if one of the texts does: the same on every machine and in every version of the compiler.
 pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
-    let mut hash = Fnv::default();
-    texts.into_iter().for_each(|text| hash.text(text));
-    format!("{:016x}", hash.0)
-}
-
-/// The hash FNV-1a of 64 bits: the same on every machine and in every version of the compiler.
-struct Fnv(u64);
-
-impl Default for Fnv {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Fnv {
-    fn bytes(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
-
-    fn text(&mut self, text: &str) {
-        self.bytes(text.as_bytes());
+    let mut hash = FnvHasher::default();
+    for text in texts {
+        hash.write(text.as_bytes());
         // Ends the text, as no byte of UTF-8 is this.
-        self.bytes(&[0xff]);
+        hash.write(&[0xff]);
     }
+    format!("{:016x}", hash.finish())
 }
 
 #[cfg(test)]
