@@ -298,8 +298,7 @@ pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
 mod tests {
     use super::*;
     use crate::fidelity::Fidelity;
-    use crate::scene::Value;
-    use crate::scene::{Scale, presets};
+    use crate::scene::{Scale, Value, presets};
 
     fn sweep(preset: &str, vary: &[&str]) -> Result<Sweep, SweepError> {
         let vary = vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;

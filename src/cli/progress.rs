@@ -2,8 +2,7 @@
 
 use super::terminal;
 use crate::control::{Observer, Progress};
-use crate::digits::duration;
-use crate::digits::significant;
+use crate::digits::{duration, significant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};

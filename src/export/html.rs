@@ -2,7 +2,7 @@
 //! and a policy in the head forbids the browser to fetch anything.
 //!
 //! A page is well-formed XML as well as HTML, so that any reader of XML can take numbers out of it. What it looks like is
-//! decided here, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
+//! decided here and in `assets/report.css`, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
 //! the contact's, grey), tables with rules but no boxes, wide enough for a projector and quiet enough for paper.
 
 use super::figure::{Figure, escaped as xml_escaped, to_svg};

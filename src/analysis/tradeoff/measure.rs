@@ -1,8 +1,7 @@
 //! Candidates, measured: interleaved runs, timed by the caller's clock.
 
 use super::candidates::Candidate;
-use crate::analysis::attempt::RunStatus;
-use crate::analysis::attempt::attempt;
+use crate::analysis::attempt::{RunStatus, attempt};
 use crate::analysis::quantity::Numbers;
 use crate::control::{Cancel, Progress};
 use crate::problem::Problem;

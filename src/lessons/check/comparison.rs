@@ -1,8 +1,7 @@
 //! Comparisons of a check, and what they say of a run.
 
 use super::name::{Name, Ran};
-use crate::digits::capitalised;
-use crate::digits::short;
+use crate::digits::{capitalised, short};
 use crate::lessons::live::Live;
 use crate::scene::Value;
 
