@@ -316,21 +316,15 @@ pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     }
 }
 
-/// What the report is made of beside the runs.
-#[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
-    /// How it was solved.
-    pub settings: &'a Settings,
-    /// All parameters are listed, not only those that differ.
-    pub all: bool,
-    /// Animations as GIF, each with its name.
-    pub movies: &'a [(String, Vec<u8>)],
-    /// The command line that makes it again.
-    pub command: &'a [String],
-}
-
-/// The comparison as one HTML file that needs nothing else.
-pub fn report(runs: &[ComparedRun], report: &Report<'_>) -> String {
+/// The comparison as one HTML file that needs nothing else. `all`: parameters are listed that do not differ, too; `movies`: animations as
+/// GIF, each with its name; `command`: what makes it again.
+pub fn report(
+    runs: &[ComparedRun],
+    settings: &Settings,
+    all: bool,
+    movies: &[(String, Vec<u8>)],
+    command: &[String],
+) -> String {
     let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
     let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
     let mut fidelities: Vec<&str> = Vec::new();
@@ -339,8 +333,8 @@ pub fn report(runs: &[ComparedRun], report: &Report<'_>) -> String {
             fidelities.push(&solution.model.fidelity);
         }
     }
-    let how = match report.settings.method {
-        Method::Auto if fidelities.is_empty() => format!("fidelity {}", report.settings.fidelity),
+    let how = match settings.method {
+        Method::Auto if fidelities.is_empty() => format!("fidelity {}", settings.fidelity),
         Method::Auto => format!("fidelity {}", fidelities.join(", ")),
         Method::Paper => "the algorithm of Maeno and Bogy on its own meshes".to_owned(),
     };
@@ -368,7 +362,7 @@ pub fn report(runs: &[ComparedRun], report: &Report<'_>) -> String {
 
     page.section(if others.is_empty() { "Parameters" } else { "What differs" });
     let rows = parameter_rows(runs);
-    let all = report.all || others.is_empty();
+    let all = all || others.is_empty();
     page.table(&parameter_table(runs, rows.iter().filter(|row| all || row.differs())));
     if !others.is_empty() && rows.iter().all(|row| !row.differs()) {
         page.text("The scenes do not differ in any parameter.");
@@ -378,7 +372,7 @@ pub fn report(runs: &[ComparedRun], report: &Report<'_>) -> String {
     page.table(&result_table(runs));
 
     page.section("Fields");
-    for (name, gif) in report.movies {
+    for (name, gif) in movies {
         let [alternative, caption] = if others.is_empty() {
             ["One cycle", "The cycle repeats."]
         } else {
@@ -415,7 +409,7 @@ pub fn report(runs: &[ComparedRun], report: &Report<'_>) -> String {
         }
         page.folded("the scene as a preset", &run.scene.to_toml());
     }
-    again(&mut page, report.command);
+    again(&mut page, command);
     page.finish(&provenance(runs).line())
 }
 

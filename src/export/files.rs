@@ -2,7 +2,7 @@
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
 use super::animation::{AnimationError, Movie, Options, cycle, frames, video_frames, write_video};
-use super::compare::{self, Report, all_figures, movies, report};
+use super::compare::{self, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
 use super::{csv, figures, npz, sweep, torque};
@@ -244,7 +244,7 @@ pub fn comparison(
     let all = all || runs.len() < 2;
     let movies = moving(runs, folder, control)?;
     let mut staged = Staged::new(folder)?;
-    let page = report(runs, &Report { settings, all, movies: &movies, command });
+    let page = report(runs, settings, all, &movies, command);
     staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
     staged.add("compare.csv", |out| compare::write_csv(runs, out))?;
     staged.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
@@ -269,7 +269,7 @@ pub fn html(
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let movies = moving(runs, path, control)?;
-    let page = report(runs, &Report { settings, all: runs.len() < 2, movies: &movies, command: &[] });
+    let page = report(runs, settings, runs.len() < 2, &movies, &[]);
     control.check()?;
     write_file(path, |out| out.write_all(page.as_bytes()))?;
     Ok(vec![path.to_owned()])
