@@ -408,7 +408,6 @@ impl MotorResult {
         self.alpha = alpha;
         self.film_load = alpha * motor.load;
         self.contact_load = (1.0 - alpha) * motor.load;
-        let dry = motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius;
-        self.max_torque = dry * (1.0 - alpha).max(0.0);
+        self.max_torque = motor.friction_torque((1.0 - alpha).max(0.0) * motor.load);
     }
 }

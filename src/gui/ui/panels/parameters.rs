@@ -1,8 +1,8 @@
 //! The left panel: every parameter of the scene. Reads the scene, pushes commands.
 
 use super::field::{self, Field};
+use crate::digits::capitalised;
 use crate::gui::command::Command;
-use crate::gui::derived::format::capitalised;
 use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, choice, field_name, label, switch};
 use crate::gui::ui::context::DrawContext;
