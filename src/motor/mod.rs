@@ -220,7 +220,7 @@ impl Scene for Search<'_> {
     }
 
     fn settled(&self, found: &Found<Level>) -> bool {
-        let whole = stated(self.motor, self.plan, found);
+        let whole = stated(self.plan, found);
         let grids = extrapolate_means(&found.headlines).error;
         whole.error <= self.plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
     }
@@ -331,7 +331,7 @@ impl<'a> Transient<'a> {
 }
 
 /// α with its error.
-fn stated(motor: &Motor, plan: &Plan, found: &Found<Level>) -> Estimate {
+fn stated(plan: &Plan, found: &Found<Level>) -> Estimate {
     let estimate = extrapolate_means(&found.headlines);
     let Some(level) = found.levels.last() else { return estimate };
     // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
@@ -362,7 +362,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
     };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
     let mut recording = level.recording(motor, &coarser, plan.maps);
-    let estimate = stated(motor, plan, found);
+    let estimate = stated(plan, found);
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
     recording.judge_series(elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE));
     // The mean of the fields is the headline.
