@@ -2,6 +2,7 @@
 
 use super::error::{SceneError, What};
 use super::values::{Kind, Scene};
+use crate::gas::species::IdealGas;
 use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
 use serde::Deserialize;
 use serde::de::value::{Error, StrDeserializer};
@@ -30,6 +31,10 @@ impl Problem {
             viscosity: si("film.viscosity_upa_s")?,
             mean_free_path: si("film.mean_free_path_nm")?,
             slip: choice(scene, "film.slip")?,
+            ideal: match scene.species()? {
+                Some(species) => species.at(si("film.temperature_c")?),
+                None => IdealGas::UNNAMED,
+            },
         };
         let scenario = match scene.kind() {
             Kind::Motor => Scenario::Motor(Motor {

@@ -64,16 +64,19 @@ impl Scene {
     /// The faults of all pairs; the scene is then unchanged.
     pub fn set_all<'a>(&mut self, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<(), SceneError> {
         let mut pairs: Vec<_> = pairs.into_iter().collect();
-        // The model decides which of its keys exist, and a table of harmonics needs the wavelength.
-        pairs.sort_by_key(|(key, _)| match Parameter::find(key) {
-            Some(parameter) if parameter.selects() => 0,
-            Some(Parameter { kind: ParameterKind::Rows | ParameterKind::CsvPath, .. }) => 2,
-            _ => 1,
-        });
+        pairs.sort_by_key(|(key, _)| Parameter::find(key).map_or(0, Parameter::rank));
         let mut changed = self.clone();
         let mut faults = SceneError::none();
+        let mut given: Vec<&'static Parameter> = Vec::new();
         for (key, text) in pairs {
             changed.set(key, text).unwrap_or_else(|error| faults.join(error));
+            let Some(parameter) = Parameter::find(key).filter(|parameter| changed.get(parameter.key).is_some()) else {
+                continue;
+            };
+            if let Some(other) = parameter.alternatives().find(|other| given.contains(other)) {
+                faults.push(What::BothGiven { key: parameter.key, other: other.key });
+            }
+            given.push(parameter);
         }
         faults.or(())?;
         changed.check()?;
@@ -96,6 +99,8 @@ impl Scene {
             {
                 Ok(parameter)
             }
+            // What is set takes the place of what was given instead.
+            (Err(What::BothGiven { .. }), _) => Ok(parameter),
             (applies, _) => applies.map(|()| parameter),
         }
     }
@@ -168,7 +173,9 @@ mod tests {
 
     #[test]
     fn every_value_of_every_key_reaches_the_problem() {
-        for base in [Scene::motor(), table(), Scene::plate()] {
+        let mut helium = Scene::plate();
+        helium.set("film.gas", "helium").unwrap();
+        for base in [Scene::motor(), table(), Scene::plate(), helium] {
             let keys = base.parameters().filter(|parameter| base.heeds(parameter.key) && parameter.key != "about");
             for parameter in keys {
                 let mut problems = vec![Problem::of(&base).unwrap()];

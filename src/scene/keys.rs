@@ -6,12 +6,14 @@
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
 use super::parameter::ParameterKind::{CsvPath, Rows};
 use super::parameter::Scale::{Linear, Log};
-use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale};
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::Write as _;
 
-const BEAM: (&str, &str) = ("rotor.model", "beam");
-const TABLE: (&str, &str) = ("rotor.model", "table");
+const BEAM: Model = ("rotor.model", &["beam"]);
+const TABLE: Model = ("rotor.model", &["table"]);
+const CUSTOM: Model = ("film.gas", &["custom"]);
+const NAMED: Model = ("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"]);
 const LEFT_OPEN: &str = "left to the fidelity";
 
 /// Every key of a scene file except `schema` and `scene`, in the order they are written. Of a number: key, unit, scenes
@@ -62,10 +64,15 @@ pub static PARAMETERS: &[Parameter] = &[
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
         "Spacing that roughness leaves where the faces touch; unused by a plate"),
+    choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
+        "The gas, whose viscosity and mean free path follow; of a custom one they are given"),
+    number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
     number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the gas around"),
-    number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas"),
+    number("film.altitude_m", "m", Any, (-1000.0, 60e3), (0.0, 10e3), Linear, 0.0, "Altitude whose standard atmosphere has the pressure")
+        .absent("the pressure is given").when(NAMED).instead_of("film.ambient_pressure_kpa"),
+    number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas").when(CUSTOM),
     number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
-        "Mean free path of the gas at the ambient pressure given"),
+        "Mean free path of the gas at the ambient pressure given").when(CUSTOM),
     choice("film.slip", Any, Slip::NAMES, "first-order", "How the gas slips at the walls"),
     flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); unused by a plate"),
 
@@ -100,8 +107,28 @@ impl Parameter {
         PARAMETERS.iter().any(|parameter| parameter.when.is_some_and(|(selector, _)| selector == self.key))
     }
 
-    const fn when(self, model: (&'static str, &'static str)) -> Self {
+    /// Its place when several keys are set at once: what chooses a model decides which keys there are, what replaces another one
+    /// comes after that, and a table of harmonics needs the wavelength.
+    pub(super) fn rank(&self) -> u8 {
+        match self.kind {
+            _ if self.selects() => 0,
+            ParameterKind::Rows | ParameterKind::CsvPath => 3,
+            _ => 1 + u8::from(self.instead_of.is_some()),
+        }
+    }
+
+    /// The other keys of which a scene has this one or one of them.
+    pub(super) fn alternatives(&'static self) -> impl Iterator<Item = &'static Self> {
+        let first = |parameter: &Self| parameter.instead_of.unwrap_or(parameter.key);
+        PARAMETERS.iter().filter(move |other| other.key != self.key && first(other) == first(self))
+    }
+
+    const fn when(self, model: Model) -> Self {
         Self { when: Some(model), ..self }
+    }
+
+    const fn instead_of(self, key: &'static str) -> Self {
+        Self { instead_of: Some(key), ..self }
     }
 
     const fn absent(self, meaning: &'static str) -> Self {
@@ -152,7 +179,7 @@ const fn text(key: &'static str, default: &'static str, about: &'static str) -> 
 }
 
 const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Parameter {
-    Parameter { key, unit: "", belongs, when: None, absent: None, kind, about }
+    Parameter { key, unit: "", belongs, when: None, instead_of: None, absent: None, kind, about }
 }
 
 /// The tables of a scene file, in the order they are written.
@@ -192,11 +219,31 @@ mod tests {
     #[test]
     fn a_model_that_has_keys_of_its_own_can_be_chosen() {
         for p in PARAMETERS {
-            let Some((selector, model)) = p.when else { continue };
+            let Some((selector, models)) = p.when else { continue };
             let selector = Parameter::find(selector).unwrap();
             let ParameterKind::Choice { options, .. } = selector.kind else { panic!("{}", selector.key) };
-            assert!(options.contains(&model) && selector.belongs == p.belongs, "{}", p.key);
+            assert!(models.iter().all(|model| options.contains(model)) && selector.belongs == p.belongs, "{}", p.key);
         }
+    }
+
+    #[test]
+    fn what_replaces_a_key_is_optional_and_in_its_table() {
+        for p in PARAMETERS.iter().filter(|p| p.instead_of.is_some()) {
+            let replaced = p.instead_of.and_then(Parameter::find).unwrap();
+            assert!(p.absent.is_some() && replaced.absent.is_none(), "{}", p.key);
+            assert!(p.table() == replaced.table() && p.belongs == replaced.belongs, "{}", p.key);
+            assert!(p.alternatives().any(|other| other == replaced) && replaced.alternatives().any(|other| other == p));
+        }
+    }
+
+    #[test]
+    fn the_gases_of_the_key_are_those_that_there_are() {
+        let names: Vec<_> = crate::gas::GASES.iter().map(|gas| gas.name).collect();
+        assert_eq!(names, NAMED.1);
+        let ParameterKind::Choice { options, .. } = Parameter::find("film.gas").unwrap().kind else {
+            panic!("a choice")
+        };
+        assert_eq!([CUSTOM.1, NAMED.1].concat(), options);
     }
 
     #[test]

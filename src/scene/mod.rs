@@ -26,6 +26,7 @@ pub mod compliance;
 mod convert;
 mod edit;
 mod error;
+mod follow;
 mod keys;
 mod nearest;
 mod parameter;

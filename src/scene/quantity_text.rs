@@ -14,6 +14,7 @@ const KINDS: &[Kind] = &[
     &[("nm/N", 1e-9), ("um/N", 1e-6), ("mm/N", 1e-3), ("m/N", 1.0)],
     &[("mm2/N", 1e-6), ("m2/N", 1.0)],
     &[("rpm", 1.0)],
+    &[("°C", 1.0)],
 ];
 
 /// Longest text that is read: no parameter needs more, and parentheses cannot be nested deeper.
