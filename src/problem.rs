@@ -58,6 +58,8 @@ pub struct Gas {
     pub mean_free_path: f64,
     /// Slip law.
     pub slip: Slip,
+    /// Share of the molecules that the walls reflect diffusely, in the law of Fukui and Kaneko; the others are reflected specularly.
+    pub accommodation: f64,
     /// What density, heat and sound follow from.
     pub ideal: IdealGas,
 }
@@ -70,6 +72,7 @@ impl Default for Gas {
             viscosity: 18.1e-6,
             mean_free_path: 64e-9,
             slip: Slip::FirstOrder,
+            accommodation: 1.0,
             ideal: IdealGas::UNNAMED,
         }
     }

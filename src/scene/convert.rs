@@ -31,6 +31,7 @@ impl Problem {
             viscosity: si("film.viscosity_upa_s")?,
             mean_free_path: si("film.mean_free_path_nm")?,
             slip: choice(scene, "film.slip")?,
+            accommodation: si("film.accommodation")?,
             ideal: match scene.species()? {
                 Some(species) => species.at(si("film.temperature_c")?),
                 None => IdealGas::UNNAMED,

@@ -12,6 +12,7 @@ use std::fmt::Write as _;
 
 const BEAM: Model = ("rotor.model", &["beam"]);
 const TABLE: Model = ("rotor.model", &["table"]);
+const BOLTZMANN: Model = ("film.slip", &["fukui-kaneko"]);
 const CUSTOM: Model = ("film.gas", &["custom"]);
 const NAMED: Model = ("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"]);
 const LEFT_OPEN: &str = "left to the fidelity";
@@ -74,6 +75,8 @@ pub static PARAMETERS: &[Parameter] = &[
     number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
         "Mean free path of the gas at the ambient pressure given").when(CUSTOM),
     choice("film.slip", Any, Slip::NAMES, "first-order", "How the gas slips at the walls"),
+    number("film.accommodation", "", Any, (0.3, 1.0), (0.5, 1.0), Linear, 1.0,
+        "Share of the molecules that the walls reflect diffusely, the others specularly").when(BOLTZMANN),
     flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); unused by a plate"),
 
     whole("numerics.film_nodes_along", Any, (5, 2001), 101,

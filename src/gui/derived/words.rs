@@ -38,6 +38,7 @@ const LABELS: &[(&str, &str)] = &[
     ("film.viscosity_upa_s", "Viscosity"),
     ("film.mean_free_path_nm", "Mean free path"),
     ("film.slip", "Slip at the walls"),
+    ("film.accommodation", "Accommodation coefficient"),
     ("film.shear", "Sliding drags gas along"),
     ("numerics.film_nodes_along", "Film nodes along"),
     ("numerics.film_nodes_across", "Film nodes across"),
