@@ -141,6 +141,30 @@ fn summary_names_the_numbers_with_units() {
 }
 
 #[test]
+fn a_named_gas_is_told_and_a_mean_free_path_that_stays_behind_too() {
+    let helium = run(&["solve", "motor-60mm-helium", "--fidelity", "draft"]);
+    let line = "helium at 20 °C  at 79.50 kPa: viscosity 19.61 µPa s, mean free path 241.3 nm";
+    assert!(out(&helium).contains(line) && err(&helium).is_empty(), "{}", out(&helium));
+    let (pressure, stays) = ("film.ambient_pressure_kpa=50", "the mean free path stays at 64 nm at another pressure");
+    let solve =
+        |more: &[&str]| run(&[&["solve", "plate-crossover", "--fidelity", "draft", "--set", pressure], more].concat());
+    assert!(err(&solve(&[])).contains(stays));
+    for follows in ["film.gas=air", "film.mean_free_path_nm=130", "film.slip=none"] {
+        assert_eq!(err(&solve(&["--set", follows])), "", "{follows}");
+    }
+    let sweep = |more: &[&str]| {
+        let vary = ["sweep", "plate-crossover", "--fidelity", "draft", "--vary", "film.ambient_pressure_kpa=50,100"];
+        run(&[&vary, more].concat())
+    };
+    assert!(err(&sweep(&[])).contains(stays));
+    let air = sweep(&["--set", "film.gas=air", "--json"]);
+    assert!(!err(&air).contains("mean free path"));
+    let air: Value = serde_json::from_str(out(&air)).unwrap();
+    let knudsen = |row: usize| air["rows"][row]["knudsen_number"].as_f64().unwrap();
+    assert!(close(knudsen(0), 2.0 * knudsen(1)), "{air}");
+}
+
+#[test]
 fn a_scene_outside_the_limits_of_the_model_says_so() {
     assert_eq!(solved(&["plate-crossover"])["validity"], Value::Array(Vec::new()));
     let far = ["plate-crossover", "--set", "plate.mean_gap_um=500", "--set", "plate.frequency_khz=40"];

@@ -100,7 +100,9 @@ fn scenes() -> Vec<Scene> {
     for key in ["film_nodes_along", "film_nodes_across", "steps_per_cycle"] {
         wide.set(&format!("numerics.{key}"), "41").unwrap();
     }
-    vec![Scene::motor(), Scene::plate(), crowned, table, wide]
+    let mut helium = Scene::motor();
+    helium.set_all([("film.gas", "helium"), ("film.altitude_m", "2000"), ("film.slip", "fukui-kaneko")]).unwrap();
+    vec![Scene::motor(), Scene::plate(), crowned, table, wide, helium]
 }
 
 #[test]
@@ -290,6 +292,34 @@ fn choices_and_flags_are_set() {
     let set = |key, value| Command::Set { key, value, dragging: false };
     let expected = [set("film.shear", Value::Flag(false)), set("film.slip", Value::Text("fukui-kaneko".into()))];
     assert_eq!(harness.state().pushed, expected);
+}
+
+#[test]
+fn what_follows_from_the_gas_is_shown_and_not_edited() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    open_all(&mut harness);
+    harness.get_by_role_and_label(Role::ComboBox, "Gas").click();
+    harness.run();
+    harness.get_by_label("Helium").click();
+    harness.run();
+    for (name, value) in [("Viscosity", "19.61 µPa s"), ("Mean free path", "189.3 nm")] {
+        assert!(harness.query_by_role_and_label(Role::Slider, name).is_none(), "{name}");
+        harness.get_by_label(value);
+    }
+    harness.get_by_label("Pressure of an altitude").click();
+    harness.run();
+    type_into(&mut harness, "Altitude in m", "2000");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert!(harness.query_by_role_and_label(Role::Slider, "Ambient pressure").is_none());
+    harness.get_by_label("79.50 kPa");
+    harness.get_by_label("241.3 nm");
+    // Custom again: what was given before it had a name is gone, and the defaults are back.
+    harness.get_by_role_and_label(Role::ComboBox, "Gas").click();
+    harness.run();
+    harness.get_by_label("Custom").click();
+    harness.run();
+    assert_eq!(*harness.state().scene(), Scene::motor());
 }
 
 #[test]

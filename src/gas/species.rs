@@ -1,5 +1,6 @@
 //! A gas by its molecules, and the ideal gas that it is at one temperature.
 
+use crate::digits::as_given;
 use std::f64::consts::PI;
 
 /// Molar gas constant \[J/(mol K)\], exact since 2019.
@@ -53,6 +54,13 @@ pub struct IdealGas {
     pub heat_ratio: f64,
     /// Prandtl number.
     pub prandtl: f64,
+}
+
+/// `air at 20 °C`.
+impl std::fmt::Display for IdealGas {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} at {} °C", self.name.replace('-', " "), as_given(self.temperature - 273.15))
+    }
 }
 
 impl IdealGas {

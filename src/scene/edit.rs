@@ -105,10 +105,14 @@ impl Scene {
         }
     }
 
-    /// The keys, but for name and description, in which this scene differs from `original`.
+    /// The keys, but for name and description, in which this scene differs from `original`; not the defaults that a newly chosen model
+    /// brings.
     pub fn changed<'a>(&'a self, original: &'a Self) -> impl Iterator<Item = &'static Parameter> + 'a {
         let told = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
-        told.filter(move |parameter| self.get(parameter.key) != original.get(parameter.key))
+        told.filter(move |parameter| {
+            let value = self.get(parameter.key);
+            value != original.get(parameter.key) && (original.has(parameter) || value != parameter.default())
+        })
     }
 
     /// What to call a scene that was made of `original`: `Fundamental case, changed: 3 keys`, unless it has a name of its own.
@@ -174,7 +178,7 @@ mod tests {
     #[test]
     fn every_value_of_every_key_reaches_the_problem() {
         let mut helium = Scene::plate();
-        helium.set("film.gas", "helium").unwrap();
+        helium.set_all([("film.gas", "helium"), ("film.slip", "fukui-kaneko")]).unwrap();
         for base in [Scene::motor(), table(), Scene::plate(), helium] {
             let keys = base.parameters().filter(|parameter| base.heeds(parameter.key) && parameter.key != "about");
             for parameter in keys {
@@ -215,6 +219,15 @@ mod tests {
                 Some("numerics.steps_per_cycle")
             );
         }
+    }
+
+    #[test]
+    fn defaults_of_a_new_model_are_no_changes() {
+        let (original, mut scene) = (Scene::motor(), Scene::motor());
+        scene.set_all([("film.gas", "helium"), ("film.slip", "fukui-kaneko")]).unwrap();
+        assert_eq!(scene.changed(&original).map(|p| p.key).collect::<Vec<_>>(), ["film.gas", "film.slip"]);
+        scene.set("film.temperature_c", "30").unwrap();
+        assert_eq!(scene.changed(&original).count(), 3);
     }
 
     #[test]

@@ -27,6 +27,12 @@ impl Scene {
         FOLLOWING.iter().filter_map(|(key, _)| Some((Parameter::find(key)?, self.following(key)?)))
     }
 
+    /// The mean free path \[nm\] where it is given, and matters: it then stays as it is when pressure changes.
+    pub fn given_mean_free_path(&self) -> Option<f64> {
+        let slips = self.text("film.slip").is_ok_and(|law| law != "none");
+        self.get("film.mean_free_path_nm").filter(|_| slips)?.as_number()
+    }
+
     /// The gas of the film, if it has a name.
     pub(super) fn species(&self) -> Result<Option<&'static Species>, What> {
         Ok(gas::find(self.text("film.gas")?))

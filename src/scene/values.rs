@@ -88,7 +88,12 @@ impl Scene {
 
     /// The parameters that apply to this scene and its rotor model, in the order of the file, the absent ones included.
     pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> + '_ {
-        PARAMETERS.iter().filter(|parameter| self.applies(parameter).is_ok())
+        PARAMETERS.iter().filter(|parameter| self.has(parameter))
+    }
+
+    /// Whether this scene has a key: its own kind and model do, and no other key replaces it.
+    pub fn has(&self, parameter: &'static Parameter) -> bool {
+        self.applies(parameter).is_ok()
     }
 
     /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics

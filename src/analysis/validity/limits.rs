@@ -1,7 +1,6 @@
 //! Each limit of the model: its number, how great that may be, and what it means in a sentence.
 
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
-use crate::gas::species::IdealGas;
 use crate::problem::{Gas, Motor, Plate, Slip};
 use std::f64::consts::{PI, TAU};
 
@@ -79,7 +78,7 @@ impl Film<'_> {
                 "The gas has inertia in a gap of {} µm (ωρh²/12μ = {}, {}), which the film equation leaves out.",
                 rounded(self.gap * 1e6),
                 rounded(value),
-                named(&self.gas.ideal)
+                self.gas.ideal
             );
             (INERTIA, text)
         } else {
@@ -145,7 +144,7 @@ impl Film<'_> {
             self.body,
             rounded(value),
             rounded(wavelength * 1e3),
-            named(gas)
+            gas
         );
         let (limit, text) = if self.reynolds() > INERTIA {
             (WAVELENGTHS_IN_THE_FILM, format!("{across}: sound waves can stand in the film, and are left out."))
@@ -186,7 +185,7 @@ pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
          isothermal.",
         rounded(value * gas.speed_of_sound()),
         rounded(value),
-        named(gas),
+        gas,
         rounded(100.0 * gas.prandtl * (gas.heat_ratio - 1.0) * value * value / 8.0)
     );
     excess("sound", value, MACH, "", text)
@@ -209,11 +208,6 @@ pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
         rounded((plate.mean_gap - plate.amplitude) * 1e9)
     );
     excess("amplitude", plate.amplitude / plate.mean_gap, AMPLITUDE, "", text)
-}
-
-/// The gas in words: `air at 20 °C`.
-fn named(gas: &IdealGas) -> String {
-    format!("{} at {} °C", gas.name.replace('-', " "), rounded(gas.temperature - 273.15))
 }
 
 fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: String) -> Option<Excess> {
