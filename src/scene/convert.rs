@@ -52,7 +52,7 @@ impl Problem {
                 tooth_radius: optional("stator.tooth_radius_m")?,
                 contact_width: si("rotor.contact_width_mm")?,
                 rotor: match scene.text("rotor.model")? {
-                    "beam" => RotorCompliance::Beam {
+                    "beam" | "section" => RotorCompliance::Beam {
                         decay_length: si("rotor.decay_length_mm")?,
                         point_compliance: si("rotor.point_compliance_um_per_n")?,
                         local_compliance: si("rotor.local_compliance_m2_per_n")?,

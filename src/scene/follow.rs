@@ -1,30 +1,78 @@
-//! Values that follow from other keys where they are not given: pressure from altitude, viscosity and mean free path from the gas.
+//! Values that follow from other keys where they are not given: pressure from altitude, viscosity and mean free path from the gas;
+//! of a motor, whichever of two ways to say the same is not used.
 
 use super::error::What;
 use super::parameter::Parameter;
 use super::values::Scene;
+use crate::digits::as_given;
 use crate::gas::species::Species;
 use crate::gas::{self, atmosphere};
 
-/// The value of a key that follows from others, in its unit; `None` if the scene gives what it would follow from otherwise.
-type Following = fn(&Scene) -> Result<Option<f64>, What>;
+/// A key whose value may follow from others.
+struct Following {
+    key: &'static str,
+    /// The key that says so: the one that is given instead, or the one that chooses a model.
+    source: &'static str,
+    /// The value in the unit of `key`; `None` if the scene gives it.
+    value: fn(&Scene) -> Result<Option<f64>, What>,
+}
 
-static FOLLOWING: &[(&str, Following)] = &[
-    ("film.ambient_pressure_kpa", pressure_at_altitude),
-    ("film.viscosity_upa_s", viscosity),
-    ("film.mean_free_path_nm", mean_free_path),
+static FOLLOWING: &[Following] = &[
+    Following { key: "film.ambient_pressure_kpa", source: "film.altitude_m", value: pressure_at_altitude },
+    Following { key: "film.viscosity_upa_s", source: "film.gas", value: viscosity },
+    Following { key: "film.mean_free_path_nm", source: "film.gas", value: mean_free_path },
+    Following {
+        key: "motor.load_per_wave_n",
+        source: "motor.load_n",
+        value: |scene| scene.from("motor.load_n", |load| Ok(load / scene.number("motor.waves")?)),
+    },
+    Following {
+        key: "motor.rotor_speed_rpm",
+        source: "motor.rotor_speed_mm_per_s",
+        value: |scene| scene.from("motor.rotor_speed_mm_per_s", |speed| Ok(60.0 * speed / scene.circumference_mm()?)),
+    },
+    Following {
+        key: "stator.tooth_width_mm",
+        source: "stator.tooth_share",
+        value: |scene| scene.from("stator.tooth_share", |share| Ok(share * scene.pitch_mm()?)),
+    },
+    Following { key: "rotor.point_compliance_um_per_n", source: "rotor.model", value: point_compliance },
 ];
 
 impl Scene {
     /// The value of a key that is not given in this scene, and that follows from others; in the unit of the key.
     pub fn following(&self, key: &str) -> Option<f64> {
-        let (_, from) = FOLLOWING.iter().find(|(known, _)| *known == key)?;
-        from(self).ok().flatten()
+        let following = FOLLOWING.iter().find(|following| following.key == key)?;
+        (following.value)(self).ok().flatten()
     }
 
-    /// The keys whose values follow from others in this scene, and those values, in the units of the keys.
-    pub fn all_following(&self) -> impl Iterator<Item = (&'static Parameter, f64)> + '_ {
-        FOLLOWING.iter().filter_map(|(key, _)| Some((Parameter::find(key)?, self.following(key)?)))
+    /// What an optional key would be that another one is given instead of, in the unit of the optional one.
+    pub fn alternative(&self, parameter: &Parameter) -> Option<f64> {
+        let given = parameter.instead_of.filter(|_| self.given(parameter.key).is_none())?;
+        match parameter.key {
+            "motor.load_n" => Some(self.number(given).ok()? * self.number("motor.waves").ok()?),
+            "motor.rotor_speed_mm_per_s" => Some(self.number(given).ok()? * self.circumference_mm().ok()? / 60.0),
+            "stator.tooth_share" => Some(self.number(given).ok()? / self.pitch_mm().ok()?),
+            _ => None,
+        }
+    }
+
+    /// What follows and is out of the range of its key: the key that it follows from, and what is wrong.
+    pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
+        FOLLOWING.iter().filter_map(|Following { key, source, value }| {
+            let (parameter, value) = (Parameter::find(key)?, value(self).ok()??);
+            let range = parameter.range().filter(|range| !range.contains(value))?;
+            let given = self.get(source).map_or_else(String::new, |given| format!("{source} = {given} makes "));
+            let unit = parameter.unit;
+            let message =
+                format!("{given}{key} = {} {unit}, which is out of range: allowed {range} {unit}", as_given(value));
+            Some((std::slice::from_ref(source), What::Rule { key: source, message }))
+        })
+    }
+
+    /// What follows from the number of a key, if it is given.
+    fn from(&self, key: &str, value: impl FnOnce(f64) -> Result<f64, What>) -> Result<Option<f64>, What> {
+        self.given(key).map(value).transpose()
     }
 
     /// The mean free path \[nm\] where it is given, and matters: it then stays as it is when pressure changes.
@@ -44,9 +92,18 @@ impl Scene {
     }
 }
 
+/// C_p = ℓ³/(8 EI) of a beam on a foundation that lets its deflection die out over ℓ, with I = w t³/12.
+fn point_compliance(scene: &Scene) -> Result<Option<f64>, What> {
+    if scene.text("rotor.model")? != "section" {
+        return Ok(None);
+    }
+    let second_moment = scene.si("rotor.width_mm")? * scene.si("rotor.thickness_mm")?.powi(3) / 12.0;
+    let bending = scene.si("rotor.elastic_modulus_gpa")? * second_moment;
+    Ok(Some(scene.si("rotor.decay_length_mm")?.powi(3) / (8.0 * bending) * 1e6))
+}
+
 fn pressure_at_altitude(scene: &Scene) -> Result<Option<f64>, What> {
-    let altitude = scene.optional_number(scene.parameter("film.altitude_m")?);
-    Ok(altitude.map(|altitude| atmosphere::pressure(altitude) / 1e3))
+    Ok(scene.given("film.altitude_m").map(|altitude| atmosphere::pressure(altitude) / 1e3))
 }
 
 fn viscosity(scene: &Scene) -> Result<Option<f64>, What> {
@@ -66,14 +123,43 @@ mod tests {
 
     #[test]
     fn what_follows_is_a_number_and_never_given_too() {
-        for (key, _) in FOLLOWING {
+        for Following { key, source, .. } in FOLLOWING {
             assert!(Parameter::find(key).is_some_and(|parameter| parameter.range().is_some()), "{key}");
+            assert!(Parameter::find(source).is_some(), "{source}");
         }
+        let following = |scene: &Scene| -> Vec<_> {
+            let follows = |key: &&str| scene.following(key).is_some();
+            FOLLOWING.iter().map(|following| following.key).filter(follows).collect()
+        };
         let mut scene = Scene::motor();
-        assert_eq!(scene.all_following().count(), 0);
-        scene.set_all([("film.gas", "air"), ("film.altitude_m", "2000")]).unwrap();
-        let following: Vec<_> = scene.all_following().map(|(parameter, _)| parameter.key).collect();
-        assert_eq!(following, FOLLOWING.iter().map(|(key, _)| *key).collect::<Vec<_>>());
-        assert!(following.iter().all(|key| scene.get(key).is_none()));
+        assert_eq!(following(&scene), Vec::<&str>::new());
+        let given = [
+            ("film.gas", "air"),
+            ("film.altitude_m", "2000"),
+            ("motor.load_n", "20"),
+            ("motor.rotor_speed_mm_per_s", "30"),
+            ("stator.tooth_share", "0.5"),
+            ("rotor.model", "section"),
+        ];
+        scene.set_all(given).unwrap();
+        assert_eq!(following(&scene), FOLLOWING.iter().map(|following| following.key).collect::<Vec<_>>());
+        assert!(FOLLOWING.iter().all(|following| scene.get(following.key).is_none()));
+    }
+
+    /// A key and the one that replaces it say the same, there and back.
+    #[test]
+    fn alternatives_agree() {
+        for key in ["motor.load_n", "motor.rotor_speed_mm_per_s", "stator.tooth_share"] {
+            let mut scene = Scene::motor();
+            scene.set("motor.rotor_speed_rpm", "40").unwrap();
+            let (before, parameter) = (scene.clone(), Parameter::find(key).unwrap());
+            let replaced = parameter.instead_of.unwrap();
+            let value = scene.alternative(parameter).unwrap();
+            scene.set(key, &value.to_string()).unwrap();
+            assert_eq!((scene.get(replaced), scene.alternative(parameter)), (None, None));
+            let again = scene.following(replaced).unwrap();
+            assert!((again / before.number(replaced).unwrap() - 1.0).abs() < 1e-14, "{key}: {again}");
+            scene.check().unwrap();
+        }
     }
 }

@@ -11,6 +11,8 @@ use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::Write as _;
 
 const BEAM: Model = ("rotor.model", &["beam"]);
+const SECTION: Model = ("rotor.model", &["section"]);
+const BENDING: Model = ("rotor.model", &["beam", "section"]);
 const TABLE: Model = ("rotor.model", &["table"]);
 const BOLTZMANN: Model = ("film.slip", &["fukui-kaneko"]);
 const CUSTOM: Model = ("film.gas", &["custom"]);
@@ -28,10 +30,15 @@ pub static PARAMETERS: &[Parameter] = &[
         "Radius at which the teeth touch the rotor"),
     whole("motor.waves", Motor, (1, 100), 7, "Wavelengths round the ring"),
     number("motor.load_per_wave_n", "N", Motor, (0.01, 100.0), (0.1, 20.0), Log, 2.45, "Axial load on one wavelength"),
+    number("motor.load_n", "N", Motor, (0.01, 10000.0), (1.0, 200.0), Log, 17.15, "Axial load on the whole ring")
+        .absent("the load on one wavelength is given").instead_of("motor.load_per_wave_n"),
     number("motor.dry_friction", "", Motor, (0.0, 2.0), (0.0, 1.0), Linear, 0.7,
         "Friction coefficient where tooth and rotor touch"),
     number("motor.rotor_speed_rpm", "rpm", Motor, (-10000.0, 10000.0), (-300.0, 300.0), Linear, 0.0,
         "Speed of the rotor, towards +x (against the wave) if positive"),
+    number("motor.rotor_speed_mm_per_s", "mm/s", Motor, (-600e3, 600e3), (-1000.0, 1000.0), Linear, 0.0,
+        "Speed of the rotor's surface at the contact radius, as the speed in rpm")
+        .absent("the speed in rpm is given").instead_of("motor.rotor_speed_rpm"),
 
     number("stator.frequency_khz", "kHz", Motor, (0.001, 10000.0), (1.0, 200.0), Log, 30.0, "Frequency of the vibration"),
     number("stator.normal_amplitude_um", "µm", Motor, (0.0, 20.0), (0.0, 5.0), Linear, 1.3,
@@ -41,17 +48,23 @@ pub static PARAMETERS: &[Parameter] = &[
     whole("stator.teeth_per_wave", Motor, (1, 64), 9, "Teeth in one wavelength"),
     number("stator.tooth_width_mm", "mm", Motor, (1e-6, 3142.0), (0.1, 5.0), Linear, 1.7353,
         "Width of a tooth along the ring; from 1 % to 100 % of the tooth pitch"),
+    number("stator.tooth_share", "", Motor, (0.01, 1.0), (0.1, 1.0), Linear, 0.6, "Width of a tooth as a share of the tooth pitch")
+        .absent("the width of a tooth is given").instead_of("stator.tooth_width_mm"),
     number("stator.tooth_radius_m", "m", Motor, (0.01, 1e6), (1.0, 100.0), Log, 6.5,
         "Radius of a crowned tooth top").absent("flat teeth"),
 
     number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
-    choice("rotor.model", Motor, &["beam", "table"], "beam", "How the rotor's compliance is described"),
+    choice("rotor.model", Motor, &["beam", "section", "table"], "beam", "How the rotor's compliance is described"),
     number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
-        "Length over which the deflection under a point load dies out").when(BEAM),
+        "Length over which the deflection under a point load dies out").when(BENDING),
+    number("rotor.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 70.0,
+        "Elastic modulus of the rim that bends").when(SECTION),
+    number("rotor.thickness_mm", "mm", Motor, (0.01, 100.0), (0.2, 10.0), Log, 1.0, "Axial thickness of the rim that bends").when(SECTION),
+    number("rotor.width_mm", "mm", Motor, (0.01, 200.0), (0.5, 30.0), Log, 2.0, "Radial width of the rim that bends").when(SECTION),
     number("rotor.point_compliance_um_per_n", "µm/N", Motor, (1e-3, 100.0), (0.05, 10.0), Log, 0.64,
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
-        "Local (Winkler) compliance in series with the beam").when(BEAM),
+        "Local (Winkler) compliance in series with the beam").when(BENDING),
     other("rotor.compliance_csv", Motor, CsvPath, "CSV file of the compliance, relative to the preset's folder").when(TABLE),
     other("rotor.compliance", Motor, Rows, "Compliance per wavenumber, inline").when(TABLE),
 

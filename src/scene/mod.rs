@@ -29,6 +29,7 @@ mod error;
 mod follow;
 mod keys;
 mod nearest;
+pub mod new_motor;
 mod parameter;
 mod parse;
 pub mod presets;

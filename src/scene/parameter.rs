@@ -124,10 +124,12 @@ pub struct Parameter {
 
 /// The units of the field: how a key ends, what people are shown, and how many make one SI unit (`rpm`: one turn a
 /// second). The longer endings come before those that they end in.
-const UNITS: [(&str, &str, Per); 12] = [
+const UNITS: [(&str, &str, Per); 14] = [
     ("_m2_per_n", "m²/N", Per::One),
     ("_um_per_n", "µm/N", Per::Over(1e6)),
+    ("_mm_per_s", "mm/s", Per::Over(1e3)),
     ("_upa_s", "µPa s", Per::Over(1e6)),
+    ("_gpa", "GPa", Per::Times(1e9)),
     ("_khz", "kHz", Per::Times(1e3)),
     ("_kpa", "kPa", Per::Times(1e3)),
     ("_rpm", "rpm", Per::Over(60.0)),

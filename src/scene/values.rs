@@ -249,6 +249,11 @@ impl Scene {
         stored.or_else(|| self.following(parameter.key)).or_else(|| parameter.default()?.as_number())
     }
 
+    /// The number that an optional key has in this scene.
+    pub(super) fn given(&self, key: &str) -> Option<f64> {
+        self.values.get(key).and_then(Value::as_number)
+    }
+
     /// The number of a key, in its unit.
     pub(super) fn number(&self, key: &str) -> Result<f64, What> {
         self.optional_number(self.parameter(key)?).ok_or_else(|| self.unknown_key(key))
@@ -278,6 +283,16 @@ impl Scene {
             Some(Value::Rows(rows)) => rows,
             _ => &[],
         }
+    }
+
+    /// Length of the circle on which teeth and rotor touch \[mm\].
+    pub(super) fn circumference_mm(&self) -> Result<f64, What> {
+        Ok(std::f64::consts::TAU * self.number("motor.contact_radius_mm")?)
+    }
+
+    /// Pitch of the teeth of a motor \[mm\].
+    pub(super) fn pitch_mm(&self) -> Result<f64, What> {
+        Ok(self.wavelength()? * 1e3 / self.number("stator.teeth_per_wave")?)
     }
 
     /// Wavelength \[m\] of a motor, 2πr/waves.

@@ -173,7 +173,7 @@ impl Panel<'_> {
         ui.horizontal_wrapped(|ui| {
             let name = ui.add(egui::Label::new(label(parameter)).selectable(false));
             beside(ui.clip_rect(), name, &explanation);
-            let text = format!("{} {}", significant(value, FOLLOWING_DIGITS), parameter.unit);
+            let text = format!("{} {}", significant(value, FOLLOWING_DIGITS), parameter.unit).trim_end().to_owned();
             let value = ui.label(RichText::new(text).color(self.cx.colours.quiet));
             beside(ui.clip_rect(), value, &explanation);
         });
@@ -299,6 +299,13 @@ impl Panel<'_> {
                 }
                 _ => Command::Reset { key: parameter.key },
             });
+        }
+        if let (false, Some(value)) = (present, self.scene.alternative(parameter)) {
+            return quiet(
+                ui,
+                self.cx,
+                format!("Now {} {}", significant(value, FOLLOWING_DIGITS), parameter.unit).trim_end(),
+            );
         }
         // That unset numerics are left to the fidelity need not be said four times.
         if let (false, Some(meaning), true) = (present, parameter.absent, parameter.table() != "numerics") {
