@@ -216,6 +216,35 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
 }
 
 #[test]
+fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label("New motor…").click();
+    window.run_steps(3);
+    let make = |window: &Harness<'static, App>| window.get_by_label("Make this motor").accesskit_node().is_disabled();
+    assert!(make(&window));
+    for (field, text) in
+        [("Outer diameter of the stator, mm", "60"), ("Frequency, kHz", "40"), ("Axial load on the rotor, N", "150")]
+    {
+        window.get_by_role_and_label(Role::TextInput, field).click();
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::TextInput, field).type_text(text);
+        window.run_steps(2);
+    }
+    window.get_by_label_contains("Assumed: Minimum spacing H_m 200 nm: as in the motor of Maeno and Bogy");
+    assert!(!make(&window));
+    window.get_by_label("Make this motor").click();
+    until(&mut window, "the new motor", |app| {
+        app.state().document.scene().get("motor.load_n") == Some(Value::Number(150.0))
+    });
+    let document = &window.state().state().document;
+    assert!(document.is_dirty() && document.path().is_none() && document.scene().name == "My motor");
+    assert!(window.state().state().modal.is_none());
+}
+
+#[test]
 fn a_bad_file_is_explained_and_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bad.toml");
