@@ -135,8 +135,12 @@ impl eframe::App for App {
         self.after_text(ctx, waiting);
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        if frame.gl().is_none() {
+            // Only OpenGL is sure to have cleared the window with this.
+            ui.painter().rect_filled(ctx.content_rect(), 0.0, ui.visuals().panel_fill);
+        }
         if self.updater.state.observe() {
             ctx.request_repaint();
         }
@@ -158,7 +162,7 @@ impl eframe::App for App {
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        // Seen between panels where their edges fall between pixels.
+        // The ground of all panels.
         visuals.panel_fill.to_normalized_gamma_f32()
     }
 

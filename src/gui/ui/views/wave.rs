@@ -32,7 +32,9 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     style.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    shown.mark_followed(painter, style, &axes);
+    let [left, right] = shown.followed().map(|x| axes.px(x));
+    let column = Rect::from_x_y_ranges(left..=right, rect.y_range());
+    painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
     stator(painter, style, &axes, shown);
     rotor(painter, style, &axes, shown);
     touching(painter, style, &axes, shown);
