@@ -6,6 +6,7 @@ use super::plate::{Loop, profile, show_loops};
 use super::pointer::named;
 use super::series::{Series, Trace};
 use crate::analysis::compare::ComparedRun;
+use super::wave::GROOVE;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::sample::{self, Lines, Touching};
@@ -319,7 +320,7 @@ fn draw_surfaces(
             axes.at((tooth as f64 * run.recording.pitch + run.recording.x[node]) * metre, height)
         };
         let mut underside: Vec<Pos2> = Vec::new();
-        for tooth in 0..run.recording.teeth {
+        for (tooth, groove) in run.lines.grooves(run.recording, run.motor, GROOVE).iter().enumerate() {
             let line = run.lines.of(tooth);
             let top = run.lines.stator[line.clone()].iter().enumerate();
             painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));
@@ -328,6 +329,9 @@ fn draw_surfaces(
                 at(tooth, i, height)
             });
             underside.extend(rotor);
+            if tooth + 1 < run.recording.teeth {
+                underside.extend(groove.iter().map(|[x, height]| axes.at(x * metre, *height)));
+            }
         }
         painter.line(underside, Stroke::new(2.2, run.of.colour));
     }
