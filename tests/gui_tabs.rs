@@ -306,7 +306,7 @@ fn closing_the_window_ends_a_sweep_and_what_is_being_solved() {
     ctrl(&mut window, Key::Num3);
     type_into(&mut window, "Values along x", "9000");
     click(&mut window, "Start the sweep");
-    assert!(swept(window.state()).running());
+    until(&mut window, "its points", |app| app.state().sweep.swept().is_some_and(|swept| swept.running()));
     ctrl(&mut window, Key::Num2);
     window.get_by_label_contains("Pin a preset").click();
     window.run_steps(3);
@@ -759,7 +759,7 @@ fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
         };
         let at_first = range(&window);
         let width = at_first[1] - at_first[0];
-        // Beside the line at the present phase, which is dragged by itself.
+        // Beside the line at the present instant, which is dragged by itself.
         let middle = window.get_by_role_and_label(Role::Image, name).rect().center() + Vec2::new(11.0, 0.0);
         drag(&mut window, middle, middle + Vec2::new(60.0, 0.0));
         let dragged = range(&window);

@@ -145,7 +145,10 @@ impl eframe::App for App {
             ctx.request_repaint();
         }
         let cx = DrawContext::new(self.state(), self.updater.now());
-        layout::show(ui, &cx);
+        // Known to what fades into it.
+        let ground = egui::Frame::new().fill(ui.visuals().panel_fill);
+        let stack = egui::UiStackInfo::new(egui::UiKind::GenericArea).with_frame(ground);
+        ui.scope_builder(egui::UiBuilder::new().ui_stack_info(stack), |ui| layout::show(ui, &cx));
         let commands = cx.into_commands();
         self.typing = ctx.text_edit_focused() && !is_searched(&ctx);
         if !commands.is_empty() {

@@ -172,7 +172,7 @@ impl<'a> Inset<'a> {
     }
 }
 
-/// A vertical line of a chart that is dragged along x: where it was dragged to.
+/// A vertical line of the chart `name` that is dragged along x: where it was dragged to. A double click is the chart's.
 pub(in crate::gui::ui) fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
     let place = pos2(at.position_from_point_x(x), at.frame().center().y);
     let strip = Rect::from_center_size(place, vec2(8.0, at.frame().height())).intersect(*at.frame());
@@ -183,6 +183,12 @@ pub(in crate::gui::ui) fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, nam
     let text = format!("Line of {}: drag it", name.split(':').next().unwrap_or(name));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
     let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+    if response.double_clicked()
+        && let Some(mut memory) = PlotMemory::load(ui.ctx(), id(name))
+    {
+        memory.auto_bounds = true.into();
+        memory.store(ui.ctx(), id(name));
+    }
     let pointer = response.interact_pointer_pos().filter(|_| response.dragged())?;
     Some(at.value_from_position(pointer).x)
 }
