@@ -41,7 +41,7 @@ pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), ef
         // The menu that winit makes on macOS ends the program at ⌘Q and asks nobody: without it ⌘Q is a shortcut of the window.
         #[cfg(target_os = "macos")]
         event_loop_builder: Some(Box::new(|builder| {
-            use eframe::egui_glow::egui_winit::winit::platform::macos::EventLoopBuilderExtMacOS;
+            use winit::platform::macos::EventLoopBuilderExtMacOS;
             builder.with_default_menu(false);
         })),
         ..Default::default()

@@ -231,10 +231,10 @@ impl Lines {
         tooth * self.nodes..(tooth + 1) * self.nodes
     }
 
-    /// The rotor's underside over the groove behind each tooth: `points` of (x, height) \[m\], evenly spaced between the two teeth, the
-    /// last ones beyond the wavelength.
+    /// The rotor's underside over the groove behind each tooth: `points` of (x, height) \[m\], evenly spaced from one
+    /// tooth's edge to the next one's, the last ones beyond the wavelength.
     ///
-    /// No load acts there, so that its height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), q_n the harmonics of contact and film. z₀ is
+    /// No load acts there, and nothing is pressed in locally, so that its height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), q_n the harmonics of contact and film. z₀ is
     /// what is left at the edges of the two teeth, where the whole height is known.
     pub fn grooves(&self, recording: &Recording, motor: &Motor, points: usize) -> Vec<Vec<[f64; 2]>> {
         let (teeth, length) = (recording.teeth, recording.length);
@@ -271,7 +271,7 @@ impl Lines {
         let edges: Vec<[f64; 2]> = (0..teeth).map(|tooth| [rest(tooth, 0), rest(tooth, last)]).collect();
         let groove = |tooth: usize| {
             let [from, to] = [edges[tooth][1], edges[(tooth + 1) % teeth][0]];
-            let share = |j: usize| (j + 1) as f64 / (points + 1) as f64;
+            let share = |j: usize| j as f64 / (points.max(2) - 1) as f64;
             let x = |share: f64| tooth as f64 * recording.pitch + reach + share * (recording.pitch - 2.0 * reach);
             (0..points).map(share).map(|share| [x(share), smooth(x(share)) + from + share * (to - from)]).collect()
         };

@@ -120,7 +120,8 @@ impl<'a> Inset<'a> {
         let whole = Rect::from_min_max(pos2(rect.left() - gutter, rect.top()), low);
         let (row, height) = (style.row, rect.height());
         // As many marks as the painter has, in drawings above and below.
-        let columns = f64::from((rect.width() / (3.6 * row)).clamp(1.0, 12.0).floor());
+        let columns = (rect.width() / (3.6 * row)).clamp(1.0, 12.0) as usize;
+        let lines = (height / (2.2 * row)).clamp(1.0, 6.0) as usize;
         let hints = |hints: AxisHints<'a>, thick: f32| {
             let near = egui::Rangef::new(0.0, 1.0);
             hints
@@ -152,11 +153,8 @@ impl<'a> Inset<'a> {
             .show_y(false)
             .grid_color(style.grid)
             .grid_fade(0.0)
-            .x_grid_spacer(move |input| round_ticks(&input, columns))
-            .y_grid_spacer(move |input| {
-                let (from, to) = input.bounds;
-                marks(Ticks::several([from, to], (height / (2.2 * row)).clamp(1.0, 6.0) as usize))
-            })
+            .x_grid_spacer(move |input| several(&input, columns))
+            .y_grid_spacer(move |input| several(&input, lines))
             .label_formatter(|_| None)
             .set_margin_fraction(egui::Vec2::ZERO);
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
@@ -293,6 +291,11 @@ pub(in crate::gui::ui) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> 
         return Vec::new();
     }
     marks(Ticks::apart([from, to], least))
+}
+
+/// Round marks, about `about`, and two at least.
+fn several(input: &GridInput, about: usize) -> Vec<GridMark> {
+    marks(Ticks::several([input.bounds.0, input.bounds.1], about))
 }
 
 /// Marks at these numbers.

@@ -10,7 +10,7 @@ use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2};
 const BELOW: f32 = 0.36;
 const TOOTH: f32 = 0.15;
 /// Points of the rotor over a groove; an odd number, so that one is half-way.
-pub(super) const GROOVE: usize = 5;
+pub(super) const GROOVE: usize = 7;
 /// Part of the height above the highest point of the rotor's underside.
 const ABOVE: f32 = 0.16;
 
