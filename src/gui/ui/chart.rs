@@ -63,19 +63,24 @@ pub(in crate::gui::ui) fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> P
     let em = ui.text_style_height(&TextStyle::Body);
     let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
     let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
-    // The spacers leave room for every number: none is to fade because others are near.
-    let near = egui::Rangef::new(0.0, 1.0);
-    bare(name, height)
-        .custom_x_axes(vec![AxisHints::new_x().label_spacing(near)])
-        .custom_y_axes(vec![AxisHints::new_y().label_spacing(near)])
-        .show_x(false)
-        .show_y(false)
+    numbered(name, height, [AxisHints::new_x(), AxisHints::new_y()])
         .grid_color(ui.visuals().widgets.noninteractive.bg_stroke.color)
         .y_axis_min_width(NUMBERS * em)
         .x_grid_spacer(move |input| round_ticks(&input, columns))
         .y_grid_spacer(move |input| round_ticks(&input, lines))
         .x_axis_formatter(|mark, _| tick(mark))
         .y_axis_formatter(|mark, _| tick(mark))
+}
+
+/// A plot with numbers at its axes, and no words at the pointer.
+fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
+    // The spacers leave room for every number: none is to fade because others are near.
+    let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
+    bare(name, height)
+        .custom_x_axes(x)
+        .custom_y_axes(y)
+        .show_x(false)
+        .show_y(false)
         .label_formatter(|_| None)
         .set_margin_fraction(egui::Vec2::ZERO)
 }
@@ -123,12 +128,7 @@ impl<'a> Inset<'a> {
         let columns = (rect.width() / (3.6 * row)).clamp(1.0, 12.0) as usize;
         let lines = (height / (2.2 * row)).clamp(1.0, 6.0) as usize;
         let hints = |hints: AxisHints<'a>, thick: f32| {
-            let near = egui::Rangef::new(0.0, 1.0);
-            hints
-                .label_spacing(near)
-                .min_thickness(thick)
-                .tick_label_font(style.font.clone())
-                .tick_label_color(style.palette.quiet)
+            hints.min_thickness(thick).tick_label_font(style.font.clone()).tick_label_color(style.palette.quiet)
         };
         // What is written below has the corner.
         let value = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
@@ -145,18 +145,13 @@ impl<'a> Inset<'a> {
             let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.6 * row;
             if fits || named.is_none() { text } else { String::new() }
         };
-        let chart = bare(name, whole.height())
-            .custom_x_axes(vec![hints(AxisHints::new_x().formatter(place), axis)])
-            .custom_y_axes(vec![hints(AxisHints::new_y().formatter(value), gutter)])
+        let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));
+        let chart = numbered(name, whole.height(), [hints(x, axis), hints(y, gutter)])
             .show_axes([below.is_some(), true])
-            .show_x(false)
-            .show_y(false)
             .grid_color(style.grid)
             .grid_fade(0.0)
             .x_grid_spacer(move |input| several(&input, columns))
-            .y_grid_spacer(move |input| several(&input, lines))
-            .label_formatter(|_| None)
-            .set_margin_fraction(egui::Vec2::ZERO);
+            .y_grid_spacer(move |input| several(&input, lines));
         let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
         child.visuals_mut().extreme_bg_color = style.palette.canvas;
         let shown = framed(child, (name, change(chart)), self.bounds, add);
