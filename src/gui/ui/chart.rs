@@ -1,5 +1,6 @@
 //! What charts have in common.
 
+use crate::digits::signed;
 use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::ui::glossary;
 use crate::gui::ui::paint::{PlotStyle, widened};
@@ -271,7 +272,7 @@ pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64, between: bool) ->
 /// As many decimals as the steps between ticks need, with a true minus sign.
 pub(in crate::gui::ui) fn tick(mark: GridMark) -> String {
     let decimals = (-mark.step_size.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
-    format!("{:.decimals$}", mark.value + 0.0).replace('-', "−")
+    signed(format!("{:.decimals$}", mark.value))
 }
 
 /// Ticks at 1, 2 or 5 times a power of ten, at most about `most`.
