@@ -49,23 +49,26 @@ impl Ordinates {
         // From the fastest on, so that 1/ξ² grows.
         nodes.sort_by(|a, b| b.0.total_cmp(&a.0));
         let square = nodes.iter().map(|(speed, weight)| 2.0 * weight * speed * speed).sum();
-        // 1 = Σ 2w/(1 − ξ²/ν²): beside ν = ∞ one 1/ν² between every two 1/ξ², found by its distance from the greater.
+        // 1 = Σ 2w/(1 − ξ²/ν²): beside ν = ∞ one 1/ν² between every two 1/ξ², found by its distance from the nearer.
         let pole = |i: usize| 1.0 / (nodes[i].0 * nodes[i].0);
-        let decay = |near: usize| {
-            let excess = |gap: f64| {
-                let term = |i: usize| 2.0 * nodes[i].1 * pole(i) / (pole(i) - pole(near) + gap);
-                1.0 - (0..nodes.len()).map(term).sum::<f64>()
-            };
-            let (mut low, mut high) = (1e-30f64.ln(), (pole(near) - pole(near - 1)).ln());
+        let excess = |near: usize, gap: f64| {
+            let term = |i: usize| 2.0 * nodes[i].1 * pole(i) / (pole(i) - pole(near) + gap);
+            1.0 - (0..nodes.len()).map(term).sum::<f64>()
+        };
+        let decay = |above: usize| {
+            let width = pole(above) - pole(above - 1);
+            let upper = excess(above, 0.5 * width) > 0.0;
+            let (near, sign) = if upper { (above, 1.0) } else { (above - 1, -1.0) };
+            let (mut low, mut high) = (width.ln() - 200.0, (0.5 * width).ln());
             for _ in 0..100 {
                 let middle = 0.5 * (low + high);
-                if excess(middle.exp()) < 0.0 {
+                if (excess(near, sign * middle.exp()) < 0.0) == upper {
                     low = middle;
                 } else {
                     high = middle;
                 }
             }
-            let gap = high.exp();
+            let gap = sign * high.exp();
             Decay { nu: (pole(near) - gap).sqrt().recip(), near, gap }
         };
         let decays = (1..nodes.len()).map(decay).collect();
