@@ -69,8 +69,8 @@ impl Default for Gas {
     fn default() -> Self {
         Self {
             ambient_pressure: 101_325.0,
-            viscosity: 18.1e-6,
-            mean_free_path: 64e-9,
+            viscosity: 18.1 / 1e6,
+            mean_free_path: 64.0 / 1e9,
             slip: Slip::FirstOrder,
             accommodation: 1.0,
             ideal: IdealGas::UNNAMED,

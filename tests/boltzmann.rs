@@ -12,12 +12,20 @@ use squeezefilm::film::slip::{Mobility, SlipLaw};
 use squeezefilm::problem::{Gas, Slip};
 use std::f64::consts::PI;
 
-/// Speeds ξ > 0, and the numbers ν of the solutions that change as e^{∓τ/ν}.
+/// Speeds ξ > 0, and the solutions that change as e^{∓τ/ν}.
 struct Ordinates {
     speeds: Vec<f64>,
-    decays: Vec<f64>,
+    decays: Vec<Decay>,
     /// ⟨ξ²⟩, a half.
     square: f64,
+}
+
+/// A solution that decays over ν; ν is close to the speed at `near`, so that the difference of their inverse squares is kept.
+struct Decay {
+    nu: f64,
+    near: usize,
+    /// 1/ξ² − 1/ν².
+    gap: f64,
 }
 
 impl Ordinates {
@@ -38,17 +46,41 @@ impl Ordinates {
         }
         let whole: f64 = nodes.iter().map(|(_, weight)| 2.0 * weight).sum();
         nodes.iter_mut().for_each(|(_, weight)| *weight /= whole);
+        // From the fastest on, so that 1/ξ² grows.
+        nodes.sort_by(|a, b| b.0.total_cmp(&a.0));
         let square = nodes.iter().map(|(speed, weight)| 2.0 * weight * speed * speed).sum();
-        // 1 = Σ 2w ν²/(ν² − ξ²): the eigenvalues 1/ν² of diag(1/ξ²) less a product, the least of which is 0.
-        let size = nodes.len();
-        let matrix = DMatrix::from_fn(size, size, |i, j| {
-            let ((a, w), (b, v)) = (nodes[i], nodes[j]);
-            f64::from(u8::from(i == j)) / (a * a) - (2.0 * w).sqrt() / a * (2.0 * v).sqrt() / b
-        });
-        let mut values: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
-        values.sort_by(f64::total_cmp);
-        let decays = values[1..].iter().map(|value| 1.0 / value.sqrt()).collect();
+        // 1 = Σ 2w/(1 − ξ²/ν²): beside ν = ∞ one 1/ν² between every two 1/ξ², found by its distance from the nearer.
+        let pole = |i: usize| 1.0 / (nodes[i].0 * nodes[i].0);
+        let excess = |near: usize, gap: f64| {
+            let term = |i: usize| 2.0 * nodes[i].1 * pole(i) / (pole(i) - pole(near) + gap);
+            1.0 - (0..nodes.len()).map(term).sum::<f64>()
+        };
+        let decay = |above: usize| {
+            let width = pole(above) - pole(above - 1);
+            let upper = excess(above, 0.5 * width) > 0.0;
+            let (near, sign) = if upper { (above, 1.0) } else { (above - 1, -1.0) };
+            let (mut low, mut high) = (width.ln() - 200.0, (0.5 * width).ln());
+            for _ in 0..100 {
+                let middle = 0.5 * (low + high);
+                if (excess(near, sign * middle.exp()) < 0.0) == upper {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            let gap = sign * high.exp();
+            Decay { nu: (pole(near) - gap).sqrt().recip(), near, gap }
+        };
+        let decays = (1..nodes.len()).map(decay).collect();
         Self { speeds: nodes.iter().map(|(speed, _)| *speed).collect(), decays, square }
+    }
+
+    /// ν/(ν − ξ) of a decaying solution and a speed.
+    fn resonance(&self, decay: &Decay, i: usize) -> f64 {
+        let [xi, near] = [self.speeds[i], self.speeds[decay.near]];
+        // ν² − ξ² = ν²ξ² (1/ξ² − 1/ν²).
+        let apart = 1.0 / (xi * xi) - 1.0 / (near * near) + decay.gap;
+        (decay.nu + xi) / (decay.nu * xi * xi * apart)
     }
 
     /// Q_P at the inverse Knudsen number `d` between walls of accommodation `alpha`.
@@ -58,12 +90,12 @@ impl Ordinates {
         let far = |nu: f64| (-d / nu).exp();
         // Z at the wall τ = −D/2, leaving (ξ > 0) and arriving, of each solution: a constant, and those that decay from both walls.
         let wall = |i: usize, sign: f64, j: usize| {
-            let xi = sign * self.speeds[i];
             if j == 0 {
                 return 1.0;
             }
-            let nu = self.decays[j - 1];
-            nu / (nu - xi) + nu / (nu + xi) * far(nu)
+            let decay = &self.decays[j - 1];
+            let [ahead, behind] = [self.resonance(decay, i), decay.nu / (decay.nu + self.speeds[i])];
+            if sign > 0.0 { ahead + behind * far(decay.nu) } else { behind + ahead * far(decay.nu) }
         };
         let mut matrix = DMatrix::from_fn(size, size, |i, j| wall(i, 1.0, j) - mirror * wall(i, -1.0, j));
         let scales: Vec<f64> = matrix.column_iter().map(|column| column.amax()).collect();
@@ -75,7 +107,7 @@ impl Ordinates {
         });
         let found = matrix.lu().solve(&right).unwrap();
         let decaying = |j: usize| {
-            let nu = self.decays[j - 1];
+            let nu = self.decays[j - 1].nu;
             found[j] / scales[j] * 2.0 * nu * (1.0 - far(nu))
         };
         let sum: f64 = (1..size).map(decaying).sum();

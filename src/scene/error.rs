@@ -187,7 +187,7 @@ pub enum What {
         chosen: String,
     },
     /// A key that another one, which is given, replaces.
-    #[error("{key} and {other} are both given: keep one")]
+    #[error("{other} and {key} are both given: keep one")]
     BothGiven {
         /// The dotted key.
         key: &'static str,

@@ -61,6 +61,8 @@ impl Scene {
     pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
         FOLLOWING.iter().filter_map(|Following { key, source, value }| {
             let (parameter, value) = (Parameter::find(key)?, value(self).ok()??);
+            // To ten digits, as a person would write it.
+            let value = as_given(value);
             let range = parameter.range().filter(|range| !range.contains(value))?;
             let given = self.get(source).map_or_else(String::new, |given| format!("{source} = {given} makes "));
             let unit = parameter.unit;

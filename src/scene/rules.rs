@@ -56,9 +56,19 @@ impl Scene {
         let narrower = match key {
             "stator.tooth_width_mm" => self.tooth_widths_mm().ok()?,
             "plate.amplitude_um" => Range::new(0.0, self.number("plate.mean_gap_um").ok()?),
+            "motor.load_n" => self.as_many("motor.load_per_wave_n", self.number("motor.waves").ok()?)?,
+            "motor.rotor_speed_mm_per_s" => {
+                self.as_many("motor.rotor_speed_rpm", self.circumference_mm().ok()? / 60.0)?
+            }
             _ => own,
         };
         Some(Range::new(narrower.min.max(own.min), narrower.max.min(own.max)))
+    }
+
+    /// The range of a key, times a factor.
+    fn as_many(&self, key: &str, factor: f64) -> Option<Range> {
+        let Range { min, max } = Parameter::find(key)?.range()?;
+        Some(Range::new(min * factor, max * factor))
     }
 
     /// Tooth widths the pitch allows \[mm\].

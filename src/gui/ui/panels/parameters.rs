@@ -76,7 +76,9 @@ impl Panel<'_> {
         ui.add_space(4.0);
         let scene = self.scene;
         let main = MAIN.iter().filter_map(|key| Parameter::find(key));
-        let main: Vec<_> = main.filter(|p| scene.get(p.key).is_some() && is_main(scene, p)).collect();
+        let main: Vec<_> = main
+            .filter(|p| is_main(scene, p) && (scene.get(p.key).is_some() || scene.following(p.key).is_some()))
+            .collect();
         self.measure_units(ui, &main);
         let line = ui.visuals().widgets.noninteractive.bg_stroke;
         egui::Frame::new().stroke(line).corner_radius(6).inner_margin(FRAME_MARGIN).show(ui, |ui| {
@@ -134,7 +136,7 @@ impl Panel<'_> {
         let row = ui.push_id(parameter.key, |ui| {
             let value = self.scene.get(parameter.key);
             match (parameter.kind, &value) {
-                (_, None) if !self.scene.has(parameter) => self.following_row(ui, parameter),
+                (_, None) if self.scene.following(parameter.key).is_some() => self.following_row(ui, parameter),
                 (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, None) => {
                     self.switch_row(ui, parameter, false)
                 }
