@@ -235,7 +235,8 @@ fn touching(
 ) -> Option<Estimate> {
     let floats = |alpha: f64| alpha > motor::NEARLY_FLOATS;
     let asked = plan.maps && plan.target_error < 1e-2 && !cancel.has_budget();
-    if !asked || !found.alphas.iter().any(|alpha| floats(*alpha)) {
+    let astray = matches!(found.status, Status::NotConverged { .. });
+    if !asked || !astray && !found.alphas.iter().any(|alpha| floats(*alpha)) {
         return None;
     }
     let other = motor::touching(motor, plan, found.stats, observer, cancel)?;
