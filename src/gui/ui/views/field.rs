@@ -2,7 +2,7 @@
 
 use crate::fidelity::Fidelity;
 use crate::gui::derived::sample::{self, Plane, between};
-use crate::gui::ui::paint::{Axes, field_colours};
+use crate::gui::ui::paint::{Axes, PlotStyle, field_colours};
 use crate::recording::Recording;
 use eframe::egui::{Color32, ColorImage, Id, Painter, Rect, TextureHandle, TextureOptions, Ui, pos2};
 
@@ -29,21 +29,32 @@ pub(super) struct Stamp {
 #[derive(Clone)]
 struct Picture {
     stamp: Stamp,
+    ground: Color32,
     size: [usize; 2],
     texture: TextureHandle,
 }
 
-/// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `axes.rect`.
-pub(super) fn draw(ui: &Ui, painter: &Painter, axes: &Axes, recording: &Recording, name: &str, stamp: Stamp) {
+/// Draws the map of the teeth from `stamp.tooth` on, whose x runs from `stamp.x[0]` to `stamp.x[1]`, into `axes.rect`: all of
+/// it, so that it needs no canvas below.
+pub(super) fn draw(
+    ui: &Ui,
+    style: &PlotStyle,
+    painter: &Painter,
+    axes: &Axes,
+    recording: &Recording,
+    name: &str,
+    stamp: Stamp,
+) {
+    let ground = style.palette.canvas;
     let scale = painter.pixels_per_point();
     let texels = |length: f32, most: usize| ((length * scale).round().max(1.0) as usize).min(most);
     let size = [texels(axes.rect.width(), MOST_COLUMNS), texels(axes.rect.height(), MOST_ROWS)];
     let id = Id::unique(("squeezefilm map", name));
     let known = ui.data(|data| data.get_temp::<Picture>(id));
     let texture = match known {
-        Some(known) if known.stamp == stamp && known.size == size => known.texture,
+        Some(known) if known.stamp == stamp && known.size == size && known.ground == ground => known.texture,
         known => {
-            let image = ColorImage::new(size, pixels(recording, &stamp, size));
+            let image = ColorImage::new(size, pixels(recording, &stamp, size, ground));
             let texture = match known {
                 Some(mut known) => {
                     known.texture.set(image, TextureOptions::LINEAR);
@@ -51,7 +62,7 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, axes: &Axes, recording: &Recordin
                 }
                 None => ui.ctx().load_texture(name, image, TextureOptions::LINEAR),
             };
-            ui.data_mut(|data| data.insert_temp(id, Picture { stamp, size, texture: texture.clone() }));
+            ui.data_mut(|data| data.insert_temp(id, Picture { stamp, ground, size, texture: texture.clone() }));
             texture
         }
     };
@@ -59,9 +70,9 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, axes: &Axes, recording: &Recordin
     painter.image(texture.id(), axes.rect, whole, Color32::WHITE);
 }
 
-/// Pixels of the map, row by row from y = +w/2 down; transparent beside the teeth.
-fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2]) -> Vec<Color32> {
-    let mut pixels = vec![Color32::TRANSPARENT; columns * rows];
+/// Pixels of the map, row by row from y = +w/2 down; the ground beside the teeth.
+fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2], ground: Color32) -> Vec<Color32> {
+    let mut pixels = vec![ground; columns * rows];
     let Some(plane) = Plane::of(recording, 0, 0) else { return pixels };
     let half = sample::half_width(recording);
     let places: Vec<Option<(usize, f64)>> =
@@ -92,7 +103,7 @@ mod tests {
     use crate::recording::LineLoads;
 
     #[test]
-    fn grooves_are_transparent_and_the_width_is_mirrored() {
+    fn grooves_have_the_ground_and_the_width_is_mirrored() {
         let recording = Recording {
             lines: LineLoads { frames: 2, teeth: 2, stored_teeth: 1, pitch: 1.0, length: 2.0, ..LineLoads::default() },
             map_x: vec![-0.25, 0.0, 0.25],
@@ -103,7 +114,7 @@ mod tests {
         };
         let stamp = Stamp { run: (0, Fidelity::Draft), place: 0.0, tooth: 0, x: [-0.5, 1.5], range: [0.0, 3.0] };
         let (columns, rows) = (40, 9);
-        let pixels = pixels(&recording, &stamp, [columns, rows]);
+        let pixels = pixels(&recording, &stamp, [columns, rows], Color32::TRANSPARENT);
         let at = |i: usize, j: usize| pixels[j * columns + i];
         assert_eq!(at(0, 4), Color32::TRANSPARENT);
         assert_eq!(at(20, 4), Color32::TRANSPARENT);

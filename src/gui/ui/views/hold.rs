@@ -237,7 +237,6 @@ fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFr
     let now = shown.hold.now();
     let half = now.y.last().copied().unwrap_or(0.0);
     let axes = Axes::new(rect, [-shown.half, shown.half], [-half, half]);
-    axes.canvas(painter, style);
     let length = 2.0 * shown.half;
     let recording = Recording {
         lines: LineLoads { frames: 1, length, teeth: 1, stored_teeth: 1, pitch: length, ..LineLoads::default() },
@@ -250,7 +249,7 @@ fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFr
     };
     let range = shown.hold.pressure_range();
     let stamp = Stamp { run: (now.number, Fidelity::Standard), place: 0.0, tooth: 0, x: axes.x, range };
-    field::draw(ui, painter, &axes, &recording, "held plate", stamp);
+    field::draw(ui, style, painter, &axes, &recording, "held plate", stamp);
     style.title(painter, rect, "Pressure map", &["Pressure map, colours as above", "Map"], &[]);
     y_labels(painter, style, &axes);
 }

@@ -12,10 +12,9 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, sh
     let recording = shown.recording;
     let half = sample::half_width(recording);
     let axes = Axes::new(rect, shown.x_range(), [-half, half]);
-    axes.canvas(painter, style);
     let range = shown.scales.pressure;
     let stamp = Stamp { run: shown.run, place: shown.place, tooth: 0, x: axes.x, range };
-    field::draw(ui, painter, &axes, recording, "all teeth", stamp);
+    field::draw(ui, style, painter, &axes, recording, "all teeth", stamp);
     let titles = ["Pressure map of the film, kPa absolute", "Film, absolute"];
     title_with_bar(painter, style, rect, "Pressure map", titles, range);
     y_labels(painter, style, &axes);

@@ -204,9 +204,8 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
         let half = sample::half_width(run.recording);
         // In metres of this run: its own teeth are where its own x says.
         let axes = Axes::new(*rect, x.map(|x| x / metre), [-half, half]);
-        axes.canvas(&painter, &style);
         let stamp = Stamp { run: (run.of.id, Fidelity::Draft), place: run.place, tooth: 0, x: axes.x, range };
-        field::draw(ui, &painter, &axes, run.recording, &format!("overlaid motor {slot}"), stamp);
+        field::draw(ui, &style, &painter, &axes, run.recording, &format!("overlaid motor {slot}"), stamp);
         key_beside(&painter, *rect, run.of.colour);
         axes.cursor(&painter, &style, cursor.map(|x| x / metre));
         map_name(ui, *rect, &run.of.run.label, range);
@@ -467,9 +466,8 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
             Rect::from_min_max(pos2(left + if column > 0.0 { 16.0 } else { 0.0 }, top), pos2(left + step, top + map));
         let half = [0.5 * run.plate.length, sample::half_width(run.recording)];
         let axes = Axes::new(rect, [-half[0], half[0]], [-half[1], half[1]]);
-        axes.canvas(&painter, &style);
         let stamp = Stamp { run: (run.of.id, Fidelity::Draft), place: run.place, tooth: 0, x: axes.x, range };
-        field::draw(ui, &painter, &axes, run.recording, &format!("overlaid plate {slot}"), stamp);
+        field::draw(ui, &style, &painter, &axes, run.recording, &format!("overlaid plate {slot}"), stamp);
         key_beside(&painter, rect, run.of.colour);
         map_name(ui, rect, &run.of.run.label, range);
     }

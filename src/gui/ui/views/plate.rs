@@ -79,10 +79,9 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
         last = next(parts[2]);
         let half = sample::half_width(recording);
         let axes = Axes::new(last, shown.x_range(), [-half, half]);
-        axes.canvas(&painter, &style);
         let range = scales.pressure;
         let stamp = Stamp { run: (run.number, run.fidelity), place, tooth: 0, x: axes.x, range };
-        field::draw(ui, &painter, &axes, recording, "plate", stamp);
+        field::draw(ui, &style, &painter, &axes, recording, "plate", stamp);
         title_with_bar(&painter, &style, last, "Pressure map", ["Pressure map, kPa absolute", "Map, absolute"], range);
         y_labels(&painter, &style, &axes);
         axes.cursor(&painter, &style, shown.cursor);

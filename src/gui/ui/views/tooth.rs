@@ -31,10 +31,9 @@ pub(super) fn draw(
     let reach = recording.map_x.last().copied().unwrap_or(0.0);
     let half = sample::half_width(recording);
     let axes = Axes::new(places[0], [-reach, reach], [-half, half]);
-    axes.canvas(painter, style);
     let stamp =
         Stamp { run: shown.run, place: shown.place, tooth: shown.tooth, x: axes.x, range: shown.scales.pressure };
-    field::draw(ui, painter, &axes, recording, "followed tooth", stamp);
+    field::draw(ui, style, painter, &axes, recording, "followed tooth", stamp);
     let long = format!("Tooth {}, x from its middle", shown.tooth);
     style.title(painter, places[0], "Followed tooth", &[&long, &format!("Tooth {}", shown.tooth)], &[]);
     y_labels(painter, style, &axes);
