@@ -3,6 +3,8 @@
 //! By translation invariance along the ring, a line load q_n cos(k_n x), k_n = 2πn/λ, deflects the rotor by
 //! C(k_n) q_n cos(k_n x). The rigid offset (n = 0) is not part of the compliance: the load balance fixes it.
 
+pub mod ring;
+
 use crate::problem::{Motor, RotorCompliance};
 
 impl RotorCompliance {
