@@ -25,7 +25,7 @@ fn problem(preset: &str) -> Problem {
 fn fundamental() -> (Motor, Plan) {
     match problem("fundamental") {
         Problem { scenario: Scenario::Motor(motor), numerics, .. } => {
-            let plan = Plan::motor(&motor, Fidelity::Standard, &numerics);
+            let plan = Plan::motor(&motor, Fidelity::Standard, &numerics).unwrap_or_else(|fault| panic!("{fault}"));
             (motor, plan)
         }
         Problem { scenario: Scenario::Plate(_), .. } => panic!("the fundamental case is a motor"),
@@ -64,8 +64,8 @@ fn contact_solve(bencher: Bencher<'_, '_>) {
     let positions: Vec<f64> = nodes().map(|(tooth, xi)| tooth as f64 * motor.pitch() + xi).collect();
     let stator: Vec<f64> = nodes().zip(&positions).map(|((_, xi), x)| motor.stator_displacement(*x, xi, 0.0)).collect();
     let lengths: Vec<f64> = (0..motor.teeth).flat_map(|_| x.lengths.iter().copied()).collect();
-    let harmonics = cutoff(&motor.rotor, motor.wavelength(), grid.harmonic_fraction, plan.most_harmonics);
-    let modes = Modes::new(&motor.rotor, motor.wavelength(), harmonics, &positions);
+    let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics);
+    let modes = Modes::new(&plan.rotor, harmonics, &positions);
     let widths = vec![motor.contact_width; positions.len()];
     let trapped = vec![motor.contact_width * motor.min_spacing; positions.len()];
     let mut contact = Contact::new(modes, lengths, &widths, motor.gas.ambient_pressure, motor.min_spacing, motor.load);

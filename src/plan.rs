@@ -5,6 +5,7 @@ use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::numerics::grading::{clustering, map, middle_clustering};
 use crate::problem::{Flow, Motor, Named, Numerics, Plate, Teeth, Time, Wedge, Width};
+use crate::rotor::{Compliances, MOST_HARMONICS, RotorError};
 use std::f64::consts::{PI, TAU};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
@@ -88,6 +89,8 @@ pub enum Choice {
     },
     /// Steps in a cycle of a plate, and whether they are the shorter the closer it is.
     Steps(usize, bool),
+    /// A rotor computed by finite elements, with the estimated error of its deflection under a point load, relative.
+    Rotor(f64),
     /// Nothing leaks from under a plate: its gas is trapped.
     NoLeaks,
 }
@@ -126,7 +129,7 @@ impl Decision {
             Choice::Wedge(_) => Some("numerics.wedge"),
             Choice::Teeth(..) => Some("numerics.teeth"),
             Choice::Width(_) => Some("numerics.width"),
-            Choice::NoShear | Choice::NoLeaks => None,
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor(_) => None,
             Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => None,
         }
     }
@@ -139,7 +142,7 @@ impl Decision {
             Choice::Wedge(wedge) => wedge.name(),
             Choice::Teeth(teeth, _) => teeth.name(),
             Choice::Width(width) => width.name(),
-            Choice::NoShear | Choice::NoLeaks => "",
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor(_) => "",
             Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => "",
         }
     }
@@ -176,6 +179,8 @@ pub struct Plan {
     pub trapped: bool,
     /// Bound of what everything that was left out changes, relative to α.
     pub left_out: f64,
+    /// The rotor; a plate has none.
+    pub rotor: Compliances,
     /// Rotor harmonics kept at most.
     pub most_harmonics: usize,
     /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
@@ -211,6 +216,9 @@ const UPWINDING_UNEVEN: f64 = 0.1;
 /// is uniform it is 1 as the amplitude vanishes, tanh(κ/2)/(κ/2), and less for a larger one (`film::exact`); a rotor that
 /// is half afloat opens the gap a little more.
 const LEAK_EFFECT: f64 = 1.2;
+/// Effect on α, relative, of an error of the rotor's compliance, as a multiple of the relative error of its deflection under a point
+/// load (bounded by `tests/plan.rs`).
+const ROTOR_EFFECT: f64 = 1.0;
 /// Share of the fidelity's aim that may be left out with each term.
 const SHARE: f64 = 0.2;
 /// Intervals that a crowned tooth gets beyond those of a flat one, as a multiple of them, for each factor of e by which the
@@ -237,14 +245,22 @@ const ROUND_LIMIT: usize = 300;
 
 impl Plan {
     /// The plan of a motor at a fidelity; `numerics` overrules.
-    pub fn motor(motor: &Motor, fidelity: Fidelity, numerics: &Numerics) -> Self {
+    ///
+    /// # Errors
+    /// [`RotorError`] if the rotor has no compliance.
+    pub fn motor(motor: &Motor, fidelity: Fidelity, numerics: &Numerics) -> Result<Self, RotorError> {
         Self::motor_to(motor, fidelity, &fidelity.spec(), numerics)
     }
 
     /// The plan of a motor to a specification.
-    pub fn motor_to(motor: &Motor, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Self {
+    ///
+    /// # Errors
+    /// As [`Plan::motor`].
+    pub fn motor_to(motor: &Motor, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Result<Self, RotorError> {
         let numbers = Dimensionless::of_motor(motor);
         let layer = numbers.boundary_layer;
+        let in_layer = (motor.wavelength() / (TAU * layer)) as usize;
+        let rotor = motor.compliances(in_layer.clamp(spec.most_harmonics, MOST_HARMONICS))?;
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let edge = spec.edge_fraction * layer;
         let base = spec.along.max(per_wave);
@@ -267,7 +283,7 @@ impl Plan {
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;
 
-        let time = time(numerics, &numbers, motor, fidelity, spec);
+        let time = time(numerics, &numbers, motor, &rotor, fidelity, spec);
         let flow = flow(numerics, &numbers, motor, fidelity, spec);
         let wedge = wedge(numerics, &numbers, motor, along, fidelity, spec);
         let trapped = time.chosen == Choice::Time(Time::Trapped);
@@ -276,10 +292,13 @@ impl Plan {
         let finest = Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction };
         let grid = Choice::MotorGrid { grid: finest, layer, edge_fraction: spec.edge_fraction, middle, spectral };
         let grid = Decision { overruled: custom(numerics), ..Decision::exact(grid) };
-        let decisions = vec![time, flow, wedge, teeth(numerics, motor), width(numerics), grid];
+        let decisions: Vec<Decision> = [time, flow, wedge, teeth(numerics, motor), width(numerics), grid]
+            .into_iter()
+            .chain(elements(&rotor))
+            .collect();
         // What the trapped limit leaves out, it leaves out once.
-        let moving = |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_));
-        Self {
+        let moving = |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor(_));
+        Ok(Self {
             fidelity: name(fidelity, numerics),
             grids: nested(finest, spectral),
             clustering_along,
@@ -297,6 +316,7 @@ impl Plan {
             },
             trapped,
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
+            rotor,
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
             aim: spec.aim,
@@ -307,7 +327,7 @@ impl Plan {
             round_limit: ROUND_LIMIT,
             maps: true,
             decisions,
-        }
+        })
     }
 
     /// The same plan with finite volumes across.
@@ -422,6 +442,7 @@ impl Plan {
             flow: Flow::Plane,
             trapped,
             left_out,
+            rotor: Compliances::none(),
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.aim },
             aim: spec.aim,
@@ -490,7 +511,14 @@ fn wedge(
     .decide(fidelity, spec)
 }
 
-fn time(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: Fidelity, spec: &Spec) -> Decision {
+fn time(
+    numerics: &Numerics,
+    numbers: &Dimensionless,
+    motor: &Motor,
+    rotor: &Compliances,
+    fidelity: Fidelity,
+    spec: &Spec,
+) -> Decision {
     let layer = numbers.boundary_layer;
     Reduction {
         choices: [Time::March, Time::Trapped].map(Choice::Time),
@@ -502,7 +530,7 @@ fn time(numerics: &Numerics, numbers: &Dimensionless, motor: &Motor, fidelity: F
         effect: leaks(motor, layer, active_length(motor))
             + leaks(motor, layer, motor.contact_width)
             + 2.0 * unevenness(motor) * end_share(motor)
-            + yielding(motor, layer)
+            + yielding(motor, rotor, layer)
             + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 },
         unresolved: 0.0,
         number: layer / motor.tooth_width.min(motor.contact_width),
@@ -617,9 +645,9 @@ fn unevenness(motor: &Motor) -> f64 {
 /// Bound of what the rotor's deflection under the film's own pressure changes, relative to α. In the boundary layer at the ends
 /// of a tooth the pressure falls to ambient. The rotor deflects less there, so the gap is smaller and holds less gas. The bound
 /// is twice that change of the gap over the mean gap, times the force of the compressed gas over the load if that exceeds 1.
-fn yielding(motor: &Motor, layer: f64) -> f64 {
+fn yielding(motor: &Motor, rotor: &Compliances, layer: f64) -> f64 {
     let pressure = motor.gas.ambient_pressure * motor.contact_width;
-    let bulge = motor.rotor.at(1.0 / layer) * pressure / (motor.normal_amplitude + motor.min_spacing);
+    let bulge = rotor.longer_than(1.0 / layer) * pressure / (motor.normal_amplitude + motor.min_spacing);
     let stiffness = pressure * motor.tooth_width * motor.teeth as f64 / motor.load;
     2.0 * bulge * end_share(motor) * stiffness.max(1.0)
 }
@@ -628,6 +656,12 @@ fn yielding(motor: &Motor, layer: f64) -> f64 {
 fn active_length(motor: &Motor) -> f64 {
     let opening = motor.normal_amplitude + motor.min_spacing;
     motor.tooth_radius.map_or(motor.tooth_width, |radius| motor.tooth_width.min((8.0 * radius * opening).sqrt()))
+}
+
+/// Of a rotor that is known to a stated error only.
+fn elements(rotor: &Compliances) -> Option<Decision> {
+    let error = rotor.relative_error();
+    (error > 0.0).then(|| Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(Choice::Rotor(error)) })
 }
 
 fn teeth(numerics: &Numerics, motor: &Motor) -> Decision {

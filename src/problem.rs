@@ -4,6 +4,7 @@
 //! Every number in here is finite and inside its documented range, so no solver re-checks it.
 //! Symbols follow `docs/theory.md`.
 
+use crate::rotor::ring::Section;
 use serde::{Deserialize, Serialize};
 
 /// A key whose value is one of a few names.
@@ -59,7 +60,8 @@ pub struct Gas {
     pub slip: Slip,
 }
 
-/// The rotor's normal compliance, harmonic by harmonic: displacement amplitude = C(k) × line-load amplitude.
+/// What the rotor's normal compliance follows from, displacement amplitude = C(k) × line-load amplitude. Solvers take what [`crate::rotor`]
+/// makes of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RotorCompliance {
     /// A beam on an elastic foundation in series with a local (Winkler) compliance,
@@ -75,6 +77,8 @@ pub enum RotorCompliance {
     /// Measured or computed elsewhere: `(wavenumber [rad/m], compliance [m²/N])`, wavenumbers ascending, at least
     /// one row, compliances positive. Linear between rows in (ln k, ln C); constant beyond either end.
     Table(Vec<(f64, f64)>),
+    /// A ring of this cross-section, computed by finite elements.
+    Ring(Section),
 }
 
 /// A ring-type travelling-wave motor; every quantity is for one wavelength unless said otherwise.

@@ -2,23 +2,152 @@
 //!
 //! By translation invariance along the ring, a line load q_n cos(k_n x), k_n = 2πn/λ, deflects the rotor by
 //! C(k_n) q_n cos(k_n x). The rigid offset (n = 0) is not part of the compliance: the load balance fixes it.
+//!
+//! Every model is resolved once, before anything is solved, into the [`Compliances`] of the harmonics of the wave. That may fail: a ring
+//! may be free to tilt. It is done as part of a solve and not where a scene is checked ([`crate::problem::Problem::new`]), because a ring
+//! takes long and the window checks a scene while a slider is dragged.
 
 pub mod ring;
 
 use crate::problem::{Motor, RotorCompliance};
+use ring::{Band, RingError, Section};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Wavenumber beyond all that a beam or a table resolves \[rad/m\]: what is left of its compliance is local.
+const LOCAL: f64 = 1e9;
+/// Harmonics that anything may ask for: those of the finest contact mesh of the paper's method.
+pub const MOST_HARMONICS: usize = 2500;
+/// Rings whose compliances are kept, for the next solve of the same one.
+const KEPT: usize = 64;
+
+/// Why a rotor has no compliance.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RotorError {
+    /// A ring that cannot be computed.
+    #[error("rotor.model = \"ring\": {0}")]
+    Ring(#[from] RingError),
+}
+
+/// The wave that loads the rotor, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// Wavelength λ \[m\].
+    pub length: f64,
+    /// Wavelengths round the ring.
+    pub waves: u32,
+    /// Where the stator touches the ring.
+    pub band: Band,
+}
+
+/// What solvers know of a rotor: its compliance to each harmonic of the wave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compliances {
+    wavelength: f64,
+    /// C(k_n) \[m²/N\] for n = 1, 2, ….
+    harmonics: Arc<[f64]>,
+    local: f64,
+    relative_error: f64,
+}
+
+impl Compliances {
+    /// Of what bends to nothing.
+    pub fn none() -> Self {
+        Self { wavelength: f64::INFINITY, harmonics: Arc::new([]), local: 0.0, relative_error: 0.0 }
+    }
+
+    /// Wavelength λ \[m\].
+    pub fn wavelength(&self) -> f64 {
+        self.wavelength
+    }
+
+    /// C(k_n) \[m²/N\], k_n = 2πn/λ, n ≥ 1; beyond the harmonics that were resolved, the local part.
+    pub fn harmonic(&self, n: usize) -> f64 {
+        n.checked_sub(1).and_then(|i| self.harmonics.get(i)).copied().unwrap_or(self.local)
+    }
+
+    /// C \[m²/N\] of the shortest resolved harmonic that is longer than a wave of wavenumber `k` \[rad/m\], or of the first.
+    pub fn longer_than(&self, k: f64) -> f64 {
+        let n = k * self.wavelength / std::f64::consts::TAU;
+        self.harmonic((n as usize).clamp(1, self.harmonics.len().max(1)))
+    }
+
+    /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
+    pub fn beyond(&self, n: usize) -> f64 {
+        if self.local > 0.0 { self.local } else { self.harmonic(n) }
+    }
+
+    /// Estimated numerical error of the deflection under a point load, relative; 0 of a beam or a table, which are what they say.
+    pub fn relative_error(&self) -> f64 {
+        self.relative_error
+    }
+}
 
 impl RotorCompliance {
-    /// Compliance C(k) \[m²/N\] at wavenumber `k` \[rad/m\], k > 0.
-    pub fn at(&self, k: f64) -> f64 {
-        match self {
+    /// Compliances of the first `count` harmonics of `wave`.
+    ///
+    /// # Errors
+    /// [`RotorError`] of a ring that the wave does not touch, or that nothing holds.
+    pub fn resolve(&self, wave: &Wave, count: usize) -> Result<Compliances, RotorError> {
+        let waves = |at: &dyn Fn(f64) -> f64| Compliances {
+            wavelength: wave.length,
+            harmonics: (1..=count).map(|n| at(std::f64::consts::TAU * n as f64 / wave.length)).collect(),
+            local: at(LOCAL),
+            relative_error: 0.0,
+        };
+        Ok(match self {
             Self::Beam { decay_length, point_compliance, local_compliance } => {
                 let foundation = 1.0 / (2.0 * decay_length * point_compliance);
-                let kl = k * decay_length;
-                1.0 / (foundation * (1.0 + 0.25 * kl * kl * kl * kl)) + local_compliance
+                waves(&|k| {
+                    let kl = k * decay_length;
+                    1.0 / (foundation * (1.0 + 0.25 * kl * kl * kl * kl)) + local_compliance
+                })
             }
-            Self::Table(rows) => interpolate_log(rows, k),
-        }
+            Self::Table(rows) => waves(&|k| interpolate_log(rows, k)),
+            Self::Ring(section) => of_ring(section, wave)?,
+        })
     }
+}
+
+impl Motor {
+    /// The wave, where it touches the rotor.
+    pub fn wave(&self) -> Wave {
+        let band = Band { radius: self.contact_radius, width: self.contact_width };
+        Wave { length: self.wavelength(), waves: self.waves, band }
+    }
+
+    /// What the rotor's model comes to for the first `count` harmonics.
+    ///
+    /// # Errors
+    /// See [`RotorCompliance::resolve`].
+    pub fn compliances(&self, count: usize) -> Result<Compliances, RotorError> {
+        self.rotor.resolve(&self.wave(), count)
+    }
+}
+
+/// What a ring was computed for.
+type Ring = (Section, Wave);
+
+/// The rings that were computed last. A result does not depend on whether it is found here.
+static RINGS: Mutex<VecDeque<(Ring, Compliances)>> = Mutex::new(VecDeque::new());
+
+fn of_ring(section: &Section, wave: &Wave) -> Result<Compliances, RotorError> {
+    let kept = || RINGS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, found)) = kept().iter().find(|((of, by), _)| of == section && by == wave) {
+        return Ok(found.clone());
+    }
+    let found = section.compliances(wave.band, wave.waves, MOST_HARMONICS)?.harmonics;
+    let sum = |part: fn(&ring::Stated) -> f64| found.iter().map(part).sum::<f64>();
+    let compliances = Compliances {
+        wavelength: wave.length,
+        relative_error: sum(|harmonic| harmonic.error) / sum(|harmonic| harmonic.value),
+        harmonics: found.iter().map(|harmonic| harmonic.value).collect(),
+        local: 0.0,
+    };
+    let mut kept = kept();
+    kept.truncate(KEPT - 1);
+    kept.push_front(((section.clone(), *wave), compliances.clone()));
+    Ok(compliances)
 }
 
 /// An end of a table counts as covering a wavenumber that is this near to it, relative.
@@ -66,14 +195,21 @@ fn interpolate_log(rows: &[(f64, f64)], k: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// A wave so long that its harmonics are dense.
+    fn wave(length: f64) -> Wave {
+        Wave { length, waves: 7, band: Band { radius: 0.029, width: 3e-4 } }
+    }
+
     #[test]
     fn beam_point_compliance_is_the_sum_over_all_wavenumbers() {
         // ∫ C dk/2π of the beam alone is the deflection under a unit point load.
         let (decay_length, point_compliance) = (4.0e-3, 0.64e-6);
         let rotor = RotorCompliance::Beam { decay_length, point_compliance, local_compliance: 0.0 };
         let dk = 1.0;
-        let sum: f64 = (0..2_000_000).map(|i| rotor.at((i as f64 + 0.5) * dk) * dk).sum();
-        let point = sum / std::f64::consts::PI;
+        let found = rotor.resolve(&wave(std::f64::consts::TAU / dk), 2_000_000).unwrap();
+        // The trapezoidal rule, with C(0) = 2 ℓ C_p.
+        let sum: f64 = (1..=2_000_000).map(|n| found.harmonic(n) * dk).sum();
+        let point = (sum + decay_length * point_compliance * dk) / std::f64::consts::PI;
         assert!((point / point_compliance - 1.0).abs() < 1e-6, "{point}");
     }
 
@@ -97,9 +233,10 @@ mod tests {
     #[test]
     fn table_passes_through_its_rows_and_is_constant_beyond() {
         let rotor = RotorCompliance::Table(vec![(10.0, 4e-9), (1000.0, 1e-9)]);
-        assert_eq!(rotor.at(1.0), 4e-9);
-        assert!((rotor.at(10.0) - 4e-9).abs() < 1e-22);
-        assert!((rotor.at(100.0) - 2e-9).abs() < 1e-22);
-        assert_eq!(rotor.at(1e6), 1e-9);
+        let at = |k: f64| rotor.resolve(&wave(std::f64::consts::TAU / k), 1).unwrap().harmonic(1);
+        assert_eq!(at(1.0), 4e-9);
+        assert!((at(10.0) - 4e-9).abs() < 1e-22);
+        assert!((at(100.0) - 2e-9).abs() < 1e-22);
+        assert_eq!(at(1e6), 1e-9);
     }
 }

@@ -61,7 +61,7 @@ fn try_on(scene: Result<Scene, SceneError>, solved: bool) -> bool {
         }
     };
     let plan = match &problem.scenario {
-        Scenario::Motor(motor) => Plan::motor(motor, Fidelity::Draft, &problem.numerics),
+        Scenario::Motor(motor) => Plan::motor(motor, Fidelity::Draft, &problem.numerics).unwrap(),
         Scenario::Plate(plate) => Plan::plate(plate, Fidelity::Draft, &problem.numerics),
     };
     let size = plan.grids.iter().map(|grid| grid.along * (grid.across + 1) * grid.steps).sum::<usize>();

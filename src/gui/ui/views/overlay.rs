@@ -7,7 +7,7 @@ use super::series::{Series, Trace};
 use crate::analysis::compare::Run;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::sample::{self, Lines, Touching};
+use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, RunCurves, common};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar, title_with_bar};
@@ -69,8 +69,7 @@ pub fn show(ui: &mut Ui, runs: &[Overlaid<'_>], cx: &DrawContext<'_>) {
         let place = cx.state.view.place(recording);
         match &run.run.problem.scenario {
             Scenario::Motor(motor) => {
-                let touching = Touching::of(motor);
-                let lines = Lines::at(recording, place, touching);
+                let lines = Lines::at(recording, place);
                 motors.push(MotorNow { of: *run, recording, motor, place, lines });
             }
             Scenario::Plate(plate) => plates.push(PlateNow { of: *run, recording, plate, place }),
