@@ -77,6 +77,9 @@ pub enum RotorCompliance {
     /// Measured or computed elsewhere: `(wavenumber [rad/m], compliance [m²/N])`, wavenumbers ascending, at least
     /// one row, compliances positive. Linear between rows in (ln k, ln C); constant beyond either end.
     Table(Vec<(f64, f64)>),
+    /// The Green's function: `(x [m], deflection at x under a unit force at 0 [m/N])`, from x = 0 on, ascending, two rows or more; the same
+    /// on the other side.
+    Green(Vec<(f64, f64)>),
     /// A ring of this cross-section, computed by finite elements.
     Ring(Section),
 }

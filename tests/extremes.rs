@@ -463,7 +463,7 @@ fn options(scene: &Scene) -> String {
         Value::Whole(whole) => format!("{whole}"),
         Value::Text(text) => text,
         Value::Flag(flag) => format!("{flag}"),
-        Value::Rows(_) => String::new(),
+        Value::Rows(_) | Value::Records(_) => String::new(),
     };
     let base = Scene::new(scene.kind());
     scene

@@ -7,6 +7,7 @@
 //! may be free to tilt. It is done as part of a solve and not where a scene is checked ([`crate::problem::Problem::new`]), because a ring
 //! takes long and the window checks a scene while a slider is dragged.
 
+mod green;
 pub mod ring;
 
 use crate::problem::{Motor, RotorCompliance};
@@ -27,6 +28,19 @@ pub enum RotorError {
     /// A ring that cannot be computed.
     #[error("rotor.model = \"ring\": {0}")]
     Ring(#[from] RingError),
+    /// A table that is no Green's function.
+    #[error(
+        "rotor.green: harmonic {harmonic} of the wave has the compliance {compliance:.1e} m²/N, known to {error:.1e}: allowed is a deflection \
+         that yields to the first harmonic; give it over half the wavelength, or until it has died out, in steps that are shorter"
+    )]
+    Green {
+        /// Which harmonic.
+        harmonic: usize,
+        /// Its compliance \[m²/N\].
+        compliance: f64,
+        /// The estimated error of that.
+        error: f64,
+    },
 }
 
 /// The wave that loads the rotor, and where.
@@ -104,6 +118,7 @@ impl RotorCompliance {
                 })
             }
             Self::Table(rows) => waves(&|k| interpolate_log(rows, k)),
+            Self::Green(rows) => green::resolve(rows, wave, count)?,
             Self::Ring(section) => of_ring(section, wave)?,
         })
     }

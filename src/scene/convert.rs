@@ -1,5 +1,6 @@
 //! Scene to problem: keys get fields, and the units of the field become SI.
 
+use super::compliance::GREEN;
 use super::error::{SceneError, What};
 use super::values::{Kind, Scene};
 use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
@@ -51,7 +52,11 @@ impl Problem {
                         point_compliance: si("rotor.point_compliance_um_per_n")?,
                         local_compliance: si("rotor.local_compliance_m2_per_n")?,
                     },
-                    "table" => RotorCompliance::Table(scene.compliance().to_vec()),
+                    "table" => RotorCompliance::Table(scene.rows("rotor.compliance").to_vec()),
+                    "green" => RotorCompliance::Green(
+                        scene.rows("rotor.green").iter().map(|(x, g)| (GREEN[0].si(*x), GREEN[1].si(*g))).collect(),
+                    ),
+                    "ring" => RotorCompliance::Ring(scene.section()?),
                     _ => return Err(scene.unknown_key("rotor.model")),
                 },
                 min_spacing: si("film.min_spacing_nm")?,

@@ -3,15 +3,19 @@
 //! `problem.rs`, filled in `convert.rs`; a key of `[numerics]` needs a field of the same name in
 //! [`Numerics`](crate::problem::Numerics), and is filled by itself.
 
+use super::compliance::{COMPLIANCE, GREEN};
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
-use super::parameter::ParameterKind::{CsvPath, Rows};
+use super::parameter::ParameterKind::{CsvPath, Records, Rows};
 use super::parameter::Scale::{Linear, Log};
 use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::section::{PART, PARTS, SUPPORT, SUPPORTS};
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::Write as _;
 
 const BEAM: (&str, &str) = ("rotor.model", "beam");
 const TABLE: (&str, &str) = ("rotor.model", "table");
+const GREENS: (&str, &str) = ("rotor.model", "green");
+const RING: (&str, &str) = ("rotor.model", "ring");
 const LEFT_OPEN: &str = "left to the fidelity";
 
 /// Every key of a scene file except `schema` and `scene`, in the order they are written. Of a number: key, unit, scenes
@@ -42,15 +46,23 @@ pub static PARAMETERS: &[Parameter] = &[
         "Radius of a crowned tooth top").absent("flat teeth"),
 
     number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
-    choice("rotor.model", Motor, &["beam", "table"], "beam", "How the rotor's compliance is described"),
+    choice("rotor.model", Motor, &["beam", "ring", "table", "green"], "beam", "How the rotor's compliance is described"),
     number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
         "Length over which the deflection under a point load dies out").when(BEAM),
     number("rotor.point_compliance_um_per_n", "µm/N", Motor, (1e-3, 100.0), (0.05, 10.0), Log, 0.64,
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BEAM),
-    other("rotor.compliance_csv", Motor, CsvPath, "CSV file of the compliance, relative to the preset's folder").when(TABLE),
-    other("rotor.compliance", Motor, Rows, "Compliance per wavenumber, inline").when(TABLE),
+    other("rotor.compliance_csv", Motor, CsvPath { rows: "rotor.compliance" },
+        "CSV file of the compliance, relative to the preset's folder").when(TABLE),
+    other("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Compliance per wavenumber, inline").when(TABLE),
+    other("rotor.green_csv", Motor, CsvPath { rows: "rotor.green" },
+        "CSV file of the deflection under a unit force, relative to the preset's folder").when(GREENS),
+    other("rotor.green", Motor, Rows { columns: &GREEN }, "Deflection under a unit force, over the distance from it, inline").when(GREENS),
+    other("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: PARTS },
+        "Rectangles of the ring's cross-section; the stator touches the lowest").when(RING),
+    other("rotor.support", Motor, Records { columns: &SUPPORT, fewest: 0, default: SUPPORTS },
+        "Boxes in which the ring is held").when(RING),
 
     number("plate.length_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0, "Length of the plate along x"),
     number("plate.width_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0,
