@@ -29,12 +29,6 @@ const LABELS: &[(&str, &str)] = &[
     ("rotor.green", "Deflection table"),
     ("rotor.part", "Parts"),
     ("rotor.support", "Supports"),
-    ("r_inner_mm", "Inner radius"),
-    ("r_outer_mm", "Outer radius"),
-    ("z_bottom_mm", "Bottom"),
-    ("z_top_mm", "Top"),
-    ("material", "Material"),
-    ("fixed", "Fixed"),
     ("plate.length_mm", "Length"),
     ("plate.width_mm", "Width"),
     ("plate.mean_gap_um", "Mean gap"),
@@ -56,6 +50,16 @@ const LABELS: &[(&str, &str)] = &[
     ("numerics.width", "Width solved"),
     ("numerics.flow", "Flow of the film"),
     ("numerics.time", "Leaking in time"),
+];
+
+/// Names of the columns of arrays of tables, by key; a name is one everywhere.
+const COLUMNS: &[(&str, &str)] = &[
+    ("r_inner_mm", "Inner radius"),
+    ("r_outer_mm", "Outer radius"),
+    ("z_bottom_mm", "Bottom"),
+    ("z_top_mm", "Top"),
+    ("material", "Material"),
+    ("fixed", "Fixed"),
 ];
 
 /// What the checkbox of an optional parameter says, by key.
@@ -119,7 +123,7 @@ fn find(table: &'static [(&'static str, &'static str)], key: &str) -> Option<&'s
 
 /// The name of a parameter; its key if it has none, which a test excludes.
 pub fn label(parameter: &Parameter) -> &'static str {
-    find(LABELS, parameter.key).unwrap_or(parameter.key)
+    find(LABELS, parameter.key).or_else(|| find(COLUMNS, parameter.key)).unwrap_or(parameter.key)
 }
 
 /// What the checkbox of an optional parameter says.
