@@ -5,7 +5,7 @@ use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::numerics::grading::{clustering, map, middle_clustering};
 use crate::problem::{Flow, Motor, Named, Numerics, Plate, Teeth, Time, Wedge, Width};
-use crate::rotor::{Compliances, MOST_HARMONICS, RotorError};
+use crate::rotor::{Compliances, MOST_HARMONICS, RESONANCES, RotorError};
 use std::f64::consts::{PI, TAU};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
@@ -89,8 +89,13 @@ pub enum Choice {
     },
     /// Steps in a cycle of a plate, and whether they are the shorter the closer it is.
     Steps(usize, bool),
-    /// A rotor computed by finite elements, with the estimated error of its deflection under a point load, relative.
-    Rotor(f64),
+    /// A rotor that is known to a stated error only.
+    Rotor {
+        /// Estimated error of its deflection under a point load, relative.
+        error: f64,
+        /// Lowest natural frequency of the shape of each of the first harmonics \[Hz\], of a rotor that has mass.
+        resonances: Option<[f64; RESONANCES]>,
+    },
     /// Nothing leaks from under a plate: its gas is trapped.
     NoLeaks,
 }
@@ -129,7 +134,7 @@ impl Decision {
             Choice::Wedge(_) => Some("numerics.wedge"),
             Choice::Teeth(..) => Some("numerics.teeth"),
             Choice::Width(_) => Some("numerics.width"),
-            Choice::NoShear | Choice::NoLeaks | Choice::Rotor(_) => None,
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => None,
             Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => None,
         }
     }
@@ -142,7 +147,7 @@ impl Decision {
             Choice::Wedge(wedge) => wedge.name(),
             Choice::Teeth(teeth, _) => teeth.name(),
             Choice::Width(width) => width.name(),
-            Choice::NoShear | Choice::NoLeaks | Choice::Rotor(_) => "",
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => "",
             Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => "",
         }
     }
@@ -297,7 +302,8 @@ impl Plan {
             .chain(elements(&rotor))
             .collect();
         // What the trapped limit leaves out, it leaves out once.
-        let moving = |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor(_));
+        let moving =
+            |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
         Ok(Self {
             fidelity: name(fidelity, numerics),
             grids: nested(finest, spectral),
@@ -661,7 +667,8 @@ fn active_length(motor: &Motor) -> f64 {
 /// Of a rotor that is known to a stated error only.
 fn elements(rotor: &Compliances) -> Option<Decision> {
     let error = rotor.relative_error();
-    (error > 0.0).then(|| Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(Choice::Rotor(error)) })
+    let chosen = Choice::Rotor { error, resonances: rotor.resonances() };
+    (error > 0.0).then(|| Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(chosen) })
 }
 
 fn teeth(numerics: &Numerics, motor: &Motor) -> Decision {

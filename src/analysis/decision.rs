@@ -23,7 +23,7 @@ pub fn term(decision: &Decision) -> &'static str {
         Choice::PlateGrid { across: Some(_), .. } => "plate",
         Choice::PlateGrid { across: None, .. } => "strip",
         Choice::Steps(..) => "time",
-        Choice::Rotor(_) => "rotor",
+        Choice::Rotor { .. } => "rotor",
         Choice::NoLeaks => "leaking",
     }
 }
@@ -73,11 +73,16 @@ pub fn words(decision: &Decision) -> String {
             let follow = if follow { ", the shorter the closer the plate is" } else { "" };
             format!("{steps} steps a cycle{follow}; two coarser grids for the error estimate")
         }
-        Choice::Rotor(error) => format!(
-            "a ring of finite elements; its deflection under a point load is known to {}, which changes α by less than {} of itself",
-            percent(error),
-            percent(decision.effect)
-        ),
+        Choice::Rotor { error, resonances } => {
+            let of = match resonances {
+                Some(_) => "a ring of finite elements",
+                None => "a table of its deflection, turned into harmonics",
+            };
+            let (known, effect) = (percent(error), percent(decision.effect));
+            format!(
+                "{of}; its deflection under a point load is known to {known}, which changes α by less than {effect} of itself"
+            )
+        }
         Choice::NoLeaks if decision.effect == 0.0 => "none, the plate does not move".to_owned(),
         Choice::NoLeaks => format!(
             "none, the gas is trapped (σ → ∞): leaking would change the load by less than {} of itself",

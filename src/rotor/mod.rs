@@ -7,13 +7,15 @@
 //! may be free to tilt. It is done as part of a solve and not where a scene is checked ([`crate::problem::Problem::new`]), because a ring
 //! takes long and the window checks a scene while a slider is dragged.
 
+mod compliances;
 mod green;
 pub mod ring;
 
 use crate::problem::{Motor, RotorCompliance};
-use ring::{Band, RingError, Section};
+pub use compliances::{Compliances, RESONANCES, RotorError, Wave};
+use ring::{Band, Section};
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// Wavenumber beyond all that a beam or a table resolves \[rad/m\]: what is left of its compliance is local.
 const LOCAL: f64 = 1e9;
@@ -21,81 +23,6 @@ const LOCAL: f64 = 1e9;
 pub const MOST_HARMONICS: usize = 2500;
 /// Rings whose compliances are kept, for the next solve of the same one.
 const KEPT: usize = 64;
-
-/// Why a rotor has no compliance.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RotorError {
-    /// A ring that cannot be computed.
-    #[error("rotor.model = \"ring\": {0}")]
-    Ring(#[from] RingError),
-    /// A table that is no Green's function.
-    #[error(
-        "rotor.green: harmonic {harmonic} of the wave has the compliance {compliance:.1e} m²/N, known to {error:.1e}: allowed is a deflection \
-         that yields to the first harmonic; give it over half the wavelength, or until it has died out, in steps that are shorter"
-    )]
-    Green {
-        /// Which harmonic.
-        harmonic: usize,
-        /// Its compliance \[m²/N\].
-        compliance: f64,
-        /// The estimated error of that.
-        error: f64,
-    },
-}
-
-/// The wave that loads the rotor, and where.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wave {
-    /// Wavelength λ \[m\].
-    pub length: f64,
-    /// Wavelengths round the ring.
-    pub waves: u32,
-    /// Where the stator touches the ring.
-    pub band: Band,
-}
-
-/// What solvers know of a rotor: its compliance to each harmonic of the wave.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Compliances {
-    wavelength: f64,
-    /// C(k_n) \[m²/N\] for n = 1, 2, ….
-    harmonics: Arc<[f64]>,
-    local: f64,
-    relative_error: f64,
-}
-
-impl Compliances {
-    /// Of what bends to nothing.
-    pub fn none() -> Self {
-        Self { wavelength: f64::INFINITY, harmonics: Arc::new([]), local: 0.0, relative_error: 0.0 }
-    }
-
-    /// Wavelength λ \[m\].
-    pub fn wavelength(&self) -> f64 {
-        self.wavelength
-    }
-
-    /// C(k_n) \[m²/N\], k_n = 2πn/λ, n ≥ 1; beyond the harmonics that were resolved, the local part.
-    pub fn harmonic(&self, n: usize) -> f64 {
-        n.checked_sub(1).and_then(|i| self.harmonics.get(i)).copied().unwrap_or(self.local)
-    }
-
-    /// C \[m²/N\] of the shortest resolved harmonic that is longer than a wave of wavenumber `k` \[rad/m\], or of the first.
-    pub fn longer_than(&self, k: f64) -> f64 {
-        let n = k * self.wavelength / std::f64::consts::TAU;
-        self.harmonic((n as usize).clamp(1, self.harmonics.len().max(1)))
-    }
-
-    /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
-    pub fn beyond(&self, n: usize) -> f64 {
-        if self.local > 0.0 { self.local } else { self.harmonic(n) }
-    }
-
-    /// Estimated numerical error of the deflection under a point load, relative; 0 of a beam or a table, which are what they say.
-    pub fn relative_error(&self) -> f64 {
-        self.relative_error
-    }
-}
 
 impl RotorCompliance {
     /// Compliances of the first `count` harmonics of `wave`.
@@ -108,6 +35,7 @@ impl RotorCompliance {
             harmonics: (1..=count).map(|n| at(std::f64::consts::TAU * n as f64 / wave.length)).collect(),
             local: at(LOCAL),
             relative_error: 0.0,
+            resonances: None,
         };
         Ok(match self {
             Self::Beam { decay_length, point_compliance, local_compliance } => {
@@ -153,11 +81,17 @@ fn of_ring(section: &Section, wave: &Wave) -> Result<Compliances, RotorError> {
     }
     let found = section.compliances(wave.band, wave.waves, MOST_HARMONICS)?.harmonics;
     let sum = |part: fn(&ring::Stated) -> f64| found.iter().map(part).sum::<f64>();
+    let mut resonances = [0.0; RESONANCES];
+    for (n, lowest) in (1..).zip(&mut resonances) {
+        let found = section.natural_frequencies(n * wave.waves, 1)?;
+        *lowest = found.first().map_or(f64::INFINITY, |frequency| frequency.value);
+    }
     let compliances = Compliances {
         wavelength: wave.length,
         relative_error: sum(|harmonic| harmonic.error) / sum(|harmonic| harmonic.value),
         harmonics: found.iter().map(|harmonic| harmonic.value).collect(),
         local: 0.0,
+        resonances: Some(resonances),
     };
     let mut kept = kept();
     kept.truncate(KEPT - 1);
