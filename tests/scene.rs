@@ -420,7 +420,7 @@ fn faults_of_a_section_name_the_part_and_its_key() {
         (WEB.to_owned(), "my.toml:5: rotor.part, web: material is missing: expected one of \"aluminium\""),
         (
             WEB.replace("1.5", "5e9") + "material = \"steel\"\n",
-            "my.toml:10: rotor.part, web: z_top_mm = 5000000000 is out of range: allowed -1000 to 1000 mm",
+            "my.toml:10: rotor.part, web: z_top_mm = 5e9 is out of range: allowed -1000 to 1000 mm",
         ),
         (
             WEB.replace("\"web\"", "\"\"") + "material = \"steel\"\nwidth_mm = 3\n",

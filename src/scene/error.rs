@@ -306,7 +306,7 @@ pub enum What {
         fault: ReadError,
     },
     /// The CSV file has another header. What is in it is not shown: it may be any file of this machine.
-    #[error("{key}: this is no such table: expected the header {}{},{}", harmonics(columns), columns[0].key, columns[1].key)]
+    #[error("{key}: this is no {},{}", no_table(columns), columns[1].key)]
     CsvHeader {
         /// The dotted key.
         key: &'static str,
@@ -351,9 +351,13 @@ impl What {
     }
 }
 
-/// What else the header of such a CSV file may be.
-fn harmonics(columns: &[Parameter; 2]) -> &'static str {
-    if columns[1].key == "compliance_m2_per_n" { "harmonic,compliance_m2_per_n or " } else { "" }
+/// What a CSV file of these columns would be, and how its header would begin.
+fn no_table(columns: &[Parameter; 2]) -> String {
+    let (what, other) = match columns[1].key {
+        "compliance_m2_per_n" => ("compliance table", "harmonic,compliance_m2_per_n or "),
+        _ => ("table of a deflection", ""),
+    };
+    format!("{what}: expected the header {other}{}", columns[0].key)
 }
 
 fn with_unit(parameter: &Parameter) -> String {

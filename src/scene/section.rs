@@ -22,11 +22,8 @@
 //!
 //! Radii are from the ring's axis, heights from wherever one likes, upwards from the stator: it touches the lowest faces.
 
-use super::error::What;
 use super::parameter::{Belongs, Cell, Parameter, ParameterKind, Range, Scale};
-use super::value::Value;
-use super::values::Scene;
-use crate::rotor::ring::{MATERIALS, Part, RingError, Section, Support};
+use crate::rotor::ring::MATERIALS;
 
 /// The names of the materials.
 const NAMES: [&str; MATERIALS.len()] = {
@@ -69,8 +66,8 @@ pub(super) static SUPPORT: [Parameter; 5] = [
 
 /// A section plausible for the rotor of a camera lens, of aluminium, with a thin flange.
 pub(super) const PARTS: &[&[Cell]] = &[
-    &part("flange", [26.0, 29.5, 1.0, 1.6]),
     &part("tread", [28.6, 29.4, 0.5, 1.0]),
+    &part("flange", [26.0, 29.5, 1.0, 1.6]),
     &part("body", [24.0, 26.0, 1.0, 6.0]),
 ];
 
@@ -96,39 +93,4 @@ const fn length(key: &'static str, min: f64, about: &'static str) -> Parameter {
     let (range, slider) = (Range::new(min, 1000.0), Range::new(if min < 0.0 { -20.0 } else { min }, 60.0));
     let kind = ParameterKind::Number { range, slider, scale: Scale::Linear, default: 1.0 };
     column(key, "mm", kind, about)
-}
-
-impl Scene {
-    /// The cross-section of the ring, checked.
-    pub(super) fn section(&self) -> Result<Section, What> {
-        let records = |key: &'static str| match self.get(key) {
-            Some(Value::Records(records)) => records,
-            _ => Vec::new(),
-        };
-        let lengths = |columns: &[Parameter], cells: &[Value]| -> Vec<f64> {
-            let numbers = columns.iter().zip(cells).filter(|(column, _)| column.range().is_some());
-            numbers.filter_map(|(column, cell)| Some(column.si(cell.as_number()?))).collect()
-        };
-        let text = |cell: Option<&Value>| match cell {
-            Some(Value::Text(text)) => text.clone(),
-            _ => String::new(),
-        };
-        let parts = records("rotor.part").into_iter().filter_map(|cells| {
-            let [inner_radius, outer_radius, bottom, top] = lengths(&PART, &cells)[..] else { return None };
-            let material = text(cells.last());
-            let material = *MATERIALS.iter().find(|known| known.name == material)?;
-            Some(Part { name: text(cells.first()), inner_radius, outer_radius, bottom, top, material })
-        });
-        let supports = records("rotor.support").into_iter().filter_map(|cells| {
-            let [inner_radius, outer_radius, bottom, top] = lengths(&SUPPORT, &cells)[..] else { return None };
-            let fixed = text(cells.last());
-            let holds = |direction: &str| fixed == "all" || fixed.split('-').any(|held| held == direction);
-            let [radial, axial, circumferential] = ["radial", "axial", "circumferential"].map(holds);
-            Some(Support { inner_radius, outer_radius, bottom, top, radial, axial, circumferential })
-        });
-        Section::new(parts.collect(), supports.collect()).map_err(|fault| {
-            let key = if matches!(fault, RingError::Support { .. }) { "rotor.support" } else { "rotor.part" };
-            What::Rule { key, message: format!("{key}: {fault}") }
-        })
-    }
 }
