@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor;
-use squeezefilm::plan::{Decision, Plan};
-use squeezefilm::problem::{Flow, Motor, Numerics, Problem, Scenario, Teeth, Time, Wedge, Width};
+use squeezefilm::plan::{Decision, Plan, ROTOR_EFFECT};
+use squeezefilm::problem::{Flow, Motor, Numerics, Problem, RotorCompliance, Scenario, Teeth, Time, Wedge, Width};
 use squeezefilm::scene::presets;
 use squeezefilm::solution::Status;
 
@@ -666,4 +666,29 @@ fn a_switch_overrules_the_plan_and_is_marked() {
     let told = Numerics { wedge: Wedge::Off, flow: Flow::Along, time: Time::Trapped, ..base };
     let plan = Plan::motor(&motor, Fidelity::Standard, &told).unwrap();
     assert!(plan.trapped && !plan.shear && plan.flow == Flow::Along);
+}
+
+#[test]
+fn an_error_of_the_rotor_changes_alpha_by_no_more_than_is_stated() {
+    for preset in ["fundamental", "min-spacing-100nm", "tooth-radius-3m", "frequency-100khz"] {
+        let Scenario::Motor(motor) = Problem::new(&presets::find(preset).unwrap()).unwrap().scenario else {
+            panic!("a motor")
+        };
+        let (rotor, first) = (motor.compliances(64).unwrap(), std::f64::consts::TAU / motor.wavelength());
+        let alpha = |change: &dyn Fn(usize) -> f64| {
+            let rows = (1..=64).map(|n| (first * n as f64, change(n) * rotor.harmonic(n))).collect();
+            let motor = Motor { rotor: RotorCompliance::Table(rows), ..motor.clone() };
+            let plan = Plan::motor(&motor, Fidelity::Fine, &Numerics::default()).unwrap();
+            motor::periodic(&motor, &plan, &mut (), &Cancel::new()).unwrap().result.alpha
+        };
+        let known = alpha(&|_| 1.0);
+        let smooth: f64 = (1..=10).map(|n| rotor.harmonic(n)).sum();
+        for (from, to) in [(1, 1), (2, 2), (3, 4), (5, 10), (11, 64), (1, 64)] {
+            let off: f64 = (from..=to).map(|n| 0.1 * rotor.harmonic(n)).sum();
+            let changed = alpha(&|n| if (from..=to).contains(&n) { 1.1 } else { 1.0 });
+            let (effect, stated) = ((changed / known - 1.0).abs(), ROTOR_EFFECT * off / smooth);
+            println!("{preset}, harmonics {from} to {to}: {effect:.4}, stated {stated:.4}");
+            assert!(effect < stated, "{preset}, {from} to {to}: {effect} {stated}");
+        }
+    }
 }

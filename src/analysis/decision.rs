@@ -80,7 +80,7 @@ pub fn words(decision: &Decision) -> String {
             };
             let (known, effect) = (percent(error), percent(decision.effect));
             format!(
-                "{of}; its deflection under a point load is known to {known}, which changes α by less than {effect} of itself"
+                "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect} of itself"
             )
         }
         Choice::NoLeaks if decision.effect == 0.0 => "none, the plate does not move".to_owned(),

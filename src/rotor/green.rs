@@ -14,7 +14,7 @@
 //! beyond X may add, at most 2 |G(X)|/k_n if it dies out without turning (the second mean value theorem). No more harmonics are resolved
 //! than the rows tell apart, and beyond the last of these the compliance is taken to be local.
 
-use super::compliances::{Compliances, RotorError, Wave};
+use super::compliances::{Compliances, RotorError, Wave, smooth_share};
 use std::f64::consts::{PI, TAU};
 
 /// A table that ends within this share of half the wavelength reaches that far.
@@ -30,7 +30,7 @@ pub(super) fn resolve(rows: &[(f64, f64)], wave: &Wave, count: usize) -> Result<
     let finest = steps.fold(f64::INFINITY, f64::min);
     let coarse: Vec<(f64, f64)> = inside.iter().copied().step_by(2).collect();
     let mut harmonics = Vec::with_capacity(count);
-    let (mut deflection, mut off, mut lost) = (0.0, 0.0, false);
+    let (mut off, mut lost) = (0.0, false);
     for n in 1..=count {
         let k = TAU * n as f64 / wave.length;
         if k * finest > PI * (1.0 + NEAR) {
@@ -44,17 +44,16 @@ pub(super) fn resolve(rows: &[(f64, f64)], wave: &Wave, count: usize) -> Result<
             let Some(last) = harmonics.last() else {
                 return Err(RotorError::Green { harmonic: n, compliance, error });
             };
-            (lost, deflection, off) = (true, deflection + last, off + last);
+            (lost, off) = (true, off + last);
             continue;
         }
         harmonics.push(compliance);
-        deflection += compliance;
         off += error;
     }
     let Some(local) = harmonics.last().copied() else {
         return Err(RotorError::Green { harmonic: 1, compliance: 0.0, error: f64::INFINITY });
     };
-    let relative_error = off / deflection;
+    let relative_error = smooth_share(&harmonics, off);
     Ok(Compliances { wavelength: wave.length, harmonics: harmonics.into(), local, relative_error, resonances: None })
 }
 
@@ -92,7 +91,7 @@ mod tests {
         let images = |x: f64| (-3..=3).map(|i| beam((x + f64::from(i) * WAVE.length).abs(), decay)).sum::<f64>();
         for (end, most, table) in [
             (12e-3, 2e-3, rows(12e-3, 240, |x| beam(x, decay))),
-            (5e-3, 0.3, rows(5e-3, 100, |x| beam(x, decay))),
+            (5e-3, 0.4, rows(5e-3, 100, |x| beam(x, decay))),
             (13e-3, 1e-3, rows(13e-3, 260, images)),
         ] {
             let found = resolve(&table, &WAVE, 30).unwrap();

@@ -12,6 +12,7 @@ mod green;
 pub mod ring;
 
 use crate::problem::{Motor, RotorCompliance};
+use compliances::smooth_share;
 pub use compliances::{Compliances, RESONANCES, RotorError, Wave};
 use ring::{Band, Section};
 use std::collections::VecDeque;
@@ -79,8 +80,10 @@ fn of_ring(section: &Section, wave: &Wave) -> Result<Compliances, RotorError> {
     if let Some((_, found)) = kept().iter().find(|((of, by), _)| of == section && by == wave) {
         return Ok(found.clone());
     }
-    let found = section.compliances(wave.band, wave.waves, MOST_HARMONICS)?.harmonics;
-    let sum = |part: fn(&ring::Stated) -> f64| found.iter().map(part).sum::<f64>();
+    let ring::RingCompliances { harmonics: found, resolved, .. } =
+        section.compliances(wave.band, wave.waves, MOST_HARMONICS)?;
+    let harmonics: Vec<f64> = found.iter().map(|harmonic| harmonic.value).collect();
+    let off = found[..resolved].iter().map(|harmonic| harmonic.error).sum();
     let mut resonances = [0.0; RESONANCES];
     for (n, lowest) in (1..).zip(&mut resonances) {
         let found = section.natural_frequencies(n * wave.waves, 1)?;
@@ -88,8 +91,8 @@ fn of_ring(section: &Section, wave: &Wave) -> Result<Compliances, RotorError> {
     }
     let compliances = Compliances {
         wavelength: wave.length,
-        relative_error: sum(|harmonic| harmonic.error) / sum(|harmonic| harmonic.value),
-        harmonics: found.iter().map(|harmonic| harmonic.value).collect(),
+        relative_error: smooth_share(&harmonics, off),
+        harmonics: harmonics.into(),
         local: 0.0,
         resonances: Some(resonances),
     };
