@@ -15,9 +15,11 @@
 //! *The Finite Element Method for Solid and Structural Mechanics*, 6th ed. (2005), chapter 16.
 
 pub mod compliance;
+mod element;
 pub mod mesh;
 pub mod modes;
 pub mod section;
+mod solve;
 
 pub use compliance::{Deflection, RingCompliances, Stated};
 pub use mesh::{Element, Mesh};

@@ -72,6 +72,13 @@ pub struct Band {
     pub width: f64,
 }
 
+impl Band {
+    /// Inner and outer radius \[m\].
+    pub(super) fn radii(self) -> (f64, f64) {
+        (self.radius - 0.5 * self.width, self.radius + 0.5 * self.width)
+    }
+}
+
 /// Why a ring cannot be computed. Lengths in the messages are in millimetres, as people draw them.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RingError {
@@ -125,12 +132,12 @@ pub enum RingError {
         allowed: String,
     },
     /// Nothing holds the ring against a rigid motion of this order.
-    #[error("no support holds the ring against {motion} (order {order}): fix it axially somewhere")]
+    #[error("no support holds the ring against {motion}: {allowed}")]
     Free {
-        /// The order m, 0 or 1.
-        order: u32,
         /// The motion in words.
         motion: &'static str,
+        /// What would hold it.
+        allowed: &'static str,
     },
     /// The mesh would be too large.
     #[error(
@@ -150,6 +157,9 @@ pub enum RingError {
         /// The order m.
         order: u32,
     },
+    /// There is not enough memory for the equations.
+    #[error("not enough memory for the equations of the section")]
+    Memory,
 }
 
 /// A checked cross-section: parts that do not overlap and hang together, supports that hold something.
@@ -236,7 +246,7 @@ pub(super) fn mm(length: f64) -> f64 {
 }
 
 /// The length that two intervals have in common, negative if they are apart.
-fn common(a: (f64, f64), b: (f64, f64)) -> f64 {
+pub(super) fn common(a: (f64, f64), b: (f64, f64)) -> f64 {
     a.1.min(b.1) - a.0.max(b.0)
 }
 
@@ -315,6 +325,30 @@ impl Support {
             ));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+impl Section {
+    /// One rectangle.
+    pub(super) fn rectangle(
+        radii: (f64, f64),
+        heights: (f64, f64),
+        material: Material,
+        supports: Vec<Support>,
+    ) -> Self {
+        let (inner_radius, outer_radius) = radii;
+        let part =
+            Part { name: "ring".to_owned(), inner_radius, outer_radius, bottom: heights.0, top: heights.1, material };
+        Self::new(vec![part], supports).unwrap()
+    }
+}
+
+#[cfg(test)]
+impl Support {
+    /// All of the section at one height, held in the given directions of r, z and θ.
+    pub(super) fn at_height(height: f64, [radial, axial, circumferential]: [bool; 3]) -> Self {
+        Self { inner_radius: 0.0, outer_radius: 1e3, bottom: height, top: height, radial, axial, circumferential }
     }
 }
 
