@@ -8,11 +8,12 @@ use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::{self, Periodic};
-use squeezefilm::plan::Plan;
+use squeezefilm::plan::{Choice, Plan};
 use squeezefilm::problem::{Motor, Problem, RotorCompliance, Scenario};
 use squeezefilm::rotor::Wave;
 use squeezefilm::scene::{Scene, presets};
-use squeezefilm::solution::Status;
+use squeezefilm::solution::{Outcome, Status};
+use squeezefilm::solve::{Settings, solve as solve_problem};
 
 /// α of the fundamental case without discretisation error: grids up to 128 × 64 intervals and 576 steps, extrapolated
 /// (docs/validation.md).
@@ -322,4 +323,33 @@ proptest! {
             check_frames(&motor, &found, f64::INFINITY);
         }
     }
+}
+
+#[test]
+fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_known() {
+    let problem = Problem::new(&presets::find("ring-rotor").unwrap()).unwrap();
+    let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
+    let solved = |problem: &Problem| solve_problem(problem, &settings, &mut (), &Cancel::new());
+    let Outcome::Motor(ring) = solved(&problem).unwrap().outcome else { panic!("a motor") };
+    let decisions = solved(&problem).unwrap().model.decisions;
+    let rotor = decisions.iter().find(|decision| matches!(decision.chosen, Choice::Rotor { .. })).unwrap();
+    assert!(rotor.effect > 0.0 && rotor.effect < 5e-3, "{rotor:?}");
+    let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
+    let found = motor.compliances(200).unwrap();
+    let first = std::f64::consts::TAU / motor.wavelength();
+    let rows = (1..=200).map(|n| (first * n as f64, found.harmonic(n))).collect();
+    let table = Problem {
+        scenario: Scenario::Motor(Motor { rotor: RotorCompliance::Table(rows), ..motor.clone() }),
+        ..problem.clone()
+    };
+    let Outcome::Motor(table) = solved(&table).unwrap().outcome else { panic!("a motor") };
+    assert!((ring.alpha - table.alpha).abs() < table.alpha_error, "{} {}", ring.alpha, table.alpha);
+    let stated = ring.alpha_error - table.alpha_error;
+    assert!((stated / (rotor.effect * ring.alpha) - 1.0).abs() < 0.5, "{stated} {rotor:?}");
+
+    // Where the stator touches nothing.
+    let beside = Motor { contact_radius: 0.025, ..motor.clone() };
+    let beside = Problem { scenario: Scenario::Motor(beside), ..problem.clone() };
+    let error = solved(&beside).unwrap_err();
+    assert!(error.is_bad_input() && error.to_string().contains("rotor.model = \"ring\": the contact"), "{error}");
 }

@@ -95,6 +95,7 @@ fn cell(
                 .max_decimals(4)
                 .suffix(format!(" {}", of.unit));
             let response = ui.add(drag).labelled_by(name).accessible_name(spoken);
+            let response = beside(ui.clip_rect(), response, of.about);
             // What a drag makes of it is round.
             let number = if response.dragged() { (100.0 * number).round() / 100.0 } else { number };
             let done = response.drag_stopped();
@@ -110,14 +111,14 @@ fn cell(
                     }
                 }
             });
-            combo.response.labelled_by(name);
+            beside(ui.clip_rect(), combo.response.labelled_by(name), of.about);
             picked.map(|value| (value, false))
         }
         (_, Value::Text(text)) => {
             let id = name.with("text");
             let mut edited = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| text.clone());
             let response = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(120.0)).labelled_by(name);
-            let response = response.accessible_name(spoken);
+            let response = beside(ui.clip_rect(), response.accessible_name(spoken), of.about);
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
                 return (edited != *text).then_some((Value::Text(edited), false));

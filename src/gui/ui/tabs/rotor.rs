@@ -8,6 +8,7 @@ use crate::gui::derived::format::{digits, power_of_ten};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, powers, title};
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::Hint;
 use crate::problem::{Problem, Scenario};
 use crate::scene::{Parameter, Value};
 use eframe::egui::{self, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
@@ -27,9 +28,6 @@ const MAGNIFIED: f64 = 0.06;
 const REACH: f32 = 5.0;
 /// What a dragged edge is rounded to \[mm\].
 const STEP: f64 = 0.01;
-/// Where in a part its lengths are: inner and outer radius, bottom and top.
-const LENGTHS: [&str; 4] = ["r_inner_mm", "r_outer_mm", "z_bottom_mm", "z_top_mm"];
-
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
@@ -240,14 +238,12 @@ fn section(
             let id = canvas.id.with((number, which));
             let cursor = if which < 2 { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical };
             let held = ui.interact(edge.expand(REACH).intersect(rect), id, Sense::drag()).on_hover_cursor(cursor);
-            held.widget_info(|| {
-                let key = LENGTHS[which];
-                egui::WidgetInfo::labeled(egui::Role::Slider, true, format!("{key} of {name}, dragged"))
-            });
+            let named = format!("{} of {name}, to drag", label(which));
+            held.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &named));
             if held.hovered() || held.dragged() {
                 painter.rect_stroke(edge, 0.0, Stroke::new(3.0, cx.colours.accent), egui::StrokeKind::Middle);
-                held.clone().on_hover_text(format!("{} {} mm", label(which), digits(lengths[which], 5)));
             }
+            let held = held.hint(format!("{} of {name}: {} mm", label(which), digits(lengths[which], 5)));
             dragging |= held.dragged();
             let (Some(at), true) = (held.interact_pointer_pos(), held.dragged() || held.drag_stopped()) else {
                 continue;
@@ -272,6 +268,7 @@ fn section(
     });
 }
 
+/// What the length at this place of a part is called.
 fn label(which: usize) -> &'static str {
     ["Inner radius", "Outer radius", "Bottom", "Top"].get(which).copied().unwrap_or_default()
 }
