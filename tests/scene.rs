@@ -407,6 +407,7 @@ fn a_section_is_read_in_either_notation_and_saved() {
     assert_eq!(read(&set.to_toml()).unwrap().get("rotor.support"), Some(Value::Records(Vec::new())));
     let mut default = Scene::motor();
     default.set_all([("rotor.model", "ring")]).unwrap();
+    assert!(presets::find("ring-rotor").unwrap().same_model(&default));
     assert_eq!(read(&default.to_toml()).unwrap(), default);
 }
 

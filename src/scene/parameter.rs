@@ -259,7 +259,6 @@ impl Parameter {
             (Some(meaning), _) => format!("absent: {meaning}"),
             (_, Some(Value::Text(default))) => format!("\"{default}\""),
             (_, None | Some(Value::Rows(_))) => String::new(),
-            (_, Some(Value::Records(records))) if records.is_empty() => "none".to_owned(),
             (_, Some(default)) => default.to_string(),
         }
     }

@@ -64,13 +64,13 @@ pub(super) static SUPPORT: [Parameter; 5] = [
     ),
 ];
 
-/// A section plausible for the rotor of a camera lens: an aluminium ring whose thin flange carries a rib, and on that a lining of plastic. Flange and
+/// A section plausible for the rotor of a camera lens: an aluminium ring with a rim on a thin flange, and on the rim a lining of plastic. Flange and
 /// lining are such that the compliance comes close to that of the beam fitted to Table I (docs/validation.md).
 pub(super) const PARTS: &[&[Cell]] = &[
-    &part("lining", [28.85, 29.15, 0.0, 0.12], "peek"),
-    &part("rib", [28.85, 29.15, 0.12, 1.28], "aluminium"),
-    &part("flange", [26.4, 29.15, 1.28, 1.96], "aluminium"),
-    &part("body", [24.4, 26.4, 1.28, 6.28], "aluminium"),
+    &part("lining", [28.85, 29.15, 0.0, 0.14], "peek"),
+    &part("rim", [28.5, 29.5, 0.14, 1.33], "aluminium"),
+    &part("flange", [26.8, 28.5, 0.71, 1.22], "aluminium"),
+    &part("body", [24.8, 26.8, 0.71, 5.71], "aluminium"),
 ];
 
 /// None: the load on it is balanced.

@@ -40,13 +40,10 @@ impl fmt::Display for Value {
             Self::Flag(flag) => write!(f, "{flag}"),
             Self::Text(text) => f.write_str(&show_text(text)),
             Self::Rows(rows) => write!(f, "{} rows", rows.len()),
+            Self::Records(records) if records.is_empty() => f.write_str("none"),
             Self::Records(records) => {
-                let named = |record: &Vec<Self>| match record.first() {
-                    Some(Self::Text(name)) => show_text(name),
-                    _ => String::new(),
-                };
-                let names: Vec<_> = records.iter().map(named).filter(|name| !name.is_empty()).collect();
-                if names.is_empty() { write!(f, "{}", records.len()) } else { f.write_str(&names.join(", ")) }
+                let cells = |record: &Vec<Self>| record.iter().map(Self::to_string).collect::<Vec<_>>().join(" ");
+                f.write_str(&records.iter().map(cells).collect::<Vec<_>>().join("; "))
             }
         }
     }
