@@ -4,7 +4,7 @@ use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::numerics::grading::{clustering, map, middle_clustering};
-use crate::problem::{Flow, Motor, Named, Numerics, Plate, Teeth, Time, Wedge, Width};
+use crate::problem::{Flow, Motor, Named, Numerics, Plate, RotorCompliance, Teeth, Time, Wedge, Width};
 use crate::rotor::{Compliances, MOST_HARMONICS, RESONANCES, RotorError};
 use std::f64::consts::{PI, TAU};
 
@@ -93,7 +93,9 @@ pub enum Choice {
     Rotor {
         /// [`Compliances::relative_error`].
         error: f64,
-        /// Lowest natural frequency of the shape of each of the first harmonics \[Hz\], of a rotor that has mass.
+        /// Whether it is computed from its cross-section.
+        ring: bool,
+        /// Lowest natural frequency of the shape of each of the first harmonics \[Hz\], of a ring; a draft does not ask for it.
         resonances: Option<[f64; RESONANCES]>,
     },
     /// Nothing leaks from under a plate: its gas is trapped.
@@ -299,7 +301,7 @@ impl Plan {
         let grid = Decision { overruled: custom(numerics), ..Decision::exact(grid) };
         let decisions: Vec<Decision> = [time, flow, wedge, teeth(numerics, motor), width(numerics), grid]
             .into_iter()
-            .chain(elements(&rotor))
+            .chain(elements(motor, &rotor, spec)?)
             .collect();
         // What the trapped limit leaves out, it leaves out once.
         let moving =
@@ -665,10 +667,15 @@ fn active_length(motor: &Motor) -> f64 {
 }
 
 /// Of a rotor that is known to a stated error only.
-fn elements(rotor: &Compliances) -> Option<Decision> {
+fn elements(motor: &Motor, rotor: &Compliances, spec: &Spec) -> Result<Option<Decision>, RotorError> {
     let error = rotor.relative_error();
-    let chosen = Choice::Rotor { error, resonances: rotor.resonances() };
-    (error > 0.0).then(|| Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(chosen) })
+    if error == 0.0 {
+        return Ok(None);
+    }
+    let ring = matches!(motor.rotor, RotorCompliance::Ring(_));
+    let resonances = if spec.aim < Fidelity::Draft.accuracy() { motor.resonances()? } else { None };
+    let chosen = Choice::Rotor { error, ring, resonances };
+    Ok(Some(Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(chosen) }))
 }
 
 fn teeth(numerics: &Numerics, motor: &Motor) -> Decision {

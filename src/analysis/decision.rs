@@ -73,11 +73,9 @@ pub fn words(decision: &Decision) -> String {
             let follow = if follow { ", the shorter the closer the plate is" } else { "" };
             format!("{steps} steps a cycle{follow}; two coarser grids for the error estimate")
         }
-        Choice::Rotor { error, resonances } => {
-            let of = match resonances {
-                Some(_) => "a ring of finite elements",
-                None => "a table of its deflection, turned into harmonics",
-            };
+        Choice::Rotor { error, ring, .. } => {
+            let of =
+                if ring { "a ring of finite elements" } else { "a table of its deflection, turned into harmonics" };
             let (known, effect) = (percent(error), percent(decision.effect));
             format!(
                 "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect} of itself"

@@ -82,7 +82,7 @@ impl RotorCurves {
             }
             _ => None,
         };
-        let resonances = present.resonances().map(Vec::from);
+        let resonances = motor.resonances()?.map(Vec::from);
         Ok(Some(Self { curves, relative_error: present.relative_error(), resonances, bent }))
     }
 }

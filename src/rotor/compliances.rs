@@ -5,9 +5,6 @@ use std::sync::Arc;
 
 /// Harmonics in which a rotor is smooth: beyond, its deflection is local, and hardly matters to the film.
 const SMOOTH: usize = 10;
-/// Harmonics whose natural frequencies are computed of a ring.
-pub const RESONANCES: usize = 3;
-
 /// Why a rotor has no compliance.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RotorError {
@@ -48,13 +45,12 @@ pub struct Compliances {
     pub(super) harmonics: Arc<[f64]>,
     pub(super) local: f64,
     pub(super) relative_error: f64,
-    pub(super) resonances: Option<[f64; RESONANCES]>,
 }
 
 impl Compliances {
     /// Of what bends to nothing.
     pub fn none() -> Self {
-        Self { wavelength: f64::INFINITY, harmonics: Arc::new([]), local: 0.0, relative_error: 0.0, resonances: None }
+        Self { wavelength: f64::INFINITY, harmonics: Arc::new([]), local: 0.0, relative_error: 0.0 }
     }
 
     /// Wavelength λ \[m\].
@@ -76,11 +72,6 @@ impl Compliances {
     /// What is left \[m²/N\] beyond `n` harmonics: the limit of short waves, or C(k_n) of a rotor that has no such limit but zero.
     pub fn beyond(&self, n: usize) -> f64 {
         if self.local > 0.0 { self.local } else { self.harmonic(n) }
-    }
-
-    /// Lowest natural frequency of the shape of each of the first harmonics \[Hz\]; `None` of a rotor whose mass is not known.
-    pub fn resonances(&self) -> Option<[f64; RESONANCES]> {
-        self.resonances
     }
 
     /// Estimated error of the deflection under a point load, over that by the first ten harmonics; 0 of a beam or a table, which are what they say.

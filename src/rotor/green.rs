@@ -54,7 +54,7 @@ pub(super) fn resolve(rows: &[(f64, f64)], wave: &Wave, count: usize) -> Result<
         return Err(RotorError::Green { harmonic: 1, compliance: 0.0, error: f64::INFINITY });
     };
     let relative_error = smooth_share(&harmonics, off);
-    Ok(Compliances { wavelength: wave.length, harmonics: harmonics.into(), local, relative_error, resonances: None })
+    Ok(Compliances { wavelength: wave.length, harmonics: harmonics.into(), local, relative_error })
 }
 
 /// 2 ∫ G cos kx dx over the rows, by the trapezoidal rule.

@@ -13,7 +13,8 @@ pub mod ring;
 
 use crate::problem::{Motor, RotorCompliance};
 use compliances::smooth_share;
-pub use compliances::{Compliances, RESONANCES, RotorError, Wave};
+pub use compliances::{Compliances, RotorError, Wave};
+use rayon::prelude::*;
 use ring::{Band, Section};
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
@@ -22,7 +23,9 @@ use std::sync::{Mutex, PoisonError};
 const LOCAL: f64 = 1e9;
 /// Harmonics that anything may ask for: those of the finest contact mesh of the paper's method.
 pub const MOST_HARMONICS: usize = 2500;
-/// Rings whose compliances are kept, for the next solve of the same one.
+/// Harmonics whose natural frequencies are computed of a ring.
+pub const RESONANCES: usize = 3;
+/// Rings of which is kept what was computed, for the next solve of the same one.
 const KEPT: usize = 64;
 
 impl RotorCompliance {
@@ -36,7 +39,6 @@ impl RotorCompliance {
             harmonics: (1..=count).map(|n| at(std::f64::consts::TAU * n as f64 / wave.length)).collect(),
             local: at(LOCAL),
             relative_error: 0.0,
-            resonances: None,
         };
         Ok(match self {
             Self::Beam { decay_length, point_compliance, local_compliance } => {
@@ -67,39 +69,64 @@ impl Motor {
     pub fn compliances(&self, count: usize) -> Result<Compliances, RotorError> {
         self.rotor.resolve(&self.wave(), count)
     }
+
+    /// Lowest natural frequency of the shape of each of the first harmonics of the wave \[Hz\]; `None` of a rotor whose mass is not known.
+    ///
+    /// # Errors
+    /// [`RotorError`] of a ring that cannot be computed.
+    pub fn resonances(&self) -> Result<Option<[f64; RESONANCES]>, RotorError> {
+        let RotorCompliance::Ring(section) = &self.rotor else { return Ok(None) };
+        let found = RESONATING.or((section.clone(), self.waves), |_| {
+            let orders: Vec<u32> = (1..).take(RESONANCES).map(|n: u32| n * self.waves).collect();
+            let lowest = orders.into_par_iter().map(|order| section.natural_frequencies(order, 1));
+            let mut resonances = [f64::INFINITY; RESONANCES];
+            for (resonance, found) in resonances.iter_mut().zip(lowest.collect::<Result<Vec<_>, _>>()?) {
+                *resonance = found.first().map_or(f64::INFINITY, |frequency| frequency.value);
+            }
+            Ok::<_, RotorError>(resonances)
+        })?;
+        Ok(Some(found))
+    }
 }
 
-/// What a ring was computed for.
-type Ring = (Section, Wave);
+/// What was computed last, for whoever asks for the same again. A result does not depend on whether it is found here.
+struct Kept<K, V>(Mutex<VecDeque<(K, V)>>);
 
-/// The rings that were computed last. A result does not depend on whether it is found here.
-static RINGS: Mutex<VecDeque<(Ring, Compliances)>> = Mutex::new(VecDeque::new());
+impl<K: PartialEq, V: Clone> Kept<K, V> {
+    const fn new() -> Self {
+        Self(Mutex::new(VecDeque::new()))
+    }
+
+    /// What `key` gave, or what `compute` makes of it.
+    fn or<E>(&self, key: K, compute: impl FnOnce(&K) -> Result<V, E>) -> Result<V, E> {
+        let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = kept().iter().find(|(known, _)| *known == key) {
+            return Ok(found.clone());
+        }
+        let found = compute(&key)?;
+        let mut kept = kept();
+        kept.truncate(KEPT - 1);
+        kept.push_front((key, found.clone()));
+        Ok(found)
+    }
+}
+
+static RINGS: Kept<(Section, Wave), Compliances> = Kept::new();
+static RESONATING: Kept<(Section, u32), [f64; RESONANCES]> = Kept::new();
 
 fn of_ring(section: &Section, wave: &Wave) -> Result<Compliances, RotorError> {
-    let kept = || RINGS.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((_, found)) = kept().iter().find(|((of, by), _)| of == section && by == wave) {
-        return Ok(found.clone());
-    }
-    let ring::RingCompliances { harmonics: found, resolved, .. } =
-        section.compliances(wave.band, wave.waves, MOST_HARMONICS)?;
-    let harmonics: Vec<f64> = found.iter().map(|harmonic| harmonic.value).collect();
-    let off = found[..resolved].iter().map(|harmonic| harmonic.error).sum();
-    let mut resonances = [0.0; RESONANCES];
-    for (n, lowest) in (1..).zip(&mut resonances) {
-        let found = section.natural_frequencies(n * wave.waves, 1)?;
-        *lowest = found.first().map_or(f64::INFINITY, |frequency| frequency.value);
-    }
-    let compliances = Compliances {
-        wavelength: wave.length,
-        relative_error: smooth_share(&harmonics, off),
-        harmonics: harmonics.into(),
-        local: 0.0,
-        resonances: Some(resonances),
-    };
-    let mut kept = kept();
-    kept.truncate(KEPT - 1);
-    kept.push_front(((section.clone(), *wave), compliances.clone()));
-    Ok(compliances)
+    RINGS.or((section.clone(), *wave), |_| {
+        let ring::RingCompliances { harmonics: found, resolved, .. } =
+            section.compliances(wave.band, wave.waves, MOST_HARMONICS)?;
+        let harmonics: Vec<f64> = found.iter().map(|harmonic| harmonic.value).collect();
+        let off = found[..resolved].iter().map(|harmonic| harmonic.error).sum();
+        Ok(Compliances {
+            wavelength: wave.length,
+            relative_error: smooth_share(&harmonics, off),
+            harmonics: harmonics.into(),
+            local: 0.0,
+        })
+    })
 }
 
 /// An end of a table counts as covering a wavenumber that is this near to it, relative.

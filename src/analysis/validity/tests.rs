@@ -239,7 +239,7 @@ fn rotor_resonance() {
     let mut solved = solution(200e-9);
     let names_of = |solved: &Solution| names(&outside(&problem, Some(solved)));
     assert!(!names_of(&solved).contains(&"rotor-resonance"));
-    let chosen = Choice::Rotor { error: 1e-3, resonances: Some([40e3, 200e3, 400e3]) };
+    let chosen = Choice::Rotor { error: 1e-3, ring: true, resonances: Some([40e3, 200e3, 400e3]) };
     solved.model.decisions = vec![Decision { chosen, overruled: false, effect: 1e-3, weighed: None }];
     assert!(names_of(&solved).contains(&"rotor-resonance"));
 }
