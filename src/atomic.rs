@@ -42,9 +42,6 @@ pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
 }
 
 /// Finds out whether files can be written into a folder, or the folder made, before any work is done for them.
-///
-/// # Errors
-/// [`WriteError`].
 pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
     Staged::new(folder)?.add("check", |_| Ok(()))
 }

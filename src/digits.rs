@@ -94,6 +94,21 @@ fn decimals(size: f64, digits: usize) -> usize {
     places((size / unit).round() * unit * (1.0 + 1e-12)) as usize
 }
 
+/// With a true minus sign; "-0.00" is a zero.
+pub fn signed(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
+        Some(zero) => zero.to_owned(),
+        None => text,
+    }
+}
+
+/// With a capital first letter.
+pub fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

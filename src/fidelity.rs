@@ -55,7 +55,7 @@ pub struct Spec {
     /// As `edge_fraction`, for a plate: a film alone, whose fields are compared with exact ones.
     pub plate_edge_fraction: f64,
     /// Relative error in α at which the level aims: terms of the model with a smaller effect are left out.
-    pub aim: f64,
+    pub target_error: f64,
 }
 
 /// How many times each fidelity's grid is halved.
@@ -93,18 +93,22 @@ impl Fidelity {
 
     /// Relative error of the headline that is asked for.
     pub fn accuracy(self) -> f64 {
-        if let Self::To(millionths) = self { f64::from(millionths) * 1e-6 } else { self.spec().aim }
+        if let Self::To(millionths) = self { f64::from(millionths) * 1e-6 } else { self.spec().target_error }
     }
 
     /// What the level means. Between the named ones, grids and tolerances are theirs, in proportion to the logarithm of the error.
     pub fn spec(self) -> Spec {
         if let Self::To(_) = self {
-            let aim = self.accuracy();
-            let after =
-                Self::ALL.iter().position(|level| level.spec().aim <= aim).unwrap_or(Self::ALL.len() - 1).max(1);
+            let target_error = self.accuracy();
+            let after = Self::ALL
+                .iter()
+                .position(|level| level.spec().target_error <= target_error)
+                .unwrap_or(Self::ALL.len() - 1)
+                .max(1);
             let (coarse, fine) = (Self::ALL[after - 1].spec(), Self::ALL[after].spec());
-            let share = ((coarse.aim / aim).ln() / (coarse.aim / fine.aim).ln()).clamp(0.0, 1.0);
-            return coarse.towards(&fine, share, aim);
+            let share = ((coarse.target_error / target_error).ln() / (coarse.target_error / fine.target_error).ln())
+                .clamp(0.0, 1.0);
+            return coarse.towards(&fine, share, target_error);
         }
         match self {
             Self::Draft => Spec {
@@ -116,12 +120,12 @@ impl Fidelity {
                 edge_fraction: 0.7,
                 harmonic_fraction: 1e-1,
                 most_harmonics: 24,
-                tolerance: 2e-3,
+                tolerance: 8e-3,
                 plate: 12,
                 plate_steps: 32,
                 plate_tolerance: 1e-4,
                 plate_edge_fraction: 0.5,
-                aim: 2e-2,
+                target_error: 2e-2,
             },
             Self::Standard => Spec {
                 along: 12,
@@ -132,12 +136,12 @@ impl Fidelity {
                 edge_fraction: 0.85,
                 harmonic_fraction: 3e-2,
                 most_harmonics: 32,
-                tolerance: 1e-3,
+                tolerance: 4e-3,
                 plate: 12,
                 plate_steps: 48,
                 plate_tolerance: 1e-4,
                 plate_edge_fraction: 0.5,
-                aim: 5e-3,
+                target_error: 5e-3,
             },
             Self::Fine => Spec {
                 along: 24,
@@ -148,12 +152,12 @@ impl Fidelity {
                 edge_fraction: 0.5,
                 harmonic_fraction: 1e-2,
                 most_harmonics: 64,
-                tolerance: 1e-4,
+                tolerance: 4e-4,
                 plate: 16,
                 plate_steps: 64,
                 plate_tolerance: 1e-5,
                 plate_edge_fraction: 0.4,
-                aim: 1e-3,
+                target_error: 1e-3,
             },
             Self::Reference => Spec {
                 along: 48,
@@ -164,12 +168,12 @@ impl Fidelity {
                 edge_fraction: 0.2,
                 harmonic_fraction: 1e-3,
                 most_harmonics: 96,
-                tolerance: 1e-5,
+                tolerance: 4e-5,
                 plate: 16,
                 plate_steps: 64,
                 plate_tolerance: 1e-6,
                 plate_edge_fraction: 0.4,
-                aim: 2e-4,
+                target_error: 2e-4,
             },
             Self::To(_) => Self::Standard.spec(),
         }
@@ -181,7 +185,7 @@ pub const ACCURACY: [f64; 2] = [1e-6, 0.5];
 
 impl Spec {
     /// A share of the way to a finer specification, in logarithms, for an error of `aim`.
-    fn towards(&self, fine: &Self, share: f64, aim: f64) -> Self {
+    fn towards(&self, fine: &Self, share: f64, target_error: f64) -> Self {
         let real = |a: f64, b: f64| a * (b / a).powf(share);
         let count = |a: usize, b: usize| real(a as f64, b as f64).round() as usize;
         Self {
@@ -198,7 +202,7 @@ impl Spec {
             plate_steps: count(self.plate_steps, fine.plate_steps),
             plate_tolerance: real(self.plate_tolerance, fine.plate_tolerance),
             plate_edge_fraction: real(self.plate_edge_fraction, fine.plate_edge_fraction),
-            aim,
+            target_error,
         }
     }
 

@@ -56,8 +56,8 @@ pub fn leak_time(plate: &Plate, gap: f64) -> f64 {
 #[derive(Clone, Debug)]
 pub struct Hold {
     plate: Plate,
-    coarse: Level,
-    fine: Level,
+    coarse: HeldFilm,
+    fine: HeldFilm,
     gap: f64,
     time: f64,
     /// The last step \[s\]; `None` at rest.
@@ -74,8 +74,8 @@ impl Hold {
         let coarse = grids.next().unwrap_or(&none);
         let fine = &coarse.finer(plan.spectral);
         Self {
-            coarse: Level::new(plate, plan, coarse),
-            fine: Level::new(plate, plan, fine),
+            coarse: HeldFilm::new(plate, plan, coarse),
+            fine: HeldFilm::new(plate, plan, fine),
             gap: plate.mean_gap,
             time: 0.0,
             last_step: None,
@@ -192,7 +192,7 @@ impl Hold {
 
 /// The film on one grid.
 #[derive(Clone, Debug)]
-struct Level {
+struct HeldFilm {
     film: Film,
     state: FilmState,
     /// The gap at each node along x.
@@ -200,7 +200,7 @@ struct Level {
     last_step: Option<f64>,
 }
 
-impl Level {
+impl HeldFilm {
     fn new(plate: &Plate, plan: &Plan, grid: &Grid) -> Self {
         let nodes = film_grid(plate, plan, grid);
         let (nx, unknowns) = (nodes.x.len(), nodes.unknowns());

@@ -119,17 +119,11 @@ pub struct Solver {
 
 impl Solver {
     /// Starts the worker. `wake` is called after every event, from the worker's thread.
-    ///
-    /// # Errors
-    /// If the thread cannot be started.
     pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         Self::start_with_clock(Instant::now, wake)
     }
 
     /// As [`Self::start`], with the clock that measures the solves.
-    ///
-    /// # Errors
-    /// If the thread cannot be started.
     pub fn start_with_clock(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let (sender, events) = channel();

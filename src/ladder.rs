@@ -76,9 +76,6 @@ impl<L> Found<L> {
 /// Climbs the grids of `plan`, and further, started from what was found for a similar scene, until `cancel`'s budget is spent: then
 /// the best so far is what there is. A polynomial across may swing below no pressure at all; a scene that it fails is solved with
 /// finite volumes, which cannot.
-///
-/// # Errors
-/// Those of the scene.
 pub fn climb<S: Scene>(
     scene: &mut S,
     plan: &Plan,
@@ -94,9 +91,6 @@ pub fn climb<S: Scene>(
 }
 
 /// As [`climb`], by this plan alone.
-///
-/// # Errors
-/// Those of the scene.
 pub fn climb_once<S: Scene>(
     scene: &mut S,
     plan: &Plan,
@@ -137,7 +131,7 @@ pub fn climb_once<S: Scene>(
             found.levels.push(level);
         }
         let next = grid.finer(plan.spectral);
-        let worthwhile = || next.work() * plan.aim.sqrt() <= scene.most_work() && !scene.settled(&found);
+        let worthwhile = || next.work() * plan.target_error.sqrt() <= scene.most_work() && !scene.settled(&found);
         let more = number < plan.grids.len()
             || number < plan.most_grids && status == Status::Converged && !cancel.is_spent() && worthwhile();
         finer = Some(next);
@@ -167,7 +161,7 @@ fn settle_across<S: Scene>(
         let level;
         (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
         let change = (scene.headline(&level).all - scene.headline(&narrower).all).abs();
-        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.aim * scene.unit(&level);
+        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.target_error * scene.unit(&level);
         if status == Status::Converged && matters && across < plan.most_across {
             narrower = level;
             across += 1;

@@ -165,7 +165,7 @@ fn level(motor: &Motor, plan: &Plan, grid: &Grid) -> u64 {
     let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics) as u64;
     let nodes = teeth * film.along;
     let films = stored * film.cycle(steps) + if plan.trapped { film.step() + steps * film.unknowns() } else { 0 };
-    let lines = (5 + u64::from(plan.shear)) * stored * steps * film.along;
+    let lines = (6 + u64::from(plan.shear)) * stored * steps * film.along;
     let stator = instants * nodes;
     let modes = 4 * harmonics * nodes + 8 * nodes;
     let shapes = 2 * harmonics * instants;

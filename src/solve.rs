@@ -236,7 +236,7 @@ fn touching(
     cancel: &Cancel,
 ) -> Option<Estimate> {
     let floats = |alpha: f64| alpha > motor::NEARLY_FLOATS;
-    let asked = plan.maps && plan.aim < 1e-2 && !cancel.has_budget();
+    let asked = plan.maps && plan.target_error < 1e-2 && !cancel.has_budget();
     if !asked || !found.alphas.iter().any(|alpha| floats(*alpha)) {
         return None;
     }

@@ -215,7 +215,7 @@ impl<'a> Way<'a> {
     /// Marches from rest by `plan`: to the end, or so many cycles `again`. Whether it was cut short.
     fn march(&mut self, plan: &Plan, again: Option<usize>, cancel: &Cancel) -> Result<bool, SolveError> {
         let _taken = memory::take(need(self.problem, plan, self.settings.kept), cancel)?;
-        let mut transient = Transient::at_rest(self.problem, plan, self.unit, self.stats, cancel)?;
+        let mut transient = SceneTransient::at_rest(self.problem, plan, self.unit, self.stats, cancel)?;
         if again.is_none() {
             self.errors.clear();
         }
@@ -301,12 +301,12 @@ fn headline(outcome: &Outcome) -> Estimate {
 }
 
 /// Either scene on its way.
-enum Transient<'a> {
+enum SceneTransient<'a> {
     Motor(Box<motor::Transient<'a>>),
     Plate(Box<plate::Transient>),
 }
 
-impl<'a> Transient<'a> {
+impl<'a> SceneTransient<'a> {
     /// With as many nodes across as the first cycle needs, which is the hardest; `stats` is what it has cost so far.
     fn at_rest(
         problem: &'a Problem,
@@ -330,7 +330,7 @@ impl<'a> Transient<'a> {
         let error = loop {
             let wider = first(across)?;
             let error = WIDTH_SHARE * (wider - narrower).abs();
-            if error <= WIDTH_AIM * plan.aim * unit || across >= plan.most_across {
+            if error <= WIDTH_AIM * plan.target_error * unit || across >= plan.most_across {
                 break error;
             }
             narrower = wider;

@@ -2,14 +2,14 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod memory;
+mod window;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use memory::Memory;
-use squeezefilm::analysis::tradeoff::{Candidate, Effort, Ended, candidates};
+use squeezefilm::analysis::attempt::RunStatus;
+use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
@@ -20,45 +20,21 @@ use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::Outcome;
-use std::path::PathBuf;
 use std::time::Duration;
+use window::{Memory, Window, answer, await_path, drop_file, open, solved, until};
 
-fn window(preset: &str) -> Harness<'static, App> {
+fn window(preset: &str) -> Window {
     window_asking(preset, |_, _| Answer::Cancelled)
 }
 
 /// A window whose file dialogs are answered by `ask`: a test never opens a real one.
-fn window_asking(preset: &str, ask: fn(Purpose, &DialogStart) -> Answer) -> Harness<'static, App> {
+fn window_asking(preset: &str, ask: fn(Purpose, &DialogStart) -> Answer) -> Window {
     window_in(preset, 900.0, Platform { ask, ..Platform::default() })
 }
 
-fn window_in(preset: &str, height: f32, platform: Platform) -> Harness<'static, App> {
+fn window_in(preset: &str, height: f32, platform: Platform) -> Window {
     let scene = presets::find(preset).unwrap();
-    Harness::builder()
-        .with_size(Vec2::new(1400.0, height))
-        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, None)), platform).unwrap())
-}
-
-/// Steps until `ready`, at most a minute of waiting in all: the solver works on its own thread.
-fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
-    for _ in 0..6000 {
-        window.step();
-        if ready(window.state()) {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("{what}: did not happen");
-}
-
-fn solved(window: &mut Harness<'static, App>) {
-    until(window, "the scene on screen is solved", |app| {
-        let number = app.state().activity.number;
-        app.state().activity.running.is_none()
-            && app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
-    });
-    // Where the solver was faster than the window, its results are in a layout that the next frame still moves.
-    window.run_steps(2);
+    open(Document::opened(scene, None), height, platform)
 }
 
 fn alpha(run: Option<&SolvedScene>) -> f64 {
@@ -94,7 +70,7 @@ fn play_step_and_scrub_by_key_and_button() {
     window.step();
     assert!(!window.state().state().view.playing);
     let frames = window.state().state().run.as_deref().unwrap().solution.recording.frames;
-    let place = |window: &Harness<'static, App>| {
+    let place = |window: &Window| {
         let app = window.state();
         app.state().view.place(&app.state().run.as_deref().unwrap().solution.recording)
     };
@@ -136,24 +112,14 @@ fn without_a_file_dialog_the_path_is_typed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("typed.toml");
     let mut window = window_asking("fundamental", |_, _| Answer::NoDialog);
-    let prompt = |window: &mut Harness<'static, App>| {
-        for _ in 0..500 {
-            window.step();
-            if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        panic!("no path is asked for");
-    };
-    let type_path = |window: &mut Harness<'static, App>, text: &str| {
+    let type_path = |window: &mut Window, text: &str| {
         window.step();
         window.key_press_modifiers(Modifiers::COMMAND, Key::A);
         window.get_by_role_and_label(Role::TextInput, "Path").type_text(text);
         window.step();
     };
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    prompt(&mut window);
+    await_path(&mut window);
     window.get_by_label("Save the preset");
     type_path(&mut window, path.to_str().unwrap());
     window.key_press(Key::Enter);
@@ -164,7 +130,7 @@ fn without_a_file_dialog_the_path_is_typed() {
     let other = folder.path().join("other.toml");
     std::fs::write(&other, "not a preset").unwrap();
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    prompt(&mut window);
+    await_path(&mut window);
     type_path(&mut window, other.to_str().unwrap());
     window.get_by_label("There is such a file already");
     window.key_press(Key::Enter);
@@ -181,7 +147,7 @@ fn without_a_file_dialog_the_path_is_typed() {
     window.run_steps(2);
     for (file, good) in [("absent.toml", false), ("typed.toml", true)] {
         window.key_press_modifiers(Modifiers::COMMAND, Key::O);
-        prompt(&mut window);
+        await_path(&mut window);
         window.get_by_label("Open a preset");
         type_path(&mut window, folder.path().join(file).to_str().unwrap());
         window.key_press(Key::Enter);
@@ -266,27 +232,6 @@ fn a_bad_file_is_explained_and_changes_nothing() {
     assert!(window.query_by_label("This did not work").is_none());
 }
 
-fn drop_file(window: &mut Harness<'static, App>, path: PathBuf) {
-    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path)));
-    window.step();
-    window.input_mut().dropped_files.clear();
-    window.step();
-    window.step();
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl eframe::egui::DroppedFile for Dropped {
-    fn path(&self) -> &std::path::Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
-}
-
 #[test]
 fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     let folder = tempfile::tempdir().unwrap();
@@ -326,19 +271,19 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
 }
 
 /// Types a minimum spacing.
-fn edit_spacing(window: &mut Harness<'static, App>, text: &str) {
+fn edit_spacing(window: &mut Window, text: &str) {
     type_into(window, "Minimum spacing H_m in nm", text);
 }
 
 /// Presses the keys of a tab.
-fn show(window: &mut Harness<'static, App>, tab: Tab) {
+fn show(window: &mut Window, tab: Tab) {
     let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7];
     let place = Tab::ALL.iter().position(|(other, _)| *other == tab).unwrap();
     window.key_press_modifiers(Modifiers::COMMAND, keys[place]);
 }
 
 /// Types into the field of a parameter.
-fn type_into(window: &mut Harness<'static, App>, field: &str, text: &str) {
+fn type_into(window: &mut Window, field: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, field).click();
     window.step();
     window.step();
@@ -373,7 +318,7 @@ fn nothing_is_redrawn_while_nothing_moves() {
     for _ in 0..10 {
         window.step();
     }
-    let delay = |window: &Harness<'static, App>| {
+    let delay = |window: &Window| {
         window.output().viewport_output.values().map(|viewport| viewport.repaint_delay).min().unwrap()
     };
     assert!(delay(&window) > Duration::from_secs(1), "{:?}", delay(&window));
@@ -461,7 +406,7 @@ fn every_built_in_preset_can_be_shown() {
 }
 
 /// A window tall enough for all results.
-fn tall_window(measure: fn(&Problem) -> (Vec<Candidate>, Effort)) -> Harness<'static, App> {
+fn tall_window(measure: fn(&Problem) -> (Vec<Candidate>, Effort)) -> Window {
     let platform = Platform { ask: |_, _| Answer::NoDialog, measure, ..Platform::default() };
     window_in("fundamental", 1600.0, platform)
 }
@@ -555,10 +500,10 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     let points = &window.state().state().tradeoff.as_ref().unwrap().tradeoff().points;
     let names: Vec<&str> = points.iter().map(|point| point.run.candidate.name.as_str()).collect();
     assert_eq!(names, ["draft", "standard", "present setting"]);
-    assert!(points.iter().all(|point| point.run.ended == Ended::Converged && point.error.is_some()));
+    assert!(points.iter().all(|point| point.run.status == RunStatus::Converged && point.error.is_some()));
 
     // The cheapest that serves is used, which is one edit.
-    let aim = |window: &Harness<'static, App>| window.state().state().document.target();
+    let aim = |window: &Window| window.state().state().document.target();
     assert_eq!(aim(&window), Fidelity::Fine);
     window.get_by_role_and_label(Role::SpinButton, "Accuracy").click();
     window.run_steps(2);
@@ -586,19 +531,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     for (button, file, begins) in [("Export CSV…", "t.csv", "setting,family"), ("Export figure…", "t.svg", "<")] {
         let path = folder.path().join(file);
         window.get_by_label(button).click();
-        for _ in 0..500 {
-            window.step();
-            if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
-                break;
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        window.run_steps(2);
-        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-        window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
-        window.step();
-        window.key_press(Key::Enter);
-        window.run_steps(3);
+        answer(&mut window, &path);
         until(&mut window, "written", |app| app.state().exports.written().is_some());
         assert!(std::fs::read_to_string(&path).unwrap().starts_with(begins), "{file}");
     }
@@ -649,8 +582,7 @@ fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
     window.run_steps(2);
     until(&mut window, "torque over speed", has_torque);
     window.run_steps(2);
-    let merit =
-        |window: &Harness<'static, App>| window.state().state().torque.found().unwrap().as_ref().unwrap().clone();
+    let merit = |window: &Window| window.state().state().torque.found().unwrap().as_ref().unwrap().clone();
     let before = merit(&window);
     for name in ["Torque of the ring, N·m", "Power, W", "Efficiency, %"] {
         window.get_by_role_and_label(Role::Image, name);
@@ -726,7 +658,7 @@ fn an_accuracy_is_typed_in_place_of_a_name() {
     solved(&mut window);
     window.get_by_role_and_label(Role::ComboBox, "Solved up to").click();
     window.run_steps(3);
-    let type_in = |window: &mut Harness<'static, App>, text: &str| {
+    let type_in = |window: &mut Window, text: &str| {
         window.get_by_role_and_label(Role::TextInput, "Accuracy").focus();
         window.run_steps(2);
         window.get_by_role_and_label(Role::TextInput, "Accuracy").type_text(text);
@@ -763,9 +695,7 @@ fn light_and_dark_leave_the_zoom_alone() {
 fn panels_are_as_wide_again_as_before_the_window_was_small() {
     let mut window = window("fundamental");
     solved(&mut window);
-    let width = |window: &Harness<'static, App>| {
-        window.get_by_role_and_label(Role::Slider, "Minimum spacing H_m").rect().width()
-    };
+    let width = |window: &Window| window.get_by_role_and_label(Role::Slider, "Minimum spacing H_m").rect().width();
     let before = width(&window);
     window.set_size(Vec2::new(800.0, 600.0));
     window.run_steps(4);

@@ -2,13 +2,12 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod memory;
+mod window;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use memory::Memory;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};
 use squeezefilm::gui::state::document::Document;
@@ -17,44 +16,31 @@ use squeezefilm::scene::{Scene, Value, presets};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
+use window::{Memory, Window, begin_export, drop_file, open, until};
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SPACING: &str = "film.min_spacing_nm";
 const FIELD: &str = "Minimum spacing H_m in nm";
 
-fn window(ask: fn(Purpose, &DialogStart) -> Answer, (scene, path): (Scene, Option<PathBuf>)) -> Harness<'static, App> {
+fn window(ask: fn(Purpose, &DialogStart) -> Answer, (scene, path): (Scene, Option<PathBuf>)) -> Window {
     let platform = Platform { ask, ..Platform::default() };
-    Harness::builder()
-        .with_size(Vec2::new(1400.0, 900.0))
-        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, path)), platform).unwrap())
+    open(Document::opened(scene, path), 900.0, platform)
 }
 
 /// A window on a plate, which is solved at once, whose file dialogs are cancelled.
-fn plate() -> Harness<'static, App> {
+fn plate() -> Window {
     window(|_, _| Answer::Cancelled, (presets::find("plate-crossover").unwrap(), None))
 }
 
-/// Steps until `ready`, at most a minute of waiting in all.
-fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
-    for _ in 0..6000 {
-        window.step();
-        if ready(window.state()) {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("{what}: did not happen");
-}
-
 /// Types into the field of a parameter, and leaves the cursor there.
-fn start_typing(window: &mut Harness<'static, App>, field: &str, text: &str) {
+fn start_typing(window: &mut Window, field: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, field).click();
     window.run_steps(2);
     window.get_by_role_and_label(Role::TextInput, field).type_text(text);
     window.step();
 }
 
-fn press(window: &mut Harness<'static, App>, modifiers: Modifiers, key: Key) {
+fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
     window.run_steps(3);
 }
@@ -99,7 +85,7 @@ fn what_is_being_typed_is_asked_about_before_the_window_closes() {
 }
 
 /// The system asks the window to close, as its button and the Dock do.
-fn close(window: &mut Harness<'static, App>) {
+fn close(window: &mut Window) {
     let id = window.input().viewport_id;
     window.input_mut().viewports.entry(id).or_default().events.push(eframe::egui::ViewportEvent::Close);
     window.step();
@@ -166,26 +152,6 @@ fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
     assert_eq!(window.query_all_by_label_contains("Of the scene before this edit; the present one has no").count(), 2);
 }
 
-fn drop_file(window: &mut Harness<'static, App>, path: PathBuf) {
-    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path)));
-    window.step();
-    window.input_mut().dropped_files.clear();
-    window.run_steps(2);
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl eframe::egui::DroppedFile for Dropped {
-    fn path(&self) -> &std::path::Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
-}
-
 #[test]
 fn cancelling_one_dialog_leaves_the_others_alone_and_none_is_there_twice() {
     static SHOWN: AtomicUsize = AtomicUsize::new(0);
@@ -228,58 +194,26 @@ fn a_path_is_kept_in_full() {
     assert_eq!(state.document.path(), Some(std::env::current_dir().unwrap().join(&path).as_path()));
 }
 
-/// The scene on screen is exported or its picture is taken, under the path that is typed.
-fn save_as(window: &mut Harness<'static, App>, path: &std::path::Path) {
-    for _ in 0..500 {
-        window.step();
-        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    window.run_steps(2);
-    window.key_press_modifiers(CTRL, Key::A);
-    window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(3);
-}
-
 #[test]
 fn a_file_holds_what_its_name_says() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(|_, _| Answer::NoDialog, (presets::find("plate-crossover").unwrap(), None));
     until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
-    let export = |window: &mut Harness<'static, App>, name: &str, path: &std::path::Path| {
-        // A question that has just been closed takes the first click while it fades.
-        for _ in 0..5 {
-            window.get_by_label("File").click();
-            window.run_steps(10);
-            if window.query_by_label("Export").is_some() {
-                break;
-            }
-        }
-        window.get_by_label("Export").hover();
-        window.run_steps(5);
-        window.get_by_label_contains(name).click();
-        window.run_steps(2);
-        save_as(window, path);
-    };
     // Another kind of file is refused, and nothing is written.
-    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x.jpg"));
+    begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x.jpg"));
     window.get_by_label_contains("allowed .npz");
     window.get_by_label("Close").click();
     window.run_steps(2);
     assert!(!folder.path().join("x.jpg").exists());
     // Without an extension it gets its own, but replaces nothing that nobody was asked about.
-    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
+    begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
     until(&mut window, "written", |app| app.state().exports.written().is_some());
     assert!(folder.path().join("x.npz").is_file() && !folder.path().join("x").exists());
-    export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
+    begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
     window.get_by_label_contains("give its whole name");
     window.get_by_label("Close").click();
     window.run_steps(2);
-    export(&mut window, "Animation…", &folder.path().join("cycle"));
+    begin_export(&mut window, "Animation…", &folder.path().join("cycle"));
     until(&mut window, "the animation is under way or done", |app| {
         app.state().exports.running().is_some() || app.state().exports.written().is_some()
     });

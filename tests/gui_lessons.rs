@@ -2,13 +2,11 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod memory;
+mod window;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, Vec2, vec2};
-use egui_kittest::Harness;
+use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use memory::Memory;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::derived::words as labels;
@@ -20,10 +18,8 @@ use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::lessons::{self, Act, Doing, Prediction, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
-use std::path::{Path, PathBuf};
-use std::time::Duration;
-
-type Window = Harness<'static, App>;
+use std::path::Path;
+use window::{Memory, Window, await_path, click, drop_file, reopen};
 
 fn platform() -> Platform {
     Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() }
@@ -32,31 +28,18 @@ fn platform() -> Platform {
 /// A window tall enough that nothing has to be scrolled.
 fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
-    Harness::builder().with_size(Vec2::new(1400.0, 1700.0)).build_eframe(move |context| {
-        App::on_platform(context, Some(Document::opened(scene, None)), platform()).unwrap()
-    })
+    window::open(Document::opened(scene, None), 1700.0, platform())
 }
 
 /// A window that was there before, or never, and opens no file.
 fn window_with(memory: Memory) -> Window {
-    let memory: &'static Memory = Box::leak(Box::new(memory));
-    Harness::builder().with_size(Vec2::new(1400.0, 1700.0)).build_eframe(move |context| {
-        context.storage = Some(memory);
-        App::on_platform(context, None, platform()).unwrap()
-    })
+    reopen(memory, 1700.0, platform())
 }
 
-/// Steps until `ready`, at most a minute of waiting in all: the solver works on its own thread.
+/// Steps until `ready`, and a little more.
 fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
-    for _ in 0..6000 {
-        window.step();
-        if ready(window.state()) {
-            window.run_steps(2);
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("{what}: did not happen");
+    window::until(window, what, ready);
+    window.run_steps(2);
 }
 
 /// Until the scene on the table is solved well enough to judge by.
@@ -69,27 +52,10 @@ fn solved(window: &mut Window) {
     });
 }
 
-fn click(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(3);
-}
-
 /// An entry of a menu: its name has its keys behind it.
 fn choose(window: &mut Window, entry: &str) {
     window.get_by_label_contains(entry).click();
     window.run_steps(3);
-}
-
-/// Waits until a path is asked for, which a dialog that cannot be shown leads to.
-fn await_path(window: &mut Window) {
-    for _ in 0..500 {
-        window.step();
-        if window.query_by_role_and_label(Role::TextInput, "Path").is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    window.run_steps(2);
 }
 
 fn shows(window: &Window, part: &str) -> bool {
@@ -776,7 +742,7 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     type_into(&mut window, "Frequency in kHz", "0.5");
     let lent = window.state().state().document.scene().clone();
     for path in [bad.clone(), folder.path().join("absent.toml")] {
-        open_path(&mut window, &path);
+        drop_file(&mut window, &path);
         window.get_by_label("This did not work");
         click(&mut window, "Close");
         assert_eq!(step(&window).0, 1);
@@ -798,32 +764,11 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     assert!(window.state().state().lessons.running().is_none());
     // A good file ends a lesson; what is unsaved is asked about.
     open(&mut window, "Pushing on trapped air");
-    open_path(&mut window, &good);
+    drop_file(&mut window, &good);
     window.get_by_label_contains("Save the changes");
     click(&mut window, "Don't save");
     assert_eq!(window.state().state().document.scene().name, "Good");
     assert!(window.state().state().lessons.running().is_none());
-}
-
-/// Drops a file on the window.
-fn open_path(window: &mut Window, path: &Path) {
-    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path.to_owned())));
-    window.step();
-    window.input_mut().dropped_files.clear();
-    window.run_steps(3);
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl eframe::egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
 }
 
 #[test]

@@ -2,11 +2,11 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod window;
+
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, Vec2, vec2};
-use egui_kittest::Harness;
+use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
-use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::document::Document;
@@ -17,36 +17,18 @@ use squeezefilm::problem::Scenario;
 use squeezefilm::scene::presets;
 use squeezefilm::solution::{Outcome, Status};
 use std::time::Duration;
+use window::{Window, click, open, solved, until};
 
 const STARTUP: Key = Key::Num6;
 const HOLD: Key = Key::Num7;
 
-fn window(preset: &str, tab: Key) -> Harness<'static, App> {
+fn window(preset: &str, tab: Key) -> Window {
     let scene = presets::find(preset).unwrap();
     let platform = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
-    let mut window = Harness::builder()
-        .with_size(Vec2::new(1400.0, 900.0))
-        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, None)), platform).unwrap());
+    let mut window = open(Document::opened(scene, None), 900.0, platform);
     window.key_press_modifiers(Modifiers::COMMAND, tab);
     window.run_steps(3);
     window
-}
-
-/// Steps until `ready`, at most a minute of waiting in all.
-fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
-    for _ in 0..6000 {
-        window.step();
-        if ready(window.state()) {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("{what}: did not happen");
-}
-
-fn click(window: &mut Harness<'static, App>, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(3);
 }
 
 fn starting(app: &App) -> &StartupState {
@@ -55,13 +37,6 @@ fn starting(app: &App) -> &StartupState {
 
 fn cycles(app: &App) -> usize {
     app.state().startup.as_ref().map_or(0, |starting| starting.points().len())
-}
-
-fn solved(window: &mut Harness<'static, App>) {
-    until(window, "the scene on screen is solved", |app| {
-        app.state().activity.running.is_none()
-            && app.state().run.as_deref().is_some_and(|run| run.fidelity == Fidelity::Fine)
-    });
 }
 
 fn share(outcome: &Outcome) -> (f64, f64) {
@@ -190,9 +165,9 @@ fn gap(app: &App) -> f64 {
     holding.now().reading.gap / holding.plate().mean_gap
 }
 
-fn at_rest(window: &mut Harness<'static, App>) {
+fn at_rest(window: &mut Window) {
     until(window, "the film is at rest", |app| ratio(app).abs() < 2e-4);
-    let number = |window: &Harness<'static, App>| window.state().state().hold.as_ref().unwrap().now().number;
+    let number = |window: &Window| window.state().state().hold.as_ref().unwrap().now().number;
     for _ in 0..200 {
         let before = number(window);
         std::thread::sleep(Duration::from_millis(200));

@@ -2,13 +2,11 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod memory;
+mod window;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use memory::Memory;
 use squeezefilm::analysis::compare;
 use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::Sweep;
@@ -30,8 +28,7 @@ use squeezefilm::scene::{Value, presets};
 use squeezefilm::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-type Window = Harness<'static, App>;
+use window::{Memory, Window, begin_export, click, open, reopen, solved};
 
 /// One of each family, twice each.
 fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
@@ -48,39 +45,17 @@ fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
 fn window(preset: &str) -> Window {
     let scene = presets::find(preset).unwrap();
     let platform = Platform { ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
-    Harness::builder()
-        .with_size(Vec2::new(1400.0, 1000.0))
-        .build_eframe(move |context| App::on_platform(context, Some(Document::opened(scene, None)), platform).unwrap())
+    open(Document::opened(scene, None), 1000.0, platform)
 }
 
-/// Steps until `ready`, at most a minute of waiting in all: solvers work on their own threads.
+/// Steps until `ready`, and a little more.
 fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
-    for _ in 0..6000 {
-        window.step();
-        if ready(window.state()) {
-            window.run_steps(3);
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("{what}: did not happen");
-}
-
-fn solved(window: &mut Window) {
-    until(window, "the scene on screen is solved", |app| {
-        let number = app.state().activity.number;
-        app.state().activity.running.is_none()
-            && app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
-    });
+    window::until(window, what, ready);
+    window.run_steps(3);
 }
 
 fn ctrl(window: &mut Window, key: Key) {
     window.key_press_modifiers(Modifiers::COMMAND, key);
-    window.run_steps(3);
-}
-
-fn click(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
     window.run_steps(3);
 }
 
@@ -335,42 +310,6 @@ fn closing_the_window_ends_a_sweep_and_what_is_being_solved() {
 fn export(window: &mut Window, entry: &str, path: &Path) {
     begin_export(window, entry, path);
     until(window, "the export ends", |app| app.state().exports.running().is_none());
-}
-
-fn begin_export(window: &mut Window, entry: &str, path: &Path) {
-    // A modal that has just been closed takes the first click while it fades.
-    for _ in 0..5 {
-        window.get_by_label("File").click();
-        window.run_steps(10);
-        if window.query_by_label("Export").is_some() {
-            break;
-        }
-    }
-    window.get_by_label("Export").hover();
-    window.run_steps(5);
-    window.get_by_label_contains(entry).click();
-    window.run_steps(2);
-    answer(window, path);
-}
-
-fn answer(window: &mut Window, path: &Path) {
-    let field = |window: &Window| {
-        ["Path", "Folder"].into_iter().find(|name| window.query_by_role_and_label(Role::TextInput, name).is_some())
-    };
-    for _ in 0..500 {
-        window.step();
-        if field(window).is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    window.run_steps(2);
-    let name = field(window).unwrap();
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::TextInput, name).type_text(path.to_str().unwrap());
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(2);
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -689,12 +628,7 @@ fn left(window: &mut Window) -> Memory {
 
 /// The window after that.
 fn next(memory: Memory) -> Window {
-    let memory: &'static Memory = Box::leak(Box::new(memory));
-    let platform = Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() };
-    Harness::builder().with_size(Vec2::new(1400.0, 1000.0)).build_eframe(move |context| {
-        context.storage = Some(memory);
-        App::on_platform(context, None, platform).unwrap()
-    })
+    reopen(memory, 1000.0, Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() })
 }
 
 #[test]

@@ -606,7 +606,7 @@ fn the_plan_leaves_out_only_what_is_below_its_share() {
         let motor = motor_with(preset, changes);
         for fidelity in Fidelity::ALL {
             let plan = Plan::motor(&motor, fidelity, &Numerics::default()).unwrap();
-            let share = 0.2 * fidelity.spec().aim;
+            let share = 0.2 * fidelity.spec().target_error;
             let asked = |numerics: &Numerics| Plan::motor(&motor, fidelity, numerics).unwrap();
             // The wedge term, where the grid is too coarse for it: the lesser of two evils, and stated.
             let solved =

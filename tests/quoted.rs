@@ -17,7 +17,7 @@ mod error_coverage;
 #[path = "../examples/validation.rs"]
 mod validation;
 
-use squeezefilm::export::folder::write_file;
+use squeezefilm::atomic::write_file;
 use squeezefilm::fidelity::Fidelity;
 use std::fs;
 use std::ops::Range;

@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use serde_json::Value;
+use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
-use squeezefilm::analysis::sweep::{Ending, Row, Sweep, Vary};
+use squeezefilm::analysis::sweep::{Row, Sweep, Vary};
 use squeezefilm::analysis::validity::{names, outside};
 use squeezefilm::atomic::Lock;
 use squeezefilm::control::Cancel;
@@ -55,7 +56,7 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
         for (point, row) in rows.iter().enumerate() {
             let problem = Problem::new(&sweep.scene_at(point).unwrap()).unwrap();
             let alone = solve(&problem, &DRAFT, &mut (), &Cancel::new()).unwrap();
-            assert_eq!((row.point, &row.ending), (point, &Ending::Converged));
+            assert_eq!((row.point, &row.status), (point, &RunStatus::Converged));
             assert_eq!(row.outside, names(&outside(&problem, Some(&alone))), "point {point}");
             let alone = Numbers::of(&problem, &alone);
             // The first of a chunk starts cold, a plate always; the others from their neighbour.

@@ -94,7 +94,7 @@ fn every_setting_is_the_solve_that_its_options_ask_for_to_the_last_bit() {
             let again = solve_again(&command);
             let judged = if preset.starts_with("plate") { Quantity::FilmLoad } else { Quantity::Alpha };
             let value = run.numbers.get(judged);
-            assert!(value.is_some(), "{command}: {:?}", run.ended);
+            assert!(value.is_some(), "{command}: {:?}", run.status);
             assert_eq!(number_in(&again, judged.name()), value, "{command}");
             let error = judged.error().unwrap();
             assert_eq!(number_in(&again, error.name()), run.numbers.get(error), "{command}");

@@ -3,9 +3,47 @@
 use crate::control::{Cancel, Observer};
 use crate::motor::Warm;
 use crate::problem::Problem;
-use crate::solution::Solution;
+use crate::solution::{Solution, Status};
 use crate::solve::{Settings, solve_from};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// How one solve among many ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RunStatus {
+    /// Not solved yet.
+    Waiting,
+    /// The cycle repeats to the tolerance.
+    Converged,
+    /// A limit was reached first; the numbers are what was reached.
+    NotConverged,
+    /// It was cancelled, because it took longer than it was given.
+    GivenUp,
+    /// There is no solution, and why.
+    Failed(String),
+}
+
+impl From<Status> for RunStatus {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Converged => Self::Converged,
+            Status::NotConverged { .. } | Status::NotResolved { .. } => Self::NotConverged,
+            Status::Cancelled => Self::GivenUp,
+        }
+    }
+}
+
+/// `converged`, `not converged`, `failed: …`: as files have it.
+impl std::fmt::Display for RunStatus {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Waiting => f.write_str("waiting"),
+            Self::Converged => f.write_str("converged"),
+            Self::NotConverged => f.write_str("not converged"),
+            Self::GivenUp => f.write_str("given up"),
+            Self::Failed(reason) => write!(f, "failed: {reason}"),
+        }
+    }
+}
 
 /// Solves; an error, and a panic of the solver, is told in words.
 ///

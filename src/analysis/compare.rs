@@ -7,17 +7,18 @@
 use super::attempt::attempt;
 use super::quantity::{Numbers, Quantity, labelled};
 use super::validity::{names, outside};
+use crate::analysis::attempt::RunStatus;
 use crate::control::Cancel;
 use crate::problem::Problem;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value, show_text};
-use crate::solution::{Solution, Status};
+use crate::solution::Solution;
 use crate::solve::{Settings, SolveError, check};
 use rayon::prelude::*;
 use std::sync::Arc;
 
 /// One scene, solved.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct ComparedRun {
     /// What it is called here: the scene's name, made unique.
     pub label: String,
     /// The scene.
@@ -28,7 +29,7 @@ pub struct Run {
     pub solved: Result<Arc<Solution>, String>,
 }
 
-impl Run {
+impl ComparedRun {
     /// The numbers; none if it failed.
     pub fn numbers(&self) -> Numbers {
         self.solved.as_ref().map_or_else(|_| Numbers::default(), |solution| Numbers::of(&self.problem, solution))
@@ -40,9 +41,14 @@ impl Run {
         self.solved.as_ref().map_or_else(|_| Vec::new(), limits)
     }
 
+    /// How it ended.
+    pub fn status(&self) -> RunStatus {
+        self.solved.as_ref().map_or_else(|reason| RunStatus::Failed(reason.clone()), |solution| solution.status.into())
+    }
+
     /// Whether its cycle repeats to the tolerance.
     pub fn converged(&self) -> bool {
-        self.solved.as_ref().is_ok_and(|solution| solution.status == Status::Converged)
+        self.status() == RunStatus::Converged
     }
 }
 
@@ -61,19 +67,19 @@ pub enum CompareError {
 /// of each run as it ends, from whichever thread.
 ///
 /// # Errors
-/// [`CompareError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`Run`] that says so.
+/// [`CompareError`] for a scene that cannot be solved by the method asked for. A solve that fails is a [`ComparedRun`] that says so.
 pub fn runs(
     scenes: &[Scene],
     settings: &Settings,
     cancel: &Cancel,
-    finished: &(dyn Fn(&Run) + Sync),
-) -> Result<Vec<Run>, CompareError> {
+    finished: &(dyn Fn(&ComparedRun) + Sync),
+) -> Result<Vec<ComparedRun>, CompareError> {
     let problems = scenes.iter().map(Problem::new).collect::<Result<Vec<_>, _>>()?;
     problems.iter().try_for_each(|problem| check(problem, settings))?;
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
     let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
         let solved = attempt(&problem, settings, &mut (), cancel).map(Arc::new);
-        let run = Run { label, scene: scene.clone(), problem, solved };
+        let run = ComparedRun { label, scene: scene.clone(), problem, solved };
         finished(&run);
         run
     });
@@ -161,8 +167,8 @@ pub struct ResultCell {
 }
 
 /// Every quantity that one of the runs has, errors beside what they are of, in the order of the columns of a sweep.
-pub fn results(runs: &[Run]) -> Vec<ResultRow> {
-    let numbers: Vec<Numbers> = runs.iter().map(Run::numbers).collect();
+pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
+    let numbers: Vec<Numbers> = runs.iter().map(ComparedRun::numbers).collect();
     let errors: Vec<Quantity> = Quantity::all().filter_map(Quantity::error).collect();
     let row = |quantity: Quantity| {
         let first = numbers.first().map(|numbers| side(numbers, quantity)).unwrap_or_default();

@@ -100,7 +100,7 @@ fn reason(chosen: Choice, weighed: &Weighed) -> String {
     };
     let asked = if weighed.asked { "as asked; " } else { "" };
     let may = if chosen == weighed.reduced { "changes α by less than" } else { "would change α by up to" };
-    let (effect, aim) = (percent(weighed.effect), percent(weighed.aim));
+    let (effect, aim) = (percent(weighed.effect), percent(weighed.target_error));
     let coarse = if weighed.unresolved > 0.0 {
         format!("; this grid is too coarse for it, solving it errs by up to {}", percent(weighed.unresolved))
     } else {

@@ -6,130 +6,105 @@ use crate::problem::{Problem, Scenario, rpm};
 use crate::scene::Belongs;
 use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Solution, Status};
 
-/// One number of a solve. Units are in the names; those of a strip's forces are per metre of width.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Quantity {
-    /// The film's share of the load.
-    Alpha,
-    /// Estimated numerical error of α, absolute.
-    AlphaError,
-    /// Cycle mean of the film's net gauge force.
-    FilmLoad,
-    /// Its estimated numerical error, absolute.
-    FilmLoadError,
-    /// Its least value in the cycle.
-    FilmLoadMin,
-    /// Its greatest value in the cycle.
-    FilmLoadMax,
-    /// Cycle mean of the contact force.
-    ContactLoad,
-    /// Torque of the whole ring at rest.
-    StallTorque,
-    /// Its estimated numerical error, absolute.
-    StallTorqueError,
-    /// Speed at which the torque vanishes.
-    NoLoadSpeed,
-    /// Its estimated numerical error, absolute.
-    NoLoadSpeedError,
-    /// Greatest power given to the rotor.
-    MaxPower,
-    /// Its estimated numerical error, absolute.
-    MaxPowerError,
-    /// Greatest efficiency, 0 to 1.
-    MaxEfficiency,
-    /// Its estimated numerical error, absolute.
-    MaxEfficiencyError,
-    /// The paper's maximum operating torque: the bound of the torque of the whole ring.
-    MaxTorque,
-    /// Its estimated numerical error, absolute.
-    MaxTorqueError,
-    /// Cycle mean of the number of teeth that touch; 0: the rotor floats.
-    TeethInContact,
-    /// Film load over ambient pressure × area.
-    LoadRatio,
-    /// Its estimated numerical error, absolute.
-    LoadRatioError,
-    /// Its least value in the cycle.
-    LoadRatioMin,
-    /// Its greatest value in the cycle.
-    LoadRatioMax,
-    /// Least film thickness, H_m included.
-    MinGap,
-    /// Greatest absolute pressure.
-    MaxPressure,
-    /// σ.
-    SqueezeNumber,
-    /// Λ.
-    BearingNumber,
-    /// Kn.
-    KnudsenNumber,
-    /// Relative change of the last round, if it did not converge …
-    Residual,
-    /// … and what it had to fall below.
-    Tolerance,
-    /// Time steps of one tooth's film.
-    FilmSteps,
-    /// Cycles of the vibration marched.
-    Cycles,
-    /// Rounds of the film–contact coupling.
-    Rounds,
-    /// Contact problems solved.
-    ContactSolves,
+/// An enum of numbers, and those of them that are known. Of each its variant, name, what it is, its unit, the scenes that have it, and
+/// whatever else is to be known of it.
+macro_rules! numbers {
+    ($(#[$about:meta])* $Enum:ident, $(#[$all:meta])* $Known:ident: $More:ty;
+     $($variant:ident $name:literal $words:literal $unit:literal $belongs:ident $($more:expr)?;)*) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum $Enum {
+            $(#[doc = $words] $variant,)*
+        }
+
+        const TABLE: &[($Enum, &str, &str, &str, Belongs, $More)] =
+            &[$(($Enum::$variant, $name, $words, $unit, Belongs::$belongs, ($($more)?)),)*];
+
+        impl $Enum {
+            /// All, in order.
+            pub fn all() -> impl Iterator<Item = Self> {
+                TABLE.iter().map(|row| row.0)
+            }
+
+            /// The name in files, with its unit.
+            pub fn name(self) -> &'static str {
+                TABLE[self as usize].1
+            }
+
+            /// What it is, in words.
+            pub fn words(self) -> &'static str {
+                TABLE[self as usize].2
+            }
+        }
+
+        $(#[$all])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $Known([Option<f64>; TABLE.len()]);
+
+        impl Default for $Known {
+            fn default() -> Self {
+                Self([None; TABLE.len()])
+            }
+        }
+
+        impl $Known {
+            /// One of them.
+            pub fn get(&self, number: $Enum) -> Option<f64> {
+                self.0[number as usize]
+            }
+
+            /// Sets one of them; a value that is not finite removes it.
+            pub fn set(&mut self, number: $Enum, value: f64) {
+                self.0[number as usize] = value.is_finite().then_some(value);
+            }
+        }
+    };
 }
+pub(crate) use numbers;
 
-use Quantity::{
-    Alpha, AlphaError, BearingNumber, ContactLoad, ContactSolves, Cycles, FilmLoad, FilmLoadError, FilmLoadMax,
-    FilmLoadMin, FilmSteps, KnudsenNumber, LoadRatio, LoadRatioError, LoadRatioMax, LoadRatioMin, MaxEfficiency,
-    MaxEfficiencyError, MaxPower, MaxPowerError, MaxPressure, MaxTorque, MaxTorqueError, MinGap, NoLoadSpeed,
-    NoLoadSpeedError, Residual, Rounds, SqueezeNumber, StallTorque, StallTorqueError, TeethInContact, Tolerance,
-};
-
-/// How many there are.
-pub const COUNT: usize = 33;
-
-/// In the order of the enum: name, what it is, its unit, scenes that have it.
-const TABLE: [(Quantity, &str, &str, &str, Belongs); COUNT] = [
-    (Alpha, "alpha", "film share of the load α", "", Belongs::Motor),
-    (AlphaError, "alpha_error", "error of α", "", Belongs::Motor),
-    (FilmLoad, "film_load_n", "film load", "N", Belongs::Any),
-    (FilmLoadError, "film_load_error_n", "error of the film load", "N", Belongs::Any),
-    (FilmLoadMin, "film_load_min_n", "least film load", "N", Belongs::Any),
-    (FilmLoadMax, "film_load_max_n", "greatest film load", "N", Belongs::Any),
-    (ContactLoad, "contact_load_n", "contact load", "N", Belongs::Motor),
-    (StallTorque, "stall_torque_nm", "stall torque", "N·m", Belongs::Motor),
-    (StallTorqueError, "stall_torque_error_nm", "error of the stall torque", "N·m", Belongs::Motor),
-    (NoLoadSpeed, "no_load_speed_rpm", "no-load speed", "rpm", Belongs::Motor),
-    (NoLoadSpeedError, "no_load_speed_error_rpm", "error of the no-load speed", "rpm", Belongs::Motor),
-    (MaxPower, "max_power_w", "greatest power", "W", Belongs::Motor),
-    (MaxPowerError, "max_power_error_w", "error of the greatest power", "W", Belongs::Motor),
-    (MaxEfficiency, "max_efficiency", "greatest efficiency", "", Belongs::Motor),
-    (MaxEfficiencyError, "max_efficiency_error", "error of the greatest efficiency", "", Belongs::Motor),
-    (MaxTorque, "max_torque_nm", "maximum operating torque (bound)", "N·m", Belongs::Motor),
-    (MaxTorqueError, "max_torque_error_nm", "error of the bound of the torque", "N·m", Belongs::Motor),
-    (TeethInContact, "teeth_in_contact", "teeth in contact", "", Belongs::Motor),
-    (LoadRatio, "mean_load_ratio", "mean load ratio", "", Belongs::Plate),
-    (LoadRatioError, "mean_load_ratio_error", "error of the load ratio", "", Belongs::Plate),
-    (LoadRatioMin, "load_ratio_min", "least load ratio", "", Belongs::Plate),
-    (LoadRatioMax, "load_ratio_max", "greatest load ratio", "", Belongs::Plate),
-    (MinGap, "min_gap_nm", "least film thickness", "nm", Belongs::Any),
-    (MaxPressure, "max_pressure_kpa", "highest pressure", "kPa", Belongs::Any),
-    (SqueezeNumber, "squeeze_number", "squeeze number σ", "", Belongs::Any),
-    (BearingNumber, "bearing_number", "bearing number Λ", "", Belongs::Any),
-    (KnudsenNumber, "knudsen_number", "Knudsen number Kn", "", Belongs::Any),
-    (Residual, "residual", "change of the last round", "", Belongs::Any),
-    (Tolerance, "tolerance", "allowed change of the last round", "", Belongs::Any),
-    (FilmSteps, "film_steps", "film steps", "", Belongs::Any),
-    (Cycles, "cycles", "cycles marched", "", Belongs::Any),
-    (Rounds, "coupling_iterations", "rounds of film and contact", "", Belongs::Any),
-    (ContactSolves, "contact_solves", "contact problems solved", "", Belongs::Any),
-];
+numbers! {
+    /// One number of a solve. Units are in the names; those of a strip's forces are per metre of width. Errors are estimated numerical
+    /// errors, absolute.
+    Quantity,
+    /// All numbers of one solve. What a scene does not have, and what is not finite, is not there.
+    Numbers: ();
+    Alpha "alpha" "film share of the load α" "" Motor;
+    AlphaError "alpha_error" "error of α" "" Motor;
+    FilmLoad "film_load_n" "film load" "N" Any;
+    FilmLoadError "film_load_error_n" "error of the film load" "N" Any;
+    FilmLoadMin "film_load_min_n" "least film load" "N" Any;
+    FilmLoadMax "film_load_max_n" "greatest film load" "N" Any;
+    ContactLoad "contact_load_n" "contact load" "N" Motor;
+    StallTorque "stall_torque_nm" "stall torque" "N·m" Motor;
+    StallTorqueError "stall_torque_error_nm" "error of the stall torque" "N·m" Motor;
+    NoLoadSpeed "no_load_speed_rpm" "no-load speed" "rpm" Motor;
+    NoLoadSpeedError "no_load_speed_error_rpm" "error of the no-load speed" "rpm" Motor;
+    MaxPower "max_power_w" "greatest power" "W" Motor;
+    MaxPowerError "max_power_error_w" "error of the greatest power" "W" Motor;
+    MaxEfficiency "max_efficiency" "greatest efficiency" "" Motor;
+    MaxEfficiencyError "max_efficiency_error" "error of the greatest efficiency" "" Motor;
+    MaxTorque "max_torque_nm" "maximum operating torque (bound)" "N·m" Motor;
+    MaxTorqueError "max_torque_error_nm" "error of the bound of the torque" "N·m" Motor;
+    TeethInContact "teeth_in_contact" "teeth in contact" "" Motor;
+    LoadRatio "mean_load_ratio" "mean load ratio" "" Plate;
+    LoadRatioError "mean_load_ratio_error" "error of the load ratio" "" Plate;
+    LoadRatioMin "load_ratio_min" "least load ratio" "" Plate;
+    LoadRatioMax "load_ratio_max" "greatest load ratio" "" Plate;
+    MinGap "min_gap_nm" "least film thickness" "nm" Any;
+    MaxPressure "max_pressure_kpa" "highest pressure" "kPa" Any;
+    SqueezeNumber "squeeze_number" "squeeze number σ" "" Any;
+    BearingNumber "bearing_number" "bearing number Λ" "" Any;
+    KnudsenNumber "knudsen_number" "Knudsen number Kn" "" Any;
+    Residual "residual" "change of the last round" "" Any;
+    Tolerance "tolerance" "allowed change of the last round" "" Any;
+    FilmSteps "film_steps" "film steps" "" Any;
+    Cycles "cycles" "cycles marched" "" Any;
+    Rounds "coupling_iterations" "rounds of film and contact" "" Any;
+    ContactSolves "contact_solves" "contact problems solved" "" Any;
+}
+use Quantity::*;
 
 impl Quantity {
-    /// All, in the order of the columns.
-    pub fn all() -> impl Iterator<Item = Self> {
-        TABLE.iter().map(|row| row.0)
-    }
-
     /// Those that a scene of this problem has.
     pub fn of(problem: &Problem) -> impl Iterator<Item = Self> {
         let belongs = match problem.scenario {
@@ -137,16 +112,6 @@ impl Quantity {
             Scenario::Plate(_) => Belongs::Plate,
         };
         TABLE.iter().filter(move |row| row.4 == Belongs::Any || row.4 == belongs).map(|row| row.0)
-    }
-
-    /// The name in JSON and CSV, with its unit: `film_load_n`.
-    pub fn name(self) -> &'static str {
-        TABLE[self as usize].1
-    }
-
-    /// What it is, in words.
-    pub fn words(self) -> &'static str {
-        TABLE[self as usize].2
     }
 
     /// Its unit in the results of `problem`; empty for a pure number. Forces of a strip are per metre of width.
@@ -203,16 +168,6 @@ pub fn force_unit(problem: &Problem) -> &'static str {
 /// `film load, N`: words, and a unit if there is one.
 pub fn labelled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words}, {unit}") }
-}
-
-/// All numbers of one solve. What a scene does not have, and what is not finite, is not there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numbers([Option<f64>; COUNT]);
-
-impl Default for Numbers {
-    fn default() -> Self {
-        Self([None; COUNT])
-    }
 }
 
 impl Numbers {
@@ -289,16 +244,6 @@ impl Numbers {
         self.set(LoadRatioMax, ratio(result.film_load_max));
         self.set(MinGap, result.min_gap * 1e9);
         self.set(MaxPressure, result.max_pressure * 1e-3);
-    }
-
-    /// One of them.
-    pub fn get(&self, quantity: Quantity) -> Option<f64> {
-        self.0[quantity as usize]
-    }
-
-    /// Sets one of them; a value that is not finite removes it.
-    pub fn set(&mut self, quantity: Quantity, value: f64) {
-        self.0[quantity as usize] = value.is_finite().then_some(value);
     }
 }
 

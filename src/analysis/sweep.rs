@@ -15,28 +15,20 @@ use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity, force_unit};
 use super::table1::{Published, published_at};
 use super::validity;
+use crate::analysis::attempt::RunStatus;
 use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::{Scene, SceneError};
 use crate::solution::Status;
 use crate::solve::{Method, Record, Settings, check};
+use fnv::FnvHasher;
 use rayon::prelude::*;
+use std::hash::Hasher;
 use std::ops::Range;
 
 /// Neighbours along the last axis that one thread solves one after the other.
 const CHUNK: usize = 4;
-
-/// How a point ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The cycle repeats to the tolerance.
-    Converged,
-    /// A limit was reached first; the numbers are what was reached.
-    NotConverged,
-    /// There is no solution, and why.
-    Failed(String),
-}
 
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +38,7 @@ pub struct Row {
     /// The value of each axis there.
     pub values: Vec<f64>,
     /// How it ended.
-    pub ending: Ending,
+    pub status: RunStatus,
     /// The numbers; none if it failed.
     pub numbers: Numbers,
     /// Names of the limits of the model that it exceeds; none if it failed.
@@ -165,23 +157,18 @@ impl Sweep {
 
     /// Sixteen digits that differ if anything differs that the results depend on: scene, axes, settings or version.
     pub fn fingerprint(&self) -> String {
-        let mut hash = Fnv::default();
-        hash.text(env!("CARGO_PKG_VERSION"));
-        hash.text(&self.scene.to_toml());
-        hash.text(self.settings.method.name());
+        let method = self.settings.method;
         // The paper's method has no fidelity.
-        hash.text(&if self.settings.method == Method::Auto {
-            self.settings.fidelity.to_string()
-        } else {
-            String::new()
-        });
-        hash.text(&CHUNK.to_string());
+        let fidelity = if method == Method::Auto { self.settings.fidelity.to_string() } else { String::new() };
+        let mut texts =
+            vec![env!("CARGO_PKG_VERSION").to_owned(), self.scene.to_toml(), method.name().to_owned(), fidelity];
+        texts.push(CHUNK.to_string());
         for axis in &self.axes {
-            hash.text(axis.parameter.key);
-            axis.values.iter().for_each(|value| hash.bytes(&value.to_bits().to_le_bytes()));
-            axis.words.iter().for_each(|word| hash.text(word));
+            texts.push(axis.parameter.key.to_owned());
+            texts.extend(axis.values.iter().map(|value| format!("{value:?}")));
+            texts.extend(axis.words.iter().cloned());
         }
-        format!("{:016x}", hash.0)
+        digest(texts.iter().map(String::as_str))
     }
 
     /// Published points of Table I whose scene is one of this sweep's but for the keys that are varied, at any value of
@@ -254,7 +241,7 @@ impl Sweep {
             let mut row = Row {
                 point,
                 values: values.clone(),
-                ending: Ending::Converged,
+                status: RunStatus::Waiting,
                 numbers: Numbers::default(),
                 outside: Vec::new(),
             };
@@ -263,16 +250,13 @@ impl Sweep {
                 .map_err(Clone::clone)
                 .and_then(|problem| Ok((problem, attempt_from(&mut warm, problem, &settings, &mut (), cancel)?)));
             match solved {
+                Ok((_, solution)) if solution.status == Status::Cancelled => break,
                 Ok((problem, solution)) => {
-                    match solution.status {
-                        Status::Converged => {}
-                        Status::NotConverged { .. } | Status::NotResolved { .. } => row.ending = Ending::NotConverged,
-                        Status::Cancelled => break,
-                    }
+                    row.status = solution.status.into();
                     row.numbers = Numbers::of(problem, &solution);
                     row.outside = validity::names(&validity::outside(problem, Some(&solution)));
                 }
-                Err(reason) => row.ending = Ending::Failed(reason),
+                Err(reason) => row.status = RunStatus::Failed(reason),
             }
             finished(&row);
             rows.push(row);
@@ -299,42 +283,22 @@ fn varied(scene: &Scene, axes: &[Axis], values: &[f64]) -> Result<Scene, SceneEr
     Ok(scene)
 }
 
-/// Sixteen digits that differ if one of the texts does.
+/// Sixteen digits that differ if one of the texts does: the same on every machine and in every version of the compiler.
 pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
-    let mut hash = Fnv::default();
-    texts.into_iter().for_each(|text| hash.text(text));
-    format!("{:016x}", hash.0)
-}
-
-/// The hash FNV-1a of 64 bits: the same on every machine and in every version of the compiler.
-struct Fnv(u64);
-
-impl Default for Fnv {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Fnv {
-    fn bytes(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
-
-    fn text(&mut self, text: &str) {
-        self.bytes(text.as_bytes());
+    let mut hash = FnvHasher::default();
+    for text in texts {
+        hash.write(text.as_bytes());
         // Ends the text, as no byte of UTF-8 is this.
-        self.bytes(&[0xff]);
+        hash.write(&[0xff]);
     }
+    format!("{:016x}", hash.finish())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fidelity::Fidelity;
-    use crate::scene::Value;
-    use crate::scene::{Scale, presets};
+    use crate::scene::{Scale, Value, presets};
 
     fn sweep(preset: &str, vary: &[&str]) -> Result<Sweep, SweepError> {
         let vary = vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
@@ -405,13 +369,16 @@ mod tests {
     fn points_that_break_a_rule_between_keys_are_marked() {
         let sweep = sweep("fundamental", &["motor.waves=8:20:3"]).unwrap();
         let rows = sweep.run(&[], &Cancel::new(), &|_| ());
-        let Ending::Failed(reason) = &rows[2].ending else { panic!("{rows:?}") };
+        let RunStatus::Failed(reason) = &rows[2].status else { panic!("{rows:?}") };
         assert!(reason.contains("stator.tooth_width_mm = 1.7353 is out of range"), "{reason}");
-        assert_eq!((rows.len(), &rows[0].ending), (3, &Ending::Converged));
+        assert_eq!((rows.len(), &rows[0].status), (3, &RunStatus::Converged));
         // A strip's forces are per metre: they do not stand in one column with those of a plate.
         let strip = super::tests::sweep("plate-crossover", &["plate.width_mm=none,1"]).unwrap();
         let rows = strip.run(&[], &Cancel::new(), &|_| ());
-        assert_eq!(rows[1].ending, Ending::Failed("its forces are in N, those of the other points in N/m".to_owned()));
+        assert_eq!(
+            rows[1].status,
+            RunStatus::Failed("its forces are in N, those of the other points in N/m".to_owned())
+        );
     }
 
     #[test]

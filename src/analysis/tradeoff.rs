@@ -14,12 +14,13 @@ mod curve;
 mod measure;
 
 pub use candidates::{Candidate, Family, candidates, without_grid};
-pub use curve::{Point, Tradeoff, Wish};
-pub use measure::{Effort, Ended, Run, measure};
+pub use curve::{Point, Target, Tradeoff};
+pub use measure::{Effort, Run, measure};
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::attempt::RunStatus;
     use crate::analysis::quantity::{Numbers, Quantity};
     use crate::control::Cancel;
     use crate::problem::{Numerics, Problem};
@@ -34,12 +35,12 @@ mod tests {
         let settings = Settings { method, ..Settings::default() };
         let numerics = Numerics::default();
         let candidate = Candidate::new(name.to_owned(), Family::Grid, settings, numerics, &numerics);
-        Run { candidate, ended: Ended::Converged, numbers, grid: (1, 1), times: times.to_vec() }
+        Run { candidate, status: RunStatus::Converged, numbers, grid: (1, 1), times: times.to_vec() }
     }
 
     fn synthetic() -> Vec<Run> {
         let mut limit = run("limit", Method::Auto, 0.5, 1e-9, &[1e-9]);
-        limit.ended = Ended::NotConverged;
+        limit.status = RunStatus::NotConverged;
         vec![
             run("lucky", Method::Auto, 0.5001, 0.2, &[0.0015]),
             run("fast", Method::Auto, 0.51, 0.002, &[0.003, 0.001, 0.002, 0.002]),
@@ -70,21 +71,21 @@ mod tests {
     #[test]
     fn the_cheapest_that_serves_is_chosen() {
         let tradeoff = Tradeoff::of(&synthetic());
-        let name = |wish| tradeoff.choose(wish).map(|i| tradeoff.points[i].run.candidate.name.clone());
-        for (wish, chosen) in [
-            (Wish::Accuracy(0.5), Some("lucky")),
-            (Wish::Accuracy(0.1), Some("fast")),
-            (Wish::Accuracy(0.0201), Some("middle")),
-            (Wish::Accuracy(0.0002), Some("exact")),
-            (Wish::Accuracy(0.0001), None),
-            (Wish::Budget(0.0001), None),
-            (Wish::Budget(0.016), Some("fast")),
-            (Wish::Budget(0.5), Some("middle")),
-            (Wish::Budget(60.0), Some("exact")),
+        let name = |target| tradeoff.choose(target).map(|i| tradeoff.points[i].run.candidate.name.clone());
+        for (target, chosen) in [
+            (Target::Accuracy(0.5), Some("lucky")),
+            (Target::Accuracy(0.1), Some("fast")),
+            (Target::Accuracy(0.0201), Some("middle")),
+            (Target::Accuracy(0.0002), Some("exact")),
+            (Target::Accuracy(0.0001), None),
+            (Target::Budget(0.0001), None),
+            (Target::Budget(0.016), Some("fast")),
+            (Target::Budget(0.5), Some("middle")),
+            (Target::Budget(60.0), Some("exact")),
         ] {
-            assert_eq!(name(wish).as_deref(), chosen, "{wish:?}");
+            assert_eq!(name(target).as_deref(), chosen, "{target:?}");
         }
-        assert_eq!(Tradeoff::of(&[]).choose(Wish::Budget(1.0)), None);
+        assert_eq!(Tradeoff::of(&[]).choose(Target::Budget(1.0)), None);
     }
 
     #[test]
@@ -105,7 +106,9 @@ mod tests {
             shares.push(share);
         });
         assert_eq!(order, [[1, 0], [1, 1], [2, 1], [2, 2], [3, 2], [3, 3]]);
-        assert!(runs.iter().all(|run| run.ended == Ended::Converged && run.times.iter().all(|t| *t == run.times[0])));
+        assert!(
+            runs.iter().all(|run| run.status == RunStatus::Converged && run.times.iter().all(|t| *t == run.times[0]))
+        );
         assert!(shares.windows(2).all(|pair| pair[0] < pair[1]) && (shares[5] - 1.0).abs() < 1e-12, "{shares:?}");
         let tradeoff = Tradeoff::of(&runs);
         assert_eq!((tradeoff.judged, tradeoff.reference), (Quantity::FilmLoad, Some(1)));
@@ -113,10 +116,10 @@ mod tests {
         // Given up by the clock; and cancelled, with what there was.
         let short = Effort { longest: 2.0, ..effort };
         let runs = measure(&problem, two.clone(), &short, &clock, &Cancel::new(), &mut |_, _| ());
-        assert!(runs.iter().all(|run| run.ended == Ended::GivenUp && run.times.len() == 1));
+        assert!(runs.iter().all(|run| run.status == RunStatus::GivenUp && run.times.len() == 1));
         let cancel = Cancel::new();
         let runs = measure(&problem, two, &effort, &clock, &cancel, &mut |_, _| cancel.cancel());
         assert_eq!(runs.iter().map(|run| run.times.len()).collect::<Vec<_>>(), [1, 0]);
-        assert_eq!(runs[1].ended, Ended::Waiting);
+        assert_eq!(runs[1].status, RunStatus::Waiting);
     }
 }

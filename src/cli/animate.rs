@@ -1,17 +1,15 @@
 //! `squeezefilm animate`: one cycle as moving pictures.
 
 use super::exit::{CliError, Exit};
-use super::interrupt::cancel_on_interrupt;
 use super::options::{SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::terminal;
 use crate::export::animation::{Format, Options};
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::force_unit;
-use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::solution::Status;
-use crate::solve::{Method, solve};
+use crate::solve::solve;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -66,8 +64,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let format = Format::of(&arguments.out)?;
     let scene = arguments.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
-    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
+    let (settings, cancel) = arguments.solve.begin()?;
 
     let mut bar = Bar::solve(force_unit(&problem));
     let solved = solve(&problem, &settings, &mut bar, &cancel);

@@ -2,19 +2,16 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
-use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
-use crate::analysis::compare::{Run, results, runs};
+use crate::analysis::compare::{ComparedRun, results, runs};
+use crate::digits::duration;
 use crate::export::animation::Options;
-use crate::export::compare::{LIMITS, Object, difference_text, ending, frames, parameter_rows, status, value_text};
+use crate::export::compare::{LIMITS, Object, difference_text, frames, parameter_rows, status, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
-use crate::fidelity::Fidelity;
 use crate::scene::{Scene, Value};
 use crate::solve::{Method, Settings};
 use clap::Args;
@@ -55,24 +52,16 @@ pub(super) struct Arguments {
     all: bool,
 
     #[command(flatten)]
-    scene: SceneOptions,
-
-    #[command(flatten)]
-    solve: SolveOptions,
-
-    #[command(flatten)]
-    output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
+    common: CommonOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scenes =
-        arguments.presets.iter().map(|preset| arguments.scene.scene(preset)).collect::<Result<Vec<Scene>, _>>()?;
-    let folder = arguments.output.folder()?;
-    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
+    let scenes = arguments
+        .presets
+        .iter()
+        .map(|preset| arguments.common.scene.scene(preset))
+        .collect::<Result<Vec<Scene>, _>>()?;
+    let (folder, settings, cancel) = arguments.common.begin()?;
 
     let bar = Bar::points(scenes.len(), 0);
     let started = Instant::now();
@@ -92,15 +81,15 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             }),
         }
     }
-    let object = || json::text(&Object::new(&runs, &settings, command));
-    terminal::result(arguments.output.json, object, || text(&runs, &settings, arguments.all));
+    let object = || json::document(&Object::new(&runs, &settings), command);
+    terminal::result(arguments.common.output.json, object, || text(&runs, &settings, arguments.all));
     let presets = if runs.len() == 1 { "preset" } else { "presets" };
     terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
     if let Some(folder) = folder {
         let bar = Bar::frames(frames(&runs, Options::default().frames));
         let control = Control { cancel: &cancel, drawn: &|_, _| bar.row_done("") };
         let how = (&settings, arguments.all, command);
-        let paths = files::comparison(folder, &runs, how, &arguments.figures.formats(), &control);
+        let paths = files::comparison(folder, &runs, how, &arguments.common.figures.formats(), &control);
         drop(bar);
         match paths {
             Err(ExportError::Cancelled) => {
@@ -110,11 +99,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             paths => terminal::note(&written(folder, &paths?)),
         }
     }
-    Ok(Exit::worst(runs.iter().map(|run| Exit::from(&ending(run)))))
+    Ok(Exit::worst(runs.iter().map(|run| Exit::from(&run.status()))))
 }
 
 /// The tables for people. Runs are lettered, so that long names do not widen them.
-fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
+fn text(runs: &[ComparedRun], settings: &Settings, all: bool) -> String {
     let how = match settings.method {
         Method::Auto => format!("fidelity {}", settings.fidelity),
         Method::Paper => "the paper's algorithm".to_owned(),
@@ -166,7 +155,7 @@ fn text(runs: &[Run], settings: &Settings, all: bool) -> String {
         columns.row(cells);
     }
     if runs.iter().any(|run| !run.outside().is_empty()) {
-        let names = |(i, run): (usize, &Run)| {
+        let names = |(i, run): (usize, &ComparedRun)| {
             let names = run.outside().join(", ");
             if i == 0 { vec![names] } else { vec![names, String::new()] }
         };

@@ -1,7 +1,8 @@
 //! Exit status, and what ends a command early.
 
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::compare::CompareError;
-use crate::analysis::sweep::{Ending, SweepError};
+use crate::analysis::sweep::SweepError;
 use crate::atomic::WriteError;
 use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
@@ -124,12 +125,12 @@ pub(super) enum CliError {
     Output(io::Error),
 }
 
-impl From<&Ending> for Exit {
-    fn from(ending: &Ending) -> Self {
-        match ending {
-            Ending::Converged => Self::Solved,
-            Ending::NotConverged => Self::NotConverged,
-            Ending::Failed(_) => Self::Other,
+impl From<&RunStatus> for Exit {
+    fn from(status: &RunStatus) -> Self {
+        match status {
+            RunStatus::Converged => Self::Solved,
+            RunStatus::NotConverged => Self::NotConverged,
+            RunStatus::Waiting | RunStatus::GivenUp | RunStatus::Failed(_) => Self::Other,
         }
     }
 }

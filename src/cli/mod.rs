@@ -4,7 +4,6 @@ mod animate;
 mod columns;
 mod compare;
 mod exit;
-mod figures;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;

@@ -1,10 +1,13 @@
 //! Options that several commands share.
 
 use super::exit::CliError;
+use super::interrupt::cancel_on_interrupt;
 use super::terminal;
-use crate::atomic::check_writable;
+use crate::atomic::{Staged, WriteError, check_writable};
 use crate::control::Cancel;
-use crate::export::figure::Format;
+use crate::export::figure::{Figure, Format};
+use crate::export::files::stage_figure;
+use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::memory;
 use crate::scene::{Scene, presets};
@@ -44,11 +47,9 @@ impl SceneOptions {
 
     /// The command that solves this scene alone, to be copied into a shell and added to.
     pub(super) fn command(&self, preset: &str) -> String {
-        let mut command = format!("squeezefilm solve {}", quoted(preset));
-        for (key, value) in &self.changes {
-            command.push_str(&format!(" --set {}", quoted(&format!("{key}={value}"))));
-        }
-        command
+        let mut words = ["squeezefilm", "solve", preset].map(str::to_owned).to_vec();
+        words.extend(self.changes.iter().flat_map(|(key, value)| ["--set".to_owned(), format!("{key}={value}")]));
+        shell(&words)
     }
 }
 
@@ -63,16 +64,6 @@ fn from_standard_input() -> Result<Scene, CliError> {
         Ok(bytes) if bytes as u64 > LARGEST => Err(CliError::Input(io::ErrorKind::FileTooLarge.into())),
         Ok(_) => Ok(Scene::from_toml(&text, "standard input")?),
         Err(error) => Err(CliError::Input(error)),
-    }
-}
-
-/// A word as a shell reads it back.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+%@".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
     }
 }
 
@@ -131,6 +122,12 @@ impl SolveOptions {
 }
 
 impl SolveOptions {
+    /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
+    pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
+        let settings = self.prepare(Fidelity::default(), Method::default())?;
+        Ok((settings, self.within_budget(cancel_on_interrupt())))
+    }
+
     /// The flag of a command whose solves each have the budget that was given.
     pub(super) fn within_budget(&self, cancel: Cancel) -> Cancel {
         let Some(budget) = self.budget else { return cancel };
@@ -198,16 +195,60 @@ impl OutputOptions {
     }
 }
 
+/// What a command is given that solves presets and writes files and figures.
+#[derive(Clone, Debug, Args)]
+pub(super) struct CommonOptions {
+    #[command(flatten)]
+    pub(super) scene: SceneOptions,
+
+    #[command(flatten)]
+    pub(super) solve: SolveOptions,
+
+    #[command(flatten)]
+    pub(super) output: OutputOptions,
+
+    #[command(flatten)]
+    pub(super) figures: FigureOptions,
+}
+
+impl CommonOptions {
+    /// The folder of `--out`, and as [`SolveOptions::begin`].
+    pub(super) fn begin(&self) -> Result<(Option<&Path>, Settings, Cancel), CliError> {
+        let folder = self.output.folder()?;
+        let (settings, cancel) = self.solve.begin()?;
+        Ok((folder, settings, cancel))
+    }
+}
+
+/// Which formats figures are written in.
+#[derive(Clone, Debug, Args)]
+pub(super) struct FigureOptions {
+    /// Formats of the figures in --out: svg, png, pdf; none for no figures
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_format())]
+    figures: Vec<FigureFormat>,
+}
+
+impl FigureOptions {
+    /// The formats asked for.
+    pub(super) fn formats(&self) -> Vec<Format> {
+        self.figures.iter().filter_map(|format| format.0).collect()
+    }
+
+    /// Stages a figure under a name, once in each format.
+    pub(super) fn stage(&self, staged: &mut Staged, name: &str, figure: &Figure) -> Result<(), WriteError> {
+        stage_figure(staged, name, figure, &self.formats())
+    }
+}
+
 /// A format of figures, or that there are to be none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct FigureFormat(pub(super) Option<Format>);
+struct FigureFormat(Option<Format>);
 
 impl FigureFormat {
     const NONE: &'static str = "none";
 }
 
-/// Parses a format of figures.
-pub(super) fn figure_format() -> ValueParser {
+fn figure_format() -> ValueParser {
     let names = Format::ALL.map(Format::name).into_iter().chain([FigureFormat::NONE]);
     let format = |name: String| FigureFormat(Format::ALL.into_iter().find(|format| format.name() == name));
     PossibleValuesParser::new(names).map(format).into()

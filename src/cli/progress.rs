@@ -1,9 +1,8 @@
 //! Progress on standard error, only if that is a terminal.
 
-use super::summary::duration;
 use super::terminal;
 use crate::control::{Observer, Progress};
-use crate::digits::significant;
+use crate::digits::{duration, significant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};

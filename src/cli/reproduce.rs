@@ -2,20 +2,19 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
+
 use super::interrupt::cancel_on_interrupt;
-use super::options::SolveOptions;
+use super::options::{FigureOptions, SolveOptions};
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
 use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
 use crate::atomic::{Staged, WriteError, check_writable};
 use crate::control::Cancel;
-use crate::digits::with_error;
+use crate::digits::{duration, with_error};
 use crate::export::animation::{AnimationError, Options, cycle, frames};
-use crate::export::json;
-use crate::export::reproduce::{Object, RowObject, figures, report, write_table1_csv};
+use crate::export::reproduce::{Object, RowObject, figures, report};
+use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::solve::Method;
 use clap::Args;
@@ -73,7 +72,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note("cancelled; no file was written");
         return Ok(Exit::Other);
     };
-    terminal::result(arguments.json, || json::text(&Object::new(&all, command)), || text(&all));
+    terminal::result(arguments.json, || json::document(&Object::new(&all), command), || text(&all));
     terminal::note(&written(&arguments.out, &paths));
     terminal::note(&format!(
         "{} solves and the report in {}; open {}",
@@ -112,8 +111,8 @@ fn write(
     let mut staged = Staged::new(folder)?;
     let page = report(all, gif.as_deref(), command);
     staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
-    staged.add("table1.csv", |out| write_table1_csv(all, out))?;
-    staged.add("figures.json", |out| out.write_all(json::text(&Object::new(all, command)).as_bytes()))?;
+    staged.add("table1.csv", |out| csv::rows(all.rows.iter().map(RowObject::new), out))?;
+    staged.add("figures.json", |out| out.write_all(json::document(&Object::new(all), command).as_bytes()))?;
     for (number, figure) in figures(all) {
         if cancel.is_cancelled() {
             return Ok(None);

@@ -1,9 +1,7 @@
 //! `squeezefilm solve`: one scene's periodic steady state.
 
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
-use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, STANDARD_INPUT, SceneOptions, SolveOptions};
+use super::options::{CommonOptions, STANDARD_INPUT};
 use super::progress::Bar;
 use super::{summary, terminal};
 use crate::analysis::compare::unique;
@@ -11,13 +9,12 @@ use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::{self, Summary, force_unit};
-use crate::fidelity::Fidelity;
 use crate::memory;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::scene::presets::BUILT_IN;
 use crate::solution::Status;
-use crate::solve::{Method, Settings, check, solve};
+use crate::solve::{Settings, check, solve};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -62,26 +59,18 @@ pub(super) struct Arguments {
     presets: Vec<String>,
 
     #[command(flatten)]
-    scene: SceneOptions,
-
-    #[command(flatten)]
-    solve: SolveOptions,
-
-    #[command(flatten)]
-    output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
+    common: CommonOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scenes =
-        arguments.presets.iter().map(|preset| arguments.scene.scene(preset)).collect::<Result<Vec<Scene>, _>>()?;
+    let scenes = arguments
+        .presets
+        .iter()
+        .map(|preset| arguments.common.scene.scene(preset))
+        .collect::<Result<Vec<Scene>, _>>()?;
     let problems = scenes.iter().map(Problem::new).collect::<Result<Vec<_>, _>>()?;
-    let folder = arguments.output.folder()?;
-    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let (folder, settings, cancel) = arguments.common.begin()?;
     problems.iter().try_for_each(|problem| check(problem, &settings))?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
     let several = scenes.len() > 1;
     let (mut exits, mut objects, mut names) = (Vec::new(), Vec::new(), Vec::new());
@@ -90,7 +79,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             folder.map(|folder| if several { folder.join(own(preset, &mut names)) } else { folder.to_owned() });
         if several {
             terminal::note(&format!("{preset}:"));
-            if !exits.is_empty() && !arguments.output.json {
+            if !exits.is_empty() && !arguments.common.output.json {
                 terminal::text("\n");
             }
         }
@@ -110,7 +99,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             break;
         }
     }
-    if several && arguments.output.json {
+    if several && arguments.common.output.json {
         terminal::data(&json::text(&objects));
     }
     Ok(Exit::worst(exits))
@@ -140,23 +129,23 @@ fn one(
         return Ok((Exit::Other, None));
     }
     let mut result = Summary::new(problem, &solution, wall_s, command);
-    let torque = result.add_torque(TorqueCurves::of_solve(problem, settings.fidelity, &solution, cancel));
+    result.add_torque(TorqueCurves::of_solve(problem, settings.fidelity, &solution, cancel));
     for warning in &result.warnings {
         terminal::warning(warning);
     }
-    if !arguments.output.json {
+    if !arguments.common.output.json {
         terminal::text(&summary::text(scene, problem, &solution.outcome, &result));
     } else if arguments.presets.len() == 1 {
         terminal::data(&result.to_text());
     }
     let mut exit = Exit::of(&solution.status);
     if let Some(folder) = folder {
-        let solved = Solved { scene, problem, solution: &solution, history: &history, torque: torque.as_ref() };
+        let solved = Solved { scene, problem, solution: &solution, history: &history, torque: result.torque.as_ref() };
         if let Some(text) = announced(folder, files::expected_size(problem, &solution.recording)) {
             terminal::note(&text);
         }
         let control = Control { cancel, drawn: &|_, _| () };
-        match files::solve(folder, &solved, &result, &arguments.figures.formats(), &control) {
+        match files::solve(folder, &solved, &result, &arguments.common.figures.formats(), &control) {
             Err(ExportError::Cancelled) => {
                 terminal::note(&ExportError::Cancelled.to_string());
                 exit = Exit::Other;

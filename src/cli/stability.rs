@@ -2,17 +2,15 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
-use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
 use crate::atomic::Staged;
-use crate::export::json;
-use crate::export::stability::{Object, detail, figure, write_csv};
+use crate::digits::duration;
+use crate::export::stability::{CellObject, Object, detail, figure};
+use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::problem::{Problem, Scenario};
 use crate::scene::show_text;
@@ -48,16 +46,7 @@ pub(super) struct Arguments {
     cells: u16,
 
     #[command(flatten)]
-    scene: SceneOptions,
-
-    #[command(flatten)]
-    solve: SolveOptions,
-
-    #[command(flatten)]
-    output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
+    common: CommonOptions,
 }
 
 fn map() -> ValueParser {
@@ -66,17 +55,16 @@ fn map() -> ValueParser {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.scene.scene(&arguments.preset)?;
+    let scene = arguments.common.scene.scene(&arguments.preset)?;
     if matches!(Problem::new(&scene)?.scenario, Scenario::Plate(_)) {
         return Err(CliError::Usage("stability maps the parameters of a motor, and this preset is a plate"));
     }
-    let folder = arguments.output.folder()?;
-    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
-    let methods = arguments.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
+    let (folder, settings, cancel) = arguments.common.begin()?;
+    let methods =
+        arguments.common.solve.method.map_or_else(|| vec![Method::Auto, Method::Paper], |method| vec![method]);
     let maps: Vec<&'static Map> =
         if arguments.maps.is_empty() { MAPS.iter().collect() } else { arguments.maps.clone() };
     let count = usize::from(arguments.cells);
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
     let total = number_of_cells(&scene, &maps, &methods, count);
     let bar = Bar::points(total, 0);
@@ -88,12 +76,12 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     drop(bar);
     let cells = solved?;
 
-    let alone = format!("{} {}", arguments.scene.command(&arguments.preset), settings.fidelity.option());
+    let alone = format!("{} {}", arguments.common.scene.command(&arguments.preset), settings.fidelity.option());
     let human = text(&scene.name, settings.fidelity, &maps, &methods, &cells, &alone);
     let complete = cells.len() == total;
     if complete {
-        let object = || Object::new(&scene.name, settings.fidelity, &cells, command);
-        terminal::result(arguments.output.json, || json::text(&object()), || human);
+        let object = || Object::new(&scene.name, settings.fidelity, &cells);
+        terminal::result(arguments.common.output.json, || json::document(&object(), command), || human);
         terminal::note(&format!("{total} cells in {}", duration(wall_s)));
     } else {
         terminal::note(&format!("cancelled after {} of {total} cells\n\n{human}", cells.len()));
@@ -103,9 +91,13 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             let mut staged = Staged::new(folder)?;
             // What was cancelled does not pass for a map.
             let name = if complete { "stability.csv" } else { "stability.incomplete.csv" };
-            staged.add(name, |out| write_csv(&cells, out))?;
+            staged.add(name, |out| csv::rows(cells.iter().map(CellObject::new), out))?;
             if complete {
-                arguments.figures.stage(&mut staged, "stability", &figure(&scene.name, settings.fidelity, &cells))?;
+                arguments.common.figures.stage(
+                    &mut staged,
+                    "stability",
+                    &figure(&scene.name, settings.fidelity, &cells),
+                )?;
             }
             terminal::note(&written(folder, &staged.commit()?));
         }

@@ -2,18 +2,14 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
-use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
 use crate::atomic::Staged;
-use crate::digits::{significant, with_error};
+use crate::digits::{duration, percent, significant, with_error};
 use crate::export::json::{self, force_unit};
-use crate::export::startup::{Object, Row, SCHEMA, converged, figure, steady, warnings, write_csv};
-use crate::fidelity::Fidelity;
+use crate::export::startup::{Object, Row, converged, figure, steady, warnings, write_csv};
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
 use crate::solution::{Accuracy, Status, StoppedBy};
@@ -56,16 +52,7 @@ pub(super) struct Arguments {
     tolerance: f64,
 
     #[command(flatten)]
-    scene: SceneOptions,
-
-    #[command(flatten)]
-    solve: SolveOptions,
-
-    #[command(flatten)]
-    output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
+    common: CommonOptions,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -77,14 +64,12 @@ fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.scene.scene(&arguments.preset)?;
+    let scene = arguments.common.scene.scene(&arguments.preset)?;
     let problem = Problem::new(&scene)?;
-    let chosen = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let (folder, chosen, cancel) = arguments.common.begin()?;
     if chosen.method == Method::Paper {
         return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
     }
-    let folder = arguments.output.folder()?;
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     let settings = startup::Settings {
         fidelity: chosen.fidelity,
         cycles: arguments.cycles as usize,
@@ -116,7 +101,6 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let Accuracy { asked, stated, stopped_by } = ended.accuracy;
 
     let object = Object {
-        schema: SCHEMA,
         preset: &scene.name,
         scene: scene.scene(),
         fidelity: settings.fidelity.to_string(),
@@ -136,23 +120,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         wall_s,
         rows: &rows,
         warnings: &warnings,
-        version: env!("CARGO_PKG_VERSION"),
-        command,
     };
     warnings.iter().for_each(|warning| terminal::warning(warning));
     let human = text(&scene, &problem, &rows, &ended, steady);
-    terminal::result(arguments.output.json, || json::text(&object), || human);
+    terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
         staged.add("startup.csv", |out| write_csv(&problem, &rows, out))?;
-        staged.add("startup.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+        staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let mut drawn = figure(&problem, &rows, steady, &loads);
         drawn.provenance.fidelity = settings.fidelity.to_string();
         if let Some((value, error)) = rows.last().map(Row::main) {
             drawn.provenance.error = format!("ends at {}", with_error(value, error));
         }
-        arguments.figures.stage(&mut staged, "startup", &drawn)?;
+        arguments.common.figures.stage(&mut staged, "startup", &drawn)?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
         terminal::note(&written(folder, &staged.commit()?));
     }
@@ -229,7 +211,6 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
 
 /// What was stated of the errors, and what was asked.
 fn exactness(accuracy: &Accuracy) -> String {
-    let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
     let mut text = format!("The mean of every cycle is known to {} of the greatest of them", percent(accuracy.stated));
     if accuracy.asked > 0.0 {
         text.push_str(&format!(" ({} asked for)", percent(accuracy.asked)));

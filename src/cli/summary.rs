@@ -1,19 +1,19 @@
 //! A solution for people: aligned, a unit on every number, as many digits as its error justifies.
 
 use super::columns::{Columns, paragraph};
+use crate::analysis::exact::Comparison;
 use crate::analysis::regime;
+use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::Excess;
-use crate::digits::{as_given, percent, significant, with_error};
+use crate::digits::{as_given, duration, percent, significant, with_error};
 use crate::dimensionless::Dimensionless;
-use crate::export::exact::{ExactObject, units};
+use crate::estimate::Estimate;
+use crate::export::exact::units;
 use crate::export::json::{Summary, beside_limit};
-use crate::export::torque::{PerformanceObject, TorqueObject};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::{Scene, show_text};
-use crate::solution::Outcome;
+use crate::solution::{Outcome, Performance};
 use std::fmt::Write as _;
-
-pub(super) use crate::digits::duration;
 
 /// Significant digits of numbers without an error of their own.
 const DIGITS: usize = 4;
@@ -74,9 +74,10 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     let dry = or_nan(summary.dry_torque_nm);
     let negative = regime::sucks(or_nan(summary.alpha), error);
     let without = summary.torque.as_ref().map_or_else(String::new, |torque| {
-        let dry = &torque.without_film;
-        format!("; {} without film", stated(dry.stall_torque_nm, dry.stall_torque_error_nm, 1.0, "N·m"))
+        format!("; {} without film", stated(Some(torque.without_film.stall_torque), 1.0, "N·m"))
     });
+    let stall_error = summary.stall_torque_error_nm.unwrap_or(f64::INFINITY);
+    let stall_torque = summary.stall_torque_nm.map(|value| Estimate { value, error: stall_error });
     columns.row([
         "film share of the load  α",
         &with_error(or_nan(summary.alpha), error),
@@ -94,7 +95,7 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     ]);
     columns.row([
         "stall torque",
-        &stated(summary.stall_torque_nm, summary.stall_torque_error_nm, 1.0, "N·m"),
+        &stated(stall_torque, 1.0, "N·m"),
         &format!("of the whole ring, the rotor held at rest{without}"),
     ]);
     columns.row([
@@ -121,29 +122,30 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
 }
 
 /// Torque, power and efficiency over speed; the last column is the same motor in a vacuum.
-fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueObject) {
+fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueCurves) {
     let (wet, dry) = (&torque.with_film, &torque.without_film);
-    let without = |text: String| format!("{text} without film");
-    let mut row = |name: &str, value: &dyn Fn(&PerformanceObject) -> String| {
-        columns.row([name, &value(wet), &without(value(dry))]);
+    let mut row = |name: &str, factor: f64, unit: &str, value: &dyn Fn(&Performance) -> Option<Estimate>| {
+        let of = |side| stated(value(side), factor, unit);
+        columns.row([name, &of(wet), &format!("{} without film", of(dry))]);
     };
-    row("no-load speed", &|of| stated(of.no_load_speed_rpm, of.no_load_speed_error_rpm, 1.0, "rpm"));
-    row("greatest power", &|of| stated(of.max_power_w, of.max_power_error_w, 1.0, "W"));
-    row("  at", &|of| stated(of.max_power_speed_rpm, of.max_power_speed_error_rpm, 1.0, "rpm"));
-    row("greatest efficiency", &|of| stated(of.max_efficiency, of.max_efficiency_error, 100.0, "%"));
-    row("  at", &|of| stated(of.max_efficiency_speed_rpm, of.max_efficiency_speed_error_rpm, 1.0, "rpm"));
+    let rpm = torque.rpm(1.0);
+    row("no-load speed", rpm, "rpm", &|of| of.no_load_speed);
+    row("greatest power", 1.0, "W", &|of| Some(of.max_power));
+    row("  at", rpm, "rpm", &|of| of.max_power_speed);
+    row("greatest efficiency", 100.0, "%", &|of| of.max_efficiency);
+    row("  at", rpm, "rpm", &|of| of.max_efficiency_speed);
     if motor.rotor_speed != 0.0 {
-        let speed = format!("torque at {} rpm", as_given(or_nan(wet.present.speed_rpm)));
-        row(&speed, &|of| stated(of.present.torque_nm, of.present.torque_error_nm, 1.0, "N·m"));
+        let speed = format!("torque at {} rpm", as_given(torque.rpm(wet.present.speed)));
+        row(&speed, 1.0, "N·m", &|of| Some(of.present.torque));
     }
     columns.row([
         "power lost in the film",
-        &stated(torque.film_power_w, torque.film_power_error_w, 1.0, "W"),
+        &stated(Some(torque.film_power), 1.0, "W"),
         "squeezed by the stator, mean over the cycle",
     ]);
     columns.row([
         "friction of a dry model",
-        stated(torque.dry_equivalent_friction, torque.dry_equivalent_friction_error, 1.0, "").trim_end(),
+        stated(Some(torque.dry_equivalent), 1.0, "").trim_end(),
         &format!("has the same maximum operating torque as {} with the film", as_given(motor.dry_friction)),
     ]);
 }
@@ -172,41 +174,20 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
 }
 
 /// What is known exactly beside what was computed.
-fn exact_rows(columns: &mut Columns, exact: &ExactObject, [stiffness, damping]: [&str; 2]) {
-    let limit = |value: Option<f64>, when: &str| format!("exact {} {when}", shown(or_nan(value)));
-    if exact.spring.is_some() {
-        columns.row([
-            "spring of the film",
-            &with_error(or_nan(exact.spring), or_nan(exact.spring_error)),
-            &limit(exact.linear_spring, "for a small amplitude, of p_a × area × ε"),
-        ]);
-        columns.row([
-            "damping of the film",
-            &with_error(or_nan(exact.damping), or_nan(exact.damping_error)),
-            &limit(exact.linear_damping, "for a small amplitude"),
-        ]);
-        columns.row([
-            "stiffness of the film",
-            &format!(
-                "{} {stiffness}",
-                with_error(or_nan(exact.stiffness_n_per_m), or_nan(exact.stiffness_error_n_per_m))
-            ),
-            &limit(exact.linear_stiffness_n_per_m, "for a small amplitude"),
-        ]);
-        columns.row([
-            "damping",
-            &format!(
-                "{} {damping}",
-                with_error(or_nan(exact.damping_n_s_per_m), or_nan(exact.damping_error_n_s_per_m))
-            ),
-            &limit(exact.linear_damping_n_s_per_m, "for a small amplitude"),
-        ]);
+fn exact_rows(columns: &mut Columns, exact: &Comparison, [stiffness, damping]: [&str; 2]) {
+    let mut row = |name: &str, solved: Estimate, unit: &str, known: f64, when: &str| {
+        let solved = format!("{} {unit}", with_error(solved.value, solved.error));
+        columns.row([name, solved.trim_end(), &format!("exact {} {when}", shown(known))]);
+    };
+    if let Some((solved, absolute)) = exact.solved.zip(exact.stiffness_and_damping()) {
+        let (linear, unit, small) = (exact.linear, exact.unit, "for a small amplitude");
+        let of = "for a small amplitude, of p_a × area × ε";
+        row("spring of the film", solved.spring, "", linear.spring, of);
+        row("damping of the film", solved.damping, "", linear.damping, small);
+        row("stiffness of the film", absolute.spring, stiffness, linear.spring * unit.spring, small);
+        row("damping", absolute.damping, damping, linear.damping * unit.damping, small);
     }
-    columns.row([
-        "mean pressure ratio",
-        &with_error(or_nan(exact.mean_pressure_ratio), or_nan(exact.mean_pressure_ratio_error)),
-        &limit(exact.trapped_mean_pressure_ratio, "for σ → ∞"),
-    ]);
+    row("mean pressure ratio", exact.mean_pressure, "", exact.trapped_mean_pressure, "for σ → ∞");
     if let Some(deviation) = exact.invariant_deviation {
         columns.row([
             "invariant of the cycle",
@@ -217,10 +198,10 @@ fn exact_rows(columns: &mut Columns, exact: &ExactObject, [stiffness, damping]: 
 }
 
 /// A number with its error, which is none at all where it is exact; "none" if there is no number.
-fn stated(value: Option<f64>, error: Option<f64>, factor: f64, unit: &str) -> String {
-    match value {
-        Some(value) if error == Some(0.0) => format!("{} {unit}", shown(value * factor)),
-        Some(value) => format!("{} {unit}", with_error(value * factor, error.map_or(f64::INFINITY, |e| e * factor))),
+fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
+    match found.filter(|found| found.value.is_finite()) {
+        Some(Estimate { value, error: 0.0 }) => format!("{} {unit}", shown(value * factor)),
+        Some(Estimate { value, error }) => format!("{} {unit}", with_error(value * factor, error * factor)),
         None => "none".to_owned(),
     }
 }

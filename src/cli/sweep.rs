@@ -2,22 +2,18 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
-use super::interrupt::cancel_on_interrupt;
-use super::options::{OutputOptions, SceneOptions, SolveOptions};
+use super::options::{CommonOptions, FigureOptions};
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Ending, Row, Sweep, Vary};
+use crate::analysis::sweep::{Axis, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
-use crate::digits::{significant, with_error};
+use crate::digits::{duration, significant, with_error};
 use crate::export::compare::LIMITS;
-use crate::export::files;
-use crate::export::json;
 use crate::export::sweep::{Object, ReadError, read_saved, write_saved};
-use crate::fidelity::Fidelity;
+use crate::export::{files, json};
 use crate::scene::show_text;
 use crate::solve::Method;
 use clap::Args;
@@ -68,28 +64,18 @@ pub(super) struct Arguments {
     restart: bool,
 
     #[command(flatten)]
-    scene: SceneOptions,
-
-    #[command(flatten)]
-    solve: SolveOptions,
-
-    #[command(flatten)]
-    output: OutputOptions,
-
-    #[command(flatten)]
-    figures: FigureOptions,
+    common: CommonOptions,
 }
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
-    let scene = arguments.scene.scene(&arguments.preset)?;
-    let settings = arguments.solve.prepare(Fidelity::default(), Method::default())?;
+    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let (settings, cancel) = arguments.common.solve.begin()?;
     let sweep = Sweep::new(&scene, &arguments.vary, &settings)?;
-    let folder = arguments.output.out.as_deref().map(|path| Folder::open(path, &sweep)).transpose()?;
+    let folder = arguments.common.output.out.as_deref().map(|path| Folder::open(path, &sweep)).transpose()?;
     let done = match &folder {
         Some(folder) if !arguments.restart => folder.left_over()?,
         _ => Vec::new(),
     };
-    let cancel = arguments.solve.within_budget(cancel_on_interrupt());
     if !done.is_empty() {
         terminal::note(&format!("going on: {} of {} points were solved before", done.len(), sweep.len()));
     }
@@ -125,17 +111,17 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         return Ok(Exit::Other);
     }
     for row in &rows {
-        if let Ending::Failed(reason) = &row.ending {
+        if let RunStatus::Failed(reason) = &row.status {
             terminal::error(&format!("{}: {reason}", place(&sweep, row)));
         }
     }
-    let object = Object::new(&sweep, &rows, command);
-    terminal::result(arguments.output.json, || json::text(&object), || human);
+    let object = Object::new(&sweep, &rows);
+    terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.figures)?));
+        terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.common.figures)?));
     }
-    Ok(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))))
+    Ok(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))))
 }
 
 /// How often what is solved is saved while the rest goes on.
@@ -232,10 +218,10 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
             sweep.axes().iter().zip(&row.values).map(|(axis, value)| axis.text(*value)).collect();
         cells.extend(shown.iter().map(|quantity| number(row, *quantity)));
         cells.push(row.outside.join(", "));
-        cells.push(match &row.ending {
-            Ending::Converged => String::new(),
-            Ending::NotConverged => "NOT CONVERGED".to_owned(),
-            Ending::Failed(_) => "FAILED".to_owned(),
+        cells.push(match &row.status {
+            RunStatus::Converged => String::new(),
+            RunStatus::Failed(_) => "FAILED".to_owned(),
+            other => other.to_string().to_uppercase(),
         });
         columns.row(cells);
     }
@@ -293,16 +279,16 @@ mod tests {
         let sweep = Sweep::new(&scene, &[vary], &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.25);
-        let row = |point: usize, ending: Ending| {
+        let row = |point: usize, status: RunStatus| {
             let outside = if point == 2 { vec!["slip-law", "sound"] } else { Vec::new() };
-            Row { point, values: sweep.values(point).to_vec(), ending, numbers, outside }
+            Row { point, values: sweep.values(point).to_vec(), status, numbers, outside }
         };
-        let mut rows = vec![row(0, Ending::Converged)];
-        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Solved);
-        rows.push(row(1, Ending::NotConverged));
-        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::NotConverged);
-        rows.push(row(2, Ending::Failed("no".to_owned())));
-        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.ending))), Exit::Other);
+        let mut rows = vec![row(0, RunStatus::Converged)];
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Solved);
+        rows.push(row(1, RunStatus::NotConverged));
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::NotConverged);
+        rows.push(row(2, RunStatus::Failed("no".to_owned())));
+        assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Other);
         assert!(!text(&sweep, &rows[..2]).contains("limits exceeded"));
         let shown = text(&sweep, &rows);
         assert!(shown.contains("limits exceeded"), "{shown}");

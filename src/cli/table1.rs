@@ -6,13 +6,12 @@ use super::interrupt::cancel_on_interrupt;
 use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
 use crate::analysis::table1::{Row, rows};
 use crate::atomic::Staged;
-use crate::digits::{significant, with_error};
-use crate::export::json;
-use crate::export::table1::{Object, write_csv};
+use crate::digits::{duration, significant, with_error};
+use crate::export::table1::Object;
+use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
 use crate::scene::table1::published;
 use crate::solution::Status;
@@ -81,7 +80,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     terminal::note(&format!("{} rows in {}", rows.len(), duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
-        staged.add("table1.csv", |out| write_csv(&objects, out))?;
+        staged.add("table1.csv", |out| csv::rows(&objects, out))?;
         terminal::note(&written(folder, &staged.commit()?));
     }
     Ok(exit)

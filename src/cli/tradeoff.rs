@@ -2,19 +2,18 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::figures::FigureOptions;
 use super::interrupt::cancel_on_interrupt;
-use super::options::{MemoryOptions, OutputOptions, SceneOptions, time};
+use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, time};
 use super::progress::Bar;
 use super::solve::written;
-use super::summary::duration;
 use super::terminal;
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::tradeoff::{Effort, Ended, Point, Tradeoff, Wish, candidates, measure};
+use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
 use crate::atomic::Staged;
-use crate::digits::significant;
-use crate::export::json;
-use crate::export::tradeoff::{ChoiceObject, Object, SCHEMA, figure, settings, status, write_csv};
+use crate::digits::{duration, percent, significant};
+use crate::export::tradeoff::{ChoiceObject, Object, figure, settings};
+use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
 use crate::problem::Problem;
 use crate::scene::show_text;
@@ -88,41 +87,38 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("cancelled; measured was\n\n{human}"));
         return Ok(Exit::Other);
     }
-    let budget = arguments.budget.map(|time| Wish::Budget(time.as_secs_f64()));
-    let wishes = [arguments.accuracy.map(Wish::Accuracy), budget];
-    let wishes: Vec<Wish> = wishes.into_iter().flatten().collect();
+    let budget = arguments.budget.map(|time| Target::Budget(time.as_secs_f64()));
+    let targets = [arguments.accuracy.map(Target::Accuracy), budget];
+    let targets: Vec<Target> = targets.into_iter().flatten().collect();
     let object = Object {
-        schema: SCHEMA,
         preset: &scene.name,
         judged: tradeoff.judged.name(),
         reference: tradeoff.reference.map(|i| tradeoff.points[i].run.candidate.name.as_str()),
         settings: settings(&tradeoff),
-        chosen: wishes.iter().map(|wish| choice(&tradeoff, *wish)).collect(),
-        version: env!("CARGO_PKG_VERSION"),
-        command,
+        chosen: targets.iter().map(|target| choice(&tradeoff, *target)).collect(),
     };
     let alone = arguments.scene.command(&arguments.preset) + &arguments.memory.option();
-    let advice: String = wishes.iter().map(|wish| advice(&tradeoff, *wish, &alone)).collect();
-    terminal::result(arguments.output.json, || json::text(&object), || human + &advice);
+    let advice: String = targets.iter().map(|target| advice(&tradeoff, *target, &alone)).collect();
+    terminal::result(arguments.output.json, || json::document(&object, command), || human + &advice);
     terminal::note(&format!("measured in {}", duration(wall_s)));
     if let Some(folder) = folder {
         let mut staged = Staged::new(folder)?;
-        staged.add("tradeoff.csv", |out| write_csv(&tradeoff, out))?;
-        staged.add("tradeoff.json", |out| out.write_all(json::text(&object).as_bytes()))?;
-        let chosen: Vec<usize> = wishes.iter().filter_map(|wish| tradeoff.choose(*wish)).collect();
+        staged.add("tradeoff.csv", |out| csv::rows(&object.settings, out))?;
+        staged.add("tradeoff.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        let chosen: Vec<usize> = targets.iter().filter_map(|target| tradeoff.choose(*target)).collect();
         arguments.figures.stage(&mut staged, "tradeoff", &figure(&scene.name, &tradeoff, &chosen))?;
         terminal::note(&written(folder, &staged.commit()?));
     }
-    // A wish that nothing fulfils is a failure for whoever asked.
-    let fulfilled = wishes.iter().all(|wish| tradeoff.choose(*wish).is_some());
+    // A target that nothing fulfils is a failure for whoever asked.
+    let fulfilled = targets.iter().all(|target| tradeoff.choose(*target).is_some());
     Ok(if fulfilled { Exit::Solved } else { Exit::Other })
 }
 
-fn choice(tradeoff: &Tradeoff, wish: Wish) -> ChoiceObject {
-    let chosen = tradeoff.choose(wish).map(|i| &tradeoff.points[i].run.candidate);
-    let (name, value) = match wish {
-        Wish::Accuracy(share) => ("accuracy", share),
-        Wish::Budget(seconds) => ("budget_s", seconds),
+fn choice(tradeoff: &Tradeoff, target: Target) -> ChoiceObject {
+    let chosen = tradeoff.choose(target).map(|i| &tradeoff.points[i].run.candidate);
+    let (name, value) = match target {
+        Target::Accuracy(share) => ("accuracy", share),
+        Target::Budget(seconds) => ("budget_s", seconds),
     };
     ChoiceObject {
         wish: name,
@@ -133,12 +129,12 @@ fn choice(tradeoff: &Tradeoff, wish: Wish) -> ChoiceObject {
 }
 
 /// A recommendation in words, and the command to follow it; `alone` solves the scene as it is.
-fn advice(tradeoff: &Tradeoff, wish: Wish, alone: &str) -> String {
-    let asked = match wish {
-        Wish::Accuracy(share) => format!("For an error of at most {}", percent(share)),
-        Wish::Budget(seconds) => format!("Within {}", duration(seconds)),
+fn advice(tradeoff: &Tradeoff, target: Target, alone: &str) -> String {
+    let asked = match target {
+        Target::Accuracy(share) => format!("For an error of at most {}", percent(share)),
+        Target::Budget(seconds) => format!("Within {}", duration(seconds)),
     };
-    let Some(point) = tradeoff.choose(wish).map(|i| &tradeoff.points[i]) else {
+    let Some(point) = tradeoff.choose(target).map(|i| &tradeoff.points[i]) else {
         return format!("\n{asked}: none of these.\n");
     };
     // The command is kept on one line, to be copied.
@@ -149,10 +145,6 @@ fn advice(tradeoff: &Tradeoff, wish: Wish, alone: &str) -> String {
         point.error.map_or_else(String::new, percent),
         point.run.candidate.options
     )
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", significant(100.0 * share, 2))
 }
 
 /// The table for people.
@@ -200,11 +192,11 @@ fn cells(point: &Point, judged: Quantity, reference: bool) -> Vec<String> {
     let shown = |value: Option<f64>, show: &dyn Fn(f64) -> String| value.map_or_else(String::new, show);
     let count = |quantity: Quantity| shown(run.numbers.get(quantity), &|count| count.to_string());
     let time = |seconds: f64| if seconds.is_finite() { duration(seconds) } else { String::new() };
-    let mark = match (&run.ended, reference, point.best) {
+    let mark = match (&run.status, reference, point.best) {
         (_, true, _) => "reference".to_owned(),
-        (Ended::Converged, _, true) => "best".to_owned(),
-        (Ended::Converged, _, false) => String::new(),
-        (ended, ..) => status(ended).to_uppercase(),
+        (RunStatus::Converged, _, true) => "best".to_owned(),
+        (RunStatus::Converged, _, false) => String::new(),
+        (status, ..) => status.to_string().to_uppercase(),
     };
     vec![
         run.candidate.name.clone(),

@@ -42,6 +42,8 @@ pub struct Contact {
     noise: f64,
     // Workspace, one value a node:
     s: Vec<f64>,
+    /// What s is off by, below its last bits.
+    rest: Vec<f64>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
 }
@@ -97,6 +99,7 @@ impl Contact {
             tolerance: ROUND_OFF,
             noise: 0.0,
             s: vec![0.0; nodes],
+            rest: vec![0.0; nodes],
             force: vec![0.0; nodes],
             stiffness: vec![0.0; nodes],
         }
@@ -111,6 +114,12 @@ impl Contact {
     /// less than round-off. Complementarity stays exact.
     pub fn accept(&mut self, tolerance: f64) {
         self.tolerance = tolerance.max(ROUND_OFF);
+    }
+
+    /// What is subtracted from the force of the trapped gas at the nodes \[N/m\]: ambient pressure on the rotor's back, less a force of
+    /// the film that does not follow the gap.
+    pub fn ambient_mut(&mut self) -> &mut [f64] {
+        &mut self.ambient
     }
 
     /// Nodes in all.
@@ -190,6 +199,13 @@ impl Contact {
             }
             std::mem::swap(&mut amplitudes, &mut trial);
         };
+        // What the last bits of stiff nodes leave of the balance goes into their forces.
+        self.rest.fill(0.0);
+        if self.modes.imbalance(&gradient) > self.tolerance * total
+            && let Some(step) = self.newton_step(&gradient)
+        {
+            self.modes.deflection(step.as_slice(), &mut self.rest);
+        }
         self.fields(trapped, out);
         shape.amplitudes = amplitudes;
         result
@@ -307,7 +323,7 @@ impl Contact {
             let (q, _, touching) = self.node(self.s[i], gas, ambient);
             if touching {
                 out.film_thickness[i] = self.min_spacing;
-                out.contact[i] = q - (gas / self.min_spacing - ambient);
+                out.contact[i] = (q - self.rest[i] / local - (gas / self.min_spacing - ambient)).max(0.0);
             } else {
                 let h = free_height(self.s[i] + self.min_spacing - local * ambient, local * gas);
                 out.film_thickness[i] = h.max(self.min_spacing);

@@ -95,9 +95,6 @@ pub enum Format {
 
 impl Format {
     /// The format of a path: `.gif`, `.png`, `.apng`, `.mp4`, or without extension a folder.
-    ///
-    /// # Errors
-    /// [`AnimationError::Extension`].
     pub fn of(path: &Path) -> Result<Self, AnimationError> {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {

@@ -5,41 +5,25 @@
 use super::animation::{AnimationError, Movie, Options};
 use super::csv::words as csv_words;
 use super::figure::{Figure, Provenance};
-use super::figures::compare::{self as figures, MotorRun, PlateRun};
+use super::figures::compare::{self as figures, MotorRun, PlateRun, Run};
 use super::html::{Kind, Page, Table, shell};
 use super::json::{beside_limit, status_name};
-use crate::analysis::compare::{ParameterRow, ResultCell, ResultRow, Run, parameters, results};
+use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
 use crate::analysis::decision::sentences;
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
-use crate::analysis::sweep::Ending;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
 use crate::digits::{significant, with_error};
 use crate::problem::Scenario;
+use crate::recording::Recording;
 use crate::scene::Value;
-use crate::solution::Status;
 use crate::solve::{Method, Settings};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
 
-/// The version of the object and of the columns.
-pub const SCHEMA: u32 = 1;
-
-/// How a run ended.
-pub fn ending(run: &Run) -> Ending {
-    match &run.solved {
-        Ok(solution) => match solution.status {
-            Status::Converged => Ending::Converged,
-            Status::NotConverged { .. } | Status::NotResolved { .. } => Ending::NotConverged,
-            Status::Cancelled => Ending::Failed("cancelled".to_owned()),
-        },
-        Err(reason) => Ending::Failed(reason.clone()),
-    }
-}
-
 /// `converged`, `not converged`, `cancelled` or `failed: …`.
-pub fn status(run: &Run) -> String {
+pub fn status(run: &ComparedRun) -> String {
     match &run.solved {
         Ok(solution) => status_name(&solution.status).to_owned(),
         Err(reason) => format!("failed: {reason}"),
@@ -49,8 +33,6 @@ pub fn status(run: &Run) -> String {
 /// The object of `--json`.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// `auto` or `paper`.
     pub method: &'static str,
     /// `draft`, `standard`, …; of method paper null.
@@ -59,10 +41,6 @@ pub struct Object<'a> {
     pub runs: Vec<RunObject<'a>>,
     /// Keys in which the scenes differ, each with its value in every run, null where there is none.
     pub differing: Vec<ParameterObject>,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// One key.
@@ -79,7 +57,7 @@ pub struct ParameterObject {
 /// One run: the names of `solve --json`, as far as a scene has them.
 #[derive(Clone, Debug)]
 pub struct RunObject<'a> {
-    run: &'a Run,
+    run: &'a ComparedRun,
     differences: Vec<(Quantity, ResultCell)>,
 }
 
@@ -135,11 +113,10 @@ fn json_value(value: &Option<Value>) -> serde_json::Value {
 
 impl<'a> Object<'a> {
     /// The object of runs.
-    pub fn new(runs: &'a [Run], settings: &Settings, command: &'a [String]) -> Self {
+    pub fn new(runs: &'a [ComparedRun], settings: &Settings) -> Self {
         let rows = results(runs);
         let of = |i: usize| rows.iter().map(|row| (row.quantity, row.cells[i])).collect();
         Self {
-            schema: SCHEMA,
             method: settings.method.name(),
             fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
             runs: runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) }).collect(),
@@ -152,22 +129,17 @@ impl<'a> Object<'a> {
                     values: row.values.iter().map(json_value).collect(),
                 })
                 .collect(),
-            version: env!("CARGO_PKG_VERSION"),
-            command,
         }
     }
 }
 
 /// The parameters of the runs' scenes.
-pub fn parameter_rows(runs: &[Run]) -> Vec<ParameterRow> {
+pub fn parameter_rows(runs: &[ComparedRun]) -> Vec<ParameterRow> {
     parameters(&runs.iter().map(|run| &run.scene).collect::<Vec<_>>())
 }
 
 /// Writes the results as CSV, a row for each run and quantity; what is not there is empty.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record([
         "run",
@@ -204,10 +176,7 @@ pub fn write_csv(runs: &[Run], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes the parameters as CSV, a row for each key and a column for each run.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_parameters_csv(runs: &[Run], all: bool, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_parameters_csv(runs: &[ComparedRun], all: bool, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     let labels = runs.iter().map(|run| csv_words(&run.label).into_owned());
     writer.write_record(["key", "unit"].map(str::to_owned).into_iter().chain(labels))?;
@@ -223,41 +192,26 @@ pub fn write_parameters_csv(runs: &[Run], all: bool, out: &mut dyn Write) -> io:
     writer.flush()
 }
 
-/// Runs of motors that have fields.
-fn motor_runs(runs: &[Run]) -> Vec<MotorRun<'_>> {
-    let of = |(i, run)| {
-        let run: &Run = run;
-        let recording = &run.solved.as_ref().ok()?.recording;
-        match &run.problem.scenario {
-            Scenario::Motor(motor) if recording.frames > 0 => {
-                Some(MotorRun { name: &run.label, motor, recording, style: figures::style(i) })
-            }
-            _ => None,
-        }
+/// Runs that have fields and whose scene is a motor, or a plate, as `of` says.
+fn runs_of<'a, S>(runs: &'a [ComparedRun], of: impl Fn(&'a Scenario) -> Option<&'a S>) -> Vec<Run<'a, S>> {
+    let drawn = |(i, run): (usize, &'a ComparedRun)| {
+        let recording = &run.solved.as_ref().ok().filter(|solution| solution.recording.frames > 0)?.recording;
+        Some(Run { name: &run.label, scene: of(&run.problem.scenario)?, recording, style: figures::style(i) })
     };
-    runs.iter().enumerate().filter_map(of).collect()
+    runs.iter().enumerate().filter_map(drawn).collect()
 }
 
-/// Runs of plates that have fields.
-fn plate_runs(runs: &[Run]) -> Vec<PlateRun<'_>> {
-    let of = |(i, run)| {
-        let run: &Run = run;
-        let recording = &run.solved.as_ref().ok()?.recording;
-        match &run.problem.scenario {
-            Scenario::Plate(plate) if recording.frames > 0 => {
-                Some(PlateRun { name: &run.label, plate, recording, style: figures::style(i) })
-            }
-            _ => None,
-        }
-    };
-    runs.iter().enumerate().filter_map(of).collect()
+fn motors_and_plates(runs: &[ComparedRun]) -> (Vec<MotorRun<'_>>, Vec<PlateRun<'_>>) {
+    let motors = runs_of(runs, |scenario| if let Scenario::Motor(motor) = scenario { Some(motor) } else { None });
+    let plates = runs_of(runs, |scenario| if let Scenario::Plate(plate) = scenario { Some(plate) } else { None });
+    (motors, plates)
 }
 
 /// Where the numbers of a comparison come from.
-pub fn provenance(runs: &[Run]) -> Provenance {
+pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     let fidelity = runs.iter().find_map(|run| Some(run.solved.as_ref().ok()?.model.fidelity.clone()));
     let unsolved = runs.iter().filter(|run| !run.converged()).count();
-    let main = |run: &Run| {
+    let main = |run: &ComparedRun| {
         let numbers = run.numbers();
         let (quantity, name) = match run.problem.scenario {
             Scenario::Motor(_) => (Quantity::Alpha, "α"),
@@ -277,8 +231,8 @@ pub fn provenance(runs: &[Run]) -> Provenance {
 
 /// The figures, each with the name of its file without extension; those of plates begin with `plate-` where there are
 /// motors too.
-pub fn all_figures(runs: &[Run]) -> Vec<(String, Figure)> {
-    let (motors, plates) = (motor_runs(runs), plate_runs(runs));
+pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
+    let (motors, plates) = motors_and_plates(runs);
     let prefix = if motors.is_empty() { "" } else { "plate-" };
     let mut all: Vec<(String, Figure)> =
         figures::motors(&motors).into_iter().map(|(name, figure)| (name.to_owned(), figure)).collect();
@@ -296,39 +250,39 @@ pub fn all_figures(runs: &[Run]) -> Vec<(String, Figure)> {
 /// # Errors
 /// [`AnimationError`]: cancelled, or a frame that cannot be drawn.
 pub fn movies(
-    runs: &[Run],
+    runs: &[ComparedRun],
     options: &Options,
     done: &(dyn Fn() + Sync),
     cancel: &Cancel,
 ) -> Result<Vec<(&'static str, Movie)>, AnimationError> {
-    let (motors, plates) = (motor_runs(runs), plate_runs(runs));
+    let (motors, plates) = motors_and_plates(runs);
     let provenance = provenance(runs);
-    let finish = |mut figure: Figure, phase: f64| {
-        figure.title = format!("t/T = {phase:.2}");
-        figure.provenance = provenance.clone();
-        figure
+    let movie = |recordings: Vec<&Recording>, draw: &(dyn Fn(f64) -> Figure + Sync)| {
+        let count = figures::common_frames(recordings.into_iter(), options.frames);
+        let figure = |frame: usize| {
+            let phase = frame as f64 / count as f64;
+            Figure { title: format!("t/T = {phase:.2}"), provenance: provenance.clone(), ..draw(phase) }
+        };
+        Movie::of(count, options, &figure, done, cancel)
     };
     let mut movies = Vec::new();
     if !motors.is_empty() {
-        let count = figures::common_frames(motors.iter().map(|run| run.recording), options.frames);
-        let phase = |frame: usize| frame as f64 / count as f64;
-        let figure = |frame: usize| finish(figures::moving_motors(&motors, phase(frame)), phase(frame));
-        movies.push(("cycle", Movie::of(count, options, &figure, done, cancel)?));
+        let recordings = motors.iter().map(|run| run.recording).collect();
+        movies.push(("cycle", movie(recordings, &|phase| figures::moving_motors(&motors, phase))?));
     }
     if !plates.is_empty() {
-        let count = figures::common_frames(plates.iter().map(|run| run.recording), options.frames);
-        let phase = |frame: usize| frame as f64 / count as f64;
-        let figure = |frame: usize| finish(figures::moving_plates(&plates, phase(frame)), phase(frame));
+        let recordings = plates.iter().map(|run| run.recording).collect();
         let name = if motors.is_empty() { "cycle" } else { "plate-cycle" };
-        movies.push((name, Movie::of(count, options, &figure, done, cancel)?));
+        movies.push((name, movie(recordings, &|phase| figures::moving_plates(&plates, phase))?));
     }
     Ok(movies)
 }
 
 /// How many frames [`movies`] draws.
-pub fn frames(runs: &[Run], most: usize) -> usize {
-    figures::common_frames(motor_runs(runs).iter().map(|run| run.recording), most)
-        + figures::common_frames(plate_runs(runs).iter().map(|run| run.recording), most)
+pub fn frames(runs: &[ComparedRun], most: usize) -> usize {
+    let (motors, plates) = motors_and_plates(runs);
+    figures::common_frames(motors.iter().map(|run| run.recording), most)
+        + figures::common_frames(plates.iter().map(|run| run.recording), most)
 }
 
 /// A value with its error, as many digits as that justifies; counts whole. With its unit, if runs have it in different ones.
@@ -368,21 +322,15 @@ pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
     }
 }
 
-/// What the report is made of beside the runs.
-#[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
-    /// How it was solved.
-    pub settings: &'a Settings,
-    /// All parameters are listed, not only those that differ.
-    pub all: bool,
-    /// Animations as GIF, each with its name.
-    pub movies: &'a [(String, Vec<u8>)],
-    /// The command line that makes it again.
-    pub command: &'a [String],
-}
-
-/// The comparison as one HTML file that needs nothing else.
-pub fn report(runs: &[Run], report: &Report<'_>) -> String {
+/// The comparison as one HTML file that needs nothing else. `all`: parameters are listed that do not differ, too; `movies`: animations as
+/// GIF, each with its name; `command`: what makes it again.
+pub fn report(
+    runs: &[ComparedRun],
+    settings: &Settings,
+    all: bool,
+    movies: &[(String, Vec<u8>)],
+    command: &[String],
+) -> String {
     let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
     let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
     let mut fidelities: Vec<&str> = Vec::new();
@@ -391,8 +339,8 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
             fidelities.push(&solution.model.fidelity);
         }
     }
-    let how = match report.settings.method {
-        Method::Auto if fidelities.is_empty() => format!("fidelity {}", report.settings.fidelity),
+    let how = match settings.method {
+        Method::Auto if fidelities.is_empty() => format!("fidelity {}", settings.fidelity),
         Method::Auto => format!("fidelity {}", fidelities.join(", ")),
         Method::Paper => "the algorithm of Maeno and Bogy on its own meshes".to_owned(),
     };
@@ -420,7 +368,7 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
 
     page.section(if others.is_empty() { "Parameters" } else { "What differs" });
     let rows = parameter_rows(runs);
-    let all = report.all || others.is_empty();
+    let all = all || others.is_empty();
     page.table(&parameter_table(runs, rows.iter().filter(|row| all || row.differs())));
     if !others.is_empty() && rows.iter().all(|row| !row.differs()) {
         page.text("The scenes do not differ in any parameter.");
@@ -430,7 +378,7 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
     page.table(&result_table(runs));
 
     page.section("Fields");
-    for (name, gif) in report.movies {
+    for (name, gif) in movies {
         let [alternative, caption] = if others.is_empty() {
             ["One cycle", "The cycle repeats."]
         } else {
@@ -467,7 +415,7 @@ pub fn report(runs: &[Run], report: &Report<'_>) -> String {
         }
         page.folded("the scene as a preset", &run.scene.to_toml());
     }
-    again(&mut page, report.command);
+    again(&mut page, command);
     page.finish(&provenance(runs).line())
 }
 
@@ -497,7 +445,7 @@ pub const LIMITS: &str = "limits exceeded";
 /// With more runs than this, differences stand below the values instead of beside them.
 const BESIDE: usize = 3;
 
-fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
+fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a ParameterRow>) -> Table {
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
     let mut table = Table::new("").heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
     for row in rows {
@@ -513,7 +461,7 @@ fn parameter_table<'a>(runs: &[Run], rows: impl Iterator<Item = &'a ParameterRow
     table
 }
 
-fn result_table(runs: &[Run]) -> Table {
+fn result_table(runs: &[ComparedRun]) -> Table {
     let beside = runs.len() <= BESIDE;
     let mut heads = vec![(Kind::Words, "result".to_owned())];
     for (i, run) in runs.iter().enumerate() {

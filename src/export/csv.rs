@@ -9,17 +9,16 @@
 //! The sum of line load × `length_m` over the rows of one time is the load in the series. Fields of a plate have no
 //! teeth and no contact; a strip's forces are per metre of width, and its columns are named so.
 
+use crate::analysis::quantity::force_unit;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
+use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
 /// Writes the fields of every tooth, time by time. x runs along the wavelength from the middle of the first tooth; of a
 /// plate, from its middle, and only over the half that was solved.
-///
-/// # Errors
-/// Those of the writer.
 pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     let (motor, per_metre) = match &problem.scenario {
@@ -49,26 +48,16 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
             let line = recording.line_offset(tooth, frame);
             let middle = tooth as f64 * recording.pitch;
             for (i, (x, length)) in recording.x.iter().zip(&recording.node_length).enumerate() {
-                let thickness = recording.film_thickness[line + i];
-                table.number(time)?;
-                table.number(phase)?;
-                if let Some(motor) = motor {
-                    let (stator, gap) = (recording.stator[line + i], thickness - motor.min_spacing);
-                    table.whole(tooth)?;
-                    table.number(middle + x)?;
-                    table.number(*length)?;
-                    table.number(stator * 1e9)?;
-                    table.number(thickness * 1e9)?;
-                    table.number(gap * 1e9)?;
-                    table.number((stator + gap) * 1e9)?;
-                    table.number(recording.contact[line + i])?;
-                } else {
-                    table.number(*x)?;
-                    table.number(*length)?;
-                    table.number(thickness * 1e9)?;
-                }
-                table.number(recording.film[line + i])?;
-                table.end_row()?;
+                let (thickness, film) = (recording.film_thickness[line + i], recording.film[line + i]);
+                let Some(motor) = motor else {
+                    table.row([time, phase, *x, *length, thickness * 1e9, film].map(Number))?;
+                    continue;
+                };
+                let (stator, gap) = (recording.stator[line + i], thickness - motor.min_spacing);
+                let surfaces = [stator, thickness, gap, stator + gap].map(|height| height * 1e9);
+                let forces = [recording.contact[line + i], film];
+                let before = [Number(time), Number(phase), Whole(tooth), Number(middle + x), Number(*length)];
+                table.row(before.into_iter().chain(surfaces.into_iter().chain(forces).map(Number)))?;
             }
         }
     }
@@ -77,9 +66,6 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
 
 /// Writes the pressure under the first tooth (or the plate), time by time, over the part that was solved: with a
 /// mirrored half width y ≥ 0 only.
-///
-/// # Errors
-/// Those of the writer.
 pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
     table.header(&["time_s", "x_m", "y_m", "pressure_kpa"])?;
@@ -88,10 +74,7 @@ pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
         let time = recording.time(frame);
         for x in &recording.map_x {
             for (y, pressure) in recording.map_y.iter().zip(&mut values) {
-                for number in [time, *x, *y, pressure * 1e-3] {
-                    table.number(number)?;
-                }
-                table.end_row()?;
+                table.row([time, *x, *y, pressure * 1e-3].map(Number))?;
             }
         }
     }
@@ -99,63 +82,35 @@ pub fn pressure(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes what the whole wavelength (or the plate) does, time by time.
-///
-/// # Errors
-/// Those of the writer.
 pub fn series(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let mut table = Table::new(out);
-    let motor = match &problem.scenario {
-        Scenario::Motor(_) => {
-            table.header(&[
-                "time_s",
-                "film_load_n",
-                "contact_load_n",
-                "teeth_in_contact",
-                "min_film_thickness_nm",
-                "max_pressure_kpa",
-                "film_load_error_n",
-                "min_film_thickness_error_nm",
-                "max_pressure_error_kpa",
-            ])?;
-            true
-        }
-        Scenario::Plate(plate) => {
-            let load = if plate.width.is_none() { "film_load_n_per_m" } else { "film_load_n" };
-            let error = if plate.width.is_none() { "film_load_error_n_per_m" } else { "film_load_error_n" };
-            table.header(&[
-                "time_s",
-                load,
-                "min_film_thickness_nm",
-                "max_pressure_kpa",
-                error,
-                "min_film_thickness_error_nm",
-                "max_pressure_error_kpa",
-            ])?;
-            false
-        }
-    };
+    let motor = matches!(problem.scenario, Scenario::Motor(_));
+    let force = |name: &str| format!("{name}_{}", force_unit(problem).to_lowercase().replace('/', "_per_"));
+    let names = ["time_s", &force("film_load"), "contact_load_n", "teeth_in_contact", "min_film_thickness_nm"];
+    let errors = [&force("film_load_error"), "min_film_thickness_error_nm", "max_pressure_error_kpa"];
+    let names = names.into_iter().filter(|name| motor || !["contact_load_n", "teeth_in_contact"].contains(name));
+    table.writer.write_record(names.chain(["max_pressure_kpa"]).chain(errors))?;
     for frame in 0..recording.frames {
-        table.number(recording.time(frame))?;
-        table.number(recording.film_load[frame])?;
-        if motor {
-            table.number(recording.contact_load[frame])?;
-            table.whole(recording.teeth_in_contact[frame])?;
-        }
-        table.number(recording.min_film_thickness[frame] * 1e9)?;
-        table.number(recording.max_pressure[frame] * 1e-3)?;
-        for (errors, unit) in [
+        let loads = [recording.time(frame), recording.film_load[frame]].map(Number);
+        let contact = || [Number(recording.contact_load[frame]), Whole(recording.teeth_in_contact[frame])];
+        let extremes = [recording.min_film_thickness[frame] * 1e9, recording.max_pressure[frame] * 1e-3].map(Number);
+        let errors = [
             (&recording.film_load_error, 1.0),
             (&recording.min_film_thickness_error, 1e9),
             (&recording.max_pressure_error, 1e-3),
-        ] {
-            match errors.get(frame) {
-                Some(error) => table.number(error * unit)?,
-                None => table.nothing()?,
-            }
-        }
-        table.end_row()?;
+        ]
+        .map(|(errors, unit)| errors.get(frame).map_or(Nothing, |error| Number(error * unit)));
+        let contact = motor.then(contact).into_iter().flatten();
+        table.row(loads.into_iter().chain(contact).chain(extremes).chain(errors))?;
     }
     table.finish()
+}
+
+/// Writes one row for each object, the header first; what is null is empty.
+pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    rows.into_iter().try_for_each(|row| writer.serialize(row))?;
+    writer.flush()
 }
 
 /// A text that is not ours, such as a scene's name, as a cell. What a spreadsheet would take for a formula begins with an
@@ -164,7 +119,15 @@ pub fn words(text: &str) -> Cow<'_, str> {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) { format!("'{text}").into() } else { text.into() }
 }
 
-/// A CSV file of numbers, field by field.
+/// What a field holds.
+enum Cell {
+    Number(f64),
+    Whole(usize),
+    Nothing,
+}
+use Cell::{Nothing, Number, Whole};
+
+/// A CSV file of numbers, row by row.
 struct Table<'a> {
     writer: csv::Writer<&'a mut dyn Write>,
     text: String,
@@ -179,22 +142,18 @@ impl<'a> Table<'a> {
         Ok(self.writer.write_record(names)?)
     }
 
-    fn number(&mut self, value: f64) -> io::Result<()> {
-        self.text.clear();
-        // Writing to a String cannot fail.
-        let _ = if value == 0.0 { write!(self.text, "0") } else { write!(self.text, "{value:.8e}") };
-        Ok(self.writer.write_field(&self.text)?)
-    }
-
-    fn nothing(&mut self) -> io::Result<()> {
-        Ok(self.writer.write_field("")?)
-    }
-
-    fn whole(&mut self, value: usize) -> io::Result<()> {
-        Ok(self.writer.write_field(value.to_string())?)
-    }
-
-    fn end_row(&mut self) -> io::Result<()> {
+    fn row(&mut self, cells: impl IntoIterator<Item = Cell>) -> io::Result<()> {
+        for cell in cells {
+            self.text.clear();
+            // Writing to a String cannot fail.
+            let _ = match cell {
+                Number(0.0) => write!(self.text, "0"),
+                Number(value) => write!(self.text, "{value:.8e}"),
+                Whole(value) => write!(self.text, "{value}"),
+                Nothing => Ok(()),
+            };
+            self.writer.write_field(&self.text)?;
+        }
         Ok(self.writer.write_record(None::<&[u8]>)?)
     }
 

@@ -2,11 +2,11 @@
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
 use super::animation::{AnimationError, Movie, Options, cycle, frames, video_frames, write_video};
-use super::compare::{self, Report, all_figures, movies, report};
+use super::compare::{self, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
 use super::{csv, figures, npz, sweep, torque};
-use crate::analysis::compare::Run;
+use crate::analysis::compare::ComparedRun;
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
@@ -116,9 +116,6 @@ pub fn expected_size(problem: &Problem, recording: &Recording) -> u64 {
 }
 
 /// What `squeezefilm solve --out` writes into a folder.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn solve(
     folder: &Path,
     solved: &Solved<'_>,
@@ -143,9 +140,6 @@ pub fn solve(
 }
 
 /// The figures of a solve alone.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn solve_figures(
     folder: &Path,
     solved: &Solved<'_>,
@@ -190,18 +184,12 @@ fn add_figures(
 }
 
 /// The fields of a solve as a NumPy archive.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn fields(path: &Path, solved: &Solved<'_>) -> Result<Vec<PathBuf>, ExportError> {
     write_file(path, |out| npz::write(solved.scene, solved.problem, solved.solution, out))?;
     Ok(vec![path.to_owned()])
 }
 
 /// The cycle of a solve as moving pictures, in the format of its path.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn animation(
     path: &Path,
     solved: &Solved<'_>,
@@ -230,7 +218,7 @@ pub fn animated_frames(solution: &Solution, options: &Options, format: super::an
 }
 
 /// Animations of several runs as GIF, each with its name.
-fn moving(runs: &[Run], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
+fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
     let options = Options::default();
     let all = compare::frames(runs, options.frames);
     let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;
@@ -246,12 +234,9 @@ fn moving(runs: &[Run], folder: &Path, control: &Control<'_>) -> Result<Vec<(Str
 }
 
 /// What `squeezefilm compare --out` writes into a folder. `all`: parameters are listed that do not differ, too.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn comparison(
     folder: &Path,
-    runs: &[Run],
+    runs: &[ComparedRun],
     (settings, all, command): (&Settings, bool, &[String]),
     formats: &[Format],
     control: &Control<'_>,
@@ -259,12 +244,12 @@ pub fn comparison(
     let all = all || runs.len() < 2;
     let movies = moving(runs, folder, control)?;
     let mut staged = Staged::new(folder)?;
-    let page = report(runs, &Report { settings, all, movies: &movies, command });
+    let page = report(runs, settings, all, &movies, command);
     staged.add("report.html", |out| out.write_all(page.as_bytes()))?;
     staged.add("compare.csv", |out| compare::write_csv(runs, out))?;
     staged.add("parameters.csv", |out| compare::write_parameters_csv(runs, all, out))?;
-    let object = compare::Object::new(runs, settings, command);
-    staged.add("compare.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+    let object = compare::Object::new(runs, settings);
+    staged.add("compare.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
     for (name, gif) in &movies {
         staged.add(format!("{name}.gif"), |out| out.write_all(gif))?;
     }
@@ -277,26 +262,20 @@ pub fn comparison(
 }
 
 /// The report of one run, or of several, as one HTML file.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn html(
     path: &Path,
-    runs: &[Run],
+    runs: &[ComparedRun],
     settings: &Settings,
     control: &Control<'_>,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let movies = moving(runs, path, control)?;
-    let page = report(runs, &Report { settings, all: runs.len() < 2, movies: &movies, command: &[] });
+    let page = report(runs, settings, runs.len() < 2, &movies, &[]);
     control.check()?;
     write_file(path, |out| out.write_all(page.as_bytes()))?;
     Ok(vec![path.to_owned()])
 }
 
 /// What `squeezefilm sweep --out` writes into a folder.
-///
-/// # Errors
-/// [`WriteError`].
 pub fn swept(
     folder: &Path,
     swept: &Sweep,
@@ -306,8 +285,8 @@ pub fn swept(
 ) -> Result<Vec<PathBuf>, WriteError> {
     let mut staged = Staged::new(folder)?;
     staged.add("sweep.csv", |out| sweep::write_csv(swept, rows, out))?;
-    let object = sweep::Object::new(swept, rows, command);
-    staged.add("sweep.json", |out| out.write_all(json::text(&object).as_bytes()))?;
+    let object = sweep::Object::new(swept, rows);
+    staged.add("sweep.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
     stage_figure(&mut staged, "sweep", &sweep::figure(swept, rows), formats)?;
     staged.add("scene.toml", |out| out.write_all(swept.scene().to_toml().as_bytes()))?;
     staged.commit()

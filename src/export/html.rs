@@ -2,7 +2,7 @@
 //! and a policy in the head forbids the browser to fetch anything.
 //!
 //! A page is well-formed XML as well as HTML, so that any reader of XML can take numbers out of it. What it looks like is
-//! decided here, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
+//! decided here and in `assets/report.css`, once for all reports: a serif for words and a sans for figures and numbers, three colours (the film's,
 //! the contact's, grey), tables with rules but no boxes, wide enough for a projector and quiet enough for paper.
 
 use super::figure::{Figure, escaped as xml_escaped, to_svg};
@@ -274,11 +274,12 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// A command line as a shell takes it.
-pub fn shell(words: &[String]) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_=./:,+%@".contains(c);
-    let quoted = |word: &String| {
+pub fn shell<S: AsRef<str>>(words: &[S]) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,+%@".contains(c);
+    let quoted = |word: &S| {
+        let word = word.as_ref();
         if !word.is_empty() && word.chars().all(plain) {
-            word.clone()
+            word.to_owned()
         } else {
             format!("'{}'", word.replace('\'', r"'\''"))
         }
@@ -286,101 +287,8 @@ pub fn shell(words: &[String]) -> String {
     words.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
-/// No `<` and no `&` in here: it is read as XML too.
-const STYLE: &str = "\
-:root { --ink: #1d2530; --quiet: #606670; --rule: #cfd4db; --pale: #f4f6f8; --film: #0072b2; --contact: #b54f00;
-  --serif: Charter, 'Bitstream Charter', 'Source Serif 4', 'Iowan Old Style', Georgia, 'Liberation Serif', 'DejaVu Serif', serif;
-  --sans: 'Liberation Sans', Arial, Helvetica, 'DejaVu Sans', sans-serif;
-  --mono: 'Liberation Mono', 'DejaVu Sans Mono', Menlo, Consolas, monospace; }
-* { box-sizing: border-box; }
-html { font-size: clamp(16px, 0.55vw + 11px, 21px); -webkit-text-size-adjust: 100%; }
-body { margin: 0; background: #fff; color: var(--ink); font: 1rem/1.55 var(--serif); }
-main { max-width: 72rem; margin: 0 auto; padding: 3.2rem 2rem 2rem; }
-header { border-bottom: 3px solid var(--film); padding-bottom: 1.4rem; }
-.kicker { margin: 0 0 .5rem; font: 600 .82rem/1.3 var(--sans); letter-spacing: .04em; color: var(--film); }
-h1 { margin: 0 0 .8rem; font-size: 2.5rem; line-height: 1.14; font-weight: 600; letter-spacing: -.012em; text-wrap: balance; }
-.lead { margin: 0; font-size: 1.16rem; line-height: 1.5; max-width: 46rem; color: #38414d; }
-h2 { margin: 3.4rem 0 .9rem; padding-top: .7rem; border-top: 1px solid var(--rule); font-size: 1.6rem; line-height: 1.2;
-  font-weight: 600; }
-h3 { margin: 2rem 0 .5rem; font-size: 1.15rem; line-height: 1.3; font-weight: 600; }
-p, ul { margin: 0 0 .9rem; max-width: 46rem; }
-ul { padding-left: 1.2rem; }
-li { margin: .2rem 0; }
-.note { font-size: .88rem; color: var(--quiet); }
-.warning { border-left: 4px solid var(--contact); padding: .3rem 0 .3rem .9rem; color: var(--contact); font-weight: 600; }
-nav { margin: 1.6rem 0 0; font: .9rem/1.5 var(--sans); }
-nav ol { margin: 0; padding: 0; list-style: none; display: flex; flex-wrap: wrap; gap: .15rem 1.6rem; }
-a { color: var(--film); text-decoration: none; border-bottom: 1px solid #b9d6e8; }
-.highlights { display: flex; flex-wrap: wrap; gap: 1.1rem 3.2rem; margin: 1.7rem 0 0; }
-.highlights div { display: flex; flex-direction: column; }
-.highlights dd { margin: 0; font: 600 1.75rem/1.2 var(--sans); font-variant-numeric: tabular-nums; color: var(--film); }
-.highlights dt { font: .86rem/1.4 var(--sans); color: var(--quiet); max-width: 17rem; }
-/* A shadow at the edge beyond which a table goes on. */
-.table { overflow-x: auto; margin: 1.1rem 0 1.6rem; background:
-  linear-gradient(to right, #fff 40%, transparent) left / 2.4rem 100% no-repeat local,
-  linear-gradient(to left, #fff 40%, transparent) right / 2.4rem 100% no-repeat local,
-  linear-gradient(to right, #1d253055, transparent) left / .9rem 100% no-repeat scroll,
-  linear-gradient(to left, #1d253055, transparent) right / .9rem 100% no-repeat scroll; }
-table { border-collapse: collapse; font: .88rem/1.35 var(--sans); font-variant-numeric: tabular-nums;
-  border-top: 2px solid var(--ink); border-bottom: 2px solid var(--ink); }
-caption { text-align: left; padding: 0 0 .5rem; font-weight: 600; }
-th { font-weight: 600; vertical-align: bottom; }
-thead tr:last-child th { border-bottom: 1px solid var(--ink); }
-th, td { padding: .34rem .9rem .34rem 0; text-align: left; }
-th + th, td + td { padding-left: .5rem; }
-.groups th { padding-bottom: .1rem; color: var(--quiet); text-align: center; }
-.groups th.g { border-bottom: 1px solid var(--rule); }
-tbody tr + tr td { border-top: 1px solid #e9ecf0; }
-.n { text-align: right; white-space: pre; }
-th.n { white-space: normal; }
-td.w:first-child { min-width: 9.5rem; }
-.s { font-weight: 600; color: var(--film); }
-.q { color: var(--quiet); }
-.a { color: var(--contact); font-weight: 600; }
-.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(27rem, 100%), 1fr)); gap: 1.6rem 2.4rem;
-  margin: 1.2rem 0 1.8rem; }
-figure { margin: 0; }
-section > figure { margin: 1.2rem 0 1.8rem; }
-.figures .wide { grid-column: 1 / -1; }
-figure svg, figure img { display: block; width: 100%; height: auto; max-width: 44rem; }
-figure.wide svg, figure.wide img { max-width: 62rem; }
-figcaption { margin-top: .55rem; font: .84rem/1.45 var(--sans); color: var(--quiet); max-width: 44rem; }
-figcaption b { color: var(--ink); }
-pre { margin: .6rem 0 1.1rem; padding: .8rem 1rem; background: var(--pale); font: .82rem/1.5 var(--mono); overflow-x: auto;
-  white-space: pre-wrap; overflow-wrap: anywhere; }
-details { margin: .5rem 0; }
-summary { cursor: pointer; font: .9rem/1.5 var(--sans); color: var(--film); }
-footer { margin-top: 3.6rem; padding-top: .8rem; border-top: 1px solid var(--rule); font: .8rem/1.5 var(--sans);
-  color: var(--quiet); }
-footer p { max-width: none; }
-@media (max-width: 44rem) {
-  main { padding: 1.6rem 1rem; }
-  h1 { font-size: 1.8rem; }
-  table { font-size: .8rem; }
-  th, td { padding-right: .4rem; }
-  .n { white-space: pre-line; }
-  td.w:first-child { min-width: 7rem; overflow-wrap: anywhere; }
-}
-@media print {
-  @page { size: A4; margin: 16mm 15mm; }
-  html { font-size: 9.6pt; }
-  main { max-width: none; padding: 0; }
-  nav { display: none; }
-  h2, h3 { break-after: avoid; }
-  h2 { margin-top: 2rem; }
-  figure, tr, pre { break-inside: avoid; }
-  figure svg { max-width: 74mm; }
-  figure.wide svg, figure.wide img { max-width: 150mm; }
-  .figures { grid-template-columns: 1fr 1fr; gap: 1rem 1.4rem; }
-  .table { overflow: visible; background: none; }
-  .highlights { gap: .6rem 1.6rem; }
-  .highlights div { flex: 1 1 0; }
-  .highlights dd { font-size: 1.3rem; white-space: nowrap; }
-  table { font-size: .8rem; }
-  th, td { padding: .22rem .5rem .22rem 0; }
-  a { color: inherit; border: 0; }
-}
-";
+/// No `<` and no `&` in there: it is read as XML too.
+const STYLE: &str = include_str!("../../assets/report.css");
 
 #[cfg(test)]
 mod tests {

@@ -8,14 +8,12 @@ use crate::analysis::validity::{self, Excess};
 use crate::digits::{short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::export::exact::ExactObject;
-use crate::export::torque::TorqueObject;
 use crate::motor::MotorError;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Model, MotorResult, Outcome, Performance, PlateResult, Solution, Stats, Status};
 use serde::Serialize;
 
-/// The version of the object.
+/// The version of the objects, and of the columns of tables.
 pub const SCHEMA: u32 = 1;
 
 /// Why a torque has no error.
@@ -104,9 +102,9 @@ pub struct Summary {
     pub knudsen_number: Option<f64>,
     /// Torque, power and efficiency (motor), if they were asked for.
     #[serde(rename = "merit")]
-    pub torque: Option<TorqueObject>,
+    pub torque: Option<TorqueCurves>,
     /// What is known exactly beside what was computed (plate).
-    pub exact: Option<ExactObject>,
+    pub exact: Option<Comparison>,
     /// Cost.
     pub stats: StatsObject,
     /// What was modelled.
@@ -165,17 +163,11 @@ impl Numbers {
 }
 
 impl Summary {
-    /// Adds torque over speed, or the warning that it is not known, and returns it.
-    pub fn add_torque(&mut self, found: Result<Option<TorqueCurves>, MotorError>) -> Option<TorqueCurves> {
+    /// Adds torque over speed, or the warning that it is not known.
+    pub fn add_torque(&mut self, found: Result<Option<TorqueCurves>, MotorError>) {
         match found {
-            Ok(curves) => {
-                self.torque = curves.as_ref().map(TorqueObject::new);
-                curves
-            }
-            Err(error) => {
-                self.warnings.push(format!("torque over speed is not known: without film, {error}"));
-                None
-            }
+            Ok(curves) => self.torque = curves,
+            Err(error) => self.warnings.push(format!("torque over speed is not known: without film, {error}")),
         }
     }
 
@@ -211,8 +203,7 @@ impl Summary {
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
                 summary.fill_plate(plate, result, &mut numbers);
                 let film_load = Estimate { value: result.film_load, error: result.film_load_error };
-                let found = Comparison::of(plate, film_load, &solution.recording);
-                summary.exact = Some(ExactObject::new(&found));
+                summary.exact = Some(Comparison::of(plate, film_load, &solution.recording));
             }
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
                 summary.fill_motor(motor, result, &mut numbers);
@@ -282,6 +273,20 @@ impl Summary {
     pub fn to_text(&self) -> String {
         text(self)
     }
+}
+
+/// An object of `--json` as text, between what all of them have: the version of the format first, the program's version and the
+/// command line (word by word; empty if there was none) last.
+pub fn document(object: &impl Serialize, command: &[String]) -> String {
+    #[derive(Serialize)]
+    struct Document<'a, T> {
+        schema: u32,
+        #[serde(flatten)]
+        object: &'a T,
+        version: &'static str,
+        command: &'a [String],
+    }
+    text(&Document { schema: SCHEMA, object, version: env!("CARGO_PKG_VERSION"), command })
 }
 
 /// Any object as indented JSON text with a line break at the end. Numbers that are not finite become null.

@@ -1,9 +1,9 @@
-//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports, and how
-//! files get into a folder.
+//! Results out of the program: the objects of `--json`, the tables of `--out`, figures and animations, reports.
 
 pub mod animation;
 pub mod compare;
 pub mod csv;
+mod estimates;
 pub mod exact;
 pub mod figure;
 pub mod figures;
@@ -21,5 +21,3 @@ pub mod table1;
 pub mod torque;
 pub mod tradeoff;
 mod video;
-
-pub use crate::atomic as folder;

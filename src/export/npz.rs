@@ -28,9 +28,6 @@ use zip::write::{SimpleFileOptions, StreamWriter};
 use zip::{CompressionMethod, ZipWriter};
 
 /// Writes the archive of a solve of `scene`.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dyn Write) -> io::Result<()> {
     let mut archive = Archive(ZipWriter::new_stream(out));
     let recording = &solution.recording;

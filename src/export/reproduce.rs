@@ -7,6 +7,6 @@ mod report;
 mod statements;
 
 pub use figures::figures;
-pub use objects::{Object, PointObject, RowObject, SCHEMA, write_table1_csv};
+pub use objects::{Object, PointObject, RowObject};
 pub use report::report;
 pub use statements::{Statement, statements};

@@ -8,39 +8,22 @@ use crate::fidelity::Fidelity;
 use crate::scene::{Parameter, Scale};
 use crate::solve::Method;
 use serde::Serialize;
-use std::io::{self, Write};
-
-/// The version of the object.
-pub const SCHEMA: u32 = 1;
 
 /// The object of `--json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// Name of the scene whose parameters are mapped.
     pub preset: &'a str,
     /// Fidelity of method auto.
     pub fidelity: String,
     /// One for each cell.
     pub cells: Vec<CellObject>,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 impl<'a> Object<'a> {
     /// The object of a survey.
-    pub fn new(preset: &'a str, fidelity: Fidelity, cells: &[Cell], command: &'a [String]) -> Self {
-        Self {
-            schema: SCHEMA,
-            preset,
-            fidelity: fidelity.to_string(),
-            cells: cells.iter().map(CellObject::new).collect(),
-            version: env!("CARGO_PKG_VERSION"),
-            command,
-        }
+    pub fn new(preset: &'a str, fidelity: Fidelity, cells: &[Cell]) -> Self {
+        Self { preset, fidelity: fidelity.to_string(), cells: cells.iter().map(CellObject::new).collect() }
     }
 }
 
@@ -80,7 +63,8 @@ pub struct CellObject {
 }
 
 impl CellObject {
-    fn new(cell: &Cell) -> Self {
+    /// The object of a cell.
+    pub fn new(cell: &Cell) -> Self {
         let number = |quantity| cell.numbers.get(quantity);
         let count = |quantity| number(quantity).map(|count| count as u64);
         Self {
@@ -121,18 +105,6 @@ pub fn detail(cell: &Cell) -> String {
     reasons.join("; ")
 }
 
-/// Writes the cells as CSV, the header first.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_csv(cells: &[Cell], out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    for cell in cells {
-        writer.serialize(CellObject::new(cell))?;
-    }
-    writer.flush()
-}
-
 /// Colours of the verdicts.
 const COLOURS: [Colour; VERDICTS.len()] = [
     Colour(0x56, 0xb4, 0xe9),
@@ -147,12 +119,7 @@ pub fn figure(preset: &str, fidelity: Fidelity, cells: &[Cell]) -> Figure {
     let mut methods: Vec<Method> = cells.iter().map(|cell| cell.method).collect();
     methods.dedup();
     let columns = if methods.iter().any(|method| *method != methods[0]) { 2 } else { 1 };
-    let provenance = Provenance {
-        preset: preset.to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        fidelity: fidelity.to_string(),
-        ..Provenance::default()
-    };
+    let provenance = Provenance { fidelity: fidelity.to_string(), ..Provenance::named(preset) };
     let width = if columns == 2 { Width::Page } else { Width::Column };
     let mut figure = Figure { provenance, columns, width, ..Figure::default() };
     // Cells come map by map and method by method.

@@ -9,11 +9,8 @@ use crate::startup::{Cycle, Startup};
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// The version of the object and of the columns.
-pub const SCHEMA: u32 = 1;
-
 /// One cycle. Means and extremes are over this cycle; what its scene does not have is null.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Row {
     /// From 1.
     pub cycle: usize,
@@ -50,40 +47,30 @@ pub struct Row {
 impl Row {
     /// The numbers of a cycle.
     pub fn of(problem: &Problem, cycle: &Cycle) -> Self {
-        let base = |load: f64, least: f64, most: f64, gap: f64, pressure: f64| Self {
+        let mut row = Self {
             cycle: cycle.number,
             time_us: cycle.number as f64 * cycle.recording.period * 1e6,
-            alpha: None,
-            alpha_error: None,
-            load_ratio: None,
-            load_ratio_error: None,
-            film_load_n: load,
-            film_load_min_n: least,
-            film_load_max_n: most,
-            contact_load_n: None,
-            teeth_in_contact: None,
-            min_gap_nm: gap * 1e9,
-            max_pressure_kpa: pressure * 1e-3,
             change: cycle.change,
             remaining: finite(cycle.remaining),
+            ..Self::default()
         };
-        match (&cycle.outcome, &problem.scenario) {
-            (Outcome::Motor(r), _) => Self {
-                alpha: finite(r.alpha),
-                alpha_error: finite(r.alpha_error),
-                contact_load_n: finite(r.contact_load),
-                teeth_in_contact: finite(r.teeth_in_contact),
-                ..base(r.film_load, r.film_load_min, r.film_load_max, r.min_gap, r.max_pressure)
-            },
-            (Outcome::Plate(r), Scenario::Plate(plate)) => Self {
-                load_ratio: finite(PlateResult::ratio(r.film_load, plate)),
-                load_ratio_error: finite(PlateResult::ratio(r.film_load_error, plate)),
-                ..base(r.film_load, r.film_load_min, r.film_load_max, r.min_gap, r.max_pressure)
-            },
-            (Outcome::Plate(r), Scenario::Motor(_)) => {
-                base(r.film_load, r.film_load_min, r.film_load_max, r.min_gap, r.max_pressure)
+        let (loads, gap, pressure) = match &cycle.outcome {
+            Outcome::Motor(r) => {
+                [row.alpha, row.alpha_error] = [r.alpha, r.alpha_error].map(finite);
+                [row.contact_load_n, row.teeth_in_contact] = [r.contact_load, r.teeth_in_contact].map(finite);
+                ([r.film_load, r.film_load_min, r.film_load_max], r.min_gap, r.max_pressure)
             }
-        }
+            Outcome::Plate(r) => {
+                if let Scenario::Plate(plate) = &problem.scenario {
+                    let ratios = [r.film_load, r.film_load_error].map(|load| finite(PlateResult::ratio(load, plate)));
+                    [row.load_ratio, row.load_ratio_error] = ratios;
+                }
+                ([r.film_load, r.film_load_min, r.film_load_max], r.min_gap, r.max_pressure)
+            }
+        };
+        [row.film_load_n, row.film_load_min_n, row.film_load_max_n] = loads;
+        [row.min_gap_nm, row.max_pressure_kpa] = [gap * 1e9, pressure * 1e-3];
+        row
     }
 
     /// What rises to the steady state, and its error: α, or the load ratio.
@@ -100,8 +87,6 @@ fn finite(value: f64) -> Option<f64> {
 /// The object of `--json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// The scene's name.
     pub preset: &'a str,
     /// `motor` or `plate`.
@@ -141,10 +126,6 @@ pub struct Object<'a> {
     pub rows: &'a [Row],
     /// What the user should know.
     pub warnings: &'a [String],
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// What the periodic solve says of where a start-up ends: α, or the load ratio, and its stated error.
@@ -179,9 +160,6 @@ pub fn unsettled(startup: &Startup) -> Option<String> {
 }
 
 /// Writes the rows as CSV, the header first; what is null is empty. Columns of a strip's forces are named `film_load_n_per_m`.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
@@ -224,10 +202,6 @@ pub fn figure(problem: &Problem, rows: &[Row], steady: Option<(f64, f64)>, loads
     let mut figure = Figure::new("start-up from rest").panel(means).panel(film);
     figure.caption =
         "From rest, the film pumps up until the cycle repeats: cycle means above, every instant below.".to_owned();
-    figure.provenance = Provenance {
-        preset: problem.name.clone(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        ..Provenance::default()
-    };
+    figure.provenance = Provenance::named(&problem.name);
     figure
 }

@@ -4,8 +4,9 @@
 //! gone on with is the same, byte by byte, as one that was not.
 
 use super::csv::words;
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::{Numbers, Quantity, force_unit};
-use crate::analysis::sweep::{Axis as SweepAxis, Ending, Row, Sweep, digest};
+use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, digest};
 use crate::analysis::table1::Published;
 use crate::analysis::validity::NAMES;
 use crate::export::figure::{
@@ -17,9 +18,6 @@ use crate::solve::Method;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
 
-/// The version of the object and of the columns.
-pub const SCHEMA: u32 = 1;
-
 /// Columns before those of the keys: which sweep, and which of its points.
 const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
@@ -28,18 +26,6 @@ const CHECK: &str = "check";
 /// Names of the limits of the model that a point exceeds, in a CSV file one after the other with this between them.
 const VALIDITY: &str = "validity";
 const BETWEEN: &str = ";";
-const CONVERGED: &str = "converged";
-const NOT_CONVERGED: &str = "not converged";
-const FAILED: &str = "failed: ";
-
-/// `converged`, `not converged` or `failed: …`.
-pub fn status(ending: &Ending) -> String {
-    match ending {
-        Ending::Converged => CONVERGED.to_owned(),
-        Ending::NotConverged => NOT_CONVERGED.to_owned(),
-        Ending::Failed(reason) => format!("{FAILED}{reason}"),
-    }
-}
 
 fn header(sweep: &Sweep) -> Vec<String> {
     let mut names = FIRST.map(str::to_owned).to_vec();
@@ -56,7 +42,7 @@ fn record(sweep: &Sweep, row: &Row) -> Vec<String> {
         true => digits(*value),
         false => words(&axis.text(*value)).into_owned(),
     }));
-    cells.push(status(&row.ending));
+    cells.push(row.status.to_string());
     cells.push(row.outside.join(BETWEEN));
     cells.extend(sweep.quantities().into_iter().map(|quantity| {
         let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
@@ -66,9 +52,6 @@ fn record(sweep: &Sweep, row: &Row) -> Vec<String> {
 }
 
 /// Writes the rows as CSV, the header first; what is not there is empty.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep))?;
@@ -77,9 +60,6 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
 }
 
 /// Writes the rows of a sweep that is not complete, to go on with: as [`write_csv`], and with a checksum of each row.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_saved(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep).iter().map(String::as_str).chain([CHECK]))?;
@@ -137,11 +117,11 @@ pub fn read_saved(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
             return Err(damaged(line, format!("point {point} is not expected here")));
         }
         let column = FIRST.len() + sweep.axes().len();
-        let ending = match field(column) {
-            CONVERGED => Ending::Converged,
-            NOT_CONVERGED => Ending::NotConverged,
-            other => match other.strip_prefix(FAILED) {
-                Some(reason) => Ending::Failed(reason.to_owned()),
+        let status = match field(column) {
+            "converged" => RunStatus::Converged,
+            "not converged" => RunStatus::NotConverged,
+            other => match other.strip_prefix("failed: ") {
+                Some(reason) => RunStatus::Failed(reason.to_owned()),
                 None => return Err(damaged(line, format!("status = {other}"))),
             },
         };
@@ -158,7 +138,7 @@ pub fn read_saved(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
                 numbers.set(*quantity, value);
             }
         }
-        rows.push(Row { point, values: sweep.values(point).to_vec(), ending, numbers, outside });
+        rows.push(Row { point, values: sweep.values(point).to_vec(), status, numbers, outside });
     }
     Ok(rows)
 }
@@ -171,8 +151,6 @@ fn digits(value: f64) -> String {
 /// The object of `--json`.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// Name of the scene that is varied.
     pub preset: &'a str,
     /// `motor` or `plate`.
@@ -193,10 +171,6 @@ pub struct Object<'a> {
     pub rows: Vec<RowObject<'a>>,
     /// Published values of Table I in the plane of the sweep.
     pub published: Vec<PublishedObject>,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// One axis.
@@ -231,7 +205,7 @@ impl Serialize for RowObject<'_> {
         for (axis, value) in self.axes.iter().zip(&self.row.values) {
             map.serialize_entry(axis.parameter.key, &json_value(axis, *value))?;
         }
-        map.serialize_entry(STATUS, &status(&self.row.ending))?;
+        map.serialize_entry(STATUS, &self.row.status.to_string())?;
         map.serialize_entry(VALIDITY, &self.row.outside)?;
         for quantity in &self.quantities {
             let value = self.row.numbers.get(*quantity);
@@ -267,10 +241,9 @@ impl From<Published> for PublishedObject {
 
 impl<'a> Object<'a> {
     /// The object of a sweep's rows.
-    pub fn new(sweep: &'a Sweep, rows: &'a [Row], command: &'a [String]) -> Self {
+    pub fn new(sweep: &'a Sweep, rows: &'a [Row]) -> Self {
         let settings = sweep.settings();
         Self {
-            schema: SCHEMA,
             preset: &sweep.scene().name,
             scene: sweep.scene().scene(),
             force_unit: force_unit(sweep.problem()),
@@ -297,8 +270,6 @@ impl<'a> Object<'a> {
                 .map(|row| RowObject { axes: sweep.axes(), quantities: sweep.quantities(), row })
                 .collect(),
             published: sweep.published().into_iter().map(PublishedObject::from).collect(),
-            version: env!("CARGO_PKG_VERSION"),
-            command,
         }
     }
 }
@@ -313,7 +284,7 @@ pub fn figure(sweep: &Sweep, rows: &[Row]) -> Figure {
 pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
     let settings = sweep.settings();
     let worst = rows.iter().filter_map(|row| row.numbers.get(primary(sweep).error()?)).fold(0.0, f64::max);
-    let missing = sweep.len() - rows.iter().filter(|row| row.ending == Ending::Converged).count();
+    let missing = sweep.len() - rows.iter().filter(|row| row.status == RunStatus::Converged).count();
     let provenance = Provenance {
         preset: show_text(&sweep.scene().name),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -329,8 +300,10 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
         [x, y] => figure.panels.push(map_panel(sweep, rows, [x, y], quantity)),
         [first, x, y] => {
             // A map for each value of the first key, with one scale of colours.
-            let found =
-                rows.iter().filter(|row| row.ending == Ending::Converged).filter_map(|row| row.numbers.get(quantity));
+            let found = rows
+                .iter()
+                .filter(|row| row.status == RunStatus::Converged)
+                .filter_map(|row| row.numbers.get(quantity));
             let [least, most] = found.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
             for value in first.values.iter().take(MOST_MAPS) {
                 let of_value = rows.iter().filter(|row| row.values[0] == *value);
@@ -390,9 +363,9 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
     // In ascending order, with a gap where there is no value.
     let mut rows: Vec<&Row> = rows.iter().collect();
     rows.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
-    let sound = |row: &&&Row| row.ending == Ending::Converged;
-    let value = |row: &Row| match row.ending {
-        Ending::Converged => row.numbers.get(quantity).unwrap_or(f64::NAN),
+    let sound = |row: &&&Row| row.status == RunStatus::Converged;
+    let value = |row: &Row| match row.status {
+        RunStatus::Converged => row.numbers.get(quantity).unwrap_or(f64::NAN),
         _ => f64::NAN,
     };
     let colour = Colour::FILM;
@@ -465,7 +438,7 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
     for row in rows {
         let place = |axis: &[f64], value: f64| axis.iter().position(|at| *at == value);
         let at = place(&xs, row.values[0]).zip(place(&ys, row.values[1]));
-        if row.ending != Ending::Converged {
+        if row.status != RunStatus::Converged {
             unsound.push([row.values[0], row.values[1]]);
         } else if let (Some((i, j)), Some(value)) = (at, row.numbers.get(quantity)) {
             values[i * ys.len() + j] = value;
@@ -504,15 +477,15 @@ mod tests {
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.1 + 0.2);
         numbers.set(Quantity::AlphaError, 1e-300);
-        let failed = Ending::Failed("film, step 3: no \"solution\",\nat all".to_owned());
-        let row = |point: usize, ending: Ending| Row {
+        let failed = RunStatus::Failed("film, step 3: no \"solution\",\nat all".to_owned());
+        let row = |point: usize, status: RunStatus| Row {
             point,
             values: sweep.values(point).to_vec(),
-            ending,
+            status,
             numbers,
             outside: vec!["slip-law", "sound"],
         };
-        vec![row(0, Ending::Converged), row(2, failed), row(1, Ending::NotConverged)]
+        vec![row(0, RunStatus::Converged), row(2, failed), row(1, RunStatus::NotConverged)]
     }
 
     #[test]
@@ -546,8 +519,13 @@ mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row =
-            Row { point: 1, values: plane.values(1).to_vec(), ending: Ending::Converged, numbers, outside: Vec::new() };
+        let row = Row {
+            point: 1,
+            values: plane.values(1).to_vec(),
+            status: RunStatus::Converged,
+            numbers,
+            outside: Vec::new(),
+        };
         let drawn = figure(&plane, &[row]);
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));

@@ -4,7 +4,6 @@ use super::json::status_name;
 use crate::analysis::table1::Row;
 use crate::solve::{Method, Settings};
 use serde::Serialize;
-use std::io::{self, Write};
 
 /// One row. What was not computed, or is not finite, is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -65,16 +64,4 @@ impl Object {
             fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
         }
     }
-}
-
-/// Writes the rows as CSV, the header first; what is null is empty.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_csv(rows: &[Object], out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    for row in rows {
-        writer.serialize(row)?;
-    }
-    writer.flush()
 }

@@ -1,159 +1,72 @@
 //! Torque, power and efficiency as the `merit` object of `solve --json`, and its curves as CSV. Speeds in rotations a
 //! minute, for the whole ring.
 
+use super::estimates;
 use crate::analysis::torque::TorqueCurves;
 use crate::estimate::Estimate;
 use crate::solution::{Performance, Point};
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
 
-/// The object. Numbers that are not known are null.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct TorqueObject {
-    /// With the film.
-    pub with_film: PerformanceObject,
-    /// The same motor in a vacuum.
-    pub without_film: PerformanceObject,
-    /// The friction coefficient that a model without film needs for the same maximum operating torque.
-    pub dry_equivalent_friction: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub dry_equivalent_friction_error: Option<f64>,
-    /// Mean power spent on squeezing the film.
-    pub film_power_w: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub film_power_error_w: Option<f64>,
-    /// Bound of the film's own viscous drag, signed.
-    pub viscous_drag_nm: Option<f64>,
-    /// The greatest speed of the stator's surface, as a rotation of the rotor.
-    pub surface_speed_rpm: Option<f64>,
-    /// Bound of what the film's answer to another rotor speed changes, relative to the torque.
-    pub speed_effect: Option<f64>,
+/// The object: with and without the film, the friction coefficient that a model without film needs for the same maximum operating
+/// torque, the mean power spent on squeezing the film, a bound of its viscous drag (signed), the greatest speed of the stator's surface,
+/// and a bound of what the film's answer to another rotor speed changes, relative to the torque. What is not known is null.
+impl Serialize for TorqueCurves {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("with_film", &Side(self, &self.with_film))?;
+        map.serialize_entry("without_film", &Side(self, &self.without_film))?;
+        estimates::add(&mut map, "dry_equivalent_friction", "", Some(self.dry_equivalent))?;
+        estimates::add(&mut map, "film_power", "_w", Some(self.film_power))?;
+        map.serialize_entry("viscous_drag_nm", &self.viscous_drag)?;
+        map.serialize_entry("surface_speed_rpm", &self.rpm(self.surface_speed))?;
+        map.serialize_entry("speed_effect", &self.speed_effect)?;
+        map.end()
+    }
 }
 
 /// Torque, power and efficiency with the film, or without.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct PerformanceObject {
-    /// Torque at rest, and its error.
-    pub stall_torque_nm: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub stall_torque_error_nm: Option<f64>,
-    /// The paper's maximum operating torque, a bound: all of the contact pulls one way.
-    pub max_torque_nm: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub max_torque_error_nm: Option<f64>,
-    /// Speed at which the torque vanishes.
-    pub no_load_speed_rpm: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub no_load_speed_error_rpm: Option<f64>,
-    /// Greatest power given to the rotor.
-    pub max_power_w: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub max_power_error_w: Option<f64>,
-    /// Its speed.
-    pub max_power_speed_rpm: Option<f64>,
-    /// Error of that speed, absolute.
-    pub max_power_speed_error_rpm: Option<f64>,
-    /// Greatest efficiency.
-    pub max_efficiency: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub max_efficiency_error: Option<f64>,
-    /// Its speed.
-    pub max_efficiency_speed_rpm: Option<f64>,
-    /// Error of that speed, absolute.
-    pub max_efficiency_speed_error_rpm: Option<f64>,
-    /// At the rotor speed of the scene.
-    pub present: PointObject,
-}
+struct Side<'a>(&'a TorqueCurves, &'a Performance);
 
-/// One speed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct PointObject {
-    /// The rotor's speed.
-    pub speed_rpm: Option<f64>,
-    /// Torque on the rotor.
-    pub torque_nm: Option<f64>,
-    /// Its estimated numerical error, absolute.
-    pub torque_error_nm: Option<f64>,
-    /// Power given to the rotor.
-    pub output_w: Option<f64>,
-    /// Heat of friction.
-    pub friction_w: Option<f64>,
-    /// Output over what the stator gives; null where the rotor is not driven.
-    pub efficiency: Option<f64>,
-}
-
-impl TorqueObject {
-    /// Of what was found.
-    pub fn new(curves: &TorqueCurves) -> Self {
-        Self {
-            with_film: PerformanceObject::new(curves, &curves.with_film),
-            without_film: PerformanceObject::new(curves, &curves.without_film),
-            dry_equivalent_friction: finite(curves.dry_equivalent.value),
-            dry_equivalent_friction_error: finite(curves.dry_equivalent.error),
-            film_power_w: finite(curves.film_power.value),
-            film_power_error_w: finite(curves.film_power.error),
-            viscous_drag_nm: finite(curves.viscous_drag),
-            surface_speed_rpm: finite(curves.rpm(curves.surface_speed)),
-            speed_effect: finite(curves.speed_effect),
-        }
-    }
-}
-
-impl PerformanceObject {
-    fn new(curves: &TorqueCurves, found: &Performance) -> Self {
+impl Serialize for Side<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(curves, found) = self;
         let rpm = |speed: Estimate| Estimate { value: curves.rpm(speed.value), error: curves.rpm(speed.error) };
-        let [stall_torque_nm, stall_torque_error_nm] = pair(Some(found.stall_torque));
-        let [max_torque_nm, max_torque_error_nm] = pair(Some(found.max_torque));
-        let [no_load_speed_rpm, no_load_speed_error_rpm] = pair(found.no_load_speed.map(rpm));
-        let [max_power_w, max_power_error_w] = pair(Some(found.max_power));
-        let [max_power_speed_rpm, max_power_speed_error_rpm] = pair(found.max_power_speed.map(rpm));
-        let [max_efficiency, max_efficiency_error] = pair(found.max_efficiency);
-        let [max_efficiency_speed_rpm, max_efficiency_speed_error_rpm] = pair(found.max_efficiency_speed.map(rpm));
-        Self {
-            stall_torque_nm,
-            stall_torque_error_nm,
-            max_torque_nm,
-            max_torque_error_nm,
-            no_load_speed_rpm,
-            no_load_speed_error_rpm,
-            max_power_w,
-            max_power_error_w,
-            max_power_speed_rpm,
-            max_power_speed_error_rpm,
-            max_efficiency,
-            max_efficiency_error,
-            max_efficiency_speed_rpm,
-            max_efficiency_speed_error_rpm,
-            present: PointObject::new(curves, &found.present),
+        let mut map = serializer.serialize_map(None)?;
+        for (name, unit, estimate) in [
+            ("stall_torque", "_nm", Some(found.stall_torque)),
+            ("max_torque", "_nm", Some(found.max_torque)),
+            ("no_load_speed", "_rpm", found.no_load_speed.map(rpm)),
+            ("max_power", "_w", Some(found.max_power)),
+            ("max_power_speed", "_rpm", found.max_power_speed.map(rpm)),
+            ("max_efficiency", "", found.max_efficiency),
+            ("max_efficiency_speed", "_rpm", found.max_efficiency_speed.map(rpm)),
+        ] {
+            estimates::add(&mut map, name, unit, estimate)?;
         }
+        map.serialize_entry("present", &Present(curves, &found.present))?;
+        map.end()
     }
 }
 
-impl PointObject {
-    fn new(curves: &TorqueCurves, point: &Point) -> Self {
-        Self {
-            speed_rpm: finite(curves.rpm(point.speed)),
-            torque_nm: finite(point.torque.value),
-            torque_error_nm: finite(point.torque.error),
-            output_w: finite(point.output),
-            friction_w: finite(point.friction),
-            efficiency: point.efficiency.and_then(finite),
-        }
+/// At the rotor speed of the scene: power given to the rotor, heat of friction, and the output over what the stator gives, null where
+/// the rotor is not driven.
+struct Present<'a>(&'a TorqueCurves, &'a Point);
+
+impl Serialize for Present<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(curves, point) = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("speed_rpm", &curves.rpm(point.speed))?;
+        estimates::add(&mut map, "torque", "_nm", Some(point.torque))?;
+        map.serialize_entry("output_w", &point.output)?;
+        map.serialize_entry("friction_w", &point.friction)?;
+        map.serialize_entry("efficiency", &point.efficiency)?;
+        map.end()
     }
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
-}
-
-fn pair(estimate: Option<Estimate>) -> [Option<f64>; 2] {
-    estimate.map_or([None, None], |found| [finite(found.value), finite(found.error)])
 }
 
 /// Writes both curves, one row for each speed. Where a value is not known, or the rotor is not driven, a field is empty.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_csv(curves: &TorqueCurves, out: &mut dyn Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let columns = ["torque_nm", "torque_error_nm", "output_w", "friction_w", "efficiency"];

@@ -1,23 +1,15 @@
 //! Error against time as JSON and as CSV, with the same names, and as a figure.
 
-use super::sweep::status as sweep_status;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::Ending;
-use crate::analysis::tradeoff::{Ended, Family, Point, Tradeoff};
+use crate::analysis::tradeoff::{Family, Point, Tradeoff};
 use crate::export::figure::{
     Anchor, Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text,
 };
 use serde::Serialize;
-use std::io::{self, Write};
-
-/// The version of the object.
-pub const SCHEMA: u32 = 1;
 
 /// The object of `--json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// Name of the scene.
     pub preset: &'a str,
     /// The number that is judged: `alpha` or `film_load_n`.
@@ -28,10 +20,6 @@ pub struct Object<'a> {
     pub settings: Vec<SettingObject>,
     /// The settings that were asked for, if any.
     pub chosen: Vec<ChoiceObject>,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
 /// A setting chosen.
@@ -102,7 +90,7 @@ impl SettingObject {
                 Family::Grid => "grid",
                 Family::Paper => "paper",
             },
-            status: status(&run.ended),
+            status: run.status.to_string(),
             median_s: finite(point.median),
             lower_quartile_s: finite(point.quartiles.0),
             upper_quartile_s: finite(point.quartiles.1),
@@ -123,33 +111,10 @@ impl SettingObject {
     }
 }
 
-/// How a setting ended, in words.
-pub fn status(ended: &Ended) -> String {
-    match ended {
-        Ended::Waiting => "waiting".to_owned(),
-        Ended::Converged => sweep_status(&Ending::Converged),
-        Ended::NotConverged => sweep_status(&Ending::NotConverged),
-        Ended::GivenUp => "given up".to_owned(),
-        Ended::Failed(reason) => sweep_status(&Ending::Failed(reason.clone())),
-    }
-}
-
 /// One for each setting, in the order of the curve.
 pub fn settings(tradeoff: &Tradeoff) -> Vec<SettingObject> {
     let object = |(i, point)| SettingObject::new(point, tradeoff.judged, tradeoff.reference == Some(i));
     tradeoff.points.iter().enumerate().map(object).collect()
-}
-
-/// Writes the settings as CSV, the header first.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_csv(tradeoff: &Tradeoff, out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    for setting in settings(tradeoff) {
-        writer.serialize(setting)?;
-    }
-    writer.flush()
 }
 
 /// Error against time, both logarithmic: the error that each setting is judged by, the front of those that no other beats,
@@ -190,11 +155,6 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
         }
     }
     let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();
-    let provenance = Provenance {
-        preset: preset.to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        note: format!("medians of {runs} runs"),
-        ..Provenance::default()
-    };
+    let provenance = Provenance { note: format!("medians of {runs} runs"), ..Provenance::named(preset) };
     Figure { provenance, ..Figure::default() }.panel(panel)
 }

@@ -199,6 +199,22 @@ impl Between {
         Self { low, fraction: if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 } }
     }
 
+    /// The value there, cubic in the index of `nodes` nodes (quadratic beside an end), and never beyond those of the two nodes.
+    pub fn curve(&self, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {
+        let (t, low) = (self.fraction, value(self.low));
+        if t == 0.0 {
+            return low;
+        }
+        let high = value(self.low + 1);
+        let before = (self.low > 0).then(|| value(self.low - 1) - 2.0 * low + high);
+        let after = (self.low + 2 < nodes).then(|| low - 2.0 * high + value(self.low + 2));
+        let bend = match (before, after) {
+            (Some(before), Some(after)) => ((2.0 - t) * before + (1.0 + t) * after) / 3.0,
+            (before, after) => before.or(after).unwrap_or(0.0),
+        };
+        (low + t * (high - low) - 0.5 * t * (1.0 - t) * bend).clamp(low.min(high), low.max(high))
+    }
+
     /// The node behind it, or the one it is on.
     pub fn high(&self) -> usize {
         if self.fraction > 0.0 { self.low + 1 } else { self.low }

@@ -22,7 +22,7 @@
 //!
 //! Newton's method on P, unknown nodes ordered y fastest, block LU. No allocation after construction.
 
-use super::grid::{FilmGrid, Start};
+use super::grid::{Axis, FilmGrid, Start};
 use super::slip::{Mobility, SlipLaw};
 use crate::numerics::rows::{Coupling, RowSolver, with_columns};
 use crate::numerics::vectorised;
@@ -382,6 +382,16 @@ impl Film {
         for (column, ix) in unknown.chunks_exact(self.columns).zip(ux) {
             self.pressure[ix * ny + uy.start..ix * ny + uy.end].copy_from_slice(column);
         }
+    }
+
+    /// Rate at which a small excess of gas at ambient pressure leaves an even gap `h` \[m\] by its slowest mode \[1/s\].
+    pub fn slowest_leak(&self, h: f64) -> f64 {
+        let length = |axis: &Axis| {
+            let ends = axis.nodes[axis.len() - 1] - axis.nodes[0];
+            if axis.start == Start::Mirror { 2.0 * ends } else { ends }
+        };
+        let mode = length(&self.grid.x).powi(-2) + length(&self.grid.y).powi(-2);
+        self.mobility * h * self.law.at(h).0 * std::f64::consts::PI.powi(2) * mode
     }
 
     /// The slip law.

@@ -31,9 +31,6 @@ pub struct App {
 
 impl App {
     /// The application on `scene`, or where the last window was left, or on the fundamental case.
-    ///
-    /// # Errors
-    /// If the solver's thread cannot be started.
     pub fn new(
         context: &eframe::CreationContext<'_>,
         opened: Option<Document>,
@@ -42,9 +39,6 @@ impl App {
     }
 
     /// As [`Self::new`], with a clock and file dialogs of the caller's.
-    ///
-    /// # Errors
-    /// If the solver's thread cannot be started.
     pub fn on_platform(
         context: &eframe::CreationContext<'_>,
         opened: Option<Document>,

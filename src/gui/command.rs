@@ -5,7 +5,7 @@ use super::state::document::Next;
 use super::state::pins::Page;
 use super::state::view::Tab;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::tradeoff::Wish;
+use crate::analysis::tradeoff::Target;
 use crate::fidelity::Fidelity;
 use crate::lessons::Prediction;
 use crate::problem::Numerics;
@@ -86,7 +86,7 @@ pub enum Command {
     /// Ends the measurement.
     CancelMeasure,
     /// What is asked of the trade-off.
-    Wish(Wish),
+    Target(Target),
     /// Asks where to write this, and writes it.
     Export(Export),
     /// Ends the export under way; nothing is written.

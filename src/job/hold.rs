@@ -76,9 +76,6 @@ pub struct HeldPlate {
 impl HeldPlate {
     /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film. `wake` is called from the thread after
     /// each snapshot.
-    ///
-    /// # Errors
-    /// If the thread cannot be started.
     pub fn start(
         plate: Plate,
         slowed: f64,

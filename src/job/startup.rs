@@ -8,9 +8,6 @@ use crate::startup::{self, Cycle, Settings, Startup};
 const AHEAD: usize = 4;
 
 /// Starts `problem` from rest. It returns how the start-up ended, or why there is no more.
-///
-/// # Errors
-/// If the thread cannot be started.
 pub fn start(
     problem: Problem,
     settings: Settings,

@@ -49,9 +49,6 @@ pub struct News<M, R> {
 impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
     /// Starts `work` on a thread `squeezefilm-name`. It looks at the flag, and sends messages through the function that it
     /// is given. `wake` is called from that thread after every message and at the end, then with `true`.
-    ///
-    /// # Errors
-    /// If the thread cannot be started.
     pub fn start(
         name: &str,
         wake: impl Fn(bool) + Send + Sync + 'static,
@@ -62,9 +59,6 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
     }
 
     /// As [`Self::start`]; the work waits while `most` of its messages have not been taken.
-    ///
-    /// # Errors
-    /// If the thread cannot be started.
     pub fn start_bounded(
         name: &str,
         most: usize,

@@ -10,9 +10,6 @@ use std::time::Instant;
 pub type Progress = (Vec<Run>, f64);
 
 /// Starts to measure `candidates` on `problem` by the clock `now`. It returns all settings with what was measured.
-///
-/// # Errors
-/// If the thread cannot be started.
 pub fn measure(
     problem: Problem,
     candidates: Vec<Candidate>,
@@ -32,7 +29,8 @@ pub fn measure(
 mod tests {
     use super::super::task::to_the_end;
     use super::*;
-    use crate::analysis::tradeoff::{Ended, candidates};
+    use crate::analysis::attempt::RunStatus;
+    use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
     use crate::scene::presets;
 
@@ -49,7 +47,7 @@ mod tests {
         let (told, end) = to_the_end(&start(Fidelity::Draft, 3, Instant::now));
         let runs = end.unwrap();
         assert_eq!((runs[0].times.len(), told.last().unwrap().1), (3, 1.0));
-        assert_eq!(runs[0].ended, Ended::Converged);
+        assert_eq!(runs[0].status, RunStatus::Converged);
     }
 
     #[test]

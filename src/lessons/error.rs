@@ -66,61 +66,15 @@ pub enum LessonErrorKind {
     /// Not TOML.
     #[error("is not valid TOML: {0}")]
     Syntax(String),
-    /// A key that no block has.
-    #[error("{block}.{key} is not known: expected one of {allowed}")]
-    UnknownKey {
+    /// Something is wrong with a key of a block.
+    #[error("{block}.{key}{fault}")]
+    Key {
         /// The block.
         block: &'static str,
         /// The key.
         key: String,
-        /// The keys it has.
-        allowed: String,
-    },
-    /// A key that has to be there.
-    #[error("{block}.{key} is missing: {why}")]
-    Missing {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// What it is needed for.
-        why: &'static str,
-    },
-    /// A value of another type.
-    #[error("{block}.{key} = {found} is of the wrong type: expected {expected}")]
-    WrongType {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// The value as written.
-        found: String,
-        /// What is allowed.
-        expected: &'static str,
-    },
-    /// A value that is none of those allowed.
-    #[error("{block}.{key} = \"{found}\" is not known: expected one of {allowed}")]
-    NotOneOf {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// The value.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A number out of its range.
-    #[error("{block}.{key} = {found} is out of range: allowed {allowed}")]
-    OutOfRange {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// The value.
-        found: String,
-        /// What is allowed.
-        allowed: String,
+        /// What is wrong with it.
+        fault: KeyFault,
     },
     /// The first step has no scene to begin with.
     #[error("setup.preset is missing: the first step has to name a preset, built in or a file beside lesson.md")]
@@ -133,49 +87,39 @@ pub enum LessonErrorKind {
         /// As written.
         name: String,
     },
-    /// A preset or a change of it is not allowed.
-    #[error("{block}.{key}: {error}")]
-    Scene {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// Every fault of the scene.
-        error: SceneError,
-    },
-    /// A change without a value.
-    #[error("{block}.{key}: \"{found}\" is no change: expected \"key = value\", as in \"film.min_spacing_nm = 100\"")]
-    NoChange {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// As written.
-        found: String,
-    },
-    /// The check cannot be read.
-    #[error("{block}.{key} = \"{source_text}\": {error}")]
-    Check {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// As written.
-        source_text: String,
-        /// Why.
-        error: CheckError,
-    },
     /// A text or a formula in it cannot be read.
     #[error("{0}")]
     Text(#[from] TextError),
-    /// A text in a block cannot be read.
-    #[error("{block}.{key}: {error}")]
-    TextIn {
-        /// The block.
-        block: &'static str,
-        /// The key.
-        key: &'static str,
-        /// Why.
-        error: TextError,
-    },
+}
+
+/// What is wrong with a key of a block.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum KeyFault {
+    /// No block has it; the keys that this one has.
+    #[error(" is not known: expected one of {0}")]
+    Unknown(String),
+    /// It has to be there, and what it is needed for.
+    #[error(" is missing: {0}")]
+    Missing(&'static str),
+    /// The value as written is of another type than this.
+    #[error(" = {0} is of the wrong type: expected {1}")]
+    WrongType(String, &'static str),
+    /// The value is none of those allowed.
+    #[error(" = \"{0}\" is not known: expected one of {1}")]
+    NotOneOf(String, String),
+    /// The number is out of the range that is allowed.
+    #[error(" = {0} is out of range: allowed {1}")]
+    OutOfRange(String, String),
+    /// A preset or a change of it is not allowed: every fault of the scene.
+    #[error(": {0}")]
+    Scene(SceneError),
+    /// A change without a value, as written.
+    #[error(": \"{0}\" is no change: expected \"key = value\", as in \"film.min_spacing_nm = 100\"")]
+    NoChange(String),
+    /// The check as written cannot be read, and why.
+    #[error(" = \"{0}\": {1}")]
+    Check(String, CheckError),
+    /// A text cannot be read.
+    #[error(": {0}")]
+    Text(TextError),
 }

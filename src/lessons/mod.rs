@@ -13,7 +13,7 @@ pub mod live;
 mod read;
 pub mod text;
 
-pub use error::{LessonError, LessonErrorKind};
+pub use error::{KeyFault, LessonError, LessonErrorKind};
 pub use lesson::{Act, Answer, Changes, Doing, Lesson, Prediction, Question, Step, Task, WindowNames};
 
 use crate::input::{self, ReadError};

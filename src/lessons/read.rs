@@ -1,7 +1,7 @@
 //! `lesson.md` to a [`Lesson`]: headings, text, and blocks of TOML in fences. All faults of a file are found at once.
 
 use super::check::{Check, Name, name};
-use super::error::{LessonError, LessonErrorKind};
+use super::error::{KeyFault, LessonError, LessonErrorKind};
 use super::lesson::{Act, Answer, Changes, Doing, Lesson, Question, Step, Task, WindowNames};
 use super::live::Live;
 use super::text::{self, Block, Inline};
@@ -73,6 +73,10 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn fault(&mut self, line: usize, kind: LessonErrorKind) {
         self.faults.push(LessonError { origin: self.origin.to_owned(), line: Some(line), kind });
+    }
+
+    fn key_fault(&mut self, line: usize, block: &'static str, key: &str, fault: KeyFault) {
+        self.fault(line, LessonErrorKind::Key { block, key: key.to_owned(), fault });
     }
 
     fn lesson(&mut self, id: &str, source: &str) -> Option<Lesson> {
@@ -190,9 +194,7 @@ impl Reader<'_> {
                 for key in tree.get_ref().keys() {
                     let name = key.get_ref().as_ref();
                     if !keys.contains(&name) {
-                        let kind =
-                            LessonErrorKind::UnknownKey { block, key: name.to_owned(), allowed: keys.join(", ") };
-                        self.fault(table.line(key.span().start), kind);
+                        self.key_fault(table.line(key.span().start), block, name, KeyFault::Unknown(keys.join(", ")));
                     }
                 }
                 read(self, &table);
@@ -216,13 +218,13 @@ impl Reader<'_> {
             let built_in = || presets::BUILT_IN.iter().find(|preset| preset.name == name).map(|preset| preset.scene());
             match (self.beside)(&name).or_else(built_in) {
                 Some(Ok(scene)) => self.scene = Some(scene),
-                Some(Err(error)) => self.fault(line, LessonErrorKind::Scene { block: SETUP, key: "preset", error }),
+                Some(Err(error)) => self.key_fault(line, SETUP, "preset", KeyFault::Scene(error)),
                 None => self.fault(line, LessonErrorKind::NoPreset { name }),
             }
         }
         if let Some(mut scene) = self.scene.clone() {
             if let Err(error) = scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
-                self.fault(table.line_of("set"), LessonErrorKind::Scene { block: SETUP, key: "set", error });
+                self.key_fault(table.line_of("set"), SETUP, "set", KeyFault::Scene(error));
             }
             self.scene = Some(scene);
         }
@@ -234,7 +236,7 @@ impl Reader<'_> {
                 (_, Some(scene)) => {
                     let allowed: Vec<&str> = scene.parameters().map(|parameter| parameter.key).collect();
                     let allowed = allowed.join(", ");
-                    self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "light", found: key, allowed });
+                    self.key_fault(line, SETUP, "light", KeyFault::NotOneOf(key, allowed));
                 }
                 (_, None) => {}
             }
@@ -244,7 +246,7 @@ impl Reader<'_> {
                 setup.look.push(place);
             } else {
                 let allowed = self.names.places.join(", ");
-                self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "look", found: place, allowed });
+                self.key_fault(line, SETUP, "look", KeyFault::NotOneOf(place, allowed));
             }
         }
         if let Some((tab, line)) = self.string(table, "tab") {
@@ -254,7 +256,7 @@ impl Reader<'_> {
                 setup.tab = Some(tab);
             } else {
                 let allowed = tabs.join(", ");
-                self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "tab", found: tab, allowed });
+                self.key_fault(line, SETUP, "tab", KeyFault::NotOneOf(tab, allowed));
             }
         }
         for (shown, line) in self.strings(table, "show") {
@@ -265,7 +267,7 @@ impl Reader<'_> {
                     let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
                     let allowed: Vec<&str> = results.collect();
                     let allowed = format!("{}, or a key of this scene", allowed.join(", "));
-                    self.fault(line, LessonErrorKind::NotOneOf { block: SETUP, key: "show", found: shown, allowed });
+                    self.key_fault(line, SETUP, "show", KeyFault::NotOneOf(shown, allowed));
                 }
             }
         }
@@ -277,21 +279,21 @@ impl Reader<'_> {
         let ask = self.blocks(table, "ask", Some("what is asked"));
         let why = self.blocks(table, "why", Some("what is said once the prediction is made"));
         let choices = self.strings(table, "choices");
-        let missing = |why| LessonErrorKind::Missing { block: QUESTION, key: "answer", why };
         let answer = if table.get("choices").is_some() {
             let read: Vec<Option<Vec<Inline>>> = choices
                 .iter()
                 .map(|(choice, line)| match text::inline(choice) {
                     Ok(inline) => Some(inline),
                     Err(error) => {
-                        self.fault(*line, LessonErrorKind::TextIn { block: QUESTION, key: "choices", error });
+                        self.key_fault(*line, QUESTION, "choices", KeyFault::Text(error));
                         None
                     }
                 })
                 .collect();
             let choices: Option<Vec<Vec<Inline>>> = read.into_iter().collect();
             if table.get("answer").is_none() {
-                self.fault(table.first_line(), missing("the number of the right choice, from 1"));
+                let why = "the number of the right choice, from 1";
+                self.key_fault(table.first_line(), QUESTION, "answer", KeyFault::Missing(why));
             }
             let (answer, line) = self.number(table, "answer")?;
             let choices = choices?;
@@ -299,20 +301,21 @@ impl Reader<'_> {
             if !right || choices.len() < 2 {
                 let allowed = format!("1 to {}, of at least 2 choices", choices.len());
                 let found = answer.to_string();
-                self.fault(line, LessonErrorKind::OutOfRange { block: QUESTION, key: "answer", found, allowed });
+                self.key_fault(line, QUESTION, "answer", KeyFault::OutOfRange(found, allowed));
                 return None;
             }
             Answer::Choice { choices, right: answer as usize - 1 }
         } else {
             if table.get("answer").is_none() {
-                self.fault(table.first_line(), missing("a number, or with choices the number of the right one"));
+                let why = "a number, or with choices the number of the right one";
+                self.key_fault(table.first_line(), QUESTION, "answer", KeyFault::Missing(why));
             }
             let (value, _) = self.number(table, "answer")?;
             let unit = self.string(table, "unit").map_or_else(String::new, |(unit, _)| unit);
             let (within, line) = self.number(table, "within").unwrap_or((WITHIN, table.first_line()));
             if !(within > 0.0 && within <= 1.0) {
                 let (found, allowed) = (within.to_string(), "above 0 to 1, relative to the answer".to_owned());
-                self.fault(line, LessonErrorKind::OutOfRange { block: QUESTION, key: "within", found, allowed });
+                self.key_fault(line, QUESTION, "within", KeyFault::OutOfRange(found, allowed));
             }
             Answer::Number { value, unit, within }
         };
@@ -328,14 +331,14 @@ impl Reader<'_> {
         let Some((source, line)) = self.string(table, "check") else {
             if table.get("check").is_none() {
                 let why = "what the run is checked for, as alpha > 1.5 * start.alpha";
-                self.fault(table.first_line(), LessonErrorKind::Missing { block: TASK, key: "check", why });
+                self.key_fault(table.first_line(), TASK, "check", KeyFault::Missing(why));
             }
             return None;
         };
         match Check::parse(&source, scene) {
             Ok(check) => Some(Task { ask, check, hint, example, wrong, then }),
             Err(error) => {
-                self.fault(line, LessonErrorKind::Check { block: TASK, key: "check", source_text: source, error });
+                self.key_fault(line, TASK, "check", KeyFault::Check(source, error));
                 None
             }
         }
@@ -359,7 +362,7 @@ impl Reader<'_> {
         }
         let mut changed = scene.clone();
         if let Err(error) = changed.set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
-            self.fault(table.line_of(key), LessonErrorKind::Scene { block: TASK, key, error });
+            self.key_fault(table.line_of(key), TASK, key, KeyFault::Scene(error));
         }
         doing
     }
@@ -372,7 +375,7 @@ impl Reader<'_> {
     /// Reads `key = value`.
     fn change(&mut self, table: &Table<'_>, key: &'static str, text: &str, line: usize) -> Option<(String, String)> {
         let Some((name, value)) = text.split_once('=') else {
-            self.fault(line, LessonErrorKind::NoChange { block: table.block, key, found: text.to_owned() });
+            self.key_fault(line, table.block, key, KeyFault::NoChange(text.to_owned()));
             return None;
         };
         let value = value.trim();
@@ -383,14 +386,14 @@ impl Reader<'_> {
     fn blocks(&mut self, table: &Table<'_>, key: &'static str, needed: Option<&'static str>) -> Vec<Block> {
         let Some((text, line)) = self.string(table, key) else {
             if let (Some(why), None) = (needed, table.get(key)) {
-                self.fault(table.first_line(), LessonErrorKind::Missing { block: table.block, key, why });
+                self.key_fault(table.first_line(), table.block, key, KeyFault::Missing(why));
             }
             return Vec::new();
         };
         match text::blocks(&text) {
             Ok(blocks) => blocks,
             Err((_, error)) => {
-                self.fault(line, LessonErrorKind::TextIn { block: table.block, key, error });
+                self.key_fault(line, table.block, key, KeyFault::Text(error));
                 Vec::new()
             }
         }
@@ -453,10 +456,7 @@ impl Reader<'_> {
     ) {
         const LONGEST: usize = 60;
         let found: String = table.piece.text[value.span()].chars().take(LONGEST).collect();
-        self.fault(
-            table.line(value.span().start),
-            LessonErrorKind::WrongType { block: table.block, key, found, expected },
-        );
+        self.key_fault(table.line(value.span().start), table.block, key, KeyFault::WrongType(found, expected));
     }
 }
 

@@ -169,14 +169,29 @@ impl Scene for Search<'_> {
         }
         let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
         let mut rounds = if similar { WARM_ROUNDS } else { limit };
+        let mut softened = false;
+        let anew = || {
+            let mut level = Level::new(motor, plan, grid);
+            level.start(motor);
+            level
+        };
         loop {
             match level.converge(plan, rounds, self.stats, &mut report, &cancel) {
                 Err(Stop::Cancelled) => return Ok((Status::Cancelled, level)),
                 // A motor too far from the last one is soon known, and started anew.
                 Ok(Status::NotConverged { .. }) | Err(Stop::Failed(_)) if rounds < limit => {
-                    level = Level::new(motor, plan, grid);
-                    level.start(motor);
+                    level = anew();
                     rounds = limit;
+                }
+                // Gas that leaves at once is no spring; where all is taken for one, many rounds do not reach the state.
+                Ok(Status::NotConverged { .. }) if !softened && !level.is_soft() => {
+                    level = anew();
+                    level.soften();
+                    softened = true;
+                }
+                Err(Stop::Failed(_)) if level.is_soft() => {
+                    level = anew();
+                    softened = true;
                 }
                 Ok(status) => return Ok((status, level)),
                 Err(Stop::Failed(error)) => return Err(error),
@@ -205,7 +220,7 @@ impl Scene for Search<'_> {
     }
 
     fn settled(&self, found: &Found<Level>) -> bool {
-        let whole = stated(self.motor, self.plan, found);
+        let whole = stated(self.plan, found);
         let grids = extrapolate_means(&found.headlines).error;
         whole.error <= self.plan.accuracy * unit(whole.value) || grids < 0.3 * whole.error
     }
@@ -296,7 +311,7 @@ impl<'a> Transient<'a> {
 
     /// What film and contact have to agree to in every step, in ln ζ.
     fn tolerance(&self) -> f64 {
-        0.1 * self.plan.tolerance
+        0.025 * self.plan.tolerance
     }
 
     /// Error of the last cycle's α that finer grids would not make smaller, absolute.
@@ -316,7 +331,7 @@ impl<'a> Transient<'a> {
 }
 
 /// α with its error.
-fn stated(motor: &Motor, plan: &Plan, found: &Found<Level>) -> Estimate {
+fn stated(plan: &Plan, found: &Found<Level>) -> Estimate {
     let estimate = extrapolate_means(&found.headlines);
     let Some(level) = found.levels.last() else { return estimate };
     // What floats carries its load whatever the gas is, and whatever was left out; only the height changes.
@@ -326,12 +341,8 @@ fn stated(motor: &Motor, plan: &Plan, found: &Found<Level>) -> Estimate {
     }
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
     let value = found.headlines.iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
-    // The trapped gas still changes by the residual, and its force with it; film and contact disagree about their shares.
-    // (Twice the latter: calibrated, docs/validation.md.)
-    let repeating = level.drift() / motor.load;
     let left_out = plan.left_out * value.abs();
-    let error =
-        estimate.error.min(1.0) + astray + 2.0 * level.mean_imbalance() + repeating + found.width_error() + left_out;
+    let error = estimate.error.min(1.0) + astray + level.astray() + found.width_error() + left_out;
     Estimate { value, error }
 }
 
@@ -351,7 +362,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
     };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
     let mut recording = level.recording(motor, plan, &coarser, plan.maps);
-    let estimate = stated(motor, plan, found);
+    let estimate = stated(plan, found);
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
     recording.judge_series(elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE));
     // The mean of the fields is the headline.
@@ -408,7 +419,6 @@ impl MotorResult {
         self.alpha = alpha;
         self.film_load = alpha * motor.load;
         self.contact_load = (1.0 - alpha) * motor.load;
-        let dry = motor.dry_friction * f64::from(motor.waves) * motor.load * motor.contact_radius;
-        self.max_torque = dry * (1.0 - alpha).max(0.0);
+        self.max_torque = motor.friction_torque((1.0 - alpha).max(0.0) * motor.load);
     }
 }

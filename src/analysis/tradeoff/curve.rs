@@ -1,6 +1,7 @@
-//! The curve of error against time that runs make, and which of them serves a wish.
+//! The curve of error against time that runs make, and which of them serves a target.
 
-use super::measure::{Ended, Run};
+use super::measure::Run;
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::solve::Method;
 
@@ -26,7 +27,7 @@ pub struct Point {
 
 /// What a user asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wish {
+pub enum Target {
     /// An error of at most this share of the value that is judged.
     Accuracy(f64),
     /// A time of at most this \[s\].
@@ -49,7 +50,7 @@ impl Tradeoff {
     pub fn of(runs: &[Run]) -> Self {
         let plate = runs.iter().any(|run| run.numbers.get(Quantity::LoadRatio).is_some());
         let judged = if plate { Quantity::FilmLoad } else { Quantity::Alpha };
-        let value = |run: &Run| (run.ended == Ended::Converged).then(|| run.numbers.get(judged)).flatten();
+        let value = |run: &Run| (run.status == RunStatus::Converged).then(|| run.numbers.get(judged)).flatten();
         let stated = |run: &Run| run.numbers.get(judged.error()?);
         let reference = runs
             .iter()
@@ -90,14 +91,14 @@ impl Tradeoff {
     }
 
     /// The cheapest setting that meets an accuracy, or the most accurate that keeps a budget; `None` if none does.
-    pub fn choose(&self, wish: Wish) -> Option<usize> {
+    pub fn choose(&self, target: Target) -> Option<usize> {
         let known = self.points.iter().enumerate().filter_map(|(i, point)| Some((i, point.median, point.error?)));
         let (time, error) = (|a: &(usize, f64, f64)| a.1, |a: &(usize, f64, f64)| a.2);
-        match wish {
-            Wish::Accuracy(allowed) => {
+        match target {
+            Target::Accuracy(allowed) => {
                 known.filter(|point| error(point) <= allowed).min_by(|a, b| time(a).total_cmp(&time(b)))
             }
-            Wish::Budget(allowed) => {
+            Target::Budget(allowed) => {
                 known.filter(|point| time(point) <= allowed).min_by(|a, b| error(a).total_cmp(&error(b)))
             }
         }

@@ -1,11 +1,10 @@
 //! Candidates, measured: interleaved runs, timed by the caller's clock.
 
 use super::candidates::Candidate;
-use crate::analysis::attempt::attempt;
+use crate::analysis::attempt::{RunStatus, attempt};
 use crate::analysis::quantity::Numbers;
 use crate::control::{Cancel, Progress};
 use crate::problem::Problem;
-use crate::solution::Status;
 
 /// Most repeats of one setting, if they are chosen by time.
 const MOST_REPEATS: usize = 31;
@@ -27,28 +26,13 @@ impl Default for Effort {
     }
 }
 
-/// How the runs of a setting ended: they are all alike but for the time they took.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ended {
-    /// Not measured yet.
-    Waiting,
-    /// The cycle repeats to the tolerance.
-    Converged,
-    /// A limit was reached first.
-    NotConverged,
-    /// It took longer than [`Effort::longest`].
-    GivenUp,
-    /// There is no solution, and why.
-    Failed(String),
-}
-
 /// One setting and what was measured of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The setting.
     pub candidate: Candidate,
-    /// How it ended.
-    pub ended: Ended,
+    /// How its runs ended, which are all alike but for the time they took.
+    pub status: RunStatus,
     /// The numbers; none unless it converged or reached its limit.
     pub numbers: Numbers,
     /// Nodes of one tooth's film (or of the plate's), and steps in a cycle, of the finest grid.
@@ -71,7 +55,7 @@ pub fn measure(
     let count = candidates.len();
     let blank = |candidate| Run {
         candidate,
-        ended: Ended::Waiting,
+        status: RunStatus::Waiting,
         numbers: Numbers::default(),
         grid: (0, 0),
         times: Vec::new(),
@@ -101,7 +85,7 @@ pub fn measure(
 /// How often a setting is to be run.
 fn wanted(run: &Run, effort: &Effort, count: usize) -> usize {
     let Some(first) = run.times.first() else { return 1 };
-    if matches!(run.ended, Ended::Failed(_) | Ended::GivenUp) {
+    if matches!(run.status, RunStatus::Failed(_) | RunStatus::GivenUp) {
         return 1;
     }
     let affordable = || (effort.seconds / count as f64 / first.max(1e-9)) as usize;
@@ -142,17 +126,13 @@ fn run_once(problem: &Problem, run: &mut Run, effort: &Effort, clock: &dyn Fn() 
     run.times.push(time);
     match solved {
         Ok(solution) => {
-            run.ended = match solution.status {
-                Status::Converged => Ended::Converged,
-                Status::NotConverged { .. } | Status::NotResolved { .. } => Ended::NotConverged,
-                Status::Cancelled => Ended::GivenUp,
-            };
-            if run.ended != Ended::GivenUp {
+            run.status = solution.status.into();
+            if run.status != RunStatus::GivenUp {
                 run.numbers = Numbers::of(&problem, &solution);
             }
             run.grid = (solution.stats.film_nodes, solution.stats.steps_per_cycle);
         }
-        Err(reason) => run.ended = Ended::Failed(reason),
+        Err(reason) => run.status = RunStatus::Failed(reason),
     }
     true
 }

@@ -47,9 +47,6 @@ impl Format {
     }
 
     /// The format of a path, by its extension in either case.
-    ///
-    /// # Errors
-    /// [`FigureError::Extension`].
     pub fn of(path: &Path) -> Result<Self, FigureError> {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         let found = Self::ALL.into_iter().find(|format| extension.as_deref() == Some(format.name()));
@@ -79,7 +76,7 @@ pub enum FigureError {
     },
     /// The file cannot be written.
     #[error(transparent)]
-    Write(#[from] crate::export::folder::WriteError),
+    Write(#[from] crate::atomic::WriteError),
 }
 
 /// The figure as an SVG.
@@ -88,18 +85,12 @@ pub fn to_svg(figure: &Figure) -> String {
 }
 
 /// The figure as a PNG of `scale` pixels to the point ([`PRINT`] for 300 to the inch).
-///
-/// # Errors
-/// [`FigureError::Size`], [`FigureError::Draw`].
 pub fn to_png(figure: &Figure, scale: f64) -> Result<Vec<u8>, FigureError> {
     let pixels = pixels(figure, scale)?;
     png_bytes(&pixels, Some(scale), &facts(figure)).map_err(|error| FigureError::Draw(error.to_string()))
 }
 
 /// The figure as a PDF of one page, its text as text.
-///
-/// # Errors
-/// [`FigureError::Draw`].
 pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     let drawing = Drawing::new(figure);
     let tree = drawing.tree(figure)?;
@@ -107,9 +98,6 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
 }
 
 /// The figure in a format, a PNG in print's resolution.
-///
-/// # Errors
-/// Those of the format.
 pub fn to_bytes(figure: &Figure, format: Format) -> Result<Vec<u8>, FigureError> {
     match format {
         Format::Svg => Ok(to_svg(figure).into_bytes()),
@@ -124,7 +112,7 @@ pub fn to_bytes(figure: &Figure, format: Format) -> Result<Vec<u8>, FigureError>
 /// [`FigureError`]; then no file is left, and an older one of that name is as it was.
 pub fn write(figure: &Figure, path: &Path) -> Result<(), FigureError> {
     let bytes = to_bytes(figure, Format::of(path)?)?;
-    crate::export::folder::write_file(path, |out| out.write_all(&bytes))?;
+    crate::atomic::write_file(path, |out| out.write_all(&bytes))?;
     Ok(())
 }
 

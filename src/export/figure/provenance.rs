@@ -23,6 +23,11 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// Of the scene of this name, by this program.
+    pub fn named(preset: &str) -> Self {
+        Self { preset: preset.to_owned(), version: env!("CARGO_PKG_VERSION").to_owned(), ..Self::default() }
+    }
+
     /// Of one solve.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let error = match &solution.outcome {
@@ -34,11 +39,10 @@ impl Provenance {
         };
         let status = status_name(&solution.status);
         Self {
-            preset: crate::scene::show_text(&problem.name),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
             fidelity: solution.model.fidelity.clone(),
             error,
             note: if status == "converged" { String::new() } else { status.to_uppercase() },
+            ..Self::named(&crate::scene::show_text(&problem.name))
         }
     }
 

@@ -3,6 +3,7 @@
 
 use super::axis::{Range, Scale};
 use super::colour::{Colour, Colours};
+use crate::digits::signed;
 
 /// Part of the data's span that is added at either end of an axis that shows curves.
 const MARGIN: f64 = 0.05;
@@ -188,12 +189,7 @@ fn thousands(size: f64) -> i32 {
 
 /// Digits with a minus sign, and none before zero.
 pub(super) fn fixed(value: f64, places: usize) -> String {
-    let text = format!("{value:.places$}");
-    match text.strip_prefix('-') {
-        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
-        Some(digits) => format!("−{digits}"),
-        None => text,
-    }
+    signed(format!("{value:.places$}"))
 }
 
 fn logarithmic(range: &Scaled, most: usize) -> Ticks {

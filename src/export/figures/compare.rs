@@ -9,31 +9,23 @@ use crate::export::figure::{Axis, Figure, Grid, Layer, Legend, Line, Map, Panel,
 use crate::problem::{Motor, Plate};
 use crate::recording::Recording;
 
-/// A motor's run.
+/// One run: of a motor, or of a plate.
 #[derive(Clone, Copy, Debug)]
-pub struct MotorRun<'a> {
+pub struct Run<'a, S> {
     /// Its name in the legend.
     pub name: &'a str,
-    /// The motor.
-    pub motor: &'a Motor,
+    /// The motor, or the plate.
+    pub scene: &'a S,
     /// Its fields.
     pub recording: &'a Recording,
     /// How its curves look.
     pub style: Style,
 }
 
+/// A motor's run.
+pub type MotorRun<'a> = Run<'a, Motor>;
 /// A plate's run.
-#[derive(Clone, Copy, Debug)]
-pub struct PlateRun<'a> {
-    /// Its name in the legend.
-    pub name: &'a str,
-    /// The plate.
-    pub plate: &'a Plate,
-    /// Its fields.
-    pub recording: &'a Recording,
-    /// How its curves look.
-    pub style: Style,
-}
+pub type PlateRun<'a> = Run<'a, Plate>;
 
 /// The style of run `index` of several: without markers, as curves have many points.
 pub fn style(index: usize) -> Style {
@@ -124,7 +116,7 @@ pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
 
 fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
     let underside = |run: &MotorRun<'_>, i: usize| {
-        run.recording.stator[i] + run.recording.film_thickness[i] - run.motor.min_spacing
+        run.recording.stator[i] + run.recording.film_thickness[i] - run.scene.min_spacing
     };
     let all = runs.iter().flat_map(|run| {
         (0..run.recording.stator.len()).flat_map(move |i| [run.recording.stator[i], underside(run, i)])
@@ -158,7 +150,7 @@ pub fn film_pressures(runs: &[MotorRun<'_>], phase: f64, title: &str) -> Panel {
 }
 
 fn pressures(runs: &[MotorRun<'_>], phase: f64, title: &str, of: impl Fn(&Recording) -> &Vec<f64>) -> Panel {
-    let all = runs.iter().flat_map(|run| of(run.recording).iter().map(|load| load / run.motor.contact_width));
+    let all = runs.iter().flat_map(|run| of(run.recording).iter().map(|load| load / run.scene.contact_width));
     let [low, high] = with_margin(span(all, 0.0), 0.06);
     let (unit, scale) = pressure_unit(high.max(-low));
     let (x, metre) = wave_axis(runs);
@@ -167,7 +159,7 @@ fn pressures(runs: &[MotorRun<'_>], phase: f64, title: &str, of: impl Fn(&Record
     for run in runs {
         let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
         let values = of(run.recording);
-        let mut points = along(run.recording, frame, metre, |i| values[i] / run.motor.contact_width * scale);
+        let mut points = along(run.recording, frame, metre, |i| values[i] / run.scene.contact_width * scale);
         // Nothing rather than a line at zero where a tooth does not touch.
         let teeth = points.split_mut(|[x, _]| !x.is_finite());
         teeth.filter(|tooth| tooth.iter().all(|[_, y]| *y == 0.0)).for_each(|tooth| tooth.fill([f64::NAN; 2]));
@@ -284,7 +276,7 @@ fn profile_panel(runs: &[PlateRun<'_>], phase: f64, title: &str) -> Panel {
     for run in runs {
         let x = mirrored(&run.recording.map_x, run.recording.half_length);
         let line = plate::middle_line(run.recording, nearest_frame(run.recording, phase));
-        let points = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x / run.plate.length, p * scale]));
+        let points = x.iter().filter_map(|(x, i)| line.get(*i).map(|p| [x / run.scene.length, p * scale]));
         panel = panel.layer(Line::new(run.name, points, run.style));
     }
     panel
@@ -306,7 +298,7 @@ pub fn profiles(runs: &[PlateRun<'_>]) -> Figure {
 
 /// A load as mean gauge pressure: that of strips and of plates can be laid over each other.
 fn mean_pressure(runs: &[PlateRun<'_>]) -> (String, f64) {
-    let all = runs.iter().flat_map(|run| run.recording.film_load.iter().map(|load| (load / run.plate.area()).abs()));
+    let all = runs.iter().flat_map(|run| run.recording.film_load.iter().map(|load| (load / run.scene.area()).abs()));
     pressure_unit(span(all, 0.0)[1])
 }
 
@@ -316,7 +308,7 @@ pub fn plate_loads(runs: &[PlateRun<'_>]) -> Figure {
     let mut panel = Panel::new("", Axis::new("t/T", "").fixed(0.0, 1.0), Axis::new("mean gauge pressure", unit));
     panel = panel.layer(rest(0.0, ""));
     for run in runs {
-        let points = over_cycle(&run.recording.film_load, scale / run.plate.area());
+        let points = over_cycle(&run.recording.film_load, scale / run.scene.area());
         panel = panel.layer(Line::new(run.name, points, run.style));
     }
     panel.legend = Legend::Above;
@@ -334,8 +326,8 @@ pub fn loops(runs: &[PlateRun<'_>]) -> Figure {
     for run in runs {
         let recording = run.recording;
         let at = |m: usize| {
-            let gap = recording.min_film_thickness.get(m)? / run.plate.mean_gap;
-            Some([gap, recording.film_load.get(m)? / run.plate.area() * scale])
+            let gap = recording.min_film_thickness.get(m)? / run.scene.mean_gap;
+            Some([gap, recording.film_load.get(m)? / run.scene.area() * scale])
         };
         let closed = (0..=recording.frames).map(|m| m % recording.frames.max(1));
         panel = panel.layer(Line::new(run.name, closed.filter_map(at), run.style));
@@ -359,7 +351,7 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
         let at = |i: usize, m: usize| columns[m].get(i).map_or(f64::NAN, |p| p * scale);
         let values = x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect();
         let grid = Grid {
-            x: x.iter().map(|(x, _)| x / run.plate.length).collect(),
+            x: x.iter().map(|(x, _)| x / run.scene.length).collect(),
             y: (0..=frames).map(|m| phase_of(recording, m)).collect(),
             values,
         };
@@ -392,7 +384,7 @@ pub fn moving_plates(runs: &[PlateRun<'_>], phase: f64) -> Figure {
     for run in runs {
         let m = nearest_frame(run.recording, phase);
         if let (Some(gap), Some(load)) = (run.recording.min_film_thickness.get(m), run.recording.film_load.get(m)) {
-            let at = [gap / run.plate.mean_gap, load / run.plate.area() * unit];
+            let at = [gap / run.scene.mean_gap, load / run.scene.area() * unit];
             let marker = crate::export::figure::Marker { size: 5.0, ..Default::default() };
             round = round.layer(crate::export::figure::Points::new("", [at], run.style.colour, marker));
         }

@@ -76,7 +76,7 @@ fn fields(both: &Both, title: &str) -> Option<Figure> {
     let ours = recording(&both.ours)?;
     let frame = crest_in_the_middle(ours);
     let phase = frame as f64 / ours.frames as f64;
-    let run = |name, recording, style| MotorRun { name, motor, recording, style };
+    let run = |name, recording, style| MotorRun { name, scene: motor, recording, style };
     let mut contact = vec![run(OURS, ours, Style::solid(Colour::CONTACT))];
     let mut film = vec![run(OURS, ours, Style::solid(Colour::FILM))];
     if let Some(paper) = recording(&both.paper) {

@@ -3,10 +3,6 @@
 use super::statements::{Statement, statements};
 use crate::analysis::reproduce::{Both, Reproduction, Row};
 use serde::Serialize;
-use std::io::{self, Write};
-
-/// The version of the object and of the columns.
-pub const SCHEMA: u32 = 1;
 
 /// A row of Table I. What was not computed is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -74,9 +70,7 @@ pub struct PointObject {
 
 /// The object of `--json`.
 #[derive(Clone, Debug, Serialize)]
-pub struct Object<'a> {
-    /// [`SCHEMA`].
-    pub schema: u32,
+pub struct Object {
     /// Of the converged values: `draft`, `standard`, ….
     pub fidelity: String,
     /// Table I.
@@ -87,41 +81,22 @@ pub struct Object<'a> {
     pub statements: Vec<Statement>,
     /// Solves that did not converge.
     pub unsolved: usize,
-    /// Version of this program.
-    pub version: &'static str,
-    /// The command line, word by word; empty if there was none.
-    pub command: &'a [String],
 }
 
-impl<'a> Object<'a> {
+impl Object {
     /// The object of a reproduction.
-    pub fn new(all: &Reproduction, command: &'a [String]) -> Self {
+    pub fn new(all: &Reproduction) -> Self {
         let point = |point: &crate::analysis::reproduce::Point| PointObject {
             frequency_khz: point.frequency_khz,
             alpha: point.solved.as_ref().ok().map(|result| result.alpha),
             alpha_error: point.solved.as_ref().ok().map(|result| result.alpha_error),
         };
         Self {
-            schema: SCHEMA,
             fidelity: all.settings.fidelity.to_string(),
             table1: all.rows.iter().map(RowObject::new).collect(),
             fig10: all.frequencies.iter().map(point).collect(),
             statements: statements(all),
             unsolved: all.unsolved(),
-            version: env!("CARGO_PKG_VERSION"),
-            command,
         }
     }
-}
-
-/// Writes Table I as CSV, the header first; what was not computed is empty.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_table1_csv(all: &Reproduction, out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    for row in &all.rows {
-        writer.serialize(RowObject::new(row))?;
-    }
-    writer.flush()
 }

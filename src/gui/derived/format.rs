@@ -1,6 +1,6 @@
 //! Numbers and words as the window writes them.
 
-use crate::digits::{significant, with_error};
+use crate::digits::{signed, significant, with_error};
 
 /// Share of its error below which a value is shown as 0.
 const NOTHING: f64 = 0.05;
@@ -12,15 +12,6 @@ pub fn number(value: f64) -> String {
     }
     let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
     signed(format!("{value:.decimals$}"))
-}
-
-/// With a true minus sign; "-0.00" is a zero.
-pub fn signed(text: String) -> String {
-    match text.strip_prefix('-') {
-        Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
-        Some(zero) => zero.to_owned(),
-        None => text,
-    }
 }
 
 /// `value` as it is, without trailing zeros.
@@ -48,12 +39,6 @@ pub fn to_digits(value: f64, digits: i32, round: impl Fn(f64) -> f64) -> f64 {
     let scaled = round(value / 10f64.powi(exponent));
     // Through text, so that no stray bits are left.
     format!("{scaled}e{exponent}").parse().unwrap_or(value)
-}
-
-/// With a capital first letter.
-pub fn capitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
 /// `10⁻⁶`, with the digits that the fonts have.

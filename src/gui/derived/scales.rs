@@ -1,6 +1,6 @@
 //! What the views need of a whole cycle, computed once for a run: fixed ranges of the axes, and curves over the cycle.
 
-use crate::analysis::compare::Run;
+use crate::analysis::compare::ComparedRun;
 use crate::problem::Scenario;
 use crate::recording::Recording;
 
@@ -168,7 +168,7 @@ pub struct RunCurves {
 
 impl RunCurves {
     /// Reads the whole recording once.
-    pub fn new(run: &Run) -> Self {
+    pub fn new(run: &ComparedRun) -> Self {
         let Ok(solution) = &run.solved else { return Self::default() };
         let recording = &solution.recording;
         let area = match &run.problem.scenario {

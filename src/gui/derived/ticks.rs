@@ -1,6 +1,6 @@
 //! Round numbers on axes.
 
-use super::format::signed;
+use crate::digits::signed;
 
 /// Round numbers on an axis.
 #[derive(Clone, Copy, Debug)]

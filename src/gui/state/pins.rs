@@ -1,7 +1,7 @@
 //! Runs that were pinned to be compared: what they are called, their colours, and the numbers of all of them. Their scenes
 //! outlive the window, and are solved again.
 
-use crate::analysis::compare::{ParameterRow, ResultRow, Run, parameters, results, unique};
+use crate::analysis::compare::{ComparedRun, ParameterRow, ResultRow, parameters, results, unique};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::RunCurves;
 use crate::job::task::Task;
@@ -31,7 +31,7 @@ pub struct Pin {
 }
 
 /// The solve of a pin; it returns nothing if it was cancelled.
-pub type PinTask = Task<(), Option<Run>>;
+pub type PinTask = Task<(), Option<ComparedRun>>;
 
 /// A pin that is being solved, or will be: a preset, or one of the last window.
 #[derive(Debug)]
@@ -79,7 +79,7 @@ pub enum Note {
 #[derive(Debug, Default)]
 pub struct Pins {
     pins: Vec<Pin>,
-    runs: Vec<Run>,
+    runs: Vec<ComparedRun>,
     results: Vec<ResultRow>,
     parameters: Vec<ParameterRow>,
     waiting: Vec<Waiting>,
@@ -100,7 +100,7 @@ impl Pins {
     }
 
     /// The pinned runs.
-    pub fn runs(&self) -> &[Run] {
+    pub fn runs(&self) -> &[ComparedRun] {
         &self.runs
     }
 
@@ -125,7 +125,7 @@ impl Pins {
     }
 
     /// A pin by its number.
-    pub fn run(&self, id: u64) -> Option<&Run> {
+    pub fn run(&self, id: u64) -> Option<&ComparedRun> {
         Some(&self.runs[self.place(id)?])
     }
 
@@ -140,13 +140,13 @@ impl Pins {
     }
 
     /// Pins `run`; one that is there already, solved the same way, is not pinned twice.
-    pub fn add(&mut self, run: Run) {
+    pub fn add(&mut self, run: ComparedRun) {
         let id = self.number();
         self.insert(id, None, run);
     }
 
     /// Pins `run` under its own number, in the order of the numbers. `stored`: what it was called, and its colour.
-    fn insert(&mut self, id: u64, stored: Option<(String, usize)>, mut run: Run) {
+    fn insert(&mut self, id: u64, stored: Option<(String, usize)>, mut run: ComparedRun) {
         let twin = self.runs.iter().find(|other| other.scene == run.scene && fidelity(other) == fidelity(&run));
         if let Some(twin) = twin {
             self.note = Some(Note::Remark(format!("“{}” is this run already", twin.label)));
@@ -176,7 +176,7 @@ impl Pins {
     }
 
     /// What it is called, or the scene's name and what it differs in from a pin of that name.
-    fn name_of(&self, run: &Run) -> String {
+    fn name_of(&self, run: &ComparedRun) -> String {
         let name = &run.scene.name;
         let taken = |label: &str| self.runs.iter().any(|other| other.label == label);
         let namesake = self.runs.iter().find(|other| other.scene.name == *name);
@@ -328,13 +328,13 @@ impl Pins {
 }
 
 /// The fidelity that a run was solved at, in a word.
-pub fn fidelity(run: &Run) -> &str {
+pub fn fidelity(run: &ComparedRun) -> &str {
     run.solved.as_ref().map_or("", |solution| &solution.model.fidelity)
 }
 
 /// A run of the window as one to be compared.
-pub fn to_compare(run: &crate::job::SolvedScene) -> Run {
-    Run {
+pub fn to_compare(run: &crate::job::SolvedScene) -> ComparedRun {
+    ComparedRun {
         label: run.scene.name.clone(),
         scene: run.scene.clone(),
         problem: run.problem.clone(),
@@ -351,7 +351,7 @@ mod tests {
     use crate::scene::presets;
     use crate::solve::Settings;
 
-    fn solved(preset: &str, set: &[(&str, &str)], fidelity: Fidelity) -> Run {
+    fn solved(preset: &str, set: &[(&str, &str)], fidelity: Fidelity) -> ComparedRun {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
         let settings = Settings { fidelity, ..Settings::default() };

@@ -3,15 +3,15 @@
 use super::updater::Updater;
 use crate::analysis::compare;
 use crate::analysis::torque::TorqueCurves;
-use crate::analysis::tradeoff::Wish;
+use crate::analysis::tradeoff::Target;
 use crate::atomic::write_file;
 use crate::control::Cancel;
 use crate::export::animation::Options;
-use crate::export::figure::{Format, to_bytes};
+use crate::export::figure::{self, Format};
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::Summary;
 use crate::export::sweep::{figure_of, write_csv};
-use crate::export::tradeoff;
+use crate::export::{csv, tradeoff};
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::pins::{fidelity, to_compare};
@@ -73,8 +73,8 @@ impl Updater {
                 let (run, named) = self.named()?;
                 Box::new(move |control| {
                     let mut summary = Summary::new(&named.1, &run.solution, run.wall_s, &[]);
-                    let merit = summary.add_torque(merit(&run, control.cancel));
-                    let solved = Solved { torque: merit.as_ref(), ..solved(&run, &named) };
+                    summary.add_torque(merit(&run, control.cancel));
+                    let solved = Solved { torque: summary.torque.as_ref(), ..solved(&run, &named) };
                     files::solve(&path, &solved, &summary, &BESIDE_DATA, control)
                 })
             }
@@ -97,7 +97,7 @@ impl Updater {
             }
             Export::Report => {
                 let (run, (scene, problem)) = self.named()?;
-                let run = compare::Run { label: scene.name.clone(), scene, problem, ..to_compare(&run) };
+                let run = compare::ComparedRun { label: scene.name.clone(), scene, problem, ..to_compare(&run) };
                 let settings = at(&[fidelity(&run)]);
                 Box::new(move |control| files::html(&path, &[run], &settings, control))
             }
@@ -123,9 +123,7 @@ impl Updater {
                         Ok(vec![path])
                     }
                     Export::SweepFigure => {
-                        let format = Format::of(&path)?;
-                        let bytes = to_bytes(&figure_of(&sweep, &rows, quantity), format)?;
-                        write_file(&path, |out| out.write_all(&bytes))?;
+                        figure::write(&figure_of(&sweep, &rows, quantity), &path)?;
                         Ok(vec![path])
                     }
                     _ => Ok(files::swept(&path, &sweep, &rows, &[], &BESIDE_DATA)?),
@@ -134,14 +132,14 @@ impl Updater {
             Export::TradeoffTable | Export::TradeoffFigure => {
                 let measured = self.state.tradeoff.as_ref()?;
                 let (name, tradeoff) = (measured.name().to_owned(), measured.tradeoff().clone());
-                let wishes = [Wish::Accuracy(self.state.view.accuracy), Wish::Budget(self.state.view.budget)];
+                let targets = [Target::Accuracy(self.state.view.accuracy), Target::Budget(self.state.view.budget)];
                 Box::new(move |_| {
                     if export == Export::TradeoffTable {
-                        write_file(&path, |out| tradeoff::write_csv(&tradeoff, out))?;
+                        write_file(&path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?;
                     } else {
-                        let chosen: Vec<usize> = wishes.into_iter().filter_map(|wish| tradeoff.choose(wish)).collect();
-                        let bytes = to_bytes(&tradeoff::figure(&name, &tradeoff, &chosen), Format::of(&path)?)?;
-                        write_file(&path, |out| out.write_all(&bytes))?;
+                        let chosen: Vec<usize> =
+                            targets.into_iter().filter_map(|target| tradeoff.choose(target)).collect();
+                        figure::write(&tradeoff::figure(&name, &tradeoff, &chosen), &path)?;
                     }
                     Ok(vec![path])
                 })

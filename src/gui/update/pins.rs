@@ -1,7 +1,7 @@
 //! What is asked of the pins, carried out.
 
 use super::updater::Updater;
-use crate::analysis::compare::{Run, runs};
+use crate::analysis::compare::{ComparedRun, runs};
 use crate::fidelity::Fidelity;
 use crate::gui::command::PinCommand;
 use crate::gui::state::pins::{PinTask, to_compare};
@@ -16,7 +16,7 @@ impl Updater {
             PinCommand::Shown => {
                 if let Some(run) = &self.state.run {
                     let label = run.scene.title(self.state.document.saved());
-                    self.state.pins.add(Run { label, ..to_compare(run) });
+                    self.state.pins.add(ComparedRun { label, ..to_compare(run) });
                 }
             }
             PinCommand::Preset(name) => self.pin_preset(name),

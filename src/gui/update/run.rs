@@ -1,7 +1,7 @@
 //! One place where every command is carried out, and one where all that has happened is taken.
 
 use super::updater::{LECTURE_ZOOM, Updater};
-use crate::analysis::tradeoff::Wish;
+use crate::analysis::tradeoff::Target;
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::{Answer, Picture, Purpose};
 use crate::gui::state::document::Document;
@@ -56,8 +56,8 @@ impl Updater {
             Command::Lesson(command) => self.teach(command),
             Command::Measure => self.measure(),
             Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.cancel()),
-            Command::Wish(Wish::Accuracy(share)) => state.view.accuracy = share,
-            Command::Wish(Wish::Budget(seconds)) => state.view.budget = seconds,
+            Command::Target(Target::Accuracy(share)) => state.view.accuracy = share,
+            Command::Target(Target::Budget(seconds)) => state.view.budget = seconds,
             Command::Export(export) => self.ask(Purpose::Export(export), export.file_name()),
             Command::WriteExport(export, path) => self.export(export, &path),
             Command::CancelExport => state.exports.cancel(),

@@ -31,9 +31,6 @@ pub struct Updater {
 
 impl Updater {
     /// Begins with `state`, and starts to solve its scene. `parent`: a file dialog over the window.
-    ///
-    /// # Errors
-    /// If the solver's thread cannot be started.
     pub fn start(
         ctx: &egui::Context,
         state: State,

@@ -1,7 +1,7 @@
 //! Comparisons of a check, and what they say of a run.
 
 use super::name::{Name, Ran};
-use crate::digits::short;
+use crate::digits::{capitalised, short};
 use crate::lessons::live::Live;
 use crate::scene::Value;
 
@@ -130,9 +130,4 @@ impl Expression {
         };
         value.is_finite().then_some(value)
     }
-}
-
-fn capitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }

@@ -3,8 +3,7 @@
 use crate::gui::command::Command;
 use crate::gui::state::tour::STOPS;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::highlight;
-use crate::gui::ui::keys;
+use crate::gui::ui::{highlight, keys};
 use eframe::egui::{self, Align, Id, Layout, Order, Rect, RichText, Vec2, pos2, vec2};
 
 /// Width of the callout.

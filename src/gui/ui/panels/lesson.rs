@@ -1,12 +1,12 @@
 //! The panel of a lesson, in place of the results: the step's text, its question, its task, the numbers it is about.
 
+use crate::digits::capitalised;
 use crate::gui::command::{Command, LessonCommand};
-use crate::gui::derived::format::{capitalised, digits};
+use crate::gui::derived::format::digits;
 use crate::gui::state::lessons::StepWork;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
-use crate::gui::ui::keys;
 use crate::gui::ui::rich::{self, Look};
+use crate::gui::ui::{glossary, keys};
 use crate::lessons::check::Name;
 use crate::lessons::live::Live;
 use crate::lessons::text::{self, Inline};
@@ -218,7 +218,7 @@ fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {
 fn answer(ui: &mut Ui, question: &Question, work: &StepWork, cx: &DrawContext<'_>) {
     let right = work.prediction.is_some_and(|prediction| question.answer.is_right(prediction));
     let (colour, title) =
-        if right { (cx.colours.good, "✔ As you expected") } else { (cx.colours.contact, "Otherwise than expected") };
+        if right { (cx.colours.good, "✔ As you expected") } else { (cx.colours.contact, "Not what you predicted") };
     let look = Look::reading(ui);
     boxed(ui, colour, title, |ui| {
         match &question.answer {

@@ -2,10 +2,10 @@
 //! otherwise. After a switch, what it changed.
 
 use crate::analysis::decision;
-use crate::digits::significant;
+use crate::analysis::tradeoff::without_grid;
+use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
-use crate::gui::derived::format::power_of_ten;
-use crate::gui::derived::format::{capitalised, digits};
+use crate::gui::derived::format::{digits, power_of_ten};
 use crate::gui::derived::words;
 use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
@@ -14,7 +14,6 @@ use crate::gui::ui::fidelity;
 use crate::gui::ui::hint::{Hint, beside, text_width};
 use crate::job::SolvedScene;
 use crate::plan::Decision;
-use crate::problem::Numerics;
 use crate::scene::{Parameter, ParameterKind, Scene, Value};
 use eframe::egui::{self, Align, Layout, RichText, TextStyle, vec2};
 
@@ -206,13 +205,7 @@ impl Row<'_> {
         self.heading(ui, decision);
         self.cx.note(ui, capitalised(&decision::words(decision)));
         if decision.overruled {
-            let numerics = Numerics {
-                film_nodes_along: None,
-                film_nodes_across: None,
-                steps_per_cycle: None,
-                tolerance: None,
-                ..self.document().scene().numerics()
-            };
+            let numerics = without_grid(&self.document().scene().numerics());
             self.overruled(ui, decision, Command::Use { target: self.document().target(), numerics });
         }
     }

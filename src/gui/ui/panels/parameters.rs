@@ -2,8 +2,8 @@
 
 use super::field::{self, Field};
 use super::records;
+use crate::digits::capitalised;
 use crate::gui::command::Command;
-use crate::gui::derived::format::capitalised;
 use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, choice, field_name, label, switch};
 use crate::gui::ui::context::DrawContext;

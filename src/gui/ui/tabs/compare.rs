@@ -1,10 +1,10 @@
 //! Pinned runs beside each other: who they are, their fields in phase, and their numbers with differences from the first.
 
-use crate::analysis::compare::{ParameterRow, Run};
+use crate::analysis::compare::{ComparedRun, ParameterRow};
 use crate::analysis::quantity::Quantity;
+use crate::digits::capitalised;
 use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
-use crate::gui::derived::format::capitalised;
 use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::pins::{Note, Page, fidelity};
 use crate::gui::ui::context::DrawContext;
@@ -147,7 +147,7 @@ fn frame(ui: &Ui, colour: Color32) -> egui::Frame {
     egui::Frame::new().fill(fill).stroke((1.0, colour)).corner_radius(5).inner_margin(egui::Margin::same(CHIP_MARGIN))
 }
 
-fn chip(ui: &mut Ui, id: u64, run: &Run, colour: Color32, present: bool, cx: &DrawContext<'_>) {
+fn chip(ui: &mut Ui, id: u64, run: &ComparedRun, colour: Color32, present: bool, cx: &DrawContext<'_>) {
     let em = ui.text_style_height(&TextStyle::Body);
     let button = |text: &str| text_width(ui, text) + 2.0 * ui.spacing().button_padding.x + CHIP_GAP;
     // All but the label.
@@ -160,7 +160,14 @@ fn chip(ui: &mut Ui, id: u64, run: &Run, colour: Color32, present: bool, cx: &Dr
     ui.allocate_ui_with_layout(size, row, |ui| chip_parts(ui, id, run, (colour, label), present, cx));
 }
 
-fn chip_parts(ui: &mut Ui, id: u64, run: &Run, (colour, label): (Color32, f32), present: bool, cx: &DrawContext<'_>) {
+fn chip_parts(
+    ui: &mut Ui,
+    id: u64,
+    run: &ComparedRun,
+    (colour, label): (Color32, f32),
+    present: bool,
+    cx: &DrawContext<'_>,
+) {
     let em = ui.text_style_height(&TextStyle::Body);
     frame(ui, colour).show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = CHIP_GAP;
@@ -181,7 +188,7 @@ fn chip_parts(ui: &mut Ui, id: u64, run: &Run, (colour, label): (Color32, f32), 
 }
 
 /// The label, to be typed over; Enter or leaving takes it, Escape does not.
-fn name_field(ui: &mut Ui, pin: u64, run: &Run, width: f32, cx: &DrawContext<'_>) {
+fn name_field(ui: &mut Ui, pin: u64, run: &ComparedRun, width: f32, cx: &DrawContext<'_>) {
     let id = Id::unique(("label of a pin", pin));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| run.label.clone());
     let field = egui::TextEdit::singleline(&mut text)

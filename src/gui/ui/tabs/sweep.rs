@@ -1,9 +1,10 @@
 //! One parameter varied, or two: what is asked for, the points as they are solved, and any number of their results.
 
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::Ending;
+use crate::digits::capitalised;
 use crate::gui::command::SweepCommand;
-use crate::gui::derived::format::{capitalised, rough};
+use crate::gui::derived::format::rough;
 use crate::gui::derived::words::label;
 use crate::gui::state::sweep::{AxisForm, Form, Swept, candidates};
 use crate::gui::ui::context::DrawContext;
@@ -230,7 +231,7 @@ fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
         swept
             .rows()
             .iter()
-            .filter(|row| matches!(row.ending, Ending::Failed(_)) == failed && !converged(&row.ending))
+            .filter(|row| matches!(row.status, RunStatus::Failed(_)) == failed && !converged(&row.status))
             .count()
     };
     for (number, what) in [(count(false), "did not converge"), (count(true), "have no solution")] {
@@ -240,6 +241,6 @@ fn state(ui: &mut Ui, swept: &Swept, cx: &DrawContext<'_>) {
     }
 }
 
-fn converged(ending: &Ending) -> bool {
-    *ending == Ending::Converged
+fn converged(ending: &RunStatus) -> bool {
+    *ending == RunStatus::Converged
 }

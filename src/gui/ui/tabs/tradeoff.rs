@@ -1,10 +1,10 @@
 //! Error against solve time of the present scene, measured on this machine when asked for: each setting a point, the front
-//! of those that no other beats, the present setting ringed, and the cheapest that serves a wish.
+//! of those that no other beats, the present setting ringed, and the cheapest that serves a target.
 
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::tradeoff::{Candidate, Ended, Family, Point, Tradeoff, Wish};
+use crate::analysis::tradeoff::{Candidate, Family, Point, Target, Tradeoff};
 use crate::digits::significant;
-use crate::export::tradeoff::status;
 use crate::gui::command::Command;
 use crate::gui::derived::format::{rough, trimmed};
 use crate::gui::state::dialogs::Export;
@@ -57,8 +57,8 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let least = LEAST_LINES * ui.text_style_height(&TextStyle::Body);
         plot(ui, tradeoff, (PLOT_SHARE * height).max(least), cx);
         ui.add_space(4.0);
-        for wish in [Wish::Accuracy(cx.state.view.accuracy), Wish::Budget(cx.state.view.budget)] {
-            advice(ui, tradeoff, wish, cx);
+        for target in [Target::Accuracy(cx.state.view.accuracy), Target::Budget(cx.state.view.budget)] {
+            advice(ui, tradeoff, target, cx);
         }
         ui.add_space(6.0);
         table(ui, tradeoff, cx);
@@ -127,7 +127,7 @@ fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if let Some(failure) = measured.failure() {
         cx.say(ui, format!("The measurement failed: {failure}"), cx.colours.alarm);
     }
-    let unconverged = measured.tradeoff().points.iter().filter(|point| !usable(&point.run.ended)).count();
+    let unconverged = measured.tradeoff().points.iter().filter(|point| !usable(&point.run.status)).count();
     if unconverged > 0 {
         let text = format!("{unconverged} of the settings did not converge: they are in the table only");
         cx.note(ui, text);
@@ -139,8 +139,8 @@ fn in_use(candidate: &Candidate, cx: &DrawContext<'_>) -> bool {
     is_present(candidate, cx.state.document.target(), cx.state.document.scene().numerics())
 }
 
-fn usable(ended: &Ended) -> bool {
-    matches!(ended, Ended::Waiting | Ended::Converged)
+fn usable(ended: &RunStatus) -> bool {
+    matches!(ended, RunStatus::Waiting | RunStatus::Converged)
 }
 
 /// Where the families stand, in colour and shape.
@@ -288,14 +288,14 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), judged);
 }
 
-/// A wish, what serves it, and the way to use that.
-fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, wish: Wish, cx: &DrawContext<'_>) {
+/// A target, what serves it, and the way to use that.
+fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        let (name, mut value, unit, range, about) = match wish {
-            Wish::Accuracy(share) => {
+        let (name, mut value, unit, range, about) = match target {
+            Target::Accuracy(share) => {
                 ("Accuracy", 100.0 * share, " %", ACCURACY, "The cheapest with at most this error")
             }
-            Wish::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most exact within this time"),
+            Target::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most exact within this time"),
         };
         let label = ui.label(name);
         let label = glossary::here(ui, label, name);
@@ -306,12 +306,12 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, wish: Wish, cx: &DrawContext<'
             .speed(speed)
             .custom_formatter(|value, _| trimmed(&significant(value, 3)).to_owned());
         if ui.add(drag).labelled_by(label.id).hint(about).changed() {
-            cx.push(Command::Wish(match wish {
-                Wish::Accuracy(_) => Wish::Accuracy(1e-2 * value),
-                Wish::Budget(_) => Wish::Budget(1e-3 * value),
+            cx.push(Command::Target(match target {
+                Target::Accuracy(_) => Target::Accuracy(1e-2 * value),
+                Target::Budget(_) => Target::Budget(1e-3 * value),
             }));
         }
-        let Some(point) = tradeoff.choose(wish).and_then(|i| tradeoff.points.get(i)) else {
+        let Some(point) = tradeoff.choose(target).and_then(|i| tradeoff.points.get(i)) else {
             ui.add(egui::Label::new(RichText::new("no setting serves").color(cx.colours.alarm)));
             return;
         };
@@ -355,10 +355,10 @@ fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
                 ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
                 ui.label(point.error.map_or_else(String::new, percent));
                 let mut marks = Vec::new();
-                match &point.run.ended {
-                    Ended::Waiting | Ended::Converged => {}
-                    Ended::Failed(_) => marks.push("failed".to_owned()),
-                    other => marks.push(status(other)),
+                match &point.run.status {
+                    RunStatus::Waiting | RunStatus::Converged => {}
+                    RunStatus::Failed(_) => marks.push("failed".to_owned()),
+                    other => marks.push(other.to_string()),
                 }
                 if point.best {
                     marks.push("best".to_owned());
@@ -367,7 +367,7 @@ fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
                     marks.push("in use".to_owned());
                 }
                 let marks = ui.label(quiet(&marks.join(", ")));
-                if let Ended::Failed(reason) = &point.run.ended {
+                if let RunStatus::Failed(reason) = &point.run.status {
                     marks.hint(reason);
                 }
                 ui.end_row();

@@ -4,7 +4,7 @@
 use super::field::{self, Stamp};
 use super::pointer::{named, seek};
 use super::series::{Series, Trace};
-use crate::analysis::compare::Run;
+use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::sample::{self, Lines};
@@ -31,7 +31,7 @@ pub struct Overlaid<'a> {
     /// Its colour.
     pub colour: Color32,
     /// The run.
-    pub run: &'a Run,
+    pub run: &'a ComparedRun,
     /// Scales and curves of its cycle.
     pub curves: &'a RunCurves,
 }

@@ -2,13 +2,15 @@
 //! they are solved; the nearest to the pointer is read out, and a click asks for its scene.
 
 use super::pointer::named;
+use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Ending, Row, Sweep};
+use crate::analysis::sweep::{Axis, Row, Sweep};
 use crate::analysis::table1::Published;
+use crate::digits::capitalised;
 use crate::digits::{significant, with_error};
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
-use crate::gui::derived::format::{capitalised, digits, trimmed};
+use crate::gui::derived::format::{digits, trimmed};
 use crate::gui::derived::scales::span;
 use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::derived::words::label;
@@ -55,7 +57,7 @@ pub struct Plotted<'a> {
 impl Plotted<'_> {
     /// The value at a row that converged, and its error.
     fn sound(&self, row: &Row) -> Option<(f64, f64)> {
-        if row.ending != Ending::Converged {
+        if row.status != RunStatus::Converged {
             return None;
         }
         let error = self.quantity.error().and_then(|error| row.numbers.get(error));
@@ -84,10 +86,9 @@ impl Plotted<'_> {
             error.map_or_else(|| significant(value, 4), |error| with_error(value, error))
         });
         lines.push(value.map_or_else(|| format!("{name}: none"), |value| format!("{name} {value} {unit}")));
-        match &row.ending {
-            Ending::Converged => {}
-            Ending::NotConverged => lines.push("not converged".to_owned()),
-            Ending::Failed(reason) => lines.push(format!("failed: {reason}")),
+        match &row.status {
+            RunStatus::Converged => {}
+            other => lines.push(other.to_string()),
         }
         lines.push("Click to make this the present scene".to_owned());
         lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
@@ -236,7 +237,7 @@ fn line<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, axis:
         // An error without bounds is not drawn.
         if error.is_finite() { [value - error, value + error] } else { [value; 2] }
     });
-    let unsound = rows.iter().filter(|(row, _)| row.ending == Ending::NotConverged);
+    let unsound = rows.iter().filter(|(row, _)| row.status == RunStatus::NotConverged);
     let unsound = unsound.filter_map(|(row, _)| row.numbers.get(plotted.quantity));
     let [mut low, mut high] = span(bands.chain(unsound).chain(table.iter().filter(inside).map(|at| at[1])));
     if low > 0.0 && low < FROM_ZERO * high {

@@ -1,19 +1,19 @@
-//! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
+//! The film under a plate on one grid: rounds of its cycle until it repeats, or one cycle after the other from rest.
 
-use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
+use super::frames::Frames;
+use crate::control::{Cancel, Reporter};
+use crate::estimate::Mean;
 use crate::film::cycle::{FilmCycle, Interrupted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, Between, FilmGrid, Start};
 use crate::film::slip::SlipLaw;
 use crate::film::stepper::FilmState;
 use crate::film::trapped::edge_height;
-use crate::ladder::{Found, Scene, climb};
 use crate::numerics::{anderson::Anderson, grading};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::recording::{Balance, LineLoads, Recording};
-use crate::solution::{PlateResult, Stats, Status};
+use crate::solution::{Stats, Status};
 
 /// Earlier cycles that the acceleration remembers.
 const DEPTH: usize = 8;
@@ -24,312 +24,14 @@ const REPEATING_SHARE: f64 = 0.2;
 const LEAST_CHANGE: f64 = 1e-12;
 /// A change that so many rounds do not halve is round-off, too, if it is below this.
 const ROUND_OFF: f64 = 1e-9;
-/// Rounding of a mean load over the force of the gas.
-const ROUNDING: f64 = 1e-15;
 const PATIENCE: usize = 8;
 /// Share of the load's swing below which its mean need not be known more exactly.
 const LEAST_SHARE_OF_SWING: f64 = 1e-4;
-
-/// A plate's periodic state: the numbers, how they were reached, and the fields.
-#[derive(Clone, Debug)]
-pub struct Periodic {
-    /// How the finest grid ended.
-    pub status: Status,
-    /// The numbers, with the error estimate.
-    pub result: PlateResult,
-    /// Mean load of each grid, coarse to fine.
-    pub loads: Vec<f64>,
-    /// What it cost, all grids.
-    pub stats: Stats,
-    /// Fields of one cycle on the finest grid.
-    pub recording: Recording,
-}
-
-/// Solves for the periodic state on each of the plan's grids.
-///
-/// # Errors
-/// [`Interrupted::Failed`] if a film step has no solution to working precision.
-pub fn periodic(
-    plate: &Plate,
-    plan: &Plan,
-    observer: &mut dyn Observer,
-    cancel: &Cancel,
-) -> Result<Periodic, Interrupted> {
-    let turned = plate.turned();
-    let plate = if plan.turned { &turned } else { plate };
-    let mut stats = Stats::default();
-    let mut search = Search { plate, plan, observer, cancel, stats: &mut stats };
-    let found = climb(&mut search, plan, None, cancel)?;
-    let loads = found.headlines.iter().map(|mean| mean.all).collect();
-    let Some((level, coarser)) = found.levels.split_last() else {
-        let (result, recording) = (PlateResult::default(), Recording::default());
-        return Ok(Periodic { status: found.status, result, loads, stats, recording });
-    };
-    stats.film_nodes = level.cycle.grid().len();
-    stats.steps_per_cycle = level.steps();
-    let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
-    let mut recording = level.recording(plate, &coarser, plan.maps || plan.turned);
-    let estimate = stated(plate, plan, &found);
-    let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error).max(0.0);
-    recording.judge_series(elsewhere / gas_force(plate, estimate.value));
-    // The mean of the fields is the headline.
-    let mut result = PlateResult::of(&recording);
-    let [least, most, highest] = width_errors(plate, &found);
-    result.film_load_range_error[0] += least;
-    result.film_load_range_error[1] += most;
-    result.max_pressure_error += highest;
-    let force = result.film_load;
-    result.film_load_error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
-    let status = match found.status {
-        Status::Converged if result.film_load_error > level.unit().max(force.abs()) => {
-            Status::NotResolved { error: result.film_load_error / force.abs() }
-        }
-        status => status,
-    };
-    if plan.turned {
-        level.turn(&mut recording, plan.maps);
-    }
-    Ok(Periodic { status, result, loads, stats, recording })
-}
-
-/// Least and greatest mean load \[N\] that the equations allow: Z is nowhere less than the least gap and nowhere more than the greatest
-/// (its equation has a maximum principle), so the mean of P = Z/H is within (1 ± ε)⟨1/H⟩ = √((1 ± ε)/(1 ∓ ε)).
-fn limits(plate: &Plate) -> [f64; 2] {
-    let most = ((plate.mean_gap + plate.amplitude) / (plate.mean_gap - plate.amplitude)).sqrt();
-    [1.0 / most, most].map(|ratio| (ratio - 1.0) * plate.gas.ambient_pressure * plate.area())
-}
-
-/// By how much a mean load \[N\] is outside what the equations allow.
-fn beyond_limits(plate: &Plate, load: f64) -> f64 {
-    let [least, greatest] = limits(plate);
-    (load - greatest).max(least - load).max(0.0)
-}
-
-/// Mean force of the gas alone \[N\], without the ambient pressure on the other side: what an error of Z is relative to.
-fn gas_force(plate: &Plate, load: f64) -> f64 {
-    plate.gas.ambient_pressure * plate.area() + load.abs()
-}
-
-/// Mean load with its error \[N\].
-fn stated(plate: &Plate, plan: &Plan, found: &Found<Level>) -> Estimate {
-    let estimate = extrapolate_means(&found.headlines);
-    let Some(level) = found.levels.last() else { return estimate };
-    let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
-    let rounding = if plate.amplitude > 0.0 { ROUNDING } else { 0.0 };
-    let repeating = (level.residual + astray + rounding) * gas_force(plate, estimate.value);
-    let left_out = plan.left_out * estimate.value.abs();
-    let beyond = beyond_limits(plate, estimate.value);
-    let mut error = estimate.error + repeating + left_out + found.width_error();
-    if astray > 0.0 {
-        // Whatever it is, the load is within its limits.
-        let [least, greatest] = limits(plate);
-        error = error.min(greatest - least);
-    }
-    Estimate { error: error + beyond, ..estimate }
-}
-
-/// One solve of a plate by a plan.
-struct Search<'a> {
-    plate: &'a Plate,
-    plan: &'a Plan,
-    observer: &'a mut dyn Observer,
-    cancel: &'a Cancel,
-    stats: &'a mut Stats,
-}
-
-impl Scene for Search<'_> {
-    type Level = Level;
-    type Error = Interrupted;
-
-    fn solve(
-        &mut self,
-        plan: &Plan,
-        grid: &Grid,
-        start: Option<&Level>,
-        _: bool,
-        number: usize,
-    ) -> Result<(Status, Level), Interrupted> {
-        let mut level = Level::new(self.plate, plan, grid);
-        if let Some(coarse) = start {
-            level.start_from(coarse);
-        }
-        let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
-        let grids = plan.grids.len().max(number + 1);
-        let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
-        match level.converge(plan, self.stats, &mut report, &cancel) {
-            Ok(status) => Ok((status, level)),
-            Err(Interrupted::Cancelled) => Ok((Status::Cancelled, level)),
-            Err(failed) => Err(failed),
-        }
-    }
-
-    fn headline(&self, level: &Level) -> Mean {
-        level.mean()
-    }
-
-    fn unit(&self, level: &Level) -> f64 {
-        level.unit()
-    }
-
-    /// Little: spring and damping are as exact as the mean then.
-    fn width_aim(&self) -> f64 {
-        0.02
-    }
-
-    /// Much: without contact a few rounds are enough.
-    fn most_work(&self) -> f64 {
-        4e5
-    }
-
-    fn across(&self, level: &Level) -> usize {
-        level.cycle.grid().y.unknown().len()
-    }
-
-    fn settled(&self, found: &Found<Level>) -> bool {
-        let whole = stated(self.plate, self.plan, found);
-        let unit = found.levels.last().map_or(0.0, Level::unit);
-        whole.error <= self.plan.accuracy * unit || extrapolate_means(&found.headlines).error < 0.3 * whole.error
-    }
-}
 
 /// What the accuracy of a mean load is relative to \[N\]: itself, or a small share of the swing of the load where the mean is next to
 /// nothing beside it.
 pub fn unit(mean: f64, swing: f64) -> f64 {
     mean.abs().max(LEAST_SHARE_OF_SWING * swing)
-}
-
-/// A plate from rest, cycle after cycle ([`mod@crate::startup`]), on all grids of a plan at once.
-pub struct Transient {
-    plate: Plate,
-    turned: bool,
-    maps: bool,
-    levels: Vec<Level>,
-    width_error: f64,
-    stats: Stats,
-}
-
-impl std::fmt::Debug for Transient {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Transient").field("cycles", &self.stats.cycles).finish()
-    }
-}
-
-impl Transient {
-    /// At rest at the gap of t = 0, gas at ambient pressure. `width_error`: that of the mean load, by the nodes across \[N\]; `stats`:
-    /// what it has cost so far.
-    pub fn at_rest(plate: &Plate, plan: &Plan, width_error: f64, stats: Stats) -> Self {
-        // It does not repeat, as frames between steps would ask.
-        let plan = &plan.even_steps();
-        let plate = if plan.turned { plate.turned() } else { plate.clone() };
-        let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(&plate, plan, grid)).collect();
-        levels.iter_mut().for_each(Level::rest);
-        Self { plate, turned: plan.turned, maps: plan.maps, levels, width_error, stats }
-    }
-
-    /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change
-    /// of ln Z over it. `None` if cancelled.
-    ///
-    /// # Errors
-    /// [`Interrupted::Failed`] if a film step has no solution to working precision.
-    pub fn cycle(&mut self, cancel: &Cancel) -> Result<Option<(PlateResult, Recording, f64)>, Interrupted> {
-        let finest = self.levels.len() - 1;
-        let (mut loads, mut ends) = (Vec::new(), Vec::new());
-        let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
-        for (number, level) in self.levels.iter_mut().enumerate() {
-            let start = level.load_at(0);
-            let told = |level: &Level| {
-                if number < finest {
-                    coarser.push(level.fields(&self.plate, false).0);
-                    return Recording::default();
-                }
-                let mut recording = level.recording(&self.plate, &coarser, self.maps || self.turned);
-                if self.turned {
-                    level.turn(&mut recording, self.maps);
-                }
-                recording
-            };
-            last = match level.transient_cycle(&mut self.stats, cancel, told) {
-                Ok(cycle) => cycle,
-                Err(Interrupted::Cancelled) => return Ok(None),
-                Err(failed) => return Err(failed),
-            };
-            let end = level.load_at(0);
-            loads.push(level.mean().from_to(start, end, level.steps()));
-            ends.push(end);
-            self.stats.film_nodes = level.cycle.grid().len();
-            self.stats.steps_per_cycle = level.steps();
-        }
-        self.stats.cycles += 1;
-        let (recording, change) = last;
-        let estimate = extrapolate_means(&loads);
-        let mut result = PlateResult::of(&recording);
-        // Its frames begin with the start of the cycle, and have not its end.
-        let grown = extrapolate(&ends).value - recording.film_load[0];
-        result.film_load += 0.5 * grown / recording.frames as f64;
-        result.film_load_error = estimate.error + (result.film_load - estimate.value).abs() + self.width_error;
-        Ok(Some((result, recording, change)))
-    }
-
-    /// Error of a cycle's mean load that finer grids would not make smaller \[N\].
-    pub fn elsewhere(&self) -> f64 {
-        self.width_error
-    }
-
-    /// What it has cost so far, all grids.
-    pub fn stats(&self) -> Stats {
-        self.stats
-    }
-}
-
-impl PlateResult {
-    /// Cycle mean and extremes of a recording; no error of the mean is known.
-    pub fn of(recording: &Recording) -> Self {
-        let [least, most, highest] = extremes(&recording.film_load, &recording.max_pressure);
-        let error =
-            |series: fn(&LineLoads) -> Vec<f64>, found: &[f64], errors: &[f64], greater: fn(f64, f64) -> f64| {
-                recording.extreme_error(series, found, errors, greater) + between_frames(found, greater)
-            };
-        let (loads, errors) = (&recording.film_load, &recording.film_load_error);
-        let load_error = |greater| error(LineLoads::film_loads, loads, errors, greater);
-        let (pressures, errors) = (&recording.max_pressure, &recording.max_pressure_error);
-        Self {
-            film_load: loads.iter().sum::<f64>() / recording.frames as f64,
-            film_load_error: 0.0,
-            film_load_min: least,
-            film_load_max: most,
-            min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
-            max_pressure: highest,
-            film_load_range_error: [f64::min, f64::max].map(load_error),
-            max_pressure_error: error(LineLoads::max_pressures, pressures, errors, f64::max),
-        }
-    }
-}
-
-/// Least and greatest load, and greatest pressure.
-fn extremes(loads: &[f64], pressures: &[f64]) -> [f64; 3] {
-    let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    [loads.iter().copied().fold(f64::INFINITY, f64::min), most(loads), most(pressures)]
-}
-
-/// By how much the extreme of a cycle exceeds that of its frames: the parabola through the three about it.
-fn between_frames(series: &[f64], greater: fn(f64, f64) -> f64) -> f64 {
-    let frames = series.len();
-    let extreme = series.iter().copied().reduce(greater);
-    let Some(top) = series.iter().position(|value| Some(*value) == extreme) else { return 0.0 };
-    let (before, behind) = (series[(top + frames - 1) % frames], series[(top + 1) % frames]);
-    let bend = 2.0 * series[top] - before - behind;
-    if bend == 0.0 { 0.0 } else { ((before - behind).powi(2) / (8.0 * bend)).abs() }
-}
-
-/// What one node less across changes of least and greatest load and greatest pressure, on the coarsest grid.
-fn width_errors(plate: &Plate, found: &Found<Level>) -> [f64; 3] {
-    let (Some((narrower, _)), Some(coarsest)) = (&found.narrower, found.levels.first()) else { return [0.0; 3] };
-    let of = |level: &Level| {
-        let (lines, _) = level.fields(plate, false);
-        extremes(&lines.film_loads(), &lines.max_pressures())
-    };
-    let (less, more) = (of(narrower), of(coarsest));
-    std::array::from_fn(|k| (more[k] - less[k]).abs())
 }
 
 /// Nodes of a quarter of a plate, or of half a strip.
@@ -344,13 +46,13 @@ pub(crate) fn film_grid(plate: &Plate, plan: &Plan, grid: &Grid) -> FilmGrid {
 }
 
 /// The periodic state on one grid.
-struct Level {
+pub(super) struct Level {
     /// Length of each step \[s\].
     dt: Vec<f64>,
     period: f64,
     ambient_pressure: f64,
     law: SlipLaw,
-    cycle: FilmCycle,
+    pub(super) cycle: FilmCycle,
     state: FilmState,
     /// h, `[step][ix]`.
     gap: Vec<f64>,
@@ -359,11 +61,11 @@ struct Level {
     /// Where in the steps each frame of a recording is.
     frames: Frames,
     /// Change of ln Z in the last round.
-    residual: f64,
+    pub(super) residual: f64,
 }
 
 impl Level {
-    fn new(plate: &Plate, plan: &Plan, grid: &Grid) -> Self {
+    pub(super) fn new(plate: &Plate, plan: &Plan, grid: &Grid) -> Self {
         let nodes = film_grid(plate, plan, grid);
         let nx = nodes.x.len();
         let (steps, beta) = (grid.steps, plan.clustering_in_time);
@@ -393,12 +95,12 @@ impl Level {
         }
     }
 
-    fn steps(&self) -> usize {
+    pub(super) fn steps(&self) -> usize {
         self.dt.len()
     }
 
     /// Rest, at the gap of step 0, gas at ambient pressure.
-    fn rest(&mut self) {
+    pub(super) fn rest(&mut self) {
         let nx = self.cycle.grid().x.len();
         self.state = FilmState::at_rest(vec![self.gap[0]; self.state.trapped.len()]);
         self.cycle.grid().line_integral(&self.state.trapped, &mut self.line[..nx]);
@@ -406,7 +108,7 @@ impl Level {
     }
 
     /// Starts from the state on another grid, interpolated linearly between its nodes.
-    fn start_from(&mut self, coarse: &Self) {
+    pub(super) fn start_from(&mut self, coarse: &Self) {
         let (to, from) = (self.cycle.grid(), coarse.cycle.grid());
         let between = |axis: &Axis, other: &Axis| -> Vec<Between> {
             let end = axis.nodes[axis.len() - 1];
@@ -434,7 +136,7 @@ impl Level {
 
     /// One cycle on, with nothing accelerated: what `told` makes of it, the first frame being the present, and the largest change of
     /// ln Z.
-    fn transient_cycle(
+    pub(super) fn transient_cycle(
         &mut self,
         stats: &mut Stats,
         cancel: &Cancel,
@@ -467,7 +169,7 @@ impl Level {
         Ok(())
     }
 
-    fn converge(
+    pub(super) fn converge(
         &mut self,
         plan: &Plan,
         stats: &mut Stats,
@@ -543,7 +245,7 @@ impl Level {
     }
 
     /// Mean load over all frames, and over those of the next coarser grid \[N\].
-    fn mean(&self) -> Mean {
+    pub(super) fn mean(&self) -> Mean {
         let nx = self.cycle.grid().x.len();
         let (mut line, mut all, mut shared) = (vec![0.0; nx], 0.0, 0.0);
         let frames = self.frames.len();
@@ -557,7 +259,7 @@ impl Level {
     }
 
     /// See [`unit`].
-    fn unit(&self) -> f64 {
+    pub(super) fn unit(&self) -> f64 {
         let loads = self.loads();
         let (low, high) = loads.iter().fold((0.0f64, 0.0f64), |(low, high), load| (low.min(*load), high.max(*load)));
         unit(self.mean_load(), high - low)
@@ -575,14 +277,14 @@ impl Level {
     }
 
     /// Film load at step `m` \[N\]; between two cycles of a transient step 0 is the present.
-    fn load_at(&self, m: usize) -> f64 {
+    pub(super) fn load_at(&self, m: usize) -> f64 {
         let nx = self.cycle.grid().x.len();
         self.load(&self.line[m * nx..(m + 1) * nx], self.gap[m * nx])
     }
 
     /// The film of one cycle, lengths are those of the whole plate; and the absolute pressure at every node, if `maps`,
     /// `[frame][ix][iy]`.
-    fn fields(&self, plate: &Plate, maps: bool) -> (LineLoads, Vec<f64>) {
+    pub(super) fn fields(&self, plate: &Plate, maps: bool) -> (LineLoads, Vec<f64>) {
         let grid = self.cycle.grid();
         let (nx, ny, columns, frames) = (grid.x.len(), grid.y.len(), grid.y.unknown().len(), self.frames.len());
         let (ambient, width) = (self.ambient_pressure, grid.interior_width());
@@ -622,7 +324,7 @@ impl Level {
     }
 
     /// The cycle as it is drawn and exported: this, the finest grid, extrapolated with the `coarser` ones, coarse to fine.
-    fn recording(&self, plate: &Plate, coarser: &[LineLoads], maps: bool) -> Recording {
+    pub(super) fn recording(&self, plate: &Plate, coarser: &[LineLoads], maps: bool) -> Recording {
         let grid = self.cycle.grid();
         let (lines, pressure) = self.fields(plate, maps);
         let base = Recording {
@@ -640,7 +342,7 @@ impl Level {
 
     /// Turns the recording of a plate that was solved turned: x and y change places, and lines run along the other side. The fields
     /// that it is judged by stay as they are, since only their sums count.
-    fn turn(&self, recording: &mut Recording, maps: bool) {
+    pub(super) fn turn(&self, recording: &mut Recording, maps: bool) {
         let y = &self.cycle.grid().y;
         let (nx, ny, frames) = (recording.map_x.len(), recording.map_y.len(), recording.frames);
         let mut pressure = vec![0.0; recording.pressure.len()];
@@ -663,61 +365,6 @@ impl Level {
         recording.x = recording.map_y.clone();
         std::mem::swap(&mut recording.map_x, &mut recording.map_y);
         recording.pressure = if maps { pressure } else { Vec::new() };
-    }
-}
-
-/// The frames of a recording, even in time, among the steps of a cycle, which cluster about its middle.
-struct Frames {
-    /// Gap of each frame \[m\].
-    gap: Vec<f64>,
-    /// The step before each frame, and how far it is towards the next; empty if each step is a frame.
-    places: Vec<(usize, f64)>,
-    steps: usize,
-}
-
-impl Frames {
-    fn new(plate: &Plate, beta: f64, steps: usize, per_step: usize) -> Self {
-        let frames = steps * per_step;
-        let gap = (0..frames).map(|frame| plate.gap(frame as f64 / frames as f64)).collect();
-        let place = |frame: usize| {
-            let share = 2.0 * frame as f64 / frames as f64 - 1.0;
-            let place = 0.5 * (1.0 + (share * beta.sinh()).asinh() / beta) * steps as f64;
-            let step = (place as usize).min(steps - 1);
-            (step, place - step as f64)
-        };
-        Self { gap, places: if beta == 0.0 { Vec::new() } else { (0..frames).map(place).collect() }, steps }
-    }
-
-    fn len(&self) -> usize {
-        self.gap.len()
-    }
-
-    /// What is known at the steps, `value(step, k)` > 0, at a frame: cubic in the steps.
-    fn mix(&self, frame: usize, out: &mut [f64], value: impl Fn(usize, usize) -> f64) {
-        let Some((step, t)) = self.places.get(frame).copied() else {
-            out.iter_mut().enumerate().for_each(|(k, out)| *out = value(frame, k));
-            return;
-        };
-        let at = |ahead: usize| (step + self.steps + ahead - 1) % self.steps;
-        let (before, behind) = (t + 1.0, t - 1.0);
-        let weights = [
-            -t * behind * (t - 2.0) / 6.0,
-            before * behind * (t - 2.0) / 2.0,
-            -before * t * (t - 2.0) / 2.0,
-            before * t * behind / 6.0,
-        ];
-        for (k, out) in out.iter_mut().enumerate() {
-            let near = [0, 1, 2, 3].map(|ahead| value(at(ahead), k));
-            let cubic = near.iter().zip(weights).map(|(value, weight)| value * weight).sum::<f64>();
-            *out = cubic.clamp(0.5 * near[1].min(near[2]), 2.0 * near[1].max(near[2]));
-        }
-    }
-}
-
-impl PlateResult {
-    /// Load over ambient pressure × area.
-    pub fn ratio(load: f64, plate: &Plate) -> f64 {
-        load / (plate.gas.ambient_pressure * plate.area())
     }
 }
 

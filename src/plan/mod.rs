@@ -1,0 +1,242 @@
+//! What THIS scene needs: which terms, how many teeth, which symmetries, which grids, and why (shown to the user).
+
+mod grid;
+mod motor;
+mod plate;
+mod reduction;
+
+pub use grid::Grid;
+pub use motor::ROTOR_EFFECT;
+pub use reduction::wedge_bound;
+
+use crate::fidelity::Fidelity;
+use crate::problem::{Flow, Named, Numerics, Teeth, Time, Wedge, Width};
+use crate::rotor::{Compliances, RESONANCES};
+use grid::nested;
+
+/// What was decided about one part of the model; `analysis::decision` says it, and why, in words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// The part, and how it is solved.
+    pub chosen: Choice,
+    /// Whether the scene overruled what the plan would have done.
+    pub overruled: bool,
+    /// Bound of what it changes, relative to α; 0 is exact.
+    pub effect: f64,
+    /// What speaks for and against leaving the part out; `None` if nothing had to be weighed.
+    pub weighed: Option<Weighed>,
+}
+
+/// A part of the model, and how it is solved. None of the switches is ever `Auto`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    /// Leaking of the gas in time.
+    Time(Time),
+    /// Directions in which the film flows.
+    Flow(Flow),
+    /// The wedge term.
+    Wedge(Wedge),
+    /// No wedge term, because the scene says `shear = false`.
+    NoShear,
+    /// Teeth whose film is solved, of so many.
+    Teeth(Teeth, usize),
+    /// Width of the film.
+    Width(Width),
+    /// The finest grid of a motor.
+    MotorGrid {
+        /// Intervals along a tooth, intervals or nodes across half the width, steps in a cycle.
+        grid: Grid,
+        /// Boundary layer of the film \[m\].
+        layer: f64,
+        /// First interval along, as a share of that layer.
+        edge_fraction: f64,
+        /// The intervals along are densest in the middle, where the crown is highest.
+        middle: bool,
+        /// Across the width a field is a polynomial.
+        spectral: bool,
+    },
+    /// The finest grid of a plate; across half the width `None` of a strip.
+    PlateGrid {
+        /// Intervals along half the length.
+        along: usize,
+        /// Intervals across half the width.
+        across: Option<usize>,
+    },
+    /// Steps in a cycle of a plate, and whether they are the shorter the closer it is.
+    Steps(usize, bool),
+    /// A rotor that is known to a stated error only.
+    Rotor {
+        /// [`Compliances::relative_error`].
+        error: f64,
+        /// Whether it is computed from its cross-section.
+        ring: bool,
+        /// Lowest natural frequency of the shape of each of the first harmonics \[Hz\], of a ring; a draft does not ask for it.
+        resonances: Option<[f64; RESONANCES]>,
+    },
+    /// Nothing leaks from under a plate: its gas is trapped.
+    NoLeaks,
+}
+
+/// What speaks for and against leaving out a part of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weighed {
+    /// How the part is solved if it is left out.
+    pub reduced: Choice,
+    /// The number that decides: Λ/σ of the wedge term; otherwise the film's boundary layer over the side of a tooth that the gas
+    /// would have to leak out along, of the leaking in time the shorter one.
+    pub number: f64,
+    /// Whether the scene says so.
+    pub asked: bool,
+    /// Bound of what leaving it out changes, relative to α.
+    pub effect: f64,
+    /// Bound of what solving it costs, because the grid is too coarse for it, relative to α.
+    pub unresolved: f64,
+    /// The fidelity, and the error of α that it aims at, relative.
+    pub fidelity: Fidelity,
+    /// See `fidelity`.
+    pub target_error: f64,
+}
+
+impl Decision {
+    /// Of what is exact, and what nothing overrules.
+    fn exact(chosen: Choice) -> Self {
+        Self { chosen, overruled: false, effect: 0.0, weighed: None }
+    }
+
+    /// The key that overrules it, if there is one: "numerics.wedge".
+    pub fn key(&self) -> Option<&'static str> {
+        match self.chosen {
+            Choice::Time(_) => Some("numerics.time"),
+            Choice::Flow(_) => Some("numerics.flow"),
+            Choice::Wedge(_) => Some("numerics.wedge"),
+            Choice::Teeth(..) => Some("numerics.teeth"),
+            Choice::Width(_) => Some("numerics.width"),
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => None,
+            Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => None,
+        }
+    }
+
+    /// The value that key would need for the same decision: "off"; empty if there is no key for the part.
+    pub fn value(&self) -> &'static str {
+        match self.chosen {
+            Choice::Time(time) => time.name(),
+            Choice::Flow(flow) => flow.name(),
+            Choice::Wedge(wedge) => wedge.name(),
+            Choice::Teeth(teeth, _) => teeth.name(),
+            Choice::Width(width) => width.name(),
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => "",
+            Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => "",
+        }
+    }
+}
+
+/// What will be solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Fidelity's name, or `custom`.
+    pub fidelity: String,
+    /// Grids, coarse to fine, each with half the intervals and steps of the next.
+    pub grids: Vec<Grid>,
+    /// Clustering parameter of the nodes along (`numerics::grading`).
+    pub clustering_along: f64,
+    /// Clustering parameter of the nodes across.
+    pub clustering_across: f64,
+    /// Clustering parameter of the steps of a cycle about its middle, where a plate is closest; 0: even steps.
+    pub clustering_in_time: f64,
+    /// Frames of a recording for each step: a recording is even in time, steps that cluster are not.
+    pub frames_per_step: usize,
+    /// Across the width a field is one polynomial, on the same nodes on all grids; or finite volumes, which nothing breaks.
+    pub spectral: bool,
+    /// A plate is solved turned by a quarter: much wider than it is long, it has its polynomial along the length.
+    pub turned: bool,
+    /// Solve half the width and mirror it.
+    pub half_width: bool,
+    /// Solve every tooth (or one, by lag symmetry).
+    pub every_tooth: bool,
+    /// Solve the wedge term.
+    pub shear: bool,
+    /// Directions in which the film flows; never `Auto`.
+    pub flow: Flow,
+    /// The gas has no time to move: its trapped height does not change during the cycle.
+    pub trapped: bool,
+    /// Bound of what everything that was left out changes, relative to α.
+    pub left_out: f64,
+    /// The rotor; a plate has none.
+    pub rotor: Compliances,
+    /// Rotor harmonics kept at most.
+    pub most_harmonics: usize,
+    /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
+    pub accuracy: f64,
+    /// The error of α that the fidelity aims at, relative, whether or not the grids were asked for.
+    pub target_error: f64,
+    /// Grids at most, those of `grids` included, and unknown nodes of a polynomial across half the width.
+    pub most_grids: usize,
+    /// See `most_grids`.
+    pub most_across: usize,
+    /// Nodes across and their clustering, should it have to be finite volumes.
+    pub robust: (usize, f64),
+    /// Largest relative change that counts as a repeating cycle.
+    pub tolerance: f64,
+    /// Rounds of the coupling after which the solve gives up.
+    pub round_limit: usize,
+    /// Record the pressure maps of the cycle, the largest of the fields.
+    pub maps: bool,
+    /// What was decided, part by part.
+    pub decisions: Vec<Decision>,
+}
+
+/// Effect on α, relative, of leaving out the leaks at one pair of edges, as a multiple of their layer over the length
+/// between them, the layer being that of the closed film times how far the gap opens in the mean. Of a plate whose gap
+/// is uniform it is 1 as the amplitude vanishes, tanh(κ/2)/(κ/2), and less for a larger one (`film::exact`); a rotor that
+/// is half afloat opens the gap a little more.
+const LEAK_EFFECT: f64 = 1.2;
+/// Share of the fidelity's aim that may be left out with each term.
+const SHARE: f64 = 0.2;
+/// Boundary layer over half the width down to which a polynomial across is used: a thinner one asks for so strong a stretching that
+/// the nodes in between no longer tell what the last one changes.
+const THINNEST_LAYER: f64 = 0.03;
+const ROUND_LIMIT: usize = 300;
+
+impl Plan {
+    /// The same plan with finite volumes across.
+    pub fn volumes(&self) -> Self {
+        let (across, clustering_across) = self.robust;
+        let finest = self.grids.last().map(|grid| Grid { across, ..*grid });
+        let mut grids = finest.map_or_else(Vec::new, |finest| nested(finest, false));
+        // As many grids as there were.
+        grids.drain(..grids.len().saturating_sub(self.grids.len()));
+        Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
+    }
+
+    /// The same plan with the sides of the plate as they are in the scene; of finite volumes.
+    pub fn not_turned(&self) -> Self {
+        if !self.turned {
+            return self.clone();
+        }
+        let grids = self.grids.iter().map(|grid| Grid { along: grid.across, across: grid.along, ..*grid }).collect();
+        let (clustering_along, clustering_across) = (self.clustering_across, self.clustering_along);
+        Self { grids, clustering_along, clustering_across, turned: false, ..self.clone() }
+    }
+
+    /// The same plan marched by even steps, one for each frame.
+    pub fn even_steps(&self) -> Self {
+        let even = |grid: &Grid| Grid { steps: grid.steps * self.frames_per_step, ..*grid };
+        let grids = self.grids.iter().map(even).collect();
+        Self { grids, clustering_in_time: 0.0, frames_per_step: 1, trapped: false, ..self.clone() }
+    }
+
+    /// The same plan on its finest grid alone: fields as they are solved, and no error estimate.
+    pub fn on_one_grid(&self) -> Self {
+        let grids = self.grids.last().copied().into_iter().collect();
+        Self { grids, most_grids: 1, accuracy: 0.0, ..self.clone() }
+    }
+}
+
+fn custom(numerics: &Numerics) -> bool {
+    numerics.film_nodes_along.or(numerics.film_nodes_across).or(numerics.steps_per_cycle).is_some()
+        || numerics.tolerance.is_some()
+}
+
+fn name(fidelity: Fidelity, numerics: &Numerics) -> String {
+    if custom(numerics) { "custom".to_owned() } else { fidelity.to_string() }
+}

@@ -1,0 +1,219 @@
+//! Terms of a motor's model that may be left out, and a bound of what leaving each of them out changes.
+
+use super::{Choice, Decision, LEAK_EFFECT, SHARE, Weighed};
+use crate::dimensionless::Dimensionless;
+use crate::fidelity::{Fidelity, Spec};
+use crate::problem::{Flow, Motor, Numerics, Time, Wedge};
+use crate::rotor::Compliances;
+use std::f64::consts::{PI, TAU};
+
+/// Effect on α, relative, of leaving out the wedge term, as a multiple of U/(2ω) over the length that gas or gap vary
+/// along (measured, and bounded by `tests/plan.rs`).
+const WEDGE_EFFECT: f64 = 2.0;
+/// Effect on α, relative, of solving the wedge term where a cell's Péclet number is above 1, per unit of that number: the
+/// upwinding it then needs spreads the gas in its stead; and more of it, the more unevenly a crown holds it (measured, and
+/// bounded by `tests/plan.rs`).
+const UPWINDING: f64 = 1e-4;
+const UPWINDING_UNEVEN: f64 = 0.1;
+
+/// A decision to leave a term out, if what that changes is small enough and the switch allows it.
+struct Reduction {
+    /// For the whole model, and for the reduced one.
+    choices: [Choice; 2],
+    /// What the switch says, `None` if it is left to the plan.
+    asked: Option<bool>,
+    /// As of [`Weighed`].
+    effect: f64,
+    unresolved: f64,
+    number: f64,
+}
+
+impl Reduction {
+    fn decide(self, fidelity: Fidelity, spec: &Spec) -> Decision {
+        let Self { choices, asked, effect, unresolved, number } = self;
+        let allowed = effect <= SHARE * spec.target_error || effect < unresolved;
+        let left_out = asked.unwrap_or(allowed);
+        let [_, reduced] = choices;
+        let target_error = spec.target_error;
+        let weighed = Weighed { reduced, number, asked: asked.is_some(), effect, unresolved, fidelity, target_error };
+        Decision {
+            chosen: choices[usize::from(left_out)],
+            overruled: asked.is_some_and(|asked| asked != allowed),
+            effect: if left_out { effect } else { unresolved },
+            weighed: Some(weighed),
+        }
+    }
+}
+
+pub(super) fn wedge(
+    numerics: &Numerics,
+    numbers: &Dimensionless,
+    motor: &Motor,
+    along: usize,
+    fidelity: Fidelity,
+    spec: &Spec,
+) -> Decision {
+    if !motor.shear {
+        return Decision::exact(Choice::NoShear);
+    }
+    Reduction {
+        choices: [Wedge::On, Wedge::Off].map(Choice::Wedge),
+        asked: match numerics.wedge {
+            Wedge::Auto => None,
+            Wedge::On => Some(false),
+            Wedge::Off => Some(true),
+        },
+        effect: wedge_effect(numbers, motor),
+        unresolved: upwinding(numbers, motor, along),
+        number: numbers.bearing_to_squeeze,
+    }
+    .decide(fidelity, spec)
+}
+
+pub(super) fn time(
+    numerics: &Numerics,
+    numbers: &Dimensionless,
+    motor: &Motor,
+    rotor: &Compliances,
+    fidelity: Fidelity,
+    spec: &Spec,
+) -> Decision {
+    let layer = numbers.boundary_layer;
+    Reduction {
+        choices: [Time::March, Time::Trapped].map(Choice::Time),
+        asked: match numerics.time {
+            Time::Auto => None,
+            Time::March => Some(false),
+            Time::Trapped => Some(true),
+        },
+        effect: leaks(motor, layer, active_length(motor))
+            + leaks(motor, layer, motor.contact_width)
+            + 2.0 * unevenness(motor) * end_share(motor)
+            + yielding(motor, rotor, layer)
+            + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 },
+        unresolved: 0.0,
+        number: layer / motor.tooth_width.min(motor.contact_width),
+    }
+    .decide(fidelity, spec)
+}
+
+pub(super) fn flow(
+    numerics: &Numerics,
+    numbers: &Dimensionless,
+    motor: &Motor,
+    fidelity: Fidelity,
+    spec: &Spec,
+) -> Decision {
+    let layer = numbers.boundary_layer;
+    // Beyond the layers, gas that stays for many cycles is that of the nearest edges: it changes, as far from the edges
+    // left out as the film is narrow, if gaps differ from place to place. They do under a crowned tooth, and they do
+    // along a tooth that moves with few others.
+    let (length, width) = (motor.tooth_width, motor.contact_width);
+    let uneven = unevenness(motor);
+    // (Without the ends of a film that is wider than long, nothing is left of what feeds it.)
+    let ends = if width > length { 1.0 } else { leaks(motor, layer, active_length(motor)) + uneven * width / length };
+    let few = 1.0 / motor.teeth as f64;
+    let sides = leaks(motor, layer, width) + (2.0 * uneven + few) * (length / width).min(1.0);
+    // The longer side's leaks matter less.
+    let along = match numerics.flow {
+        Flow::Along => true,
+        Flow::Across => false,
+        Flow::Auto | Flow::Plane => motor.contact_width > motor.tooth_width,
+    };
+    Reduction {
+        choices: [Flow::Plane, if along { Flow::Along } else { Flow::Across }].map(Choice::Flow),
+        asked: match numerics.flow {
+            Flow::Auto => None,
+            Flow::Plane => Some(false),
+            Flow::Across | Flow::Along => Some(true),
+        },
+        effect: if along { sides } else { ends },
+        unresolved: 0.0,
+        number: layer / if along { motor.contact_width } else { motor.tooth_width },
+    }
+    .decide(fidelity, spec)
+}
+
+/// Effect of the leaks at two edges a `length` \[m\] apart, relative to α; `layer` \[m\] is that of the closed film.
+fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
+    let open = 1.0 + (motor.normal_amplitude + crown(motor)) / motor.min_spacing;
+    LEAK_EFFECT * open * layer / length
+}
+
+/// Effect of the wedge term, relative to α, the sum of four:
+///
+/// * Λ/σ = U/(2ωb) for what it carries over the ends of a tooth, and U k h/(2ωA) for what it squeezes, by how much ∂x(hU/2)
+///   adds to the wave's ∂h/∂t, h being the mean gap: the larger of the two;
+/// * the square of B/2 over the boundary layer, by which it shifts the layer at the ends to and fro, and with it the gas that
+///   they hold in the long run: in as much of the tooth as the film is wide;
+/// * if the rotor turns, how far that carries gas along a tooth, V_R τ/(2b), until it has leaked out of the closed film after
+///   τ = 1/(π² D (1/b² + 1/w²)).
+fn wedge_effect(numbers: &Dimensionless, motor: &Motor) -> f64 {
+    let shifted = (0.5 * motor.tangential_amplitude / numbers.boundary_layer).powi(2).min(1.0);
+    let oscillating = sliding_effect(numbers.bearing_to_squeeze, motor) + WEDGE_EFFECT * shifted * end_share(motor);
+    (oscillating + carried(numbers, motor, motor.rotor_speed)).min(1.0)
+}
+
+/// Bound of what the wedge changes, relative to α, if the rotor's speed changes by `speed` \[m/s\].
+pub fn wedge_bound(motor: &Motor, speed: f64) -> f64 {
+    let omega = TAU * motor.frequency;
+    let sliding = sliding_effect(speed.abs() / (2.0 * omega * motor.tooth_width), motor);
+    (sliding + carried(&Dimensionless::of_motor(motor), motor, speed)).min(1.0)
+}
+
+fn sliding_effect(bearing_to_squeeze: f64, motor: &Motor) -> f64 {
+    let wave = TAU * motor.tooth_width / motor.wavelength();
+    let squeezed = wave * (1.0 + motor.min_spacing / motor.normal_amplitude);
+    WEDGE_EFFECT * bearing_to_squeeze * squeezed.max(1.0)
+}
+
+/// How far steady sliding at `speed` \[m/s\] carries gas along a tooth until it has leaked out, over twice its length.
+fn carried(numbers: &Dimensionless, motor: &Motor, speed: f64) -> f64 {
+    let wavenumber = PI.powi(2) * (motor.tooth_width.powi(-2) + motor.contact_width.powi(-2));
+    0.5 * speed.abs() / (diffusivity(numbers, motor) * wavenumber * motor.tooth_width)
+}
+
+/// Share of a tooth whose gas is, in the long run, that of its ends rather than of its sides.
+fn end_share(motor: &Motor) -> f64 {
+    (motor.contact_width / motor.tooth_width).min(1.0)
+}
+
+/// Diffusivity of the gas in the closed film \[m²/s\].
+fn diffusivity(numbers: &Dimensionless, motor: &Motor) -> f64 {
+    0.5 * numbers.boundary_layer.powi(2) * TAU * motor.frequency
+}
+
+/// Effect of the upwinding that the wedge term needs on a grid of so many intervals along a tooth, relative to α. None below a
+/// cell Péclet number U Δ/(2D) of 1, where exponential fitting is of second order.
+fn upwinding(numbers: &Dimensionless, motor: &Motor, along: usize) -> f64 {
+    let speed = motor.rotor_speed.abs() + motor.surface_speed();
+    let peclet = 0.5 * speed * motor.tooth_width / (along as f64 * diffusivity(numbers, motor));
+    let each = UPWINDING + UPWINDING_UNEVEN * unevenness(motor) * end_share(motor);
+    (each * (peclet - 1.0)).clamp(0.0, 1.0)
+}
+
+/// Height of a tooth's crown above its ends \[m\].
+fn crown(motor: &Motor) -> f64 {
+    motor.tooth_radius.map_or(0.0, |radius| motor.tooth_width * motor.tooth_width / (8.0 * radius))
+}
+
+/// Share of the mean gap at a tooth's ends that is its crown's.
+fn unevenness(motor: &Motor) -> f64 {
+    crown(motor) / (crown(motor) + motor.normal_amplitude + motor.min_spacing)
+}
+
+/// Bound of what the rotor's deflection under the film's own pressure changes, relative to α. In the boundary layer at the ends
+/// of a tooth the pressure falls to ambient. The rotor deflects less there, so the gap is smaller and holds less gas. The bound
+/// is twice that change of the gap over the mean gap, times the force of the compressed gas over the load if that exceeds 1.
+fn yielding(motor: &Motor, rotor: &Compliances, layer: f64) -> f64 {
+    let pressure = motor.gas.ambient_pressure * motor.contact_width;
+    let bulge = rotor.longer_than(1.0 / layer) * pressure / (motor.normal_amplitude + motor.min_spacing);
+    let stiffness = pressure * motor.tooth_width * motor.teeth as f64 / motor.load;
+    2.0 * bulge * end_share(motor) * stiffness.max(1.0)
+}
+
+/// Length of tooth \[m\] over which a crown opens the gap by no more than the wave does.
+fn active_length(motor: &Motor) -> f64 {
+    let opening = motor.normal_amplitude + motor.min_spacing;
+    motor.tooth_radius.map_or(motor.tooth_width, |radius| motor.tooth_width.min((8.0 * radius * opening).sqrt()))
+}

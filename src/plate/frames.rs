@@ -1,0 +1,51 @@
+//! The frames of a plate's recording among the steps of its cycle.
+
+use crate::problem::Plate;
+
+/// The frames of a recording, even in time, among the steps of a cycle, which cluster about its middle.
+pub(super) struct Frames {
+    /// Gap of each frame \[m\].
+    pub(super) gap: Vec<f64>,
+    /// The step before each frame, and how far it is towards the next; empty if each step is a frame.
+    places: Vec<(usize, f64)>,
+    steps: usize,
+}
+
+impl Frames {
+    pub(super) fn new(plate: &Plate, beta: f64, steps: usize, per_step: usize) -> Self {
+        let frames = steps * per_step;
+        let gap = (0..frames).map(|frame| plate.gap(frame as f64 / frames as f64)).collect();
+        let place = |frame: usize| {
+            let share = 2.0 * frame as f64 / frames as f64 - 1.0;
+            let place = 0.5 * (1.0 + (share * beta.sinh()).asinh() / beta) * steps as f64;
+            let step = (place as usize).min(steps - 1);
+            (step, place - step as f64)
+        };
+        Self { gap, places: if beta == 0.0 { Vec::new() } else { (0..frames).map(place).collect() }, steps }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.gap.len()
+    }
+
+    /// What is known at the steps, `value(step, k)` > 0, at a frame: cubic in the steps.
+    pub(super) fn mix(&self, frame: usize, out: &mut [f64], value: impl Fn(usize, usize) -> f64) {
+        let Some((step, t)) = self.places.get(frame).copied() else {
+            out.iter_mut().enumerate().for_each(|(k, out)| *out = value(frame, k));
+            return;
+        };
+        let at = |ahead: usize| (step + self.steps + ahead - 1) % self.steps;
+        let (before, behind) = (t + 1.0, t - 1.0);
+        let weights = [
+            -t * behind * (t - 2.0) / 6.0,
+            before * behind * (t - 2.0) / 2.0,
+            -before * t * (t - 2.0) / 2.0,
+            before * t * behind / 6.0,
+        ];
+        for (k, out) in out.iter_mut().enumerate() {
+            let near = [0, 1, 2, 3].map(|ahead| value(at(ahead), k));
+            let cubic = near.iter().zip(weights).map(|(value, weight)| value * weight).sum::<f64>();
+            *out = cubic.clamp(0.5 * near[1].min(near[2]), 2.0 * near[1].max(near[2]));
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
+
+mod frames;
+mod level;
+mod result;
+mod transient;
+
+pub(crate) use level::film_grid;
+pub use level::unit;
+pub use transient::Transient;
+
+use crate::control::{Cancel, Observer, Reporter};
+use crate::estimate::{Estimate, Mean, extrapolate_means};
+use crate::film::cycle::Interrupted;
+use crate::ladder::{Found, Scene, climb};
+use crate::plan::{Grid, Plan};
+use crate::problem::Plate;
+use crate::recording::Recording;
+use crate::solution::{PlateResult, Stats, Status};
+use level::Level;
+use result::extremes;
+
+/// Rounding of a mean load over the force of the gas.
+const ROUNDING: f64 = 1e-15;
+
+/// A plate's periodic state: the numbers, how they were reached, and the fields.
+#[derive(Clone, Debug)]
+pub struct Periodic {
+    /// How the finest grid ended.
+    pub status: Status,
+    /// The numbers, with the error estimate.
+    pub result: PlateResult,
+    /// Mean load of each grid, coarse to fine.
+    pub loads: Vec<f64>,
+    /// What it cost, all grids.
+    pub stats: Stats,
+    /// Fields of one cycle on the finest grid.
+    pub recording: Recording,
+}
+
+/// Solves for the periodic state on each of the plan's grids.
+///
+/// # Errors
+/// [`Interrupted::Failed`] if a film step has no solution to working precision.
+pub fn periodic(
+    plate: &Plate,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Periodic, Interrupted> {
+    let turned = plate.turned();
+    let plate = if plan.turned { &turned } else { plate };
+    let mut stats = Stats::default();
+    let mut search = Search { plate, plan, observer, cancel, stats: &mut stats };
+    let found = climb(&mut search, plan, None, cancel)?;
+    let loads = found.headlines.iter().map(|mean| mean.all).collect();
+    let Some((level, coarser)) = found.levels.split_last() else {
+        let (result, recording) = (PlateResult::default(), Recording::default());
+        return Ok(Periodic { status: found.status, result, loads, stats, recording });
+    };
+    stats.film_nodes = level.cycle.grid().len();
+    stats.steps_per_cycle = level.steps();
+    let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
+    let mut recording = level.recording(plate, &coarser, plan.maps || plan.turned);
+    let estimate = stated(plate, plan, &found);
+    let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error).max(0.0);
+    recording.judge_series(elsewhere / gas_force(plate, estimate.value));
+    // The mean of the fields is the headline.
+    let mut result = PlateResult::of(&recording);
+    let [least, most, highest] = width_errors(plate, &found);
+    result.film_load_range_error[0] += least;
+    result.film_load_range_error[1] += most;
+    result.max_pressure_error += highest;
+    let force = result.film_load;
+    result.film_load_error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
+    let status = match found.status {
+        Status::Converged if result.film_load_error > level.unit().max(force.abs()) => {
+            Status::NotResolved { error: result.film_load_error / force.abs() }
+        }
+        status => status,
+    };
+    if plan.turned {
+        level.turn(&mut recording, plan.maps);
+    }
+    Ok(Periodic { status, result, loads, stats, recording })
+}
+
+/// Least and greatest mean load \[N\] that the equations allow: Z is nowhere less than the least gap and nowhere more than the greatest
+/// (its equation has a maximum principle), so the mean of P = Z/H is within (1 ± ε)⟨1/H⟩ = √((1 ± ε)/(1 ∓ ε)).
+fn limits(plate: &Plate) -> [f64; 2] {
+    let most = ((plate.mean_gap + plate.amplitude) / (plate.mean_gap - plate.amplitude)).sqrt();
+    [1.0 / most, most].map(|ratio| (ratio - 1.0) * plate.gas.ambient_pressure * plate.area())
+}
+
+/// By how much a mean load \[N\] is outside what the equations allow.
+fn beyond_limits(plate: &Plate, load: f64) -> f64 {
+    let [least, greatest] = limits(plate);
+    (load - greatest).max(least - load).max(0.0)
+}
+
+/// Mean force of the gas alone \[N\], without the ambient pressure on the other side: what an error of Z is relative to.
+fn gas_force(plate: &Plate, load: f64) -> f64 {
+    plate.gas.ambient_pressure * plate.area() + load.abs()
+}
+
+/// Mean load with its error \[N\].
+fn stated(plate: &Plate, plan: &Plan, found: &Found<Level>) -> Estimate {
+    let estimate = extrapolate_means(&found.headlines);
+    let Some(level) = found.levels.last() else { return estimate };
+    let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
+    let rounding = if plate.amplitude > 0.0 { ROUNDING } else { 0.0 };
+    let repeating = (level.residual + astray + rounding) * gas_force(plate, estimate.value);
+    let left_out = plan.left_out * estimate.value.abs();
+    let beyond = beyond_limits(plate, estimate.value);
+    let mut error = estimate.error + repeating + left_out + found.width_error();
+    if astray > 0.0 {
+        // Whatever it is, the load is within its limits.
+        let [least, greatest] = limits(plate);
+        error = error.min(greatest - least);
+    }
+    Estimate { error: error + beyond, ..estimate }
+}
+
+/// One solve of a plate by a plan.
+struct Search<'a> {
+    plate: &'a Plate,
+    plan: &'a Plan,
+    observer: &'a mut dyn Observer,
+    cancel: &'a Cancel,
+    stats: &'a mut Stats,
+}
+
+impl Scene for Search<'_> {
+    type Level = Level;
+    type Error = Interrupted;
+
+    fn solve(
+        &mut self,
+        plan: &Plan,
+        grid: &Grid,
+        start: Option<&Level>,
+        _: bool,
+        number: usize,
+    ) -> Result<(Status, Level), Interrupted> {
+        let mut level = Level::new(self.plate, plan, grid);
+        if let Some(coarse) = start {
+            level.start_from(coarse);
+        }
+        let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
+        let grids = plan.grids.len().max(number + 1);
+        let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
+        match level.converge(plan, self.stats, &mut report, &cancel) {
+            Ok(status) => Ok((status, level)),
+            Err(Interrupted::Cancelled) => Ok((Status::Cancelled, level)),
+            Err(failed) => Err(failed),
+        }
+    }
+
+    fn headline(&self, level: &Level) -> Mean {
+        level.mean()
+    }
+
+    fn unit(&self, level: &Level) -> f64 {
+        level.unit()
+    }
+
+    /// Little: spring and damping are as exact as the mean then.
+    fn width_aim(&self) -> f64 {
+        0.02
+    }
+
+    /// Much: without contact a few rounds are enough.
+    fn most_work(&self) -> f64 {
+        4e5
+    }
+
+    fn across(&self, level: &Level) -> usize {
+        level.cycle.grid().y.unknown().len()
+    }
+
+    fn settled(&self, found: &Found<Level>) -> bool {
+        let whole = stated(self.plate, self.plan, found);
+        let unit = found.levels.last().map_or(0.0, Level::unit);
+        whole.error <= self.plan.accuracy * unit || extrapolate_means(&found.headlines).error < 0.3 * whole.error
+    }
+}
+
+/// What one node less across changes of least and greatest load and greatest pressure, on the coarsest grid.
+fn width_errors(plate: &Plate, found: &Found<Level>) -> [f64; 3] {
+    let (Some((narrower, _)), Some(coarsest)) = (&found.narrower, found.levels.first()) else { return [0.0; 3] };
+    let of = |level: &Level| {
+        let (lines, _) = level.fields(plate, false);
+        extremes(&lines.film_loads(), &lines.max_pressures())
+    };
+    let (less, more) = (of(narrower), of(coarsest));
+    std::array::from_fn(|k| (more[k] - less[k]).abs())
+}
