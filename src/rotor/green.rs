@@ -10,6 +10,8 @@
 //! Fig. 3. A shorter table ends where G has died out. The integral is the trapezoidal sum over the rows, which of even rows is exactly
 //! the inverse of the sum that the paper's equation (8) makes of its nodes, a local compliance at x = 0 included.
 //!
+//! What G(0) exceeds the line through the next two rows by is taken to be such a local compliance, times the first step.
+//!
 //! Two errors are stated: what the sum over every second row differs by (a third of that, the rule being of second order), and what a tail
 //! beyond X may add, at most 2 |G(X)|/k_n if it dies out without turning (the second mean value theorem). No more harmonics are resolved
 //! than the rows tell apart, and beyond the last of these the compliance is taken to be local.
@@ -28,7 +30,8 @@ pub(super) fn resolve(rows: &[(f64, f64)], wave: &Wave, count: usize) -> Result<
     let periodic = end >= (1.0 - NEAR) * half;
     let steps = inside.windows(2).map(|pair| pair[1].0 - pair[0].0);
     let finest = steps.fold(f64::INFINITY, f64::min);
-    let coarse: Vec<(f64, f64)> = inside.iter().copied().step_by(2).collect();
+    let (smooth, local) = split(&inside);
+    let coarse: Vec<(f64, f64)> = smooth.iter().copied().step_by(2).collect();
     let mut harmonics = Vec::with_capacity(count);
     let (mut off, mut lost) = (0.0, false);
     for n in 1..=count {
@@ -36,8 +39,9 @@ pub(super) fn resolve(rows: &[(f64, f64)], wave: &Wave, count: usize) -> Result<
         if k * finest > PI * (1.0 + NEAR) {
             break;
         }
-        let compliance = transform(&inside, k);
-        let sampling = if 2.0 * k * finest < PI { (compliance - transform(&coarse, k)).abs() / 3.0 } else { 0.0 };
+        let bent = transform(&smooth, k);
+        let sampling = if 2.0 * k * finest < PI { (bent - transform(&coarse, k)).abs() / 3.0 } else { 0.0 };
+        let compliance = bent + local;
         let error = sampling + if periodic { 0.0 } else { 2.0 * last.abs() / k };
         if compliance <= error || lost {
             // Not known but for its size: it is given that of the last one that is.
@@ -55,6 +59,19 @@ pub(super) fn resolve(rows: &[(f64, f64)], wave: &Wave, count: usize) -> Result<
     };
     let relative_error = smooth_share(&harmonics, off);
     Ok(Compliances { wavelength: wave.length, harmonics: harmonics.into(), local, relative_error })
+}
+
+/// The rows without the local compliance at x = 0, and that \[m²/N\].
+fn split(rows: &[(f64, f64)]) -> (Vec<(f64, f64)>, f64) {
+    let mut smooth = rows.to_vec();
+    let [first, (x1, g1), (x2, g2), ..] = &mut smooth[..] else { return (smooth, 0.0) };
+    let without = *g1 + (*g1 - *g2) * *x1 / (*x2 - *x1);
+    let local = (first.1 - without) * *x1;
+    if local <= 0.0 {
+        return (smooth, 0.0);
+    }
+    first.1 = without;
+    (smooth, local)
 }
 
 /// 2 ∫ G cos kx dx over the rows, by the trapezoidal rule.
@@ -109,6 +126,7 @@ mod tests {
         let table = rows(0.5 * WAVE.length, 90, |x| if x == 0.0 { local / spacing } else { 0.0 });
         let found = resolve(&table, &WAVE, 90).unwrap();
         assert!((1..=90).all(|n| (found.harmonic(n) / local - 1.0).abs() < 1e-12), "{found:?}");
+        assert!(found.relative_error() < 1e-12, "{found:?}");
         assert_eq!(found.harmonic(1000), found.harmonic(90));
     }
 
