@@ -4,11 +4,8 @@
 //! is fine there by a constant share of the distance, so that it follows the singular stress at a corner. All sizes are scaled
 //! by one factor, so that the mesh has about as many elements as were asked for. A finer mesh halves every element, and contains
 //! the displacements of the coarser one: its compliance can only be greater.
-//!
-//! Nodes are numbered by nested dissection (A. George, SIAM J. Numer. Anal. 10 (1973) 345): first what is on either side of a line of the
-//! grid, then the line. In this order the Cholesky factor has few entries.
 
-use super::section::{Band, RingError, Section, common, mm, same};
+use super::section::{Band, Part, RingError, Section, common, mm, same};
 
 /// Nodes of an element.
 pub const NODES: usize = 9;
@@ -38,11 +35,11 @@ const COARSE: usize = 500;
 /// The most elements of it, if lines alone make that many.
 const MOST: usize = 4 * COARSE;
 /// Size of elements at a line, in shares of the narrower of the intervals beside it.
-const AT_LINE: f64 = 0.1;
+const AT_LINE: f64 = 0.03;
 /// Size of elements at the contact, in shares of its width or of the height of the part that is in contact.
 const AT_CONTACT: f64 = 0.1;
 /// Growth of elements with the distance from a line.
-const GROWTH: f64 = 0.6;
+const GROWTH: f64 = 1.0;
 
 impl Section {
     /// The mesh on which the ring is solved with a contact `band`.
@@ -74,14 +71,19 @@ impl Section {
     }
 }
 
-/// The lines of the grid along one coordinate, ascending, and the size of elements at each.
+/// The lines of the grid along one coordinate.
 #[derive(Clone, Debug)]
 struct Lines {
+    /// Ascending.
     at: Vec<f64>,
-    size: Vec<f64>,
+    /// For each interval between two lines, how many elements fit from its beginning up to each of `POINTS` equal parts of it, before scaling.
+    sums: Vec<Vec<f64>>,
 }
 
 impl Lines {
+    /// Points of the trapezoidal rule.
+    const POINTS: usize = 128;
+
     /// Of `edges` in any order, those that are one counted once; `fine` are lines with elements no larger than given.
     fn new(mut edges: Vec<f64>, fine: &[(f64, f64)]) -> Self {
         edges.sort_by(f64::total_cmp);
@@ -92,51 +94,49 @@ impl Lines {
             let asked = fine.iter().filter(|(line, _)| same(*line, edges[i])).map(|(_, size)| *size);
             asked.fold(AT_LINE * narrower, f64::min)
         };
-        let size = (0..edges.len()).map(size).collect();
-        Self { at: edges, size }
+        let sizes: Vec<f64> = (0..edges.len()).map(size).collect();
+        let density = |x: f64| {
+            let size = edges.iter().zip(&sizes).map(|(line, size)| size + GROWTH * (x - line).abs());
+            1.0 / size.fold(f64::INFINITY, f64::min)
+        };
+        let sums = edges.windows(2).map(|ends| {
+            let step = (ends[1] - ends[0]) / Self::POINTS as f64;
+            let trapezium = |i: usize| {
+                let x = ends[0] + step * i as f64;
+                0.5 * step * (density(x) + density(x + step))
+            };
+            let parts = (0..Self::POINTS).scan(0.0, |sum, i| {
+                *sum += trapezium(i);
+                Some(*sum)
+            });
+            std::iter::once(0.0).chain(parts).collect()
+        });
+        Self { sums: sums.collect(), at: edges }
     }
 
-    /// Share of an element that fits into a unit length at `x`, before scaling.
-    fn density(&self, x: f64) -> f64 {
-        let size = self.at.iter().zip(&self.size).map(|(line, size)| size + GROWTH * (x - line).abs());
-        1.0 / size.fold(f64::INFINITY, f64::min)
+    /// Elements of the interval `i` with sizes `scale` as large.
+    fn count(&self, i: usize, scale: f64) -> usize {
+        (self.sums[i][Self::POINTS] / scale).ceil().max(1.0) as usize
     }
 
-    /// Edges of elements: each interval in equal shares of the density, as many as there are with sizes `scale` as large, each halved
-    /// `halves` − 1 times.
-    fn divided(&self, scale: f64, halves: usize) -> Vec<f64> {
-        /// Points of the trapezoidal rule.
-        const POINTS: usize = 256;
-        let mut edges = vec![self.at[0]];
-        for ends in self.at.windows(2) {
-            let at = |i: usize| ends[0] + (ends[1] - ends[0]) * i as f64 / POINTS as f64;
-            let mut sums = vec![0.0];
-            for i in 0..POINTS {
-                sums.push(sums[i] + 0.5 * (at(i + 1) - at(i)) * (self.density(at(i)) + self.density(at(i + 1))));
-            }
-            let count = (sums[POINTS] / scale).ceil().max(1.0) as usize;
-            let mut before = ends[0];
+    /// Edges of the elements, and the interval of each element: equal shares of the density, each divided into `halves`.
+    fn divided(&self, scale: f64, halves: usize) -> (Vec<f64>, Vec<usize>) {
+        let (mut edges, mut intervals) = (vec![self.at[0]], Vec::new());
+        for (interval, (ends, sums)) in self.at.windows(2).zip(&self.sums).enumerate() {
+            let (count, mut before) = (self.count(interval, scale), ends[0]);
             for part in 1..=count {
-                let share = sums[POINTS] * part as f64 / count as f64;
-                let i = sums.partition_point(|sum| *sum < share).clamp(1, POINTS);
-                let between = (share - sums[i - 1]) / (sums[i] - sums[i - 1]);
-                let end = if part == count { ends[1] } else { at(i - 1) + between * (at(i) - at(i - 1)) };
+                let share = sums[Self::POINTS] * part as f64 / count as f64;
+                let i = sums.partition_point(|sum| *sum < share).clamp(1, Self::POINTS);
+                let between = i as f64 - 1.0 + (share - sums[i - 1]) / (sums[i] - sums[i - 1]);
+                let end =
+                    if part == count { ends[1] } else { ends[0] + (ends[1] - ends[0]) * between / Self::POINTS as f64 };
                 edges.extend((1..=halves).map(|half| before + (end - before) * half as f64 / halves as f64));
+                intervals.extend(std::iter::repeat_n(interval, halves));
                 before = end;
             }
         }
-        edges
+        (edges, intervals)
     }
-}
-
-/// Which part the element between two edges along r and two along z belongs to.
-fn part_at(section: &Section, radii: &[f64], heights: &[f64]) -> Option<usize> {
-    let middle = |ends: &[f64]| 0.5 * (ends[0] + ends[1]);
-    let (r, z) = (middle(radii), middle(heights));
-    section
-        .parts()
-        .iter()
-        .position(|part| (part.inner_radius..part.outer_radius).contains(&r) && (part.bottom..part.top).contains(&z))
 }
 
 impl Mesh {
@@ -178,22 +178,21 @@ impl Mesh {
             fine_along.extend([(inner, size), (outer, size)]);
             fine_up.push((section.contact_height(), size));
         }
-        let (along, up) = (Lines::new(along, &fine_along), Lines::new(up, &fine_up));
-        let grid = |scale: f64, halves: usize| Grid::new(section, &along, &up, scale, halves);
-        // The sizes of the largest mesh that has no more elements than asked for, within a hundredth.
-        let (mut fine, mut coarse) = (1e-2_f64, 1e4_f64);
-        while coarse / fine > 1.01 {
-            let scale = (fine * coarse).sqrt();
-            if grid(scale, 1).elements() > elements { fine = scale } else { coarse = scale }
+        let grid = Grid::new(section, Lines::new(along, &fine_along), Lines::new(up, &fine_up));
+        // The smallest elements of which there are no more than asked for, within a hundredth.
+        let (mut many, mut few) = (1e-2_f64, 1e4_f64);
+        while few / many > 1.01 {
+            let scale = (many * few).sqrt();
+            if grid.elements(scale) > elements { many = scale } else { few = scale }
         }
-        let least = grid(coarse, 1).elements();
+        let least = grid.elements(few);
         if least > elements.max(MOST) {
             return Err(RingError::Elements { elements: least, most: MOST });
         }
-        Ok(grid(coarse, halves).mesh(section))
+        Ok(grid.mesh(section, few, halves))
     }
 
-    /// The nodes of `element`, and its inner and outer radius, bottom and top.
+    /// Inner and outer radius, bottom and top of `element`.
     pub(super) fn corners(&self, element: &Element) -> [f64; 4] {
         let ([inner, bottom], [outer, top]) = (self.nodes[element.nodes[0]], self.nodes[element.nodes[8]]);
         [inner, outer, bottom, top]
@@ -210,60 +209,55 @@ impl Section {
     }
 }
 
-/// A tensor grid and the parts of its cells.
+/// The lines both ways, and which part is between them.
 struct Grid {
-    along: Vec<f64>,
-    up: Vec<f64>,
-    /// Part of each cell, `[i + j · cells along]`.
+    along: Lines,
+    up: Lines,
+    /// Part of each interval i along r and j along z, `[i + j · intervals along r]`.
     parts: Vec<Option<usize>>,
 }
 
 impl Grid {
-    fn new(section: &Section, along: &Lines, up: &Lines, scale: f64, halves: usize) -> Self {
-        let (along, up) = (along.divided(scale, halves), up.divided(scale, halves));
-        let cells =
-            up.windows(2).flat_map(|heights| along.windows(2).map(move |radii| part_at(section, radii, heights)));
-        let parts = cells.collect();
+    fn new(section: &Section, along: Lines, up: Lines) -> Self {
+        let within = |ends: &[f64], (low, high): (f64, f64)| (low..high).contains(&(0.5 * (ends[0] + ends[1])));
+        let mut parts = Vec::new();
+        for high in up.at.windows(2) {
+            let here = |wide: &[f64], part: &Part| within(wide, part.radii()) && within(high, part.heights());
+            parts.extend(along.at.windows(2).map(|wide| section.parts().iter().position(|part| here(wide, part))));
+        }
         Self { along, up, parts }
     }
 
-    fn elements(&self) -> usize {
-        self.parts.iter().flatten().count()
+    /// Elements with sizes `scale` as large.
+    fn elements(&self, scale: f64) -> usize {
+        let columns = self.along.sums.len();
+        let filled = self.parts.iter().enumerate().filter(|(_, part)| part.is_some());
+        filled.map(|(k, _)| self.along.count(k % columns, scale) * self.up.count(k / columns, scale)).sum()
     }
 
-    fn mesh(&self, section: &Section) -> Mesh {
-        let (nx, ny) = (self.along.len() - 1, self.up.len() - 1);
-        let columns = 2 * nx + 1;
-        let place = |edges: &[f64], i: usize| 0.5 * (edges[i / 2] + edges[i.div_ceil(2)]);
-        let mut used = vec![false; columns * (2 * ny + 1)];
-        let of_cell = |i: usize, j: usize| -> [usize; NODES] {
-            std::array::from_fn(|node| 2 * i + node % 3 + (2 * j + node / 3) * columns)
-        };
-        let mut cells = Vec::new();
-        for j in 0..ny {
-            for i in 0..nx {
-                if let Some(part) = self.parts[i + j * nx] {
-                    of_cell(i, j).iter().for_each(|place| used[*place] = true);
-                    cells.push((of_cell(i, j), part));
+    fn mesh(&self, section: &Section, scale: f64, halves: usize) -> Mesh {
+        let (radii, along) = self.along.divided(scale, halves);
+        let (heights, up) = self.up.divided(scale, halves);
+        let (columns, intervals) = (2 * along.len() + 1, self.along.sums.len());
+        let mut elements = Vec::new();
+        for (j, row) in up.iter().enumerate() {
+            for (i, column) in along.iter().enumerate() {
+                if let Some(part) = self.parts[column + row * intervals] {
+                    let nodes = std::array::from_fn(|node| 2 * i + node % 3 + (2 * j + node / 3) * columns);
+                    elements.push(Element { nodes, part });
                 }
             }
         }
-        let mut order = Vec::new();
-        dissect([0, 2 * nx], [0, 2 * ny], &mut |i, j| {
-            if used[i + j * columns] {
-                order.push((i, j));
-            }
-        });
-        let mut number = vec![usize::MAX; used.len()];
-        for (k, (i, j)) in order.iter().enumerate() {
-            number[i + j * columns] = k;
+        // Places of the grid without an element have no node.
+        let mut number = vec![usize::MAX; columns * (2 * up.len() + 1)];
+        elements.iter().flat_map(|element| element.nodes).for_each(|place| number[place] = 0);
+        let middle = |edges: &[f64], i: usize| 0.5 * (edges[i / 2] + edges[i.div_ceil(2)]);
+        let mut nodes = Vec::new();
+        for (place, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == 0) {
+            *number = nodes.len();
+            nodes.push([middle(&radii, place % columns), middle(&heights, place / columns)]);
         }
-        let nodes: Vec<[f64; 2]> = order.iter().map(|(i, j)| [place(&self.along, *i), place(&self.up, *j)]).collect();
-        let element = |(places, part): &([usize; NODES], usize)| Element {
-            nodes: places.map(|place| number[place]),
-            part: *part,
-        };
-        let elements = cells.iter().map(element).collect();
+        elements.iter_mut().for_each(|element| element.nodes = element.nodes.map(|place| number[place]));
         let held = nodes.iter().map(|node| section.held(*node)).collect();
         Mesh { nodes, elements, held }
     }
@@ -282,33 +276,5 @@ impl Section {
             }
         }
         held
-    }
-}
-
-/// Visits the nodes of the box `along` × `up` (first and last index) by nested dissection. Lines that part it have an even index: they are edges of
-/// elements, so that no element has nodes on both sides.
-fn dissect(along: [usize; 2], up: [usize; 2], visit: &mut impl FnMut(usize, usize)) {
-    /// Nodes along a side of a box that is not divided any more.
-    const LEAST: usize = 7;
-    let side = |[first, last]: [usize; 2]| (last + 1).saturating_sub(first);
-    if side(along) == 0 || side(up) == 0 {
-        return;
-    }
-    let middle = |[first, last]: [usize; 2]| {
-        let middle = (first + last) / 2;
-        middle + middle % 2
-    };
-    if side(along).max(side(up)) <= LEAST {
-        (up[0]..=up[1]).for_each(|j| (along[0]..=along[1]).for_each(|i| visit(i, j)));
-    } else if side(along) >= side(up) {
-        let line = middle(along);
-        dissect([along[0], line - 1], up, visit);
-        dissect([line + 1, along[1]], up, visit);
-        (up[0]..=up[1]).for_each(|j| visit(line, j));
-    } else {
-        let line = middle(up);
-        dissect(along, [up[0], line - 1], visit);
-        dissect(along, [line + 1, up[1]], visit);
-        (along[0]..=along[1]).for_each(|i| visit(i, line));
     }
 }

@@ -10,7 +10,7 @@ use super::mesh::Mesh;
 use super::section::{RingError, Section};
 use super::solve::{System, free_motions};
 use crate::numerics::dot;
-use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Vectors that are iterated beside those asked for.
 const BESIDE: usize = 8;
@@ -48,43 +48,48 @@ fn lowest(section: &Section, mesh: &Mesh, order: u32, count: usize) -> Result<Ve
     let factor = system.factor(f64::from(order), shift)?;
     let rigid = free_motions(mesh, order).len();
     let (wanted, size) = (count + rigid, system.size);
-    let free = mesh.held.iter().flatten().filter(|held| !**held).count();
-    let vectors = (wanted + BESIDE).min(free);
-    let mut pushed: Vec<f64> = (0..vectors).flat_map(|j| (0..size).map(move |i| start(i, j))).collect();
-    for (i, _) in mesh.held.iter().flatten().enumerate().filter(|(_, held)| **held) {
-        pushed.iter_mut().skip(i).step_by(size).for_each(|x| *x = 0.0);
+    let held: Vec<bool> = mesh.held.iter().flatten().copied().collect();
+    let vectors = (wanted + BESIDE).min(held.iter().filter(|held| !**held).count());
+    if vectors == 0 {
+        return Ok(Vec::new());
     }
+    let of = |j: usize| held.iter().enumerate().map(|(i, held)| if *held { 0.0 } else { start(i, j) }).collect();
+    let mut pushed: Vec<Vec<f64>> = (0..vectors).map(of).collect();
     let mut found = vec![f64::INFINITY; vectors];
     for _ in 0..MOST {
-        let mut moved = pushed.clone();
+        let mut moved = pushed.concat();
         factor.solve(&mut moved, vectors)?;
-        let column = |j: usize| &moved[j * size..(j + 1) * size];
-        let inertia: Vec<Vec<f64>> =
-            (0..vectors).map(|j| system.products(column(j))).map(|[.., inertia]| inertia).collect();
-        let stiffness = DMatrix::from_fn(vectors, vectors, |i, j| {
-            let of = |i: usize, j: usize| dot(column(i), &pushed[j * size..(j + 1) * size]);
-            0.5 * (of(i, j) + of(j, i))
-        });
-        let mass = DMatrix::from_fn(vectors, vectors, |i, j| dot(column(i), &inertia[j]));
-        let root = Cholesky::new(mass).ok_or(fault.clone())?.l();
-        let half = root.solve_lower_triangular(&stiffness).ok_or(fault.clone())?;
-        let small = root.solve_lower_triangular(&half.transpose()).ok_or(fault.clone())?;
-        let eigen = SymmetricEigen::new(0.5 * (&small + small.transpose()));
+        let mut moved: Vec<Vec<f64>> = moved.chunks(size).map(<[f64]>::to_vec).collect();
+        let mut inertia: Vec<Vec<f64>> =
+            moved.iter().map(|moved| system.products(moved)).map(|[.., inertia]| inertia).collect();
+        // Each at right angles to those before it in the sense of the mass; twice, because they are nearly parallel.
+        for j in (0..vectors).flat_map(|j| [j, j]) {
+            for i in 0..j {
+                let share = -dot(&moved[j], &inertia[i]);
+                for all in [&mut moved, &mut inertia, &mut pushed] {
+                    add(all, j, share, i);
+                }
+            }
+            let norm = dot(&moved[j], &inertia[j]).sqrt();
+            for all in [&mut moved, &mut inertia, &mut pushed] {
+                all[j].iter_mut().for_each(|x| *x /= norm);
+            }
+        }
+        let stiffness =
+            DMatrix::from_fn(vectors, vectors, |i, j| 0.5 * (dot(&moved[i], &pushed[j]) + dot(&moved[j], &pushed[i])));
+        let eigen = SymmetricEigen::try_new(stiffness, f64::EPSILON, 1000).ok_or(fault.clone())?;
         let mut ascending: Vec<usize> = (0..vectors).collect();
         ascending.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
-        let modes = root.transpose().solve_upper_triangular(&eigen.eigenvectors).ok_or(fault.clone())?;
         let squares: Vec<f64> = ascending.iter().map(|k| eigen.eigenvalues[*k]).collect();
-        pushed = ascending
-            .iter()
-            .flat_map(|k| {
-                let mut mixed = vec![0.0; size];
-                for (j, inertia) in inertia.iter().enumerate() {
-                    let share = modes[(j, *k)];
-                    mixed.iter_mut().zip(inertia).for_each(|(x, y)| *x += share * y);
-                }
-                mixed
-            })
-            .collect();
+        let mixed = |k: &usize| {
+            let mut mixed = vec![0.0; size];
+            for (j, inertia) in inertia.iter().enumerate() {
+                let share = eigen.eigenvectors[(j, *k)];
+                mixed.iter_mut().zip(inertia).for_each(|(x, y)| *x += share * y);
+            }
+            mixed
+        };
+        pushed = ascending.iter().map(mixed).collect();
         let settled = squares.iter().zip(&found).take(wanted).all(|(now, before)| (now / before - 1.0).abs() < SETTLED);
         found = squares;
         if settled {
@@ -93,6 +98,12 @@ fn lowest(section: &Section, mesh: &Mesh, order: u32, count: usize) -> Result<Ve
     }
     let hertz = |square: f64| (square - shift).max(0.0).sqrt() / std::f64::consts::TAU;
     Ok(found.into_iter().take(wanted).skip(rigid).map(hertz).collect())
+}
+
+/// Adds `share` times the vector `i` to the vector `j`, i < j.
+fn add(all: &mut [Vec<f64>], j: usize, share: f64, i: usize) {
+    let (before, from) = all.split_at_mut(j);
+    from[0].iter_mut().zip(&before[i]).for_each(|(x, y)| *x += share * y);
 }
 
 /// Component `i` of the vector `j` that the iteration starts from: anything that has a part along every mode.
