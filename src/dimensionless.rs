@@ -59,7 +59,8 @@ impl Dimensionless {
         let m = gas.mean_free_path / thickness;
         let slip_factor = match gas.slip {
             Slip::None => 1.0,
-            Slip::FirstOrder | Slip::FukuiKaneko => 1.0 + 6.0 * m,
+            // Slip grows as 2/α − 1.
+            Slip::FirstOrder | Slip::FukuiKaneko => 1.0 + 6.0 * m * (2.0 / gas.accommodation - 1.0),
             Slip::SecondOrder => 1.0 + 6.0 * m + 6.0 * m * m,
         };
         let diffusivity = slip_factor / (12.0 * per_area);

@@ -48,6 +48,7 @@
 //! | [`numerics`] | five-point systems, graded nodes, Anderson acceleration; no physics |
 //! | [`control`], [`digits`] | cancellation and progress; numbers for people |
 //! | [`atomic`] | files that appear whole or not at all; locks between processes |
+//! | [`gas`] | gases by name: viscosity, mean free path; the standard atmosphere |
 //! | [`problem`] | what is to be solved: checked, in SI units |
 //! | [`scene`] | what a person edits: files, units, ranges, presets |
 //! | [`dimensionless`] | σ, Λ and Kn without solving |
@@ -79,6 +80,7 @@ pub mod estimate;
 pub mod export;
 pub mod fidelity;
 pub mod film;
+pub mod gas;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod hold;

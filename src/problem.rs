@@ -5,6 +5,7 @@
 //! Symbols follow `docs/theory.md`.
 
 use crate::rotor::ring::Section;
+use crate::gas::species::IdealGas;
 use serde::{Deserialize, Serialize};
 
 /// A key whose value is one of a few names.
@@ -58,6 +59,24 @@ pub struct Gas {
     pub mean_free_path: f64,
     /// Slip law.
     pub slip: Slip,
+    /// Share of the molecules that the walls reflect diffusely, in the law of Fukui and Kaneko; the others are reflected specularly.
+    pub accommodation: f64,
+    /// What density, heat and sound follow from.
+    pub ideal: IdealGas,
+}
+
+impl Default for Gas {
+    /// The air of the fundamental case.
+    fn default() -> Self {
+        Self {
+            ambient_pressure: 101_325.0,
+            viscosity: 18.1e-6,
+            mean_free_path: 64e-9,
+            slip: Slip::FirstOrder,
+            accommodation: 1.0,
+            ideal: IdealGas::UNNAMED,
+        }
+    }
 }
 
 /// What the rotor's normal compliance follows from, displacement amplitude = C(k) × line-load amplitude. Solvers take what [`crate::rotor`]

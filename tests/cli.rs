@@ -17,6 +17,13 @@ fn run(arguments: &[&str]) -> Output {
     squeezefilm(arguments).output().unwrap()
 }
 
+fn with_input(arguments: &[&str], text: &[u8]) -> Output {
+    let mut command = squeezefilm(arguments);
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::io::Write::write_all(&mut child.stdin.take().unwrap(), text).unwrap();
+    child.wait_with_output().unwrap()
+}
+
 fn out(output: &Output) -> &str {
     std::str::from_utf8(&output.stdout).unwrap()
 }
@@ -138,6 +145,30 @@ fn summary_names_the_numbers_with_units() {
     ] {
         assert!(out(&output).contains(words), "{words:?} is not in\n{}", out(&output));
     }
+}
+
+#[test]
+fn a_named_gas_is_told_and_a_mean_free_path_that_stays_behind_too() {
+    let helium = run(&["solve", "motor-60mm-helium", "--fidelity", "draft"]);
+    let line = "helium at 20 °C  at 79.50 kPa: viscosity 19.61 µPa s, mean free path 241.3 nm";
+    assert!(out(&helium).contains(line) && err(&helium).is_empty(), "{}", out(&helium));
+    let (pressure, stays) = ("film.ambient_pressure_kpa=50", "the mean free path stays at 64 nm at another pressure");
+    let solve =
+        |more: &[&str]| run(&[&["solve", "plate-crossover", "--fidelity", "draft", "--set", pressure], more].concat());
+    assert!(err(&solve(&[])).contains(stays));
+    for follows in ["film.gas=air", "film.mean_free_path_nm=130", "film.slip=none"] {
+        assert_eq!(err(&solve(&["--set", follows])), "", "{follows}");
+    }
+    let sweep = |more: &[&str]| {
+        let vary = ["sweep", "plate-crossover", "--fidelity", "draft", "--vary", "film.ambient_pressure_kpa=50,100"];
+        run(&[&vary, more].concat())
+    };
+    assert!(err(&sweep(&[])).contains(stays));
+    let air = sweep(&["--set", "film.gas=air", "--json"]);
+    assert!(!err(&air).contains("mean free path"));
+    let air: Value = serde_json::from_str(out(&air)).unwrap();
+    let knudsen = |row: usize| air["rows"][row]["knudsen_number"].as_f64().unwrap();
+    assert!(close(knudsen(0), 2.0 * knudsen(1)), "{air}");
 }
 
 #[test]
@@ -554,12 +585,6 @@ fn several_presets_are_solved_each_into_its_own_folder() {
 
 #[test]
 fn a_preset_is_read_from_standard_input() {
-    let with_input = |arguments: &[&str], text: &[u8]| {
-        let mut command = squeezefilm(arguments);
-        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        std::io::Write::write_all(&mut child.stdin.take().unwrap(), text).unwrap();
-        child.wait_with_output().unwrap()
-    };
     let toml = run(&["presets", "fundamental", "--set", "film.min_spacing_nm=100"]).stdout;
     let output = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &toml);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
@@ -568,6 +593,41 @@ fn a_preset_is_read_from_standard_input() {
     let output = with_input(&["compare", "-"], b"schema = 2\n");
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("standard input:1: schema"), "{}", err(&output));
+}
+
+#[test]
+fn a_new_motor_is_made_of_options_or_of_answers() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    let path = file.to_str().unwrap();
+    let given = ["new", path, "--diameter-mm", "60", "--frequency-khz", "40", "--load-n", "150", "--altitude-m", "-30"];
+    let output = run(&given);
+    assert_eq!((output.status.code(), out(&output)), (Some(0), ""), "{}", err(&output));
+    for words in ["Assumed, and why:", "film.min_spacing_nm", "measure the surfaces", "wrote "] {
+        assert!(err(&output).contains(words), "{words:?} is not in\n{}", err(&output));
+    }
+    assert_eq!(solved(&[path])["preset"], "My motor");
+    refused(&given, 2, &["there is such a file already; --replace replaces it"]);
+    assert_eq!(run(&[&given[..], &["--replace"]].concat()).status.code(), Some(0));
+    // What is not given is asked for, again where the answer is refused; the end of the answers leaves the rest to assumptions.
+    let asked = with_input(&["new", "--diameter-mm", "60"], b"Mine\nfast\n40\n\n150\n9\n");
+    assert_eq!(asked.status.code(), Some(0), "{}", err(&asked));
+    assert!(err(&asked).contains("Frequency, kHz: ") && err(&asked).contains("frequency-khz = fast is not accepted"));
+    let piped = with_input(&["solve", "-", "--fidelity", "draft", "--json"], &asked.stdout);
+    let piped: Value = serde_json::from_slice(&piped.stdout).unwrap();
+    assert_eq!(piped["preset"], "Mine");
+    refused(
+        &["new", "--diameter-mm", "60"],
+        2,
+        &["frequency-khz is missing", "load-n is missing", "from 0.01 to 10000 N"],
+    );
+    refused(
+        &["new", "--load-n", "heavy"],
+        2,
+        &["load-n = heavy is not accepted: expected a number from 0.01 to 10000 N"],
+    );
+    let nowhere = folder.path().join("no/such.toml");
+    refused(&[&["new", nowhere.to_str().unwrap()], &given[2..]].concat(), 2, &["no: there is no such folder"]);
 }
 
 /// A name that is a formula to a spreadsheet, moves the cursor of a terminal, turns the direction of text, and is long.
@@ -637,7 +697,7 @@ fn presets_are_listed_and_printed_as_files() {
     assert_eq!((listed.status.code(), err(&listed)), (Some(0), ""));
     let objects = run(&["presets", "--json"]);
     let objects: Vec<Value> = serde_json::from_slice(&objects.stdout).unwrap();
-    assert_eq!(objects.len(), 20);
+    assert_eq!(objects.len(), 21);
     for object in &objects {
         let name = object["preset"].as_str().unwrap();
         assert!(out(&listed).contains(&format!("\n  {name} ")), "{name}");

@@ -21,7 +21,7 @@ const GAP: f64 = 1e-6;
 const LENGTH: f64 = 1e-3;
 
 fn air(mean_free_path: f64) -> Gas {
-    Gas { ambient_pressure: 101_325.0, viscosity: 18.1e-6, mean_free_path, slip: Slip::FirstOrder }
+    Gas { ambient_pressure: 101_325.0, viscosity: 18.1e-6, mean_free_path, ..Gas::default() }
 }
 
 /// A plate with squeeze number `sigma`, relative excursion `epsilon`, Knudsen number `m`, and width/length `aspect`.

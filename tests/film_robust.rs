@@ -6,7 +6,7 @@ use squeezefilm::film::stepper::{Film, FilmState};
 use squeezefilm::problem::{Gas, Slip};
 
 fn air(slip: Slip) -> Gas {
-    Gas { ambient_pressure: 101_325.0, viscosity: 18.1e-6, mean_free_path: 64e-9, slip }
+    Gas { ambient_pressure: 101_325.0, viscosity: 18.1e-6, mean_free_path: 64e-9, slip, ..Gas::default() }
 }
 
 fn tooth(along: usize, across: usize) -> FilmGrid {
@@ -209,6 +209,7 @@ proptest! {
             viscosity: 18.1e-6,
             mean_free_path: [0.0, 1e-9, 64e-9, 1e-3][path],
             slip: [Slip::None, Slip::FirstOrder, Slip::SecondOrder, Slip::FukuiKaneko][slip],
+            ..Gas::default()
         };
         let grid = FilmGrid {
             x: Axis::graded(10f64.powf(length), Start::Ambient, 12, 1e-6),

@@ -5,6 +5,7 @@
 mod window;
 
 use eframe::egui::accesskit::Role;
+use eframe::egui::epaint::{Primitive, Shape};
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -216,6 +217,35 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
 }
 
 #[test]
+fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("File").click();
+    window.run_steps(3);
+    window.get_by_label("New motor…").click();
+    window.run_steps(3);
+    let make = |window: &Harness<'static, App>| window.get_by_label("Make this motor").accesskit_node().is_disabled();
+    assert!(make(&window));
+    for (field, text) in
+        [("Outer diameter of the stator, mm", "60"), ("Frequency, kHz", "40"), ("Axial load on the rotor, N", "150")]
+    {
+        window.get_by_role_and_label(Role::TextInput, field).click();
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::TextInput, field).type_text(text);
+        window.run_steps(2);
+    }
+    window.get_by_label_contains("Assumed: Minimum spacing H_m 200 nm: as in the motor of Maeno and Bogy");
+    assert!(!make(&window));
+    window.get_by_label("Make this motor").click();
+    until(&mut window, "the new motor", |app| {
+        app.state().document.scene().get("motor.load_n") == Some(Value::Number(150.0))
+    });
+    let document = &window.state().state().document;
+    assert!(document.is_dirty() && document.path().is_none() && document.scene().name == "My motor");
+    assert!(window.state().state().modal.is_none());
+}
+
+#[test]
 fn a_bad_file_is_explained_and_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bad.toml");
@@ -326,6 +356,36 @@ fn nothing_is_redrawn_while_nothing_moves() {
     window.step();
     window.step();
     assert!(delay(&window) < Duration::from_millis(50), "{:?}", delay(&window));
+}
+
+/// Software renderers take their time for every pixel that is painted.
+#[test]
+fn a_redraw_paints_the_ground_once_and_the_window_twice_at_most() {
+    for preset in ["fundamental", "plate-trapped"] {
+        let mut window = window(preset);
+        solved(&mut window);
+        window.run_steps(3);
+        let whole = window.ctx.content_rect();
+        let ground = window.ctx.global_style().visuals.panel_fill;
+        let grounds = window.output().shapes.iter().filter(|shape| match &shape.shape {
+            Shape::Rect(rect) => rect.fill == ground && rect.rect.area() > 0.01 * whole.area(),
+            _ => false,
+        });
+        // OpenGL clears with it: then it is not painted at all.
+        assert_eq!(grounds.count(), 1, "{preset}");
+        let (mut painted, mut vertices) = (0.0, 0);
+        for clipped in window.ctx.tessellate(window.output().shapes.clone(), 1.0) {
+            let Primitive::Mesh(mesh) = clipped.primitive else { continue };
+            vertices += mesh.vertices.len();
+            for triangle in mesh.indices.chunks_exact(3) {
+                let [a, b, c] = [0, 1, 2].map(|i| mesh.vertices[triangle[i] as usize].pos);
+                painted += 0.5 * ((b - a).x * (c - a).y - (b - a).y * (c - a).x).abs();
+            }
+        }
+        let windows = painted / whole.area() - 1.0;
+        assert!(windows < 2.0, "{preset}: {windows} windows without the ground");
+        assert!(vertices < 60_000, "{preset}: {vertices} vertices");
+    }
 }
 
 #[test]

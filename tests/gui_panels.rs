@@ -106,7 +106,17 @@ fn scenes() -> Vec<Scene> {
     ring.set("rotor.model", "ring").unwrap();
     let all = "[{r_inner_mm = 0, r_outer_mm = 60, z_bottom_mm = 0, z_top_mm = 9, fixed = \"radial\"}]";
     ring.set("rotor.support", all).unwrap();
-    vec![Scene::motor(), Scene::plate(), crowned, table, wide, green, ring]
+    let mut helium = Scene::motor();
+    helium.set_all([("film.gas", "helium"), ("film.altitude_m", "2000"), ("film.slip", "fukui-kaneko")]).unwrap();
+    let mut section = Scene::motor();
+    let others = [
+        ("rotor.model", "section"),
+        ("motor.load_n", "20"),
+        ("stator.tooth_share", "0.5"),
+        ("motor.rotor_speed_mm_per_s", "9"),
+    ];
+    section.set_all(others).unwrap();
+    vec![Scene::motor(), Scene::plate(), crowned, table, wide, helium, section, green, ring]
 }
 
 #[test]
@@ -308,6 +318,52 @@ fn choices_and_flags_are_set() {
     let set = |key, value| Command::Set { key, value, dragging: false };
     let expected = [set("film.shear", Value::Flag(false)), set("film.slip", Value::Text("fukui-kaneko".into()))];
     assert_eq!(harness.state().pushed, expected);
+}
+
+#[test]
+fn what_follows_from_the_gas_is_shown_and_not_edited() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    open_all(&mut harness);
+    harness.get_by_role_and_label(Role::ComboBox, "Gas").click();
+    harness.run();
+    harness.get_by_label("Helium").click();
+    harness.run();
+    for (name, value) in [("Viscosity", "19.61 µPa s"), ("Mean free path", "189.3 nm")] {
+        assert!(harness.query_by_role_and_label(Role::Slider, name).is_none(), "{name}");
+        harness.get_by_label(value);
+    }
+    harness.get_by_label("Pressure of an altitude").click();
+    harness.run();
+    type_into(&mut harness, "Altitude in m", "2000");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert!(harness.query_by_role_and_label(Role::Slider, "Ambient pressure").is_none());
+    harness.get_by_label("79.50 kPa");
+    harness.get_by_label("241.3 nm");
+    // Custom again: what was given before it had a name is gone, and the defaults are back.
+    harness.get_by_role_and_label(Role::ComboBox, "Gas").click();
+    harness.run();
+    harness.get_by_label("Custom").click();
+    harness.run();
+    assert_eq!(*harness.state().scene(), Scene::motor());
+}
+
+#[test]
+fn one_of_two_ways_to_say_a_thing_is_edited_and_shows_the_other() {
+    let mut harness = panel(Edited::of(Scene::motor()));
+    harness.get_by_label("Now 17.15 N");
+    harness.get_by_label("Load on the whole ring").click();
+    harness.run();
+    type_into(&mut harness, "Load on the ring in N", "70");
+    harness.key_press(Key::Enter);
+    harness.run();
+    harness.get_by_label("10.00 N");
+    assert!(harness.query_by_role_and_label(Role::Slider, "Load on one wave").is_none());
+    harness.get_by_label("Tooth width as a share of the pitch").click();
+    harness.run();
+    // 0.6 of 2π · 29 mm/63.
+    harness.get_by_label("1.735 mm");
+    assert_eq!(harness.state().scene().get("stator.tooth_width_mm"), None);
 }
 
 #[test]

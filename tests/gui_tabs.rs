@@ -5,7 +5,7 @@
 mod window;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, Vec2};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::compare;
 use squeezefilm::analysis::quantity::Quantity;
@@ -20,6 +20,7 @@ use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::pins::Page;
 use squeezefilm::gui::state::sweep::Swept;
 use squeezefilm::gui::state::view::Tab;
+use squeezefilm::gui::ui::cache::made;
 use squeezefilm::gui::ui::glossary::unexplained;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::lessons::glossary;
@@ -211,7 +212,7 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     assert!(window.state().state().sweep.swept().is_none(), "nothing is solved before it is asked for");
     type_into(&mut window, "Values along x", "40");
     click(&mut window, "Start the sweep");
-    until(&mut window, "some points", |app| !swept(app).rows().is_empty());
+    until(&mut window, "some points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.rows().is_empty()));
     window.get_by_label("Cancel the sweep").click();
     until(&mut window, "the end", |app| !swept(app).running());
     let part = swept(window.state()).rows().len();
@@ -286,6 +287,15 @@ fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
     assert_eq!(swept(window.state()).rows().len(), 12);
     assert_eq!(swept(window.state()).sweep().axes().len(), 2);
+    // Its contours are computed once.
+    window.run_steps(2);
+    let before = made(&window.ctx);
+    window.run_steps(10);
+    assert_eq!(made(&window.ctx), before);
+    window.get_by_role_and_label(Role::ComboBox, "Result shown").click();
+    window.run_steps(3);
+    click(&mut window, "Highest pressure, kPa");
+    assert_eq!(made(&window.ctx), before + 1);
     click(&mut window, "Back to one parameter");
     assert!(window.query_by_role_and_label(Role::TextInput, "Values along y").is_none());
 }
@@ -296,7 +306,7 @@ fn closing_the_window_ends_a_sweep_and_what_is_being_solved() {
     ctrl(&mut window, Key::Num3);
     type_into(&mut window, "Values along x", "9000");
     click(&mut window, "Start the sweep");
-    assert!(swept(window.state()).running());
+    until(&mut window, "its points", |app| app.state().sweep.swept().is_some_and(|swept| swept.running()));
     ctrl(&mut window, Key::Num2);
     window.get_by_label_contains("Pin a preset").click();
     window.run_steps(3);
@@ -533,7 +543,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Sweep, before", &["Fidelity"]);
     type_into(&mut window, "Values along x", "3");
     click(&mut window, "Start the sweep");
-    until(&mut window, "all points", |app| swept(app).complete() && !swept(app).running());
+    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| swept.complete()));
     explains(faults, &window, "Sweep", &["α", "Computed", "Stated error", "Table I", "Present"]);
     hovers(faults, &mut window, "About: Minimum spacing H_m", "film.min_spacing_nm");
     hovers(faults, &mut window, "About: stated error", "the numerical error only");
@@ -723,33 +733,72 @@ fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
     }
 }
 
+/// Presses at `from`, moves to `to`, lets go.
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.drag_at(from);
+    window.run_steps(2);
+    window.hover_at(to);
+    window.run_steps(2);
+    window.drop_at(to);
+    window.run_steps(2);
+}
+
 #[test]
-fn a_chart_is_dragged_and_a_double_click_brings_it_back() {
+fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
+    for (preset, tab, name) in [
+        ("plate-crossover", Key::Num4, "Load over the cycle and its limits"),
+        ("plate-crossover", Key::Num1, "Mean pressure against the gap"),
+        ("plate-crossover", Key::Num1, "Pressure along the plate: point to read values"),
+        ("fundamental", Key::Num1, "Loads over the cycle: click to jump there"),
+        ("fundamental", Key::Num1, "Pressures along one wavelength: point to read values, click a tooth to follow it"),
+    ] {
+        let mut window = window(preset);
+        solved(&mut window);
+        window.key_press(Key::Space);
+        ctrl(&mut window, tab);
+        window.run_steps(3);
+        let id = eframe::egui::Id::unique(("chart", name));
+        let range = |window: &Window| {
+            let memory = egui_plot::PlotMemory::load(&window.ctx, id).unwrap();
+            [memory.bounds().min()[0], memory.bounds().max()[0]]
+        };
+        let at_first = range(&window);
+        let width = at_first[1] - at_first[0];
+        // Beside the line at the present instant, which is dragged by itself.
+        let middle = window.get_by_role_and_label(Role::Image, name).rect().center() + Vec2::new(11.0, 0.0);
+        drag(&mut window, middle, middle + Vec2::new(60.0, 0.0));
+        let dragged = range(&window);
+        assert!(dragged[0] < at_first[0] - 0.01 * width, "{name}: {at_first:?} {dragged:?}");
+        window.run_steps(3);
+        assert_eq!(range(&window), dragged, "{name}: it stays where it is");
+        window.hover_at(middle);
+        window.event(Event::Zoom(2.0));
+        window.run_steps(3);
+        let zoomed = range(&window);
+        assert!(zoomed[1] - zoomed[0] < 0.6 * width, "{name}: {dragged:?} {zoomed:?}");
+        // Every event has a step of its own, and its time.
+        window.ctx.options_mut(|options| options.input_options.max_double_click_delay = 10.0);
+        for _ in 0..2 {
+            window.drag_at(middle);
+            window.drop_at(middle);
+        }
+        window.run_steps(3);
+        assert_eq!(range(&window), at_first, "{name}");
+    }
+}
+
+#[test]
+fn the_line_of_a_chart_over_the_cycle_is_dragged_to_another_instant() {
     let mut window = window("plate-crossover");
     solved(&mut window);
-    ctrl(&mut window, Key::Num4);
+    window.get_by_label("Pause").click();
     window.run_steps(3);
-    let name = "Load over the cycle and its limits";
-    let id = eframe::egui::Id::unique(("chart", name));
-    let left = |window: &Window| egui_plot::PlotMemory::load(&window.ctx, id).unwrap().bounds().min()[0];
-    assert_eq!(left(&window), 0.0);
-    let middle = window.get_by_role_and_label(Role::Image, name).rect().center();
-    window.drag_at(middle);
-    window.run_steps(2);
-    window.hover_at(middle + Vec2::new(80.0, 0.0));
-    window.run_steps(2);
-    window.drop_at(middle + Vec2::new(80.0, 0.0));
-    window.run_steps(2);
-    let dragged = left(&window);
-    assert!(dragged < -0.01, "{dragged}");
-    window.run_steps(3);
-    assert_eq!(left(&window), dragged, "it stays where it is");
-    // Every event has a step of its own, and its time.
-    window.ctx.options_mut(|options| options.input_options.max_double_click_delay = 10.0);
-    for _ in 0..2 {
-        window.drag_at(middle);
-        window.drop_at(middle);
-    }
-    window.run_steps(3);
-    assert_eq!(left(&window), 0.0);
+    let chart = window.get_by_role_and_label(Role::Image, "Load over the cycle: click to jump there").rect();
+    let line = |window: &Window| window.get_by_label_contains("Line of Load over the cycle").rect().center();
+    let (from, phase) = (line(&window), window.state().state().view.phase);
+    let to = chart.lerp_inside(Vec2::new(if phase < 0.5 { 0.75 } else { 0.25 }, 0.3));
+    drag(&mut window, from, to);
+    let moved = window.state().state().view.phase;
+    assert!((moved - if phase < 0.5 { 0.75 } else { 0.25 }).abs() < 0.02, "{phase} {moved}");
+    assert!((line(&window).x - to.x).abs() < 3.0);
 }

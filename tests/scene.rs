@@ -5,7 +5,7 @@
 
 use proptest::prelude::*;
 use squeezefilm::input::ReadError;
-use squeezefilm::problem::{Problem, RotorCompliance, Scenario};
+use squeezefilm::problem::{Gas, Problem, RotorCompliance, Scenario};
 use squeezefilm::scene::{PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, What, presets, table1};
 use std::path::Path;
 
@@ -68,8 +68,8 @@ fn messages_name_file_line_key_value_and_range() {
         ("waves = 7\n", "my.toml:3: unknown key waves: did you mean motor.waves?"),
         (
             "[film]\nqqq = 1\n",
-            "my.toml:4: unknown key film.qqq: known are film.min_spacing_nm, film.ambient_pressure_kpa, \
-             film.viscosity_upa_s, film.mean_free_path_nm, film.slip, film.shear",
+            "my.toml:4: unknown key film.qqq: known are film.min_spacing_nm, film.gas, \
+             film.ambient_pressure_kpa, film.viscosity_upa_s, film.mean_free_path_nm, film.slip, film.shear",
         ),
         ("[flim]\nslip = \"none\"\n", "my.toml:3: unknown table [flim]: did you mean [film]?"),
         ("film = 3\n", "my.toml:3: film = 3 is not a table: write [film] with its keys below"),
@@ -309,6 +309,81 @@ fn a_key_at_fault_hides_the_rules_about_it() {
         message("[rotor]\nmodel = \"table\"\ncompliance_csv = \"no.csv\"\n[motor]\nwaves = 0\n").lines().count(),
         1
     );
+}
+
+// ---- the gas
+
+fn gas(scene: &Scene) -> Gas {
+    match Problem::new(scene).unwrap().scenario {
+        Scenario::Motor(motor) => motor.gas,
+        Scenario::Plate(plate) => plate.gas,
+    }
+}
+
+#[test]
+fn viscosity_and_mean_free_path_follow_a_named_gas() {
+    let mut scene = Scene::motor();
+    assert_eq!(gas(&scene), Gas::default());
+    scene.set("film.viscosity_upa_s", "30").unwrap();
+    // The issue's motor: helium at 2000 m. 79.501 kPa (U.S. Standard Atmosphere), 19.6 µPa s; 194 nm at 20 °C and 101.325 kPa.
+    scene.set_all([("film.gas", "helium"), ("film.altitude_m", "2000")]).unwrap();
+    let (helium, sea_level) = (gas(&scene), 101.325 / 79.501);
+    assert!((helium.ambient_pressure / 79_501.0 - 1.0).abs() < 1e-4, "{helium:?}");
+    assert!((helium.viscosity / 19.6e-6 - 1.0).abs() < 2e-3, "{helium:?}");
+    assert!((helium.mean_free_path / (190e-9 * sea_level) - 1.0).abs() < 0.02, "{helium:?}");
+    assert_eq!(scene.following("film.mean_free_path_nm").map(|value| value / 1e9), Some(helium.mean_free_path));
+    assert_eq!((scene.get("film.viscosity_upa_s"), scene.get("film.ambient_pressure_kpa")), (None, None));
+    // Twice the pressure, half the path; what was swept before is replaced.
+    scene.set("film.ambient_pressure_kpa", "50").unwrap();
+    let path = gas(&scene).mean_free_path;
+    scene.set("film.ambient_pressure_kpa", "100").unwrap();
+    assert!((gas(&scene).mean_free_path / path - 0.5).abs() < 1e-12);
+    assert_eq!(scene.get("film.altitude_m"), None);
+    // A warmer gas is more viscous, and thinner.
+    scene.set("film.temperature_c", "100").unwrap();
+    assert!(gas(&scene).viscosity > 1.15 * helium.viscosity && gas(&scene).mean_free_path > 1.25 * 0.5 * path);
+    scene.set("film.gas", "custom").unwrap();
+    scene.set("film.ambient_pressure_kpa", "101.325").unwrap();
+    assert_eq!(scene, Scene::motor());
+}
+
+#[test]
+fn a_gas_is_either_named_or_given_and_so_is_its_pressure() {
+    let of = |lines: &str| message(&format!("[film]\n{lines}"));
+    let custom = "belongs to film.gas = \"custom\", and this is film.gas = \"air\"";
+    let named = "belongs to film.gas = \"air\", \"nitrogen\", \"helium\", \"argon\", \"carbon-dioxide\" or \"hydrogen\", and this is \
+                 film.gas = \"custom\"";
+    for (lines, expected) in [
+        ("viscosity_upa_s = 18.1\ngas = \"air\"\n", format!("my.toml:4: film.viscosity_upa_s {custom}")),
+        ("gas = \"air\"\nmean_free_path_nm = 64\n", format!("my.toml:5: film.mean_free_path_nm {custom}")),
+        ("temperature_c = 20\n", format!("my.toml:4: film.temperature_c {named}")),
+        ("altitude_m = 0\n", format!("my.toml:4: film.altitude_m {named}")),
+        (
+            "gas = \"air\"\naltitude_m = 0\nambient_pressure_kpa = 101.325\n",
+            "my.toml:5: film.altitude_m and film.ambient_pressure_kpa are both given: keep one".to_owned(),
+        ),
+        (
+            "gas = \"neon\"\naltitude_m = 0\n",
+            "my.toml:4: film.gas = \"neon\" is not available: expected one of \"custom\", \"air\", \"nitrogen\", \"helium\", \
+             \"argon\", \"carbon-dioxide\", \"hydrogen\""
+                .to_owned(),
+        ),
+        (
+            "gas = \"air\"\naltitude_m = 61e3\n",
+            "my.toml:5: film.altitude_m = 61000 is out of range: allowed -1000 to 60000 m, or none (the pressure is given)".to_owned(),
+        ),
+    ] {
+        assert_eq!(of(lines), expected);
+    }
+    let pairs = [("film.ambient_pressure_kpa", "50"), ("film.gas", "air"), ("film.altitude_m", "100")];
+    for both in [pairs, [pairs[2], pairs[1], pairs[0]]] {
+        let message = Scene::motor().set_all(both).unwrap_err().to_string();
+        assert_eq!(message, "film.altitude_m and film.ambient_pressure_kpa are both given: keep one");
+    }
+    Scene::motor().set_all([pairs[0], pairs[1], ("film.altitude_m", "none")]).unwrap();
+    let saved = read("schema = 1\nfilm = { gas = \"argon\", altitude_m = 300, temperature_c = 0 }\n").unwrap();
+    assert_eq!(read(&saved.to_toml()).unwrap(), saved);
+    assert!(!saved.to_toml().contains("viscosity_upa_s") && !saved.to_toml().contains("ambient_pressure_kpa"));
 }
 
 // ---- the compliance table

@@ -18,9 +18,9 @@
 //! Derivations and sources are in `docs/theory.md`, section 9. `rotor-resonance` is judged of a ring that has been
 //! solved: a beam or a table has no mass.
 //!
-//! **The gas is taken to be air at 20 °C** as far as density and sound go: a scene has no species yet. Kinetic theory gives
-//! ρ = πμ²/(2 p_a λ_a²), which is air's within 3 % for the preset values; but λ_a may be 0, and stays what it was while pressure
-//! is swept. The thermal diffusivity κ = μ/(ρ Pr) follows the viscosity that is given.
+//! Density, heat and sound are those of the gas that the scene names. **One that is given by viscosity and mean free path is taken to
+//! be air at 20 °C**: kinetic theory gives ρ = πμ²/(2 p_a λ_a²), which is air's within 3 % for the preset values; but λ_a may be 0, and
+//! stays what it was while pressure is swept. The thermal diffusivity κ = μ/(ρ Pr) follows the viscosity in either case.
 
 mod limits;
 

@@ -88,6 +88,9 @@ pub(super) enum CliError {
         /// The folder.
         folder: PathBuf,
     },
+    /// What a new motor is made of.
+    #[error("{0}")]
+    Answers(String),
     /// Options that do not go together.
     #[error("{0}")]
     Usage(&'static str),
@@ -151,6 +154,7 @@ impl CliError {
             | Self::Compare(_)
             | Self::Resume { .. }
             | Self::Busy { .. }
+            | Self::Answers(_)
             | Self::Usage(_)
             | Self::Input(_)
             | Self::Figure(FigureError::Extension { .. })

@@ -7,6 +7,7 @@ mod exit;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;
+mod new;
 mod options;
 mod presets;
 mod progress;
@@ -57,6 +58,7 @@ enum Command {
     Startup(startup::Arguments),
     Animate(animate::Arguments),
     Presets(presets::Arguments),
+    New(new::Arguments),
 }
 
 const AFTER: &str = "\
@@ -69,6 +71,7 @@ Examples:
   squeezefilm reproduce
   squeezefilm startup fundamental
   squeezefilm animate fundamental --out wave.gif
+  squeezefilm new my.toml
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
   squeezefilm presets fundamental --set film.slip=none | squeezefilm solve -
 
@@ -112,6 +115,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Startup(arguments)) => startup::run(&arguments, &command_line(words)),
         Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
+        Some(Command::New(arguments)) => new::run(&arguments),
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),

@@ -40,6 +40,10 @@ impl SceneOptions {
         let original = if preset == STANDARD_INPUT { from_standard_input()? } else { presets::find(preset)? };
         let mut scene = original.clone();
         scene.set_all(self.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        let changed = |key| scene.get(key) != original.get(key);
+        if changed(PRESSURE) && !changed("film.mean_free_path_nm") {
+            warn_of_given_path(&scene);
+        }
         // What was changed is no longer what the preset's name and description claim.
         scene.retitle(&original);
         Ok((original, scene))
@@ -50,6 +54,18 @@ impl SceneOptions {
         let mut words = ["squeezefilm", "solve", preset].map(str::to_owned).to_vec();
         words.extend(self.changes.iter().flat_map(|(key, value)| ["--set".to_owned(), format!("{key}={value}")]));
         shell(&words)
+    }
+}
+
+/// The key of the ambient pressure.
+pub(super) const PRESSURE: &str = "film.ambient_pressure_kpa";
+
+/// Says so where the mean free path does not follow another pressure.
+pub(super) fn warn_of_given_path(scene: &Scene) {
+    if let Some(path) = scene.given_mean_free_path() {
+        terminal::warning(&format!(
+            "the mean free path stays at {path} nm at another pressure; of a gas that is named it follows, as with --set film.gas=air"
+        ));
     }
 }
 

@@ -10,6 +10,7 @@ use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::export::exact::units;
 use crate::export::json::{Summary, beside_limit};
+use crate::gas::species::IdealGas;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::scene::{Scene, show_text};
 use crate::solution::{Outcome, Performance};
@@ -39,6 +40,7 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
     }
     text.push('\n');
     let mut columns = Columns::new();
+    gas_row(&mut columns, problem);
     number_rows(&mut columns, &Dimensionless::of(problem), &regime::weight(problem, outcome));
     text.push_str(&columns.text("  ", &[]));
     text.push_str(&limits(&summary.validity));
@@ -231,6 +233,24 @@ fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: 
         &format!("{} kPa", with_error(pressure, or_nan(summary.max_pressure_error_kpa))),
         &format!("{} × ambient", significant(pressure * 1e3 / ambient, 3)),
     ]);
+}
+
+/// What follows from a gas that the scene names.
+fn gas_row(columns: &mut Columns, problem: &Problem) {
+    let gas = match &problem.scenario {
+        Scenario::Motor(motor) => &motor.gas,
+        Scenario::Plate(plate) => &plate.gas,
+    };
+    if gas.ideal != IdealGas::UNNAMED {
+        let [pressure, viscosity, path] = [gas.ambient_pressure / 1e3, gas.viscosity * 1e6, gas.mean_free_path * 1e9];
+        let follows = format!(
+            "at {} kPa: viscosity {} µPa s, mean free path {} nm",
+            shown(pressure),
+            shown(viscosity),
+            shown(path)
+        );
+        columns.row(["gas", &gas.ideal.to_string(), &follows]);
+    }
 }
 
 fn number_rows(columns: &mut Columns, numbers: &Dimensionless, weight: &str) {

@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, FigureOptions};
+use super::options::{CommonOptions, FigureOptions, PRESSURE, warn_of_given_path};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -71,6 +71,10 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
     let sweep = Sweep::new(&scene, &arguments.vary, &settings)?;
+    let varies = |key: &str| sweep.axes().iter().any(|axis| axis.parameter.key == key);
+    if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
+        warn_of_given_path(&scene);
+    }
     let folder = arguments.common.output.out.as_deref().map(|path| Folder::open(path, &sweep)).transpose()?;
     let done = match &folder {
         Some(folder) if !arguments.restart => folder.left_over()?,

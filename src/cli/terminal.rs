@@ -70,6 +70,12 @@ pub(super) fn note(text: &str) {
     }
 }
 
+/// Writes a question to standard error; the answer comes behind it.
+pub(super) fn prompt(text: &str) {
+    let mut out = io::stderr().lock();
+    let _ = out.write_all(escaped(text).as_bytes()).and_then(|()| out.flush());
+}
+
 /// Writes each line of an error to standard error, marked.
 pub(super) fn error(text: &str) {
     text.lines().for_each(|line| say(&format!("error: {line}")));

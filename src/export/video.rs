@@ -85,6 +85,8 @@ pub(super) fn encode(
         ..EncoderConfig::with_speed_preset(SPEED)
     };
     settings.speed_settings.scene_detection_mode = SceneDetectionSpeed::None;
+    // Takes a seventh of the time, and is for what a camera saw.
+    settings.speed_settings.cdef = false;
     let parts = (count / PART).clamp(1, PARTS);
     let (told, tell) = mpsc::channel();
     let encoded: Vec<io::Result<Vec<Vec<u8>>>> = thread::scope(|scope| {

@@ -307,6 +307,7 @@ impl Film {
             SlipLaw::Affine(law) => self.step_with(law, h, speed, dt, state, guess),
             SlipLaw::SecondOrder(law) => self.step_with(law, h, speed, dt, state, guess),
             SlipLaw::FukuiKaneko(law) => self.step_with(law, h, speed, dt, state, guess),
+            SlipLaw::Accommodated(law) => self.step_with(law, h, speed, dt, state, guess),
         }
     }
 

@@ -136,13 +136,20 @@ impl eframe::App for App {
         self.after_text(ctx, waiting);
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        if frame.gl().is_none() {
+            // Only OpenGL is sure to have cleared the window with this.
+            ui.painter().rect_filled(ctx.content_rect(), 0.0, ui.visuals().panel_fill);
+        }
         if self.updater.state.observe() {
             ctx.request_repaint();
         }
         let cx = DrawContext::new(self.state(), self.updater.now());
-        layout::show(ui, &cx);
+        // Known to what fades into it.
+        let ground = egui::Frame::new().fill(ui.visuals().panel_fill);
+        let stack = egui::UiStackInfo::new(egui::UiKind::GenericArea).with_frame(ground);
+        ui.scope_builder(egui::UiBuilder::new().ui_stack_info(stack), |ui| layout::show(ui, &cx));
         let commands = cx.into_commands();
         self.typing = ctx.text_edit_focused() && !is_searched(&ctx);
         if !commands.is_empty() {
@@ -159,7 +166,7 @@ impl eframe::App for App {
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        // Seen between panels where their edges fall between pixels.
+        // The ground of all panels.
         visuals.panel_fill.to_normalized_gamma_f32()
     }
 

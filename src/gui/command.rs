@@ -49,6 +49,10 @@ pub enum Command {
     Redo,
     /// Opens a preset, or closes the window: asks first if there are unsaved changes.
     Proceed(Next),
+    /// Asks about a new motor.
+    NewMotor,
+    /// Answers one of the questions about it, by its name.
+    AnswerNewMotor(&'static str, String),
     /// Asks for a file to open.
     OpenDialog,
     /// Saves to the scene's file, or asks for one.

@@ -38,6 +38,12 @@ pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), ef
             .with_min_inner_size([800.0, 520.0])
             .with_drag_and_drop(true),
         persistence_path: storage.clone(),
+        // The menu that winit makes on macOS ends the program at ⌘Q and asks nobody: without it ⌘Q is a shortcut of the window.
+        #[cfg(target_os = "macos")]
+        event_loop_builder: Some(Box::new(|builder| {
+            use winit::platform::macos::EventLoopBuilderExtMacOS;
+            builder.with_default_menu(false);
+        })),
         ..Default::default()
     };
     let start = |context: &eframe::CreationContext<'_>| {

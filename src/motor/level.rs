@@ -661,6 +661,7 @@ impl Level {
         let mut pressure = self.films.iter().filter(|_| maps).map(|film| film.full_pressure(self.ambient_pressure));
         let base = Recording {
             touching: Touching { min_spacing: motor.min_spacing, compliance: plan.rotor.beyond(plan.most_harmonics) },
+            rotor: plan.rotor.clone(),
             period: motor.period(),
             stator,
             map_x: grid.x.nodes.clone(),

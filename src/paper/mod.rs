@@ -118,7 +118,7 @@ pub fn solve(
     };
 
     let mut march = March::new(motor, &rotor, nx, ny, n, steps, knudsen);
-    let mut recorder = Recorder::new(&march, rotor.beyond(n / 2));
+    let mut recorder = Recorder::new(&march, &rotor);
     let mut counts = Counts::default();
     let status = counts.cycles(&mut march, &mut recorder, observer, cancel, &mut warnings);
 

@@ -99,7 +99,7 @@ impl Plan {
             flow: Flow::Plane,
             trapped,
             left_out,
-            rotor: Compliances::none(),
+            rotor: Compliances::default(),
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,

@@ -6,6 +6,7 @@ pub mod sample;
 pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
+use crate::rotor::Compliances;
 use std::ops::{Deref, DerefMut};
 
 /// Error of a greatest pressure over that of a load which differs as much from grid to grid: it is found where contact begins, or between
@@ -31,6 +32,8 @@ pub struct Recording {
     pub lines: LineLoads,
     /// How contact and gap exclude each other.
     pub touching: Touching,
+    /// The rotor; a plate has none.
+    pub rotor: Compliances,
     /// Period \[s\].
     pub period: f64,
     /// One cycle of a transient: after its last frame comes another cycle, and no tooth is another one at another time.

@@ -5,7 +5,11 @@
 //! may lie between two frames where tooth 0 does not.
 
 use super::{LineLoads, Recording, Touching};
+use std::f64::consts::TAU;
 use std::ops::Range;
+
+/// Harmonics of the rotor between the teeth: those of a pitch and shorter are small.
+const HARMONICS: usize = 32;
 
 /// Interval of ascending `nodes` around `x` and the weight of its right end; `None` outside. Rounding at either end
 /// is forgiven.
@@ -210,6 +214,64 @@ impl Lines {
     pub fn of(&self, tooth: usize) -> Range<usize> {
         tooth * self.nodes..(tooth + 1) * self.nodes
     }
+
+    /// The rotor's underside over the groove behind each tooth: `points` of (x, height) \[m\], evenly spaced from one
+    /// tooth's edge to the next one's, the last ones beyond the wavelength.
+    ///
+    /// No load acts there, and nothing is pressed in locally, so that its height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), q_n the harmonics of contact and film. z₀ is
+    /// what is left at the edges of the two teeth, where the whole height is known.
+    pub fn grooves(&self, recording: &Recording, points: usize) -> Vec<Vec<[f64; 2]>> {
+        let (teeth, length) = (recording.teeth, recording.length);
+        let Some(reach) = recording.x.last().copied().filter(|_| length > 0.0) else { return vec![Vec::new(); teeth] };
+        let wave = TAU / length;
+        let rotor = &recording.rotor;
+        let local = rotor.beyond(HARMONICS);
+        let load = |k: usize| self.contact[k] + self.film[k];
+        let at = |tooth: usize, i: usize| tooth as f64 * recording.pitch + recording.x[i];
+        // Amplitudes of cosines and sines, each harmonic's angle turned on from the one before.
+        let mut harmonics = vec![[0.0; 2]; HARMONICS];
+        for tooth in 0..teeth {
+            for (i, k) in self.of(tooth).enumerate().filter(|(_, k)| load(*k) != 0.0) {
+                let force = load(k) * recording.node_length[i] * 2.0 / length;
+                turned(wave * at(tooth, i), &mut harmonics, |[a, b], cos, sin| {
+                    *a += force * cos;
+                    *b += force * sin;
+                });
+            }
+        }
+        for (n, amplitude) in harmonics.iter_mut().enumerate() {
+            let smooth = rotor.harmonic(n + 1) - local;
+            *amplitude = amplitude.map(|q| smooth * q);
+        }
+        let mut smooth = |x: f64| {
+            let mut sum = 0.0;
+            turned(wave * x, &mut harmonics, |[a, b], cos, sin| sum += *a * cos + *b * sin);
+            sum
+        };
+        let mut rest = |tooth: usize, i: usize| {
+            let k = self.of(tooth).start + i;
+            self.stator[k] + self.film_thickness[k] - recording.touching.min_spacing - local * load(k) - smooth(at(tooth, i))
+        };
+        let last = self.nodes - 1;
+        let edges: Vec<[f64; 2]> = (0..teeth).map(|tooth| [rest(tooth, 0), rest(tooth, last)]).collect();
+        let groove = |tooth: usize| {
+            let [from, to] = [edges[tooth][1], edges[(tooth + 1) % teeth][0]];
+            let share = |j: usize| j as f64 / (points.max(2) - 1) as f64;
+            let x = |share: f64| tooth as f64 * recording.pitch + reach + share * (recording.pitch - 2.0 * reach);
+            (0..points).map(share).map(|share| [x(share), smooth(x(share)) + from + share * (to - from)]).collect()
+        };
+        (0..teeth).map(groove).collect()
+    }
+}
+
+/// Calls `each` with every harmonic, n = 1, 2, …, and cosine and sine of n times `angle`.
+fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMut(&mut [f64; 2], f64, f64)) {
+    let (sin, cos) = angle.sin_cos();
+    let (mut c, mut s) = (1.0, 0.0);
+    for harmonic in harmonics {
+        (c, s) = (c * cos - s * sin, s * cos + c * sin);
+        each(harmonic, c, s);
+    }
 }
 
 impl Recording {
@@ -258,6 +320,7 @@ impl Recording {
             max_pressure: mix(&self.max_pressure, 1),
             teeth_in_contact: touch.collect(),
             touching: self.touching,
+            rotor: self.rotor.clone(),
             period: self.period,
             transient: self.transient,
             map_x: self.map_x.clone(),

@@ -38,7 +38,7 @@ pub struct Wave {
 }
 
 /// What solvers know of a rotor: its compliance to each harmonic of the wave.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Compliances {
     pub(super) wavelength: f64,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
@@ -48,11 +48,6 @@ pub struct Compliances {
 }
 
 impl Compliances {
-    /// Of what bends to nothing.
-    pub fn none() -> Self {
-        Self { wavelength: f64::INFINITY, harmonics: Arc::new([]), local: 0.0, relative_error: 0.0 }
-    }
-
     /// Wavelength λ \[m\].
     pub fn wavelength(&self) -> f64 {
         self.wavelength

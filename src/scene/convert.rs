@@ -6,6 +6,7 @@ use super::parameter::Parameter;
 use super::section::{PART, SUPPORT};
 use super::value::Value;
 use super::values::{Kind, Scene};
+use crate::gas::species::IdealGas;
 use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
 use crate::rotor::ring::{MATERIALS, Part, RingError, Section, Support};
 use serde::Deserialize;
@@ -35,6 +36,11 @@ impl Problem {
             viscosity: si("film.viscosity_upa_s")?,
             mean_free_path: si("film.mean_free_path_nm")?,
             slip: choice(scene, "film.slip")?,
+            accommodation: si("film.accommodation")?,
+            ideal: match scene.species()? {
+                Some(species) => species.at(si("film.temperature_c")?),
+                None => IdealGas::UNNAMED,
+            },
         };
         let scenario = match scene.kind() {
             Kind::Motor => Scenario::Motor(Motor {
@@ -51,7 +57,7 @@ impl Problem {
                 tooth_radius: optional("stator.tooth_radius_m")?,
                 contact_width: si("rotor.contact_width_mm")?,
                 rotor: match scene.text("rotor.model")? {
-                    "beam" => RotorCompliance::Beam {
+                    "beam" | "section" => RotorCompliance::Beam {
                         decay_length: si("rotor.decay_length_mm")?,
                         point_compliance: si("rotor.point_compliance_um_per_n")?,
                         local_compliance: si("rotor.local_compliance_m2_per_n")?,

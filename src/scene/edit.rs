@@ -66,16 +66,19 @@ impl Scene {
     /// The faults of all pairs; the scene is then unchanged.
     pub fn set_all<'a>(&mut self, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<(), SceneError> {
         let mut pairs: Vec<_> = pairs.into_iter().collect();
-        // The model decides which of its keys exist, and a table of harmonics needs the wavelength.
-        pairs.sort_by_key(|(key, _)| match Parameter::find(key) {
-            Some(parameter) if parameter.selects() => 0,
-            Some(Parameter { kind: ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. }, .. }) => 2,
-            _ => 1,
-        });
+        pairs.sort_by_key(|(key, _)| Parameter::find(key).map_or(0, Parameter::rank));
         let mut changed = self.clone();
         let mut faults = SceneError::none();
+        let mut given: Vec<&'static Parameter> = Vec::new();
         for (key, text) in pairs {
             changed.set(key, text).unwrap_or_else(|error| faults.join(error));
+            let Some(parameter) = Parameter::find(key).filter(|parameter| changed.get(parameter.key).is_some()) else {
+                continue;
+            };
+            if let Some(other) = parameter.alternatives().find(|other| given.contains(other)) {
+                faults.push(What::BothGiven { key: parameter.key, other: other.key });
+            }
+            given.push(parameter);
         }
         faults.or(())?;
         changed.check()?;
@@ -97,14 +100,20 @@ impl Scene {
                 Err(What::Elsewhere { selector, .. }),
                 ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } | ParameterKind::Records { .. },
             ) if selector != "scene" => Ok(parameter),
+            // What is set takes the place of what was given instead.
+            (Err(What::BothGiven { .. }), _) => Ok(parameter),
             (applies, _) => applies.map(|()| parameter),
         }
     }
 
-    /// The keys, but for name and description, in which this scene differs from `original`.
+    /// The keys, but for name and description, in which this scene differs from `original`; not the defaults that a newly chosen model
+    /// brings.
     pub fn changed<'a>(&'a self, original: &'a Self) -> impl Iterator<Item = &'static Parameter> + 'a {
         let told = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
-        told.filter(move |parameter| self.get(parameter.key) != original.get(parameter.key))
+        told.filter(move |parameter| {
+            let value = self.get(parameter.key);
+            value != original.get(parameter.key) && (original.has(parameter) || value != parameter.default())
+        })
     }
 
     /// What to call a scene that was made of `original`: `Fundamental case, changed: 3 keys`, unless it has a name of its own.
@@ -180,7 +189,9 @@ mod tests {
 
     #[test]
     fn every_value_of_every_key_reaches_the_problem() {
-        for base in [Scene::motor(), table(), Scene::plate()] {
+        let mut helium = Scene::plate();
+        helium.set_all([("film.gas", "helium"), ("film.slip", "fukui-kaneko")]).unwrap();
+        for base in [Scene::motor(), table(), Scene::plate(), helium] {
             let keys = base.parameters().filter(|parameter| base.heeds(parameter.key) && parameter.key != "about");
             for parameter in keys {
                 let mut problems = vec![Problem::of(&base).unwrap()];
@@ -220,6 +231,15 @@ mod tests {
                 Some("numerics.steps_per_cycle")
             );
         }
+    }
+
+    #[test]
+    fn defaults_of_a_new_model_are_no_changes() {
+        let (original, mut scene) = (Scene::motor(), Scene::motor());
+        scene.set_all([("film.gas", "helium"), ("film.slip", "fukui-kaneko")]).unwrap();
+        assert_eq!(scene.changed(&original).map(|p| p.key).collect::<Vec<_>>(), ["film.gas", "film.slip"]);
+        scene.set("film.temperature_c", "30").unwrap();
+        assert_eq!(scene.changed(&original).count(), 3);
     }
 
     #[test]

@@ -175,16 +175,24 @@ pub enum What {
         found: String,
     },
     /// A key or table of the other kind of scene, or a key of another model.
-    #[error("{key} belongs to {selector} = \"{needs}\", and this is {selector} = \"{chosen}\"")]
+    #[error("{key} belongs to {selector} = {}, and this is {selector} = \"{chosen}\"", listed(needs))]
     Elsewhere {
         /// The dotted key, or the table in brackets.
         key: String,
         /// What chooses: `scene`, or the key of the model.
         selector: &'static str,
-        /// The scene or model it belongs to.
-        needs: &'static str,
+        /// The scenes or models it belongs to.
+        needs: &'static [&'static str],
         /// The one this is.
         chosen: String,
+    },
+    /// A key that another one, which is given, replaces.
+    #[error("{key} and {other} are both given: keep one")]
+    BothGiven {
+        /// The dotted key.
+        key: &'static str,
+        /// The other one.
+        other: &'static str,
     },
     /// A key that this kind of scene does not heed.
     #[error("{key} has no effect on a {scene}: it cannot be changed or varied here")]
@@ -336,7 +344,7 @@ impl What {
     pub fn key(&self) -> Option<&str> {
         Some(match self {
             Self::Unknown { key, .. } | Self::Elsewhere { key, .. } => key,
-            Self::Fixed(key) | Self::NoEffect { key, .. } | Self::Rule { key, .. } => key,
+            Self::Fixed(key) | Self::NoEffect { key, .. } | Self::BothGiven { key, .. } | Self::Rule { key, .. } => key,
             Self::TooManyRows { key, .. } | Self::Row { key, .. } | Self::NotATable { table: key, .. } => key,
             Self::Count { key, .. }
             | Self::Record { key, .. }
@@ -366,6 +374,15 @@ fn with_unit(parameter: &Parameter) -> String {
         tail.push_str(&format!(", or none ({meaning})"));
     }
     tail
+}
+
+/// `"a", "b" or "c"`.
+fn listed(names: &[&str]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    match &quoted[..] {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => quoted.join(", "),
+    }
 }
 
 fn did_you_mean(nearest: Option<&str>) -> String {

@@ -7,15 +7,20 @@ use super::compliance::{COMPLIANCE, GREEN};
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
 use super::parameter::ParameterKind::{CsvPath, Records, Rows};
 use super::parameter::Scale::{Linear, Log};
-use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale};
 use super::section::{PART, PARTS, SUPPORT, SUPPORTS};
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::Write as _;
 
-const BEAM: (&str, &str) = ("rotor.model", "beam");
-const TABLE: (&str, &str) = ("rotor.model", "table");
-const GREENS: (&str, &str) = ("rotor.model", "green");
-const RING: (&str, &str) = ("rotor.model", "ring");
+const BEAM: Model = ("rotor.model", &["beam"]);
+const SECTION: Model = ("rotor.model", &["section"]);
+const BENDING: Model = ("rotor.model", &["beam", "section"]);
+const TABLE: Model = ("rotor.model", &["table"]);
+const GREENS: Model = ("rotor.model", &["green"]);
+const RING: Model = ("rotor.model", &["ring"]);
+const BOLTZMANN: Model = ("film.slip", &["fukui-kaneko"]);
+const CUSTOM: Model = ("film.gas", &["custom"]);
+const NAMED: Model = ("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"]);
 const LEFT_OPEN: &str = "left to the fidelity";
 
 /// Every key of a scene file except `schema` and `scene`, in the order they are written. Of a number: key, unit, scenes
@@ -29,10 +34,15 @@ pub static PARAMETERS: &[Parameter] = &[
         "Radius at which the teeth touch the rotor"),
     whole("motor.waves", Motor, (1, 100), 7, "Wavelengths round the ring"),
     number("motor.load_per_wave_n", "N", Motor, (0.01, 100.0), (0.1, 20.0), Log, 2.45, "Axial load on one wavelength"),
+    number("motor.load_n", "N", Motor, (0.01, 10000.0), (1.0, 200.0), Log, 17.15, "Axial load on the whole ring")
+        .absent("the load on one wavelength is given").instead_of("motor.load_per_wave_n"),
     number("motor.dry_friction", "", Motor, (0.0, 2.0), (0.0, 1.0), Linear, 0.7,
         "Friction coefficient where tooth and rotor touch"),
     number("motor.rotor_speed_rpm", "rpm", Motor, (-10000.0, 10000.0), (-300.0, 300.0), Linear, 0.0,
         "Speed of the rotor, towards +x (against the wave) if positive"),
+    number("motor.rotor_speed_mm_per_s", "mm/s", Motor, (-600e3, 600e3), (-1000.0, 1000.0), Linear, 0.0,
+        "Speed of the rotor's surface at the contact radius, as the speed in rpm")
+        .absent("the speed in rpm is given").instead_of("motor.rotor_speed_rpm"),
 
     number("stator.frequency_khz", "kHz", Motor, (0.001, 10000.0), (1.0, 200.0), Log, 30.0, "Frequency of the vibration"),
     number("stator.normal_amplitude_um", "µm", Motor, (0.0, 20.0), (0.0, 5.0), Linear, 1.3,
@@ -42,17 +52,24 @@ pub static PARAMETERS: &[Parameter] = &[
     whole("stator.teeth_per_wave", Motor, (1, 64), 9, "Teeth in one wavelength"),
     number("stator.tooth_width_mm", "mm", Motor, (1e-6, 3142.0), (0.1, 5.0), Linear, 1.7353,
         "Width of a tooth along the ring; from 1 % to 100 % of the tooth pitch"),
+    number("stator.tooth_share", "", Motor, (0.01, 1.0), (0.1, 1.0), Linear, 0.6, "Width of a tooth as a share of the tooth pitch")
+        .absent("the width of a tooth is given").instead_of("stator.tooth_width_mm"),
     number("stator.tooth_radius_m", "m", Motor, (0.01, 1e6), (1.0, 100.0), Log, 6.5,
         "Radius of a crowned tooth top").absent("flat teeth"),
 
     number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
-    choice("rotor.model", Motor, &["beam", "ring", "table", "green"], "beam", "How the rotor's compliance is described"),
+    choice("rotor.model", Motor, &["beam", "section", "ring", "table", "green"], "beam",
+        "How the rotor's compliance is described"),
     number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
-        "Length over which the deflection under a point load dies out").when(BEAM),
+        "Length over which the deflection under a point load dies out").when(BENDING),
+    number("rotor.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 70.0,
+        "Elastic modulus of the rim that bends").when(SECTION),
+    number("rotor.thickness_mm", "mm", Motor, (0.01, 100.0), (0.2, 10.0), Log, 1.0, "Axial thickness of the rim that bends").when(SECTION),
+    number("rotor.width_mm", "mm", Motor, (0.01, 200.0), (0.5, 30.0), Log, 2.0, "Radial width of the rim that bends").when(SECTION),
     number("rotor.point_compliance_um_per_n", "µm/N", Motor, (1e-3, 100.0), (0.05, 10.0), Log, 0.64,
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
-        "Local (Winkler) compliance in series with the beam").when(BEAM),
+        "Local (Winkler) compliance in series with the beam").when(BENDING),
     other("rotor.compliance_csv", Motor, CsvPath { rows: "rotor.compliance" },
         "CSV file of the compliance, relative to the preset's folder").when(TABLE),
     other("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Compliance per wavenumber, inline").when(TABLE),
@@ -74,11 +91,18 @@ pub static PARAMETERS: &[Parameter] = &[
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
         "Spacing that roughness leaves where the faces touch; unused by a plate"),
+    choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
+        "The gas, whose viscosity and mean free path follow; of a custom one they are given"),
+    number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
     number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the gas around"),
-    number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas"),
+    number("film.altitude_m", "m", Any, (-1000.0, 60e3), (0.0, 10e3), Linear, 0.0, "Altitude whose standard atmosphere has the pressure")
+        .absent("the pressure is given").when(NAMED).instead_of("film.ambient_pressure_kpa"),
+    number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas").when(CUSTOM),
     number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
-        "Mean free path of the gas at the ambient pressure given"),
+        "Mean free path of the gas at the ambient pressure given").when(CUSTOM),
     choice("film.slip", Any, Slip::NAMES, "first-order", "How the gas slips at the walls"),
+    number("film.accommodation", "", Any, (0.3, 1.0), (0.5, 1.0), Linear, 1.0,
+        "Share of the molecules that the walls reflect diffusely, the others specularly").when(BOLTZMANN),
     flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); unused by a plate"),
 
     whole("numerics.film_nodes_along", Any, (5, 2001), 101,
@@ -112,8 +136,28 @@ impl Parameter {
         PARAMETERS.iter().any(|parameter| parameter.when.is_some_and(|(selector, _)| selector == self.key))
     }
 
-    const fn when(self, model: (&'static str, &'static str)) -> Self {
+    /// Its place when several keys are set at once: what chooses a model decides which keys there are, what replaces another one
+    /// comes after that, and a table of harmonics needs the wavelength.
+    pub(super) fn rank(&self) -> u8 {
+        match self.kind {
+            _ if self.selects() => 0,
+            ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 3,
+            _ => 1 + u8::from(self.instead_of.is_some()),
+        }
+    }
+
+    /// The other keys of which a scene has this one or one of them.
+    pub(super) fn alternatives(&'static self) -> impl Iterator<Item = &'static Self> {
+        let first = |parameter: &Self| parameter.instead_of.unwrap_or(parameter.key);
+        PARAMETERS.iter().filter(move |other| other.key != self.key && first(other) == first(self))
+    }
+
+    const fn when(self, model: Model) -> Self {
         Self { when: Some(model), ..self }
+    }
+
+    const fn instead_of(self, key: &'static str) -> Self {
+        Self { instead_of: Some(key), ..self }
     }
 
     const fn absent(self, meaning: &'static str) -> Self {
@@ -164,7 +208,7 @@ const fn text(key: &'static str, default: &'static str, about: &'static str) -> 
 }
 
 const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Parameter {
-    Parameter { key, unit: "", belongs, when: None, absent: None, kind, about }
+    Parameter { key, unit: "", belongs, when: None, instead_of: None, absent: None, kind, about }
 }
 
 /// The tables of a scene file, in the order they are written.
@@ -204,11 +248,31 @@ mod tests {
     #[test]
     fn a_model_that_has_keys_of_its_own_can_be_chosen() {
         for p in PARAMETERS {
-            let Some((selector, model)) = p.when else { continue };
+            let Some((selector, models)) = p.when else { continue };
             let selector = Parameter::find(selector).unwrap();
             let ParameterKind::Choice { options, .. } = selector.kind else { panic!("{}", selector.key) };
-            assert!(options.contains(&model) && selector.belongs == p.belongs, "{}", p.key);
+            assert!(models.iter().all(|model| options.contains(model)) && selector.belongs == p.belongs, "{}", p.key);
         }
+    }
+
+    #[test]
+    fn what_replaces_a_key_is_optional_and_in_its_table() {
+        for p in PARAMETERS.iter().filter(|p| p.instead_of.is_some()) {
+            let replaced = p.instead_of.and_then(Parameter::find).unwrap();
+            assert!(p.absent.is_some() && replaced.absent.is_none(), "{}", p.key);
+            assert!(p.table() == replaced.table() && p.belongs == replaced.belongs, "{}", p.key);
+            assert!(p.alternatives().any(|other| other == replaced) && replaced.alternatives().any(|other| other == p));
+        }
+    }
+
+    #[test]
+    fn the_gases_of_the_key_are_those_that_there_are() {
+        let names: Vec<_> = crate::gas::GASES.iter().map(|gas| gas.name).collect();
+        assert_eq!(names, NAMED.1);
+        let ParameterKind::Choice { options, .. } = Parameter::find("film.gas").unwrap().kind else {
+            panic!("a choice")
+        };
+        assert_eq!([CUSTOM.1, NAMED.1].concat(), options);
     }
 
     #[test]

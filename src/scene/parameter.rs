@@ -131,6 +131,9 @@ pub enum Belongs {
     Plate,
 }
 
+/// The key that chooses a model, and the models that have the key in question.
+pub(super) type Model = (&'static str, &'static [&'static str]);
+
 /// One key of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
@@ -140,8 +143,10 @@ pub struct Parameter {
     pub unit: &'static str,
     /// The scenes that have it.
     pub belongs: Belongs,
-    /// A key of one model among several: the key that chooses the model, and the model that has this one.
-    pub when: Option<(&'static str, &'static str)>,
+    /// A key of some models among several.
+    pub when: Option<Model>,
+    /// An optional key that, where it is given, replaces another one.
+    pub instead_of: Option<&'static str>,
     /// For a key that may be left out for good: what its absence means. `None`: absence means the default.
     pub absent: Option<&'static str>,
     /// Type, range and default.
@@ -152,10 +157,12 @@ pub struct Parameter {
 
 /// The units of the field: how a key ends, what people are shown, and how many make one SI unit (`rpm`: one turn a
 /// second). The longer endings come before those that they end in.
-const UNITS: [(&str, &str, Per); 11] = [
+const UNITS: [(&str, &str, Per); 14] = [
     ("_m2_per_n", "m²/N", Per::One),
     ("_um_per_n", "µm/N", Per::Over(1e6)),
+    ("_mm_per_s", "mm/s", Per::Over(1e3)),
     ("_upa_s", "µPa s", Per::Over(1e6)),
+    ("_gpa", "GPa", Per::Times(1e9)),
     ("_khz", "kHz", Per::Times(1e3)),
     ("_kpa", "kPa", Per::Times(1e3)),
     ("_rpm", "rpm", Per::Over(60.0)),
@@ -164,6 +171,7 @@ const UNITS: [(&str, &str, Per); 11] = [
     ("_nm", "nm", Per::Over(1e9)),
     ("_m", "m", Per::One),
     ("_n", "N", Per::One),
+    ("_c", "°C", Per::Above(273.15)),
 ];
 
 /// What makes SI of a number. Dividing by an exact power of ten rounds once: 200 nm is the double nearest to 2e-7 m.
@@ -173,6 +181,7 @@ enum Per {
     One,
     Times(f64),
     Over(f64),
+    Above(f64),
 }
 
 impl Parameter {
@@ -197,6 +206,7 @@ impl Parameter {
         match UNITS.iter().find(|(_, unit, _)| *unit == self.unit) {
             Some((.., Per::Times(factor))) => value * factor,
             Some((.., Per::Over(divisor))) => value / divisor,
+            Some((.., Per::Above(zero))) => zero + value,
             _ => value,
         }
     }

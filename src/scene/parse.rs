@@ -115,13 +115,11 @@ impl Reader<'_> {
         }
         let mut scene = self.empty_scene(root)?;
         let mut entries = self.entries(root, &scene);
-        // What chooses a model comes first, as it decides which keys there are, and a table of harmonics last, as it needs
-        // the wavelength. Apart from that, in the order of the file.
+        // A CSV file comes after the rows that it may be given beside.
         entries.sort_by_cached_key(|(at, key, _)| {
             let parameter = Parameter::find(key);
-            let rank =
-                |p: &Parameter| i32::from(matches!(p.kind, ParameterKind::CsvPath { .. })) - i32::from(p.selects());
-            (parameter.map_or(0, rank), at.start)
+            let file = parameter.is_some_and(|parameter| matches!(parameter.kind, ParameterKind::CsvPath { .. }));
+            (parameter.map_or(0, Parameter::rank), file, at.start)
         });
         for (at, key, value) in entries {
             self.key(&mut scene, at, &key, value);
@@ -192,6 +190,9 @@ impl Reader<'_> {
             return self.fault(Some(at), || scene.unknown_key(key));
         };
         let span = value.span();
+        if let Some(other) = parameter.alternatives().find(|other| self.spans.contains_key(other.key)) {
+            return self.fault(Some(at), || What::BothGiven { key: parameter.key, other: other.key });
+        }
         self.spans.insert(parameter.key, span.clone());
         match scene.applies(parameter) {
             // Which keys there are is not known where the model is at fault itself.
@@ -241,9 +242,8 @@ impl Reader<'_> {
             let found = self.written(value.span());
             return self.fault(span, || What::wrong_type(parameter, found));
         };
-        if self.spans.contains_key(rows) {
-            let message = format!("{rows} and {} are both given: keep one", parameter.key);
-            return self.fault(span, || What::Rule { key: parameter.key, message });
+        if let Some(other) = Parameter::find(rows).filter(|other| self.spans.contains_key(other.key)) {
+            return self.fault(span, || What::BothGiven { key: parameter.key, other: other.key });
         }
         if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
             return;

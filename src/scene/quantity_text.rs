@@ -8,12 +8,23 @@ type Kind = &'static [(&'static str, f64)];
 const KINDS: &[Kind] = &[
     &[("nm", 1e-9), ("um", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)],
     &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
-    &[("Pa", 1.0), ("hPa", 1e2), ("kPa", 1e3), ("MPa", 1e6), ("mbar", 1e2), ("bar", 1e5), ("atm", 101_325.0)],
+    &[
+        ("Pa", 1.0),
+        ("hPa", 1e2),
+        ("kPa", 1e3),
+        ("MPa", 1e6),
+        ("GPa", 1e9),
+        ("mbar", 1e2),
+        ("bar", 1e5),
+        ("atm", 101_325.0),
+    ],
     &[("uN", 1e-6), ("mN", 1e-3), ("N", 1.0), ("kN", 1e3)],
     &[("uPas", 1e-6), ("mPas", 1e-3), ("Pas", 1.0)],
     &[("nm/N", 1e-9), ("um/N", 1e-6), ("mm/N", 1e-3), ("m/N", 1.0)],
     &[("mm2/N", 1e-6), ("m2/N", 1.0)],
     &[("rpm", 1.0)],
+    &[("°C", 1.0)],
+    &[("mm/s", 1e-3), ("m/s", 1.0)],
 ];
 
 /// Longest text that is read: no parameter needs more, and parentheses cannot be nested deeper.
@@ -39,6 +50,11 @@ pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
             text.trim()
         )
     })
+}
+
+/// The number that `text` is in `unit`, as [`read`] reads it; `None` if it is none.
+pub fn number(unit: &str, text: &str) -> Option<f64> {
+    value(kind_of(unit), &spelled(unit), text)
 }
 
 fn kind_of(unit: &str) -> Kind {

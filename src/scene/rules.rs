@@ -47,7 +47,8 @@ impl Scene {
     pub(super) fn broken_rules(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
         let has = |parameter: &'static Parameter| self.applies(parameter).is_ok() && self.heeds(parameter.key);
         let matters = move |rule: &&Rule| Parameter::find(rule.keys[0]).is_some_and(has);
-        RULES.iter().filter(matters).filter_map(|rule| (rule.check)(self).err().map(|what| (rule.keys, what)))
+        let broken = RULES.iter().filter(matters).filter_map(|rule| Some((rule.keys, (rule.check)(self).err()?)));
+        broken.chain(self.following_out_of_range())
     }
 
     /// The range of a key in this scene: its own, narrowed by what the other keys leave. `None` for a key that is not a
@@ -66,7 +67,7 @@ impl Scene {
 
     /// Tooth widths the pitch allows \[mm\].
     fn tooth_widths_mm(&self) -> Result<Range, What> {
-        let pitch = self.wavelength()? * 1e3 / self.number("stator.teeth_per_wave")?;
+        let pitch = self.pitch_mm()?;
         Ok(Range::new(NARROWEST_TOOTH * pitch, pitch))
     }
 }

@@ -65,12 +65,12 @@ pub(super) static SUPPORT: [Parameter; 5] = [
 ];
 
 /// A section plausible for the rotor of a camera lens: an aluminium ring with a rim on a thin flange, and on the rim a lining of plastic. Flange and
-/// lining are such that the compliance comes close to that of the beam fitted to Table I (docs/validation.md).
+/// lining are such that the compliance comes close to that of the beam fitted to Table I (docs/theory.md, section 4).
 pub(super) const PARTS: &[&[Cell]] = &[
-    &part("lining", [28.85, 29.15, 0.0, 0.14], "peek"),
-    &part("rim", [28.5, 29.5, 0.14, 1.33], "aluminium"),
-    &part("flange", [26.8, 28.5, 0.71, 1.22], "aluminium"),
-    &part("body", [24.8, 26.8, 0.71, 5.71], "aluminium"),
+    &part("lining", [28.85, 29.15, 0.0, 0.145], "peek"),
+    &part("rim", [28.3, 29.7, 0.145, 1.2], "aluminium"),
+    &part("flange", [26.9, 28.3, 0.75, 1.2], "aluminium"),
+    &part("body", [24.9, 26.9, 0.75, 5.75], "aluminium"),
 ];
 
 /// None: the load on it is balanced.
@@ -88,7 +88,7 @@ const fn part(name: &'static str, [inner, outer, bottom, top]: [f64; 4], materia
 }
 
 const fn column(key: &'static str, unit: &'static str, kind: ParameterKind, about: &'static str) -> Parameter {
-    Parameter { key, unit, belongs: Belongs::Motor, when: None, absent: None, kind, about }
+    Parameter { key, unit, belongs: Belongs::Motor, when: None, instead_of: None, absent: None, kind, about }
 }
 
 const fn length(key: &'static str, min: f64, about: &'static str) -> Parameter {

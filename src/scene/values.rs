@@ -88,7 +88,12 @@ impl Scene {
 
     /// The parameters that apply to this scene and its rotor model, in the order of the file, the absent ones included.
     pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> + '_ {
-        PARAMETERS.iter().filter(|parameter| self.applies(parameter).is_ok())
+        PARAMETERS.iter().filter(|parameter| self.has(parameter))
+    }
+
+    /// Whether this scene has a key: its own kind and model do, and no other key replaces it.
+    pub fn has(&self, parameter: &'static Parameter) -> bool {
+        self.applies(parameter).is_ok()
     }
 
     /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics
@@ -134,22 +139,26 @@ impl Scene {
 
     /// Whether a key applies to this scene; if not, why.
     pub(super) fn applies(&self, parameter: &'static Parameter) -> Result<(), What> {
-        let needs = match (parameter.belongs, self.kind) {
-            (Belongs::Motor, Kind::Plate) => Kind::Motor,
-            (Belongs::Plate, Kind::Motor) => Kind::Plate,
-            _ => self.kind,
-        };
         let elsewhere = |selector, needs, chosen: &str| {
             let (key, chosen) = (parameter.key.to_owned(), chosen.to_owned());
-            What::Elsewhere { key, selector, needs, chosen }
+            Err(What::Elsewhere { key, selector, needs, chosen })
         };
-        if needs != self.kind {
-            return Err(elsewhere("scene", needs.name(), self.scene()));
+        match (parameter.belongs, self.kind) {
+            (Belongs::Motor, Kind::Plate) => return elsewhere("scene", &["motor"], self.scene()),
+            (Belongs::Plate, Kind::Motor) => return elsewhere("scene", &["plate"], self.scene()),
+            _ => {}
         }
-        let Some((selector, needs)) = parameter.when else { return Ok(()) };
-        match self.text(selector)? {
-            chosen if chosen == needs => Ok(()),
-            chosen => Err(elsewhere(selector, needs, chosen)),
+        if let Some((selector, needs)) = parameter.when {
+            let chosen = self.text(selector)?;
+            if !needs.contains(&chosen) {
+                return elsewhere(selector, needs, chosen);
+            }
+        }
+        let replaces =
+            |other: &&Parameter| other.instead_of == Some(parameter.key) && self.values.contains_key(other.key);
+        match PARAMETERS.iter().find(replaces) {
+            Some(other) => Err(What::BothGiven { key: parameter.key, other: other.key }),
+            None => Ok(()),
         }
     }
 
@@ -193,7 +202,7 @@ impl Scene {
         // A table that is given chooses the model that it belongs to.
         let table = matches!(parameter.kind, ParameterKind::Rows { .. } | ParameterKind::Records { .. });
         if let (true, Some((selector, model))) = (table, parameter.when) {
-            self.assign(self.parameter(selector)?, Value::Text(model.to_owned()))?;
+            self.assign(self.parameter(selector)?, Value::Text(model.concat()))?;
         }
         self.put(parameter, Some(value));
         Ok(())
@@ -204,8 +213,14 @@ impl Scene {
         self.put(parameter, parameter.default());
     }
 
-    /// Stores a value that has been accepted, or none. Where it chooses a model, the keys of the others are dropped.
+    /// Stores a value that has been accepted, or none. Where it chooses a model, the keys of the others are dropped; where it replaces
+    /// a key, that one is.
     fn put(&mut self, parameter: &'static Parameter, value: Option<Value>) {
+        if value.is_some() {
+            for other in parameter.alternatives() {
+                self.values.remove(other.key);
+            }
+        }
         match (parameter.key, value) {
             ("name", Some(Value::Text(name))) => self.name = name,
             ("about", Some(Value::Text(about))) => self.about = about,
@@ -229,10 +244,15 @@ impl Scene {
         Parameter::find(key).ok_or_else(|| self.unknown_key(key))
     }
 
-    /// The number of a key, a whole one too; `None` if it is absent.
+    /// The number of a key, a whole one too, or what follows for it from other keys; `None` if it is absent.
     pub(super) fn optional_number(&self, parameter: &'static Parameter) -> Option<f64> {
         let stored = self.values.get(parameter.key).and_then(Value::as_number);
-        stored.or_else(|| parameter.default()?.as_number())
+        stored.or_else(|| self.following(parameter.key)).or_else(|| parameter.default()?.as_number())
+    }
+
+    /// The number that an optional key has in this scene.
+    pub(super) fn given(&self, key: &str) -> Option<f64> {
+        self.values.get(key).and_then(Value::as_number)
     }
 
     /// The number of a key, in its unit.
@@ -264,6 +284,16 @@ impl Scene {
             Some(Value::Rows(rows)) => rows,
             _ => &[],
         }
+    }
+
+    /// Length of the circle on which teeth and rotor touch \[mm\].
+    pub(super) fn circumference_mm(&self) -> Result<f64, What> {
+        Ok(std::f64::consts::TAU * self.number("motor.contact_radius_mm")?)
+    }
+
+    /// Pitch of the teeth of a motor \[mm\].
+    pub(super) fn pitch_mm(&self) -> Result<f64, What> {
+        Ok(self.wavelength()? * 1e3 / self.number("stator.teeth_per_wave")?)
     }
 
     /// Wavelength \[m\] of a motor, 2πr/waves.

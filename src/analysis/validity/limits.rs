@@ -4,15 +4,6 @@ use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
 use crate::problem::{Gas, Motor, Plate, Slip};
 use std::f64::consts::{PI, TAU};
 
-/// Specific gas constant of air \[J/(kg K)\].
-const GAS_CONSTANT: f64 = 287.05;
-/// 20 °C \[K\].
-const TEMPERATURE: f64 = 293.15;
-/// Ratio of the specific heats of air.
-const HEAT_RATIO: f64 = 1.4;
-/// Prandtl number of air.
-const PRANDTL: f64 = 0.71;
-
 /// Greatest Re.
 const INERTIA: f64 = 0.1;
 /// Greatest Re/σ: the mean load that inertia gives, over that of a viscous film, is [`INERTIAL_LOAD`] times that.
@@ -73,7 +64,7 @@ pub(super) struct Film<'a> {
 
 impl Film<'_> {
     fn density(&self) -> f64 {
-        self.gas.ambient_pressure / (GAS_CONSTANT * TEMPERATURE)
+        self.gas.ideal.density(self.gas.ambient_pressure)
     }
 
     /// Re.
@@ -86,9 +77,10 @@ impl Film<'_> {
         let sigma = 12.0 * self.gas.viscosity * self.omega * (self.side / self.gap).powi(2) / self.gas.ambient_pressure;
         let (limit, text) = if value > INERTIA {
             let text = format!(
-                "The gas has inertia in a gap of {} µm (ωρh²/12μ = {}, air at 20 °C), which the film equation leaves out.",
+                "The gas has inertia in a gap of {} µm (ωρh²/12μ = {}, {}), which the film equation leaves out.",
                 rounded(self.gap * 1e6),
-                rounded(value)
+                rounded(value),
+                self.gas.ideal
             );
             (INERTIA, text)
         } else {
@@ -104,7 +96,7 @@ impl Film<'_> {
     }
 
     pub(super) fn heat(&self) -> Option<Excess> {
-        let diffusivity = self.gas.viscosity / (self.density() * PRANDTL);
+        let diffusivity = self.gas.viscosity / (self.density() * self.gas.ideal.prandtl);
         let depth = (2.0 * diffusivity / self.omega).sqrt();
         let value = self.gap / depth;
         let text = format!(
@@ -146,18 +138,20 @@ impl Film<'_> {
     }
 
     pub(super) fn sound(&self) -> Option<Excess> {
-        let wavelength = TAU * speed_of_sound() / self.omega;
+        let gas = &self.gas.ideal;
+        let wavelength = TAU * gas.speed_of_sound() / self.omega;
         let value = self.side / wavelength;
         let across = format!(
-            "The {} is {} wavelengths of sound across ({} mm, air at 20 °C)",
+            "The {} is {} wavelengths of sound across ({} mm, {})",
             self.body,
             rounded(value),
-            rounded(wavelength * 1e3)
+            rounded(wavelength * 1e3),
+            gas
         );
         let (limit, text) = if self.reynolds() > INERTIA {
             (WAVELENGTHS_IN_THE_FILM, format!("{across}: sound waves can stand in the film, and are left out."))
         } else {
-            let pressure = 100.0 * HEAT_RATIO * TAU * self.amplitude / wavelength;
+            let pressure = 100.0 * gas.heat_ratio * TAU * self.amplitude / wavelength;
             let text = format!(
                 "{across}: its edges are taken to be at ambient pressure, and the sound around it, up to {} % of that, is left out.",
                 rounded(pressure)
@@ -183,17 +177,18 @@ impl Film<'_> {
 
 /// Sliding speed of a motor's faces over the speed of sound, at its greatest.
 pub fn mach(motor: &Motor) -> f64 {
-    (motor.rotor_speed.abs() + TAU * motor.frequency * motor.tangential_amplitude) / speed_of_sound()
+    (motor.rotor_speed.abs() + TAU * motor.frequency * motor.tangential_amplitude) / motor.gas.ideal.speed_of_sound()
 }
 
 pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
-    let value = mach(motor);
+    let (value, gas) = (mach(motor), &motor.gas.ideal);
     let text = format!(
-        "The faces slide at up to {} m/s, {} times the speed of sound (air at 20 °C): shear warms the gas by some {} %, and it is not \
+        "The faces slide at up to {} m/s, {} times the speed of sound ({}): shear warms the gas by some {} %, and it is not \
          isothermal.",
-        rounded(value * speed_of_sound()),
+        rounded(value * gas.speed_of_sound()),
         rounded(value),
-        rounded(100.0 * PRANDTL * (HEAT_RATIO - 1.0) * value * value / 8.0)
+        gas,
+        rounded(100.0 * gas.prandtl * (gas.heat_ratio - 1.0) * value * value / 8.0)
     );
     excess("sound", value, MACH, "", text)
 }
@@ -239,10 +234,6 @@ pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
         rounded((plate.mean_gap - plate.amplitude) * 1e9)
     );
     excess("amplitude", plate.amplitude / plate.mean_gap, AMPLITUDE, "", text)
-}
-
-fn speed_of_sound() -> f64 {
-    (HEAT_RATIO * GAS_CONSTANT * TEMPERATURE).sqrt()
 }
 
 fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: String) -> Option<Excess> {

@@ -50,6 +50,32 @@ fn solution(min_gap: f64) -> Solution {
 }
 
 #[test]
+fn density_heat_and_sound_are_those_of_the_gas() {
+    let far = [("plate.mean_gap_um", "500"), ("plate.frequency_khz", "40"), ("film.gas", "helium")];
+    let found = plate(&far);
+    // 101325 Pa/(2077.3 J/(kg K) · 293.15 K) = 0.16639 kg/m³; 0.16639 · 251 327/s · (0.5 mm)²/(12 · 19.62 µPa s).
+    check(&found, "gas-inertia", 44.40, 0.1);
+    // κ = 19.62e-6/(0.16639 · 0.664) = 1.776e-4 m²/s, depth 37.59 µm.
+    check(&found, "isothermal", 500.0 / 37.59, 1.0);
+    assert!(found[0].text.contains("helium at 20 °C"), "{found:?}");
+    // Helium carries sound at 1007 m/s: a motor at Mach 1.2 in air is slow in it.
+    let fast = [
+        ("stator.frequency_khz", "100"),
+        ("stator.tangential_amplitude_um", "0.66"),
+        ("motor.rotor_speed_rpm", "3000"),
+    ];
+    let motor = |gas| {
+        let mut scene = Scene::motor();
+        scene.set_all(fast.into_iter().chain([("film.gas", gas)])).unwrap();
+        match Problem::new(&scene).unwrap().scenario {
+            Scenario::Motor(motor) => super::mach(&motor),
+            Scenario::Plate(_) => f64::NAN,
+        }
+    };
+    assert!((motor("air") / motor("helium") - 1007.0 / 343.4).abs() < 5e-3);
+}
+
+#[test]
 fn a_plate_far_above_a_wall() {
     let found = plate(&[("plate.mean_gap_um", "500"), ("plate.frequency_khz", "40")]);
     assert_eq!(names(&found), ["gas-inertia", "isothermal", "thinness"]);
@@ -117,7 +143,7 @@ fn knudsen_numbers_against_the_slip_law() {
 fn up_to_their_limits_slip_laws_are_within_a_tenth_of_the_boltzmann_equation() {
     let exact = FukuiKaneko { mean_free_path: 1.0 };
     for (slip, limit) in [(Slip::None, 0.01), (Slip::FirstOrder, 0.1), (Slip::SecondOrder, 0.6)] {
-        let gas = Gas { ambient_pressure: 1e5, viscosity: 18e-6, mean_free_path: 1.0, slip };
+        let gas = Gas { ambient_pressure: 1e5, viscosity: 18e-6, mean_free_path: 1.0, slip, ..Gas::default() };
         let off = |kn: f64| (SlipLaw::of(&gas).at(1.0 / kn).0 / exact.at(1.0 / kn).0 - 1.0).abs();
         let worst = (1..=500).map(|i| off(limit * f64::from(i) / 500.0)).fold(0.0, f64::max);
         assert!((0.06..0.1).contains(&worst), "{slip:?}: {worst}");

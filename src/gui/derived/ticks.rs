@@ -17,6 +17,12 @@ impl Ticks {
         Self::apart(range, (range[1] - range[0]) / about.max(1) as f64)
     }
 
+    /// As [`Self::new`], with more steps if only one number would be there: it alone says nothing about the scale.
+    pub fn several(range: [f64; 2], about: usize) -> Self {
+        let mut more = (about..about + 3).map(|about| Self::new(range, about));
+        more.find(|ticks| ticks.values().count() > 1).unwrap_or_else(|| Self::new(range, about))
+    }
+
     /// Steps of 1, 2 or 5 times a power of ten over `range`, of `least` or more.
     pub fn apart(range: [f64; 2], least: f64) -> Self {
         let step = round_up(least);

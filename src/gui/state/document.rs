@@ -16,6 +16,8 @@ pub enum Next {
     Preset(&'static str),
     /// The preset in a file.
     File(PathBuf),
+    /// A motor that was made of answers.
+    New(Box<Scene>),
     /// The window closes.
     Quit,
 }

@@ -2,6 +2,7 @@
 
 use super::dialogs::Purpose;
 use super::document::Next;
+use crate::scene::new_motor::Answers;
 
 /// A modal.
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ pub enum Modal {
     Unfinished(Vec<String>),
     /// A path to type.
     Path(PathPrompt),
+    /// What is asked about a new motor, as answered so far.
+    NewMotor(Answers),
 }
 
 /// A path, and what it may be used for.

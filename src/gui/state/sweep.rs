@@ -182,8 +182,17 @@ pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '
     scene.parameters().filter(number).filter(|parameter| unused(scene, parameter).is_none())
 }
 
-/// The work of a sweep: it tells each row as it is solved, and returns all of them in order.
-pub type SweepTask = Task<Row, Vec<Row>>;
+/// What a sweep tells on the way.
+#[derive(Debug)]
+pub enum SweepMessage {
+    /// Its points are known.
+    Built(Arc<Sweep>),
+    /// A point is solved.
+    Solved(Row),
+}
+
+/// The work of a sweep: it builds the points, unless they are known, and solves them. It returns all rows in order.
+pub type SweepTask = Task<SweepMessage, Result<Vec<Row>, SweepError>>;
 
 /// A sweep that was begun.
 #[derive(Debug)]
@@ -191,7 +200,8 @@ pub struct Swept {
     sweep: Arc<Sweep>,
     rows: Vec<Row>,
     published: Vec<Published>,
-    task: Option<SweepTask>,
+    number: u64,
+    running: bool,
     /// The text of a panic that ended it.
     failure: Option<String>,
     started: Instant,
@@ -215,9 +225,14 @@ impl Swept {
         &self.published
     }
 
+    /// Its number in this window.
+    pub fn number(&self) -> u64 {
+        self.number
+    }
+
     /// Whether it goes on.
     pub fn running(&self) -> bool {
-        self.task.is_some()
+        self.running
     }
 
     /// Whether every point is there.
@@ -263,30 +278,25 @@ impl Swept {
     pub fn present(&self, scene: &Scene) -> Option<Vec<f64>> {
         self.sweep.axes().iter().map(|axis| scene.get(axis.parameter.key)?.as_number()).collect()
     }
+}
 
-    /// Takes what has been solved since the last time.
-    fn drain(&mut self) {
-        let Some(task) = &self.task else { return };
-        let News { messages, end } = task.drain();
-        for row in messages {
-            let place = self.rows.partition_point(|other| other.point < row.point);
-            self.rows.insert(place, row);
-        }
-        if let Some(end) = end {
-            self.task = None;
-            match end {
-                Ok(rows) => self.rows = rows,
-                Err(panic) => self.failure = Some(panic),
-            }
-        }
-    }
+/// What was found out about a form and a scene.
+#[derive(Debug)]
+struct Checked {
+    scene: Scene,
+    /// What is wrong with each axis that is asked for.
+    faults: Vec<Option<String>>,
+    problem: Option<Problem>,
 }
 
 /// What the tab knows.
 #[derive(Debug, Default)]
 pub struct SweepState {
     form: Option<Form>,
+    /// Nothing once the form has changed.
+    checked: Option<Arc<Checked>>,
     quantity: Option<Quantity>,
+    task: Option<(SweepTask, Instant)>,
     swept: Option<Swept>,
     refusal: Option<String>,
 }
@@ -295,6 +305,21 @@ impl SweepState {
     /// What is asked for; there is something as soon as a scene was seen.
     pub fn form(&self) -> Option<&Form> {
         self.form.as_ref()
+    }
+
+    /// What is wrong with each axis that is asked for.
+    pub fn faults(&self) -> &[Option<String>] {
+        self.checked.as_ref().map_or(&[], |checked| &checked.faults)
+    }
+
+    /// The scene that would be swept.
+    pub fn problem(&self) -> Option<&Problem> {
+        self.checked.as_ref()?.problem.as_ref()
+    }
+
+    /// Whether its points are being made: there is no row to show yet.
+    pub fn building(&self) -> bool {
+        self.task.is_some() && self.swept.as_ref().is_none_or(|swept| !swept.running)
     }
 
     /// What was begun.
@@ -314,17 +339,17 @@ impl SweepState {
         wanted.into_iter().find(|wanted| among.contains(wanted)).unwrap_or(Quantity::FilmLoad)
     }
 
-    /// The scene is shown: what it does not have cannot be asked for.
+    /// The scene is shown: what it does not have cannot be asked for, and what is asked for is checked, if anything changed.
     pub fn review(&mut self, scene: &Scene) {
-        match &mut self.form {
-            None => self.form = Some(Form::of(scene)),
-            Some(form) => {
-                let fresh = Form { second: form.second, fidelity: form.fidelity, ..Form::of(scene) };
-                if !varies(scene, form.x.key) || !varies(scene, form.y.key) {
-                    *form = fresh;
-                }
-            }
+        if self.checked.as_ref().is_some_and(|checked| checked.scene == *scene) {
+            return;
         }
+        let form = self.form.get_or_insert_with(|| Form::of(scene));
+        if !varies(scene, form.x.key) || !varies(scene, form.y.key) {
+            *form = Form { second: form.second, fidelity: form.fidelity, ..Form::of(scene) };
+        }
+        let faults = form.axes().map(|axis| axis.vary(scene).err()).collect();
+        self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults, problem: Problem::new(scene).ok() }));
     }
 
     /// Draws this from now on.
@@ -335,6 +360,7 @@ impl SweepState {
     /// Changes what is asked for.
     pub fn edit(&mut self, change: impl FnOnce(&mut Form)) {
         self.refusal = None;
+        self.checked = None;
         if let Some(form) = &mut self.form {
             change(form);
         }
@@ -348,29 +374,49 @@ impl SweepState {
         self.form.iter().flat_map(Form::axes).map(|axis| axis.vary(scene)).collect()
     }
 
-    /// It cannot begin.
-    pub fn refuse(&mut self, error: &SweepError) {
-        self.refusal = Some(in_place(error));
-    }
-
-    /// It has begun, or goes on with `rows`.
-    pub fn begin(&mut self, sweep: Arc<Sweep>, rows: Vec<Row>, task: SweepTask, now: Instant) {
-        let published = sweep.published();
-        let before = rows.len();
+    /// It has begun, or goes on with the rows that there are.
+    pub fn begin(&mut self, task: SweepTask, goes_on: bool, now: Instant) {
         self.refusal = None;
-        self.swept = Some(Swept { sweep, rows, published, task: Some(task), failure: None, started: now, before });
+        self.task = Some((task, now));
+        if let Some(swept) = self.swept.as_mut().filter(|_| goes_on) {
+            (swept.running, swept.started, swept.before, swept.failure) = (true, now, swept.rows.len(), None);
+        }
     }
 
-    /// Takes what has been solved since the last time.
+    /// Takes what has been built and solved since the last time.
     pub fn drain(&mut self) {
-        if let Some(swept) = &mut self.swept {
-            swept.drain();
+        let Some((task, started)) = &self.task else { return };
+        let (News { messages, end }, started) = (task.drain(), *started);
+        for message in messages {
+            match message {
+                SweepMessage::Built(sweep) => {
+                    let number = self.swept.as_ref().map_or(0, |swept| swept.number + 1);
+                    let (rows, published) = (Vec::new(), sweep.published());
+                    let (running, failure, before) = (true, None, 0);
+                    self.swept = Some(Swept { sweep, rows, published, number, running, failure, started, before });
+                }
+                SweepMessage::Solved(row) => {
+                    if let Some(Swept { rows, .. }) = &mut self.swept {
+                        rows.insert(rows.partition_point(|other| other.point < row.point), row);
+                    }
+                }
+            }
+        }
+        let Some(end) = end else { return };
+        let building = self.building();
+        self.task = None;
+        match (end, &mut self.swept) {
+            (Ok(Err(error)), _) => self.refusal = Some(in_place(&error)),
+            (Ok(Ok(rows)), Some(swept)) if !building => (swept.rows, swept.running) = (rows, false),
+            (Ok(Ok(_)), _) => {}
+            (Err(panic), Some(swept)) if !building => (swept.failure, swept.running) = (Some(panic), false),
+            (Err(panic), _) => self.refusal = Some(panic),
         }
     }
 
     /// Asks it to end.
     pub fn cancel(&self) {
-        if let Some(task) = self.swept.as_ref().and_then(|swept| swept.task.as_ref()) {
+        if let Some((task, _)) = &self.task {
             task.cancel();
         }
     }
@@ -424,6 +470,7 @@ mod tests {
         sweeps.edit(|form| form.x.from = "50".to_owned());
         sweeps.review(&motor);
         assert_eq!(sweeps.form().unwrap().x.from, "50");
+        assert_eq!(sweeps.faults(), [None]);
         // What has no effect on a plate is not offered.
         assert!(varies(&motor, "film.min_spacing_nm") && !varies(&plate, "film.min_spacing_nm"));
         sweeps.edit(|form| form.set_second(true));
@@ -431,5 +478,24 @@ mod tests {
         let form = sweeps.form().unwrap();
         assert!(form.x.key == "plate.frequency_khz" && form.second, "{form:?}");
         assert!(sweeps.asked(&plate).is_ok_and(|axes| axes.len() == 2));
+    }
+
+    #[test]
+    fn what_is_asked_for_is_checked_when_it_changes_and_not_at_every_redraw() {
+        let scene = presets::find("fundamental").unwrap();
+        let mut sweeps = SweepState::default();
+        let mut check = |change: &dyn Fn(&mut SweepState), scene: &Scene| {
+            change(&mut sweeps);
+            sweeps.review(scene);
+            (Arc::clone(sweeps.checked.as_ref().unwrap()), sweeps.faults()[0].clone())
+        };
+        let (first, _) = check(&|_| (), &scene);
+        let (again, _) = check(&|sweeps| sweeps.draw(Quantity::FilmLoad), &scene);
+        assert!(Arc::ptr_eq(&first, &again), "nothing has changed");
+        let (typed, fault) = check(&|sweeps| sweeps.edit(|form| form.x.from = "wide".to_owned()), &scene);
+        assert!(!Arc::ptr_eq(&first, &typed) && fault.is_some_and(|fault| fault.contains("from 5 to 10000 nm")));
+        let mut edited = scene.clone();
+        edited.set_all([("motor.waves", "8")]).unwrap();
+        assert!(!Arc::ptr_eq(&typed, &check(&|_| (), &edited).0), "another scene may refuse what this one took");
     }
 }

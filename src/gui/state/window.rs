@@ -164,7 +164,8 @@ impl State {
         let export = self.exports.running().map(|running| format!("An export: {}", running.export.title()));
         let swept = self.sweep.swept().filter(|swept| swept.running());
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows().len(), swept.sweep().len()));
-        export.into_iter().chain(sweep).collect()
+        let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());
+        export.into_iter().chain(sweep).chain(building).collect()
     }
 
     /// What a new file of the scene is called at first.

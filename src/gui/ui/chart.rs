@@ -1,9 +1,14 @@
 //! What charts have in common.
 
+use crate::digits::signed;
 use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::ui::glossary;
-use eframe::egui::{self, Color32, Id, Rect, RichText, TextStyle};
-use egui_plot::{AxisHints, GridInput, GridMark, Line, LineStyle, Plot, PlotMemory, PlotPoints, PlotResponse, PlotUi};
+use crate::gui::ui::paint::{PlotStyle, widened};
+use eframe::egui::{self, Align2, Color32, CursorIcon, Id, Rect, RichText, Sense, TextStyle, UiBuilder, pos2, vec2};
+use egui_plot::{
+    AxisHints, FilledArea, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotMemory, PlotPoints, PlotResponse,
+    PlotTransform, PlotUi, Points, VLine,
+};
 
 /// Width of the column of numbers left of a chart, in heights of the text: charts below each other are aligned.
 const NUMBERS: f32 = 3.6;
@@ -40,8 +45,7 @@ pub(in crate::gui::ui) fn framed<'a, R>(
 ) -> PlotResponse<R> {
     // What is new is as after a double click: the ranges are followed until something is zoomed.
     let fresh = PlotMemory::load(ui.ctx(), id(name)).is_none();
-    let wide = |[low, high]: [f64; 2]| if high > low { [low, high] } else { [low - 0.5, low + 0.5] };
-    let ([left, right], [bottom, top]) = (wide(x), wide(y));
+    let ([left, right], [bottom, top]) = (widened(x), widened(y));
     plot.default_x_bounds(left, right).default_y_bounds(bottom, top).show(ui, move |plot| {
         if fresh {
             plot.set_auto_bounds(true);
@@ -60,21 +64,148 @@ pub(in crate::gui::ui) fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> P
     let em = ui.text_style_height(&TextStyle::Body);
     let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
     let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
-    // The spacers leave room for every number: none is to fade because others are near.
-    let near = egui::Rangef::new(0.0, 1.0);
-    bare(name, height)
-        .custom_x_axes(vec![AxisHints::new_x().label_spacing(near)])
-        .custom_y_axes(vec![AxisHints::new_y().label_spacing(near)])
-        .show_x(false)
-        .show_y(false)
+    numbered(name, height, [AxisHints::new_x(), AxisHints::new_y()])
         .grid_color(ui.visuals().widgets.noninteractive.bg_stroke.color)
         .y_axis_min_width(NUMBERS * em)
         .x_grid_spacer(move |input| round_ticks(&input, columns))
         .y_grid_spacer(move |input| round_ticks(&input, lines))
         .x_axis_formatter(|mark, _| tick(mark))
         .y_axis_formatter(|mark, _| tick(mark))
+}
+
+/// A plot with numbers at its axes, and no words at the pointer.
+fn numbered<'a>(name: &str, height: f32, axes: [AxisHints<'a>; 2]) -> Plot<'a> {
+    // The spacers leave room for every number: none is to fade because others are near.
+    let [x, y] = axes.map(|axis| vec![axis.label_spacing(egui::Rangef::new(0.0, 1.0))]);
+    bare(name, height)
+        .custom_x_axes(x)
+        .custom_y_axes(y)
+        .show_x(false)
+        .show_y(false)
         .label_formatter(|_| None)
         .set_margin_fraction(egui::Vec2::ZERO)
+}
+
+/// A chart that stands among drawings of the painter, with the size of its text.
+pub(in crate::gui::ui) struct Inset<'a> {
+    /// What tells it from other charts, and screen readers what it is.
+    pub(in crate::gui::ui) name: &'a str,
+    /// Where its curves are. Its numbers are left of it, and below.
+    pub(in crate::gui::ui) rect: Rect,
+    /// Room for the numbers left of it.
+    pub(in crate::gui::ui) gutter: f32,
+    /// Ranges of the axes until they are zoomed.
+    pub(in crate::gui::ui) bounds: [[f64; 2]; 2],
+    /// Name of the axis below; `None` if its numbers are below another drawing, empty if it is
+    /// written elsewhere.
+    pub(in crate::gui::ui) below: Option<&'a str>,
+}
+
+impl<'a> Inset<'a> {
+    /// Shows what `add` draws.
+    pub(in crate::gui::ui) fn show(
+        &self,
+        ui: &mut egui::Ui,
+        style: &PlotStyle,
+        add: impl FnOnce(&mut PlotUi<'a>) + 'a,
+    ) -> PlotResponse<()> {
+        self.show_with(ui, style, |plot| plot, add)
+    }
+
+    /// As [`Self::show`], with changes to the plot, such as marks of its own.
+    pub(in crate::gui::ui) fn show_with(
+        &self,
+        ui: &mut egui::Ui,
+        style: &PlotStyle,
+        change: impl FnOnce(Plot<'a>) -> Plot<'a>,
+        add: impl FnOnce(&mut PlotUi<'a>) + 'a,
+    ) -> PlotResponse<()> {
+        let Self { name, rect, gutter, below, .. } = *self;
+        let axis = style.row + 3.0;
+        let low = pos2(rect.right(), rect.bottom() + if below.is_some() { axis } else { 0.0 });
+        let whole = Rect::from_min_max(pos2(rect.left() - gutter, rect.top()), low);
+        let (row, height) = (style.row, rect.height());
+        // As many marks as the painter has, in drawings above and below.
+        let columns = (rect.width() / (3.6 * row)).clamp(1.0, 12.0) as usize;
+        let lines = (height / (2.2 * row)).clamp(1.0, 6.0) as usize;
+        let hints = |hints: AxisHints<'a>, thick: f32| {
+            hints.min_thickness(thick).tick_label_font(style.font.clone()).tick_label_color(style.palette.quiet)
+        };
+        // What is written below has the corner.
+        let value = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
+            let above = (mark.value - range.start()) / (range.end() - range.start()) * f64::from(height / row);
+            if above < 0.35 && below.is_some() { String::new() } else { tick(mark) }
+        };
+        // The name has the left end, and a neighbour begins soon after the right one.
+        let named = below.filter(|name| !name.is_empty());
+        let spare = named.map_or(0.0, |name| gutter - 4.0 - style.width(ui.painter(), name)).clamp(0.0, 0.6 * row);
+        let place = move |mark: GridMark, range: &std::ops::RangeInclusive<f64>| {
+            let text = tick(mark);
+            let half = 0.28 * row * text.chars().count() as f32;
+            let along = ((mark.value - range.start()) / (range.end() - range.start())) as f32 * rect.width();
+            let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.6 * row;
+            if fits || named.is_none() { text } else { String::new() }
+        };
+        let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));
+        let chart = numbered(name, whole.height(), [hints(x, axis), hints(y, gutter)])
+            .show_axes([below.is_some(), true])
+            .grid_color(style.grid)
+            .grid_fade(0.0)
+            .x_grid_spacer(move |input| several(&input, columns))
+            .y_grid_spacer(move |input| several(&input, lines));
+        let child = &mut ui.new_child(UiBuilder::new().id_salt(name).max_rect(whole));
+        child.visuals_mut().extreme_bg_color = style.palette.canvas;
+        let shown = framed(child, (name, change(chart)), self.bounds, add);
+        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+        if let Some(name) = named {
+            let corner = pos2(shown.transform.frame().left() - 4.0 - spare, rect.bottom() + 1.0);
+            let place = style.write(ui.painter(), corner, Align2::RIGHT_TOP, name, style.palette.quiet);
+            style.term(place, name.split(',').next().unwrap_or(name));
+        }
+        shown
+    }
+}
+
+/// A vertical line of the chart `name` that is dragged along x: where it was dragged to. A double click is the chart's.
+pub(in crate::gui::ui) fn dragged(ui: &egui::Ui, at: &PlotTransform, x: f64, name: &str) -> Option<f64> {
+    let place = pos2(at.position_from_point_x(x), at.frame().center().y);
+    let strip = Rect::from_center_size(place, vec2(8.0, at.frame().height())).intersect(*at.frame());
+    if !strip.is_positive() {
+        return None;
+    }
+    let response = ui.interact(strip, id(name).with("line"), Sense::click_and_drag());
+    let text = format!("Line of {}: drag it", name.split(':').next().unwrap_or(name));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
+    let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+    if response.double_clicked()
+        && let Some(mut memory) = PlotMemory::load(ui.ctx(), id(name))
+    {
+        memory.auto_bounds = true.into();
+        memory.store(ui.ctx(), id(name));
+    }
+    let pointer = response.interact_pointer_pos().filter(|_| response.dragged())?;
+    Some(at.value_from_position(pointer).x)
+}
+
+/// A line across a chart along x, that does not answer to the pointer.
+pub(in crate::gui::ui) fn level(y: f64, colour: Color32, width: f32) -> HLine {
+    HLine::new("", y).color(colour).width(width).allow_hover(false)
+}
+
+/// A line across a chart along y, that does not answer to the pointer.
+pub(in crate::gui::ui) fn upright(x: f64, colour: Color32, width: f32) -> VLine {
+    VLine::new("", x).color(colour).width(width).allow_hover(false)
+}
+
+/// Dots that do not answer to the pointer.
+pub(in crate::gui::ui) fn dots<'a>(points: Vec<[f64; 2]>, colour: Color32, radius: f32) -> Points<'a> {
+    Points::new("", points).color(colour).radius(radius).allow_hover(false)
+}
+
+/// The area between two curves, given as (x, one y, other y).
+pub(in crate::gui::ui) fn between(columns: &[[f64; 3]], colour: Color32) -> FilledArea {
+    let [x, one, other] = [0, 1, 2].map(|k| columns.iter().map(|column| column[k]).collect::<Vec<_>>());
+    FilledArea::new("", &x, &one, &other).fill_color(colour).allow_hover(false)
 }
 
 /// The place of the next chart of this height, with its axes.
@@ -139,9 +270,9 @@ pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64, between: bool) ->
 }
 
 /// As many decimals as the steps between ticks need, with a true minus sign.
-fn tick(mark: GridMark) -> String {
+pub(in crate::gui::ui) fn tick(mark: GridMark) -> String {
     let decimals = (-mark.step_size.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
-    format!("{:.decimals$}", mark.value + 0.0).replace('-', "−")
+    signed(format!("{:.decimals$}", mark.value))
 }
 
 /// Ticks at 1, 2 or 5 times a power of ten, at most about `most`.
@@ -155,7 +286,16 @@ pub(in crate::gui::ui) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> 
     if !(least.is_finite() && least > 0.0) {
         return Vec::new();
     }
-    let ticks = Ticks::apart([from, to], least);
+    marks(Ticks::apart([from, to], least))
+}
+
+/// Round marks, about `about`, and two at least.
+fn several(input: &GridInput, about: usize) -> Vec<GridMark> {
+    marks(Ticks::several([input.bounds.0, input.bounds.1], about))
+}
+
+/// Marks at these numbers.
+pub(in crate::gui::ui) fn marks(ticks: Ticks) -> Vec<GridMark> {
     ticks.values().map(|value| GridMark { value, step_size: ticks.step() }).collect()
 }
 

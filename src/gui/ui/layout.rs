@@ -7,7 +7,7 @@ use super::{tabs, views};
 use crate::gui::command::LessonCommand;
 use crate::gui::state::view::Tab;
 use crate::problem::Scenario;
-use eframe::egui;
+use eframe::egui::{self, Color32};
 
 /// Width of a panel at the side of the views.
 struct Side {
@@ -37,8 +37,11 @@ impl Side {
 /// Draws the whole window into `ui`.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = cx.state;
-    egui::Panel::top("menu").show(ui, |ui| menu::show(ui, cx));
-    egui::Panel::bottom("status").show(ui, |ui| {
+    let (side, central) = (egui::Frame::side_top_panel(ui.style()), egui::Frame::central_panel(ui.style()));
+    // The window has the colour of the panels: to fill them would be to paint all of it twice.
+    let [side, central] = [side, central].map(|frame| frame.fill(Color32::TRANSPARENT));
+    egui::Panel::top("menu").frame(side).show(ui, |ui| menu::show(ui, cx));
+    egui::Panel::bottom("status").frame(side).show(ui, |ui| {
         timeline::show(ui, cx);
         exports::show(ui, cx);
         timeline::status(ui, cx);
@@ -51,15 +54,15 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         format!("{name}{size}{}", if side.most(width) < side.default { ", narrow" } else { "" })
     };
     if state.view.parameters {
-        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).show(ui, |ui| {
+        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).frame(side).show(ui, |ui| {
             cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
             parameters::show(ui, cx);
         });
     }
     if state.view.results && state.lessons.running().is_some_and(|running| !running.all_results) {
-        LESSON.fit(egui::Panel::right(id("lesson", &LESSON)), width).show(ui, |ui| lesson::show(ui, cx));
+        LESSON.fit(egui::Panel::right(id("lesson", &LESSON)), width).frame(side).show(ui, |ui| lesson::show(ui, cx));
     } else if state.view.results {
-        RESULTS.fit(egui::Panel::right(id("results", &RESULTS)), width).show(ui, |ui| {
+        RESULTS.fit(egui::Panel::right(id("results", &RESULTS)), width).frame(side).show(ui, |ui| {
             // As wide before the first result as after it.
             ui.set_min_width(ui.available_width());
             if state.lessons.running().is_some() && ui.button("Back to the lesson").clicked() {
@@ -70,7 +73,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         });
     }
-    egui::CentralPanel::default().show(ui, |ui| {
+    egui::CentralPanel::default().frame(central).show(ui, |ui| {
         tabs::labels::show(ui, cx);
         middle(ui, cx);
     });

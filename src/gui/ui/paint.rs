@@ -179,9 +179,7 @@ impl Axes {
     pub(in crate::gui::ui) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         let about = (self.rect.height() / (2.2 * style.row)).clamp(1.0, 6.0) as usize;
         let range = [self.y[0] / unit, self.y[1] / unit];
-        // One value alone says nothing about the scale.
-        let mut several = (about..about + 3).map(|about| Ticks::new(range, about));
-        let ticks = several.find(|ticks| ticks.values().count() > 1).unwrap_or_else(|| Ticks::new(range, about));
+        let ticks = Ticks::several(range, about);
         for value in ticks.values() {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, style.grid));
@@ -232,7 +230,8 @@ impl Axes {
     }
 }
 
-fn widened([low, high]: [f64; 2]) -> [f64; 2] {
+/// The range, or one round it if it has no extent.
+pub(in crate::gui::ui) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     if !(low.is_finite() && high.is_finite()) {
         return [0.0, 1.0];
     }

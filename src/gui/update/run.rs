@@ -9,6 +9,7 @@ use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::state::view::Tab;
 use crate::job::Event;
+use crate::scene::new_motor::Answers;
 
 impl Updater {
     /// Changes the state as `command` says.
@@ -22,6 +23,12 @@ impl Updater {
             Command::Undo => self.step_history(Document::undo),
             Command::Redo => self.step_history(Document::redo),
             Command::Proceed(next) => self.proceed(next),
+            Command::NewMotor => state.modal = Some(Modal::NewMotor(Answers::new())),
+            Command::AnswerNewMotor(question, answer) => {
+                if let Some(Modal::NewMotor(answers)) = &mut state.modal {
+                    answers.insert(question, answer);
+                }
+            }
             Command::OpenDialog => self.ask(Purpose::Open, ""),
             Command::OpenPathPrompt => {
                 let prompt = PathPrompt::asked(

@@ -90,7 +90,7 @@ impl Updater {
     fn proceed_with_document(&mut self, next: Next) {
         // A file that cannot be opened takes nothing away, and a lesson goes on.
         let loses = match &next {
-            Next::Preset(_) | Next::Quit => true,
+            Next::Preset(_) | Next::New(_) | Next::Quit => true,
             Next::File(path) => Scene::load(path).is_ok(),
         };
         if loses {
@@ -115,6 +115,12 @@ impl Updater {
         match next {
             Next::Preset(name) => self.open(presets::find(name), None),
             Next::File(path) => self.open(Scene::load(&path), Some(path)),
+            Next::New(scene) => {
+                // Nothing has it yet, so that it counts as changed.
+                let target = self.state.document.target();
+                self.state.document = Document::restored(*scene, Scene::motor(), None).with_target(target);
+                self.scene_replaced();
+            }
             Next::Quit => {
                 self.state.quitting = true;
                 self.ctx.send_viewport_cmd(egui::ViewportCommand::Close);

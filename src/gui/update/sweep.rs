@@ -1,8 +1,9 @@
 //! What is asked of the sweep, carried out.
 
 use super::updater::Updater;
-use crate::analysis::sweep::{Row, Sweep};
+use crate::analysis::sweep::{Row, Sweep, SweepError};
 use crate::gui::command::SweepCommand;
+use crate::gui::state::sweep::SweepMessage;
 use crate::job::task::Task;
 use crate::solve::Settings;
 use std::sync::Arc;
@@ -11,6 +12,11 @@ use std::time::Duration;
 /// Points are drawn as they come, but at most this often.
 const REDRAW: Duration = Duration::from_millis(100);
 
+/// A sweep, and the rows of it that are known.
+type Known = (Arc<Sweep>, Vec<Row>);
+/// How a sweep tells what it has.
+type Tell<'a> = &'a (dyn Fn(SweepMessage) + Sync);
+
 impl Updater {
     pub(super) fn sweep(&mut self, command: SweepCommand) {
         match command {
@@ -18,8 +24,8 @@ impl Updater {
             SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
                 if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running()) {
-                    let (sweep, rows) = (Arc::clone(swept.sweep()), swept.rows().to_vec());
-                    self.run_sweep(sweep, rows);
+                    let known = (Arc::clone(swept.sweep()), swept.rows().to_vec());
+                    self.run_sweep(true, |_| Ok(known));
                 }
             }
             SweepCommand::Open(point) => {
@@ -53,24 +59,27 @@ impl Updater {
         let Ok(vary) = self.state.sweep.asked(scene) else { return };
         let mut swept = scene.clone();
         swept.retitle(self.state.document.saved());
-        match Sweep::new(&swept, &vary, &Settings { fidelity, ..Settings::default() }) {
-            Ok(sweep) => self.run_sweep(Arc::new(sweep), Vec::new()),
-            Err(error) => self.state.sweep.refuse(&error),
-        }
+        let settings = Settings { fidelity, ..Settings::default() };
+        self.run_sweep(false, move |tell| {
+            let sweep = Arc::new(Sweep::new(&swept, &vary, &settings)?);
+            tell(SweepMessage::Built(Arc::clone(&sweep)));
+            Ok((sweep, Vec::new()))
+        });
     }
 
-    fn run_sweep(&mut self, sweep: Arc<Sweep>, done: Vec<Row>) {
-        let (theirs, before) = (Arc::clone(&sweep), done.clone());
+    /// Solves what `build` returns, on a thread of its own: there can be 100 000 points to make.
+    fn run_sweep(&mut self, goes_on: bool, build: impl FnOnce(Tell<'_>) -> Result<Known, SweepError> + Send + 'static) {
         let task = Task::start("sweep", self.wake(REDRAW), move |cancel, tell| {
-            let solve = || theirs.run(&before, cancel, &|row| tell(row.clone()));
+            let (sweep, done) = build(tell)?;
+            let solve = || sweep.run(&done, cancel, &|row| tell(SweepMessage::Solved(row.clone())));
             // A pool of its own: an export or another task need not wait until this is done.
-            match rayon::ThreadPoolBuilder::new().build() {
+            Ok(match rayon::ThreadPoolBuilder::new().build() {
                 Ok(pool) => pool.install(solve),
                 Err(_) => solve(),
-            }
+            })
         });
         match task {
-            Ok(task) => self.state.sweep.begin(sweep, done, task, self.now()),
+            Ok(task) => self.state.sweep.begin(task, goes_on, self.now()),
             Err(error) => self.state.fail(format!("The sweep cannot be started: {error}")),
         }
     }

@@ -2,6 +2,7 @@
 
 pub mod frame;
 pub mod glossary;
+mod new_motor;
 pub mod question;
 pub mod shortcuts;
 pub mod tour;

@@ -1,13 +1,14 @@
 //! Errors, questions and the prompt for a path, drawn.
 
-use super::frame::frame;
+use super::frame::{Answer, frame, heading};
+use super::new_motor;
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::document::{Next, absolute};
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::panels::field::select_all;
-use eframe::egui::{self, Id, Key, RichText, Ui};
+use eframe::egui::{self, Id, Key, Ui};
 use std::path::{Path, PathBuf};
 
 /// Widest text.
@@ -23,6 +24,7 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
             Modal::Unsaved { name, next } => unsaved(ui, name, next),
             Modal::Unfinished(work) => unfinished(ui, work),
             Modal::Path(prompt) => path(ui, prompt, cx),
+            Modal::NewMotor(answers) => new_motor::show(ui, answers, cx),
         }
     });
     let closed = response.should_close().then(Vec::new);
@@ -30,14 +32,6 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
         cx.push(Command::CloseModal);
         commands.into_iter().for_each(|command| cx.push(command));
     }
-}
-
-/// What the user answered, once that is clear: commands for when the question is gone.
-type Answer = Option<Vec<Command>>;
-
-fn heading(ui: &mut Ui, text: &str) {
-    ui.add(egui::Label::new(RichText::new(text).heading()).wrap());
-    ui.add_space(8.0);
 }
 
 fn error(ui: &mut Ui, message: &str) -> Answer {

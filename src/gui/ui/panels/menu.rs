@@ -123,6 +123,7 @@ fn exports(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 }
 
 fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    item(ui, "New motor…", true, Command::NewMotor, cx);
     item(ui, "Open…", true, Command::OpenDialog, cx);
     item(ui, "Open or save by path…", true, Command::OpenPathPrompt, cx);
     ui.menu_button("Recent", |ui| {

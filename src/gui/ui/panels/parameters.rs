@@ -2,7 +2,7 @@
 
 use super::field::{self, Field};
 use super::records;
-use crate::digits::capitalised;
+use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
 use crate::gui::derived::words::{self, choice, field_name, label, switch};
@@ -10,7 +10,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::highlight;
 use crate::gui::ui::hint::{Hint, beside, text_width};
 use crate::plan::Decision;
-use crate::scene::{self, Kind, Parameter, ParameterKind, Scene, Value};
+use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, Value};
 use eframe::egui::{self, RichText, TextStyle};
 
 /// What the eye meets first.
@@ -35,6 +35,8 @@ const GROUPS: &[(&str, &str, bool)] = &[
 
 /// Width of a field for numbers, in heights of the text.
 const FIELD_WIDTH: f32 = 4.4;
+/// Digits of a value that follows from others.
+const FOLLOWING_DIGITS: usize = 4;
 /// Narrowest slider.
 const SHORTEST_SLIDER: f32 = 40.0;
 /// Size of notes relative to the text.
@@ -46,9 +48,8 @@ const FRAME_MARGIN: i8 = 6;
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
     let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
-    let defaults = Scene::new(scene.kind());
     egui::ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| {
-        let mut panel = Panel { scene, defaults: &defaults, plan, units: 0.0, cx };
+        let mut panel = Panel { scene, plan, units: 0.0, cx };
         panel.all(ui);
     });
 }
@@ -56,7 +57,6 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 /// What every row needs.
 struct Panel<'a> {
     scene: &'a Scene,
-    defaults: &'a Scene,
     plan: &'a [Decision],
     /// Width of the column of units of the present group.
     units: f32,
@@ -118,12 +118,13 @@ impl Panel<'_> {
     }
 
     fn in_group(&self, table: &str) -> Vec<&'static Parameter> {
+        let shown = |p: &&'static Parameter| self.scene.has(p) || self.scene.following(p.key).is_some();
         let inside = |p: &&'static Parameter| p.table() == table && !is_main(self.scene, p);
-        let mut parameters: Vec<_> = self.scene.parameters().filter(inside).collect();
+        let mut parameters: Vec<_> = PARAMETERS.iter().filter(shown).filter(inside).collect();
         if table == "rotor" && self.scene.kind() == Kind::Motor {
             // A file that is given to a beam replaces it.
             let file = |p: &&'static Parameter| matches!(p.kind, ParameterKind::CsvPath { .. });
-            let others: Vec<_> = scene::PARAMETERS.iter().filter(|p| file(p) && !parameters.contains(p)).collect();
+            let others: Vec<_> = PARAMETERS.iter().filter(|p| file(p) && !parameters.contains(p)).collect();
             parameters.extend(others);
         }
         parameters
@@ -133,6 +134,7 @@ impl Panel<'_> {
         let row = ui.push_id(parameter.key, |ui| {
             let value = self.scene.get(parameter.key);
             match (parameter.kind, &value) {
+                (_, None) if !self.scene.has(parameter) => self.following_row(ui, parameter),
                 (ParameterKind::Number { .. } | ParameterKind::Whole { .. }, None) => {
                     self.switch_row(ui, parameter, false)
                 }
@@ -166,6 +168,19 @@ impl Panel<'_> {
             }
         }
         ui.add_space(4.0);
+    }
+
+    /// A value that follows from others: to be read.
+    fn following_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
+        let Some(value) = self.scene.following(parameter.key) else { return };
+        let explanation = format!("{}\nFollows from the keys above\n{}", parameter.about, parameter.key);
+        ui.horizontal_wrapped(|ui| {
+            let name = ui.add(egui::Label::new(label(parameter)).selectable(false));
+            beside(ui.clip_rect(), name, &explanation);
+            let text = format!("{} {}", significant(value, FOLLOWING_DIGITS), parameter.unit).trim_end().to_owned();
+            let value = ui.label(RichText::new(text).color(self.cx.colours.quiet));
+            beside(ui.clip_rect(), value, &explanation);
+        });
     }
 
     /// The name, and at its right the button that brings the default back.
@@ -289,6 +304,13 @@ impl Panel<'_> {
                 _ => Command::Reset { key: parameter.key },
             });
         }
+        if let (false, Some(value)) = (present, self.scene.alternative(parameter)) {
+            return quiet(
+                ui,
+                self.cx,
+                format!("Now {} {}", significant(value, FOLLOWING_DIGITS), parameter.unit).trim_end(),
+            );
+        }
         // That unset numerics are left to the fidelity need not be said four times.
         if let (false, Some(meaning), true) = (present, parameter.absent, parameter.table() != "numerics") {
             quiet(ui, self.cx, &capitalised(meaning));
@@ -397,7 +419,7 @@ impl Panel<'_> {
         if parameter.absent.is_some() || own {
             return None;
         }
-        self.defaults.get(parameter.key)
+        parameter.default()
     }
 
     fn explanation(&self, parameter: &Parameter) -> String {
@@ -445,7 +467,6 @@ fn quiet(ui: &mut egui::Ui, cx: &DrawContext<'_>, text: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::PARAMETERS;
 
     #[test]
     fn every_parameter_is_in_a_group() {

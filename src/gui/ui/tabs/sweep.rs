@@ -13,7 +13,6 @@ use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::panels::menu::{SWEEP, export_button};
 use crate::gui::ui::views::swept::{self, Plotted};
-use crate::problem::Problem;
 use crate::scene::Parameter;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, ComboBox, RichText, TextStyle, Ui, WidgetInfo};
@@ -34,8 +33,8 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     // Fields and boxes get an outline: in the light theme their fill is nearly that of the panel.
     let visuals = ui.visuals_mut();
     visuals.widgets.inactive.bg_stroke = visuals.widgets.noninteractive.bg_stroke;
-    let good = ask(ui, form, cx);
-    buttons(ui, form, good, cx);
+    ask(ui, form, cx);
+    buttons(ui, form, cx);
     let Some(swept) = cx.state.sweep.swept() else {
         introduction(ui, cx);
         return;
@@ -44,22 +43,21 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let sweep = swept.sweep();
     let quantity = cx.state.sweep.quantity(&sweep.quantities());
     let present = if swept.stale(cx.state.document.scene()) { None } else { swept.present(cx.state.document.scene()) };
-    let plotted =
-        Plotted { sweep, rows: swept.rows(), quantity, published: swept.published(), present: present.as_deref() };
+    let (number, rows, published) = (swept.number(), swept.rows(), swept.published());
+    let plotted = Plotted { number, sweep, rows, quantity, published, present: present.as_deref() };
     swept::show(ui, &plotted, cx);
 }
 
 /// What a field asks for.
 type Send = fn(usize, String) -> SweepCommand;
 
-/// The form; whether it can be begun.
-fn ask(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) -> bool {
-    let mut good = true;
+/// The form, with what is wrong with it.
+fn ask(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
+    let faults = cx.state.sweep.faults();
     for (i, axis) in form.axes().enumerate() {
         ui.push_id(i, |ui| {
             ui.horizontal_wrapped(|ui| axis_row(ui, form, i, axis, cx));
-            if let Err(fault) = axis.vary(cx.state.document.scene()) {
-                good = false;
+            if let Some(fault) = faults.get(i).and_then(Option::as_ref) {
                 cx.say(ui, fault, cx.colours.alarm);
             }
         });
@@ -67,7 +65,6 @@ fn ask(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) -> bool {
     if let Some(refusal) = cx.state.sweep.refusal() {
         cx.say(ui, refusal, cx.colours.alarm);
     }
-    good
 }
 
 fn axis_row(ui: &mut Ui, form: &Form, i: usize, axis: &AxisForm, cx: &DrawContext<'_>) {
@@ -133,14 +130,19 @@ fn axis_row(ui: &mut Ui, form: &Form, i: usize, axis: &AxisForm, cx: &DrawContex
     }
 }
 
-fn buttons(ui: &mut Ui, form: &Form, good: bool, cx: &DrawContext<'_>) {
+fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
     let swept = cx.state.sweep.swept();
+    let running = swept.filter(|swept| swept.running());
+    let building = cx.state.sweep.building();
     ui.horizontal_wrapped(|ui| {
-        match swept.filter(|swept| swept.running()) {
+        if building || running.is_some() {
+            if ui.button("Cancel the sweep").hint("Ends it; what is solved stays, and it can go on").clicked() {
+                cx.push(SweepCommand::Cancel);
+            }
+        }
+        match running {
+            _ if building => drop(ui.label("Its points are being made")),
             Some(swept) => {
-                if ui.button("Cancel the sweep").hint("Ends it; what is solved stays, and it can go on").clicked() {
-                    cx.push(SweepCommand::Cancel);
-                }
                 let left = swept.left(cx.now).map_or_else(String::new, |left| format!(", {} left", rough(left)));
                 let text = format!("{} of {}{left}", swept.rows().len(), swept.sweep().len());
                 ui.add(egui::ProgressBar::new(swept.share() as f32).desired_width(190.0).text(text));
@@ -156,6 +158,7 @@ fn buttons(ui: &mut Ui, form: &Form, good: bool, cx: &DrawContext<'_>) {
                     }
                 }
                 let about = "Solves every point on all cores; the window stays usable";
+                let good = cx.state.sweep.faults().iter().all(Option::is_none);
                 if ui.add_enabled(good, egui::Button::new("Start the sweep")).hint(about).clicked() {
                     cx.push(SweepCommand::Start);
                 }
@@ -176,14 +179,9 @@ fn buttons(ui: &mut Ui, form: &Form, good: bool, cx: &DrawContext<'_>) {
 
 /// What is drawn of the points: changing it solves nothing.
 fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
-    let problem = match cx.state.sweep.swept() {
-        Some(swept) => swept.sweep().problem().clone(),
-        None => match Problem::new(cx.state.document.scene()) {
-            Ok(problem) => problem,
-            Err(_) => return,
-        },
-    };
-    let all: Vec<Quantity> = Quantity::of(&problem).collect();
+    let swept = cx.state.sweep.swept().map(|swept| swept.sweep().problem());
+    let Some(problem) = swept.or_else(|| cx.state.sweep.problem()) else { return };
+    let all: Vec<Quantity> = Quantity::of(problem).collect();
     let present = cx.state.sweep.quantity(&all);
     let em = ui.text_style_height(&TextStyle::Body);
     let combo = ComboBox::from_id_salt("quantity")
@@ -192,7 +190,7 @@ fn quantity(ui: &mut Ui, cx: &DrawContext<'_>) {
         .height(36.0 * em)
         .show_ui(ui, |ui| {
             for quantity in all {
-                let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label(&problem)));
+                let entry = ui.selectable_label(quantity == present, capitalised(&quantity.label(problem)));
                 if glossary::hover(ui, entry, quantity.words()).clicked() {
                     cx.push(SweepCommand::Draw(quantity));
                 }

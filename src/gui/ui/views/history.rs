@@ -4,12 +4,14 @@ use crate::gui::command::StartupCommand;
 use crate::gui::derived::format::number;
 use crate::gui::derived::scales::span;
 use crate::gui::state::startup::{Point, StartupState};
+use crate::gui::ui::chart::{Inset, between, dots, dragged, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, band};
+use crate::gui::ui::paint::PlotStyle;
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
 use crate::solution::{Outcome, PlateResult};
-use eframe::egui::{self, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{CursorIcon, Pos2, Rect, Sense, Ui, pos2, vec2};
+use egui_plot::{Axis, LineStyle, Span};
 
 /// Cycles that the axis holds at least.
 const FEWEST: usize = 8;
@@ -78,10 +80,8 @@ const OF_PLATE: &[(Quantity, f32)] = &[(RATIO, 0.62), (PRESSURE, 0.38)];
 pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>, height: f32, cx: &DrawContext<'_>) {
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let painter = ui.painter_at(area);
-    let gutter = style.width(&painter, "−0.000") + 6.0;
-    let scenario = &startup.problem().scenario;
-    let quantities = match scenario {
+    let gutter = style.width(ui.painter(), "−0.000") + 6.0;
+    let quantities = match startup.problem().scenario {
         Scenario::Motor(_) if area.width() < NARROW * style.row => OF_MOTOR_NARROW,
         Scenario::Motor(_) => OF_MOTOR,
         Scenario::Plate(_) => OF_PLATE,
@@ -95,87 +95,79 @@ pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>,
         );
         left = right;
         if rect.width() > 20.0 && rect.height() > 10.0 {
-            let axes = plot(&painter, &style, rect, quantity, startup, periodic);
-            choose(ui, &axes, quantity.titles[0], startup, cx);
+            plot(ui, &style, (rect, gutter), quantity, startup, periodic, cx);
         }
     }
     style.explain(ui);
 }
 
+/// One chart. A click, or its line when it is dragged, chooses the cycle.
 fn plot(
-    painter: &Painter,
+    ui: &mut Ui,
     style: &PlotStyle,
-    rect: Rect,
+    (rect, gutter): (Rect, f32),
     quantity: &Quantity,
     startup: &StartupState,
     periodic: Option<&SolvedScene>,
-) -> Axes {
+    cx: &DrawContext<'_>,
+) {
     let scenario = &startup.problem().scenario;
     let points = startup.points();
-    let value = |point: &Point| (quantity.of)(&point.outcome, scenario);
+    let of = |outcome: &Outcome| {
+        let (value, error) = (quantity.of)(outcome, scenario);
+        (value / quantity.unit, error / quantity.unit)
+    };
     // Extremes are those of one grid, without an error: compared with those of another they would mislead.
     let aim = periodic
         .filter(|run| quantity.extrapolated || run.fidelity == startup.fidelity())
-        .map(|run| (quantity.of)(&run.solution.outcome, scenario));
-    let [low, high] = span(points.iter().map(|point| value(point).0).chain(aim.map(|aim| aim.0)));
+        .map(|run| of(&run.solution.outcome));
+    let [low, high] = span(points.iter().map(|point| of(&point.outcome).0).chain(aim.map(|aim| aim.0)));
     let margin = 0.12 * (high - low);
-    let last = points.len().max(FEWEST) as f64;
-    let axes = Axes::new(rect, [0.5, last + 0.5], [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, quantity.unit);
-    axes.x_labels(painter, style, 1.0, "cycle");
-    let film = style.palette.film;
+    let (film, good) = (style.palette.film, style.palette.good);
     // One curve needs no legend.
-    let both = [("each cycle", film), ("periodic solve", style.palette.good)];
+    let both = [("each cycle", film), ("periodic solve", good)];
     let legend = if aim.is_some() { &both[..] } else { &[] };
-    style.title(painter, rect, quantity.word, &quantity.titles, legend);
+    style.title(ui.painter(), rect, quantity.word, &quantity.titles, legend);
 
-    let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let cap = WIDEST_BAND * (high - low);
     let reach = |error: f64| if error.is_finite() { error.min(cap) } else { cap };
-    if let Some((aim, error)) = aim {
-        let (top, bottom) = (axes.py(aim + reach(error)), axes.py(aim - reach(error)));
-        let band = Rect::from_x_y_ranges(rect.x_range(), top..=bottom);
-        inside.rect_filled(band, 0.0, style.palette.good.gamma_multiply(0.25));
-        inside.hline(rect.x_range(), axes.py(aim), Stroke::new(1.5, style.palette.good));
-    }
-    let line: Vec<Pos2> = points.iter().map(|point| axes.at(point.number as f64, value(point).0)).collect();
-    let columns = points.iter().map(|point| {
-        let (value, error) = value(point);
-        (axes.px(point.number as f64), axes.py(value + reach(error)), axes.py(value - reach(error)))
-    });
-    band(inside, columns, film.gamma_multiply(0.25));
-    inside.line(line.clone(), Stroke::new(1.6, film));
-    // A dot where the cycle can be looked at.
-    for kept in startup.kept() {
-        if let Some(at) = line.get(kept.wrapping_sub(1)) {
-            inside.circle_filled(*at, 2.0, film);
+    let name = format!("{}: click to look at a cycle", quantity.titles[0]);
+    let bounds = [[0.5, points.len().max(FEWEST) as f64 + 0.5], [low - margin, high + margin]];
+    let inset = Inset { name: &name, rect, gutter, bounds, below: Some("cycle") };
+    let chosen = startup.chosen() as f64;
+    let shown = inset.show(ui, style, |plot| {
+        if let Some((aim, error)) = aim {
+            let band = Span::new("", aim - reach(error)..=aim + reach(error)).axis(Axis::Y);
+            plot.span(band.fill(good.gamma_multiply(0.25)));
+            plot.hline(level(aim, good, 1.5));
         }
+        let at = |point: &Point| [point.number as f64, of(&point.outcome).0];
+        let curve: Vec<[f64; 2]> = points.iter().map(at).collect();
+        let error = |point: &Point| reach(of(&point.outcome).1);
+        let bands: Vec<_> =
+            points.iter().zip(&curve).map(|(point, [x, y])| [*x, y + error(point), y - error(point)]).collect();
+        plot.add(between(&bands, film.gamma_multiply(0.25)));
+        plot.line(line(&curve, film, 1.6, LineStyle::Solid));
+        // A dot where the cycle can be looked at.
+        let kept = startup.kept().filter_map(|kept| curve.get(kept.wrapping_sub(1)).copied());
+        plot.points(dots(kept.collect(), film, 2.0));
+        if let Some(at) = curve.get(startup.chosen().wrapping_sub(1)) {
+            plot.vline(upright(chosen, style.palette.accent, 1.0));
+            plot.points(dots(vec![*at], style.palette.accent, 4.5));
+            plot.points(dots(vec![*at], film, 3.0));
+        }
+    });
+    let response = shown.response.on_hover_cursor(CursorIcon::PointingHand);
+    let at = |place: Pos2| shown.transform.value_from_position(place).x;
+    let clicked = response.interact_pointer_pos().filter(|_| response.clicked()).map(at);
+    let to = dragged(ui, &shown.transform, chosen, &name).filter(|_| startup.chosen() > 0);
+    let cycle = |x: f64| x.round().max(1.0) as usize;
+    if let Some(x) = to.or(clicked) {
+        cx.push(StartupCommand::Choose(cycle(x)));
     }
-    if let Some(at) = line.get(startup.chosen().wrapping_sub(1)) {
-        inside.vline(at.x, rect.y_range(), Stroke::new(1.0, style.palette.accent));
-        painter.circle(*at, 4.0, film, Stroke::new(1.5, style.palette.accent));
-    }
-    axes
-}
-
-/// Clicking or dragging looks at the cycle there.
-fn choose(ui: &Ui, axes: &Axes, name: &str, startup: &StartupState, cx: &DrawContext<'_>) {
-    let name = format!("{name}: click to look at a cycle");
-    let response = ui.interact(axes.rect, ui.scope_id().with(&name), Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, &name));
-    let response = response.on_hover_cursor(CursorIcon::PointingHand);
-    let at = |place: Pos2| {
-        axes.x_at(place.x.clamp(axes.rect.left(), axes.rect.right())).map(|x| x.round().max(1.0) as usize)
-    };
-    if let Some(cycle) = response.interact_pointer_pos().and_then(at)
-        && (response.clicked() || response.dragged())
-    {
-        cx.push(StartupCommand::Choose(cycle));
-    }
-    let hovered = response.hover_pos().and_then(at).and_then(|cycle| startup.points().get(cycle - 1));
+    let hovered = response.hover_pos().and_then(|place| points.get(cycle(at(place)) - 1));
     if let Some(point) = hovered {
-        response.on_hover_text_at_pointer(words(point, &startup.problem().scenario));
+        response.on_hover_text_at_pointer(words(point, scenario));
     }
 }
 

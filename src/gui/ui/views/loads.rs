@@ -1,40 +1,52 @@
 //! Contact pressure and film pressure along the wave, gauge, as in the paper's Fig. 4: line loads over the contact width.
 
 use super::motor_frame::MotorFrame;
-use crate::gui::ui::paint::{Axes, PlotStyle, band};
-use eframe::egui::{Color32, Painter, Pos2, Rect, Stroke};
+use crate::gui::ui::chart::{Inset, between, level, line, upright};
+use crate::gui::ui::paint::PlotStyle;
+use eframe::egui::{Rect, Ui};
+use egui_plot::{LineStyle, PlotResponse, Span};
 
-/// Draws both curves into `rect`; the y axis is fixed over the cycle.
-pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &MotorFrame<'_>) {
+/// Name of the chart.
+const NAME: &str = "Pressures along one wavelength: point to read values, click a tooth to follow it";
+
+/// Draws both curves into `rect`, over x \[mm\]; the y axis is fixed over the cycle until it is zoomed.
+pub(super) fn draw(
+    ui: &mut Ui,
+    style: &PlotStyle,
+    (rect, gutter): (Rect, f32),
+    shown: &MotorFrame<'_>,
+) -> PlotResponse<()> {
     let recording = shown.recording;
-    let width = shown.motor.contact_width;
-    let [low, high] = shown.scales.loads.map(|load| load / width);
-    let margin = 0.06 * (high - low).max(1.0);
-    let axes = Axes::new(rect, shown.x_range(), [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, 1e3);
-    let legend = [("contact", style.palette.contact), ("film", style.palette.film)];
-    style.title(painter, rect, "Gauge pressure", &["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"], &legend);
-
-    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    axes.x_grid(painter, style, 1e-3);
-    shown.mark_followed(painter, style, &axes);
-    painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, style.palette.quiet));
-    let zero = axes.py(0.0);
-    for tooth in 0..recording.teeth {
-        let line = shown.lines.of(tooth);
-        let middle = tooth as f64 * recording.pitch;
-        let curve = |field: &[f64]| -> Vec<Pos2> {
-            recording.x.iter().zip(&field[line.clone()]).map(|(xi, load)| axes.at(middle + xi, load / width)).collect()
-        };
-        let stroke = |colour: Color32| Stroke::new(1.8, colour);
-        let contact = curve(&shown.lines.contact);
-        if shown.lines.contact[line.clone()].iter().any(|load| *load != 0.0) {
-            let fill = style.palette.contact.gamma_multiply(0.35);
-            band(painter, contact.iter().map(|at| (at.x, at.y, zero)), fill);
-            painter.line(contact, stroke(style.palette.contact));
+    let kilo = 1e-3 / shown.motor.contact_width;
+    let (contact, film) = (style.palette.contact, style.palette.film);
+    let title = ["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"];
+    style.title(ui.painter(), rect, "Gauge pressure", &title, &[("contact", contact), ("film", film)]);
+    let [low, high] = shown.scales.loads.map(|load| load * kilo);
+    let margin = 0.06 * (high - low).max(1e-3);
+    let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin]];
+    let inset = Inset { name: NAME, rect, gutter, bounds, below: None };
+    inset.show(ui, style, |plot| {
+        let [left, right] = shown.followed().map(|x| x * 1e3);
+        let column = Span::new("", left..=right).fill(style.palette.accent.gamma_multiply(0.10));
+        plot.span(column);
+        plot.hline(level(0.0, style.palette.quiet, 1.0));
+        for tooth in 0..recording.teeth {
+            let nodes = shown.lines.of(tooth);
+            let middle = tooth as f64 * recording.pitch;
+            let curve = |field: &[f64]| -> Vec<[f64; 2]> {
+                let loads = recording.x.iter().zip(&field[nodes.clone()]);
+                loads.map(|(x, load)| [(middle + x) * 1e3, load * kilo]).collect()
+            };
+            let touching = curve(&shown.lines.contact);
+            if touching.iter().any(|at| at[1] != 0.0) {
+                let columns: Vec<[f64; 3]> = touching.iter().map(|at| [at[0], at[1], 0.0]).collect();
+                plot.add(between(&columns, contact.gamma_multiply(0.35)));
+                plot.line(line(&touching, contact, 1.8, LineStyle::Solid));
+            }
+            plot.line(line(&curve(&shown.lines.film), film, 1.8, LineStyle::Solid));
         }
-        painter.line(curve(&shown.lines.film), stroke(style.palette.film));
-    }
-    axes.cursor(painter, style, shown.cursor);
+        if let Some(x) = shown.cursor {
+            plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
+        }
+    })
 }

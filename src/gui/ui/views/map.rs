@@ -21,9 +21,8 @@ pub(super) fn draw(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, sh
     y_labels(painter, style, &axes);
     axes.x_labels(painter, style, 1e-3, "x, mm");
     // The followed tooth.
-    let reach = recording.x.last().copied().unwrap_or(0.0);
-    let middle = shown.tooth as f64 * recording.pitch;
-    let outline = Rect::from_x_y_ranges(axes.px(middle - reach)..=axes.px(middle + reach), rect.y_range());
+    let [left, right] = shown.followed().map(|x| axes.px(x));
+    let outline = Rect::from_x_y_ranges(left..=right, rect.y_range());
     painter.rect_stroke(outline, 0.0, Stroke::new(1.5, style.palette.accent), StrokeKind::Outside);
     axes.cursor(painter, style, shown.cursor);
 }

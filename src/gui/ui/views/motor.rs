@@ -1,7 +1,7 @@
 //! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
 
 use super::motor_frame::MotorFrame;
-use super::pointer::{Readout, named, seek};
+use super::pointer::{Readout, named};
 use super::scales::scales_of;
 use super::{loads, map, tooth, wave};
 use crate::gui::command::Command;
@@ -12,7 +12,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{PlotStyle, area};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
-use eframe::egui::{self, CursorIcon, Rect, pos2};
+use eframe::egui::{self, CursorIcon, Pos2, Rect, Response, pos2};
 
 /// Where the parts go.
 #[derive(Clone, Copy, Debug)]
@@ -73,30 +73,32 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let layout = Layout::new(area, style.row, gutter, longest.height(&painter, &style, area.width()));
 
     let axes = wave::draw(&painter, &style, layout.wave, &shown);
-    loads::draw(&painter, &style, layout.loads, &shown);
+    let charted = loads::draw(ui, &style, (layout.loads, layout.gutter), &shown);
     map::draw(ui, &painter, &style, layout.map, &shown);
     if let Some(rect) = layout.tooth {
-        let drawn = tooth::draw(ui, &painter, &style, rect, layout.gutter, &shown);
-        for (axes, place) in drawn.plots.iter().zip(["least gap", "loads"]) {
-            cx.mark(ui, place, axes.rect);
+        let charts = tooth::draw(ui, &style, (rect, layout.gutter), &shown, cx);
+        for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
+            cx.mark(ui, place, chart);
         }
         cx.mark(ui, "tooth", rect);
-        for (axes, name) in drawn.plots.iter().zip(["Least gap over the cycle", "Loads over the cycle"]) {
-            seek(ui, axes, name, cx);
-        }
     }
     readout(&shown).draw(&painter, &style, layout.readout);
 
-    let pointed = layout.wave.union(layout.map);
-    let name = "Motor along one wavelength: point to read values, click a tooth to follow it";
-    let response = named(ui, pointed, name).on_hover_cursor(CursorIcon::Crosshair);
-    if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
-        cx.point_at(x);
-    }
-    if response.clicked()
-        && let Some(x) = response.interact_pointer_pos().and_then(|at| axes.x_at(at.x))
-    {
-        cx.push(Command::FollowTooth(sample::tooth_at(x, recording.pitch, recording.teeth).0));
+    let wave = named(ui, layout.wave, "Motor along one wavelength: point to read values, click a tooth to follow it");
+    let map = named(ui, layout.map, "Pressure maps of the teeth: point to read values, click a tooth to follow it");
+    let along = |at: Pos2| axes.x_at(at.x);
+    let charted_along = |at: Pos2| Some(1e-3 * charted.transform.value_from_position(at).x);
+    let regions: [(Response, &dyn Fn(Pos2) -> Option<f64>); 3] =
+        [(wave, &along), (charted.response.clone(), &charted_along), (map, &along)];
+    for (response, along) in regions {
+        let response = response.on_hover_cursor(CursorIcon::Crosshair);
+        if let Some(x) = response.hover_pos().and_then(along) {
+            cx.point_at(x);
+        }
+        let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
+        if let Some(x) = clicked.and_then(along) {
+            cx.push(Command::FollowTooth(sample::tooth_at(x, recording.pitch, recording.teeth).0));
+        }
     }
     for (name, rect) in [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)] {
         cx.mark(ui, name, rect.shrink(2.0));

@@ -3,10 +3,8 @@
 use crate::fidelity::Fidelity;
 use crate::gui::derived::sample::Lines;
 use crate::gui::derived::scales::Scales;
-use crate::gui::ui::paint::{Axes, PlotStyle};
 use crate::problem::Motor;
 use crate::recording::Recording;
-use eframe::egui::{Painter, Rect};
 
 /// A motor at one instant.
 pub(super) struct MotorFrame<'a> {
@@ -34,11 +32,10 @@ impl MotorFrame<'_> {
         self.place / self.recording.frames.max(1) as f64
     }
 
-    /// A faint column behind the followed tooth.
-    pub(super) fn mark_followed(&self, painter: &Painter, style: &PlotStyle, axes: &Axes) {
+    /// The ends of the followed tooth \[m\].
+    pub(super) fn followed(&self) -> [f64; 2] {
         let middle = self.tooth as f64 * self.recording.pitch;
         let reach = self.recording.x.last().copied().unwrap_or(0.0);
-        let column = Rect::from_x_y_ranges(axes.px(middle - reach)..=axes.px(middle + reach), axes.rect.y_range());
-        painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
+        [middle - reach, middle + reach]
     }
 }

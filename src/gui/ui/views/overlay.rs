@@ -2,18 +2,22 @@
 //! beside each other with one scale of colours. Motors with motors, plates with plates: they have no axis in common.
 
 use super::field::{self, Stamp};
-use super::pointer::{named, seek};
+use super::plate::{Loop, profile, show_loops};
+use super::pointer::named;
 use super::series::{Series, Trace};
+use super::wave::GROOVE;
 use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, RunCurves, common};
+use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar, title_with_bar};
+use crate::gui::ui::paint::{Axes, PlotStyle, scale_bar, title_with_bar};
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
-use eframe::egui::{self, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+use eframe::egui::{self, Color32, CursorIcon, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
+use egui_plot::{LineStyle, PlotResponse};
 
 /// Wavelengths, or lengths of plates, that differ by less are the same.
 const SAME: f64 = 1e-9;
@@ -124,6 +128,17 @@ impl Along {
         }
     }
 
+    /// What a unit of the axis is in the numbers that are written.
+    fn written(&self) -> f64 {
+        if self.alike { 1e3 } else { 1.0 }
+    }
+
+    /// A chart over the numbers that are written, and where on the axis the pointer is.
+    fn pointed(&self, chart: PlotResponse<()>) -> (Response, Option<f64>) {
+        let x = chart.response.hover_pos().map(|at| chart.transform.value_from_position(at).x / self.written());
+        (chart.response, x)
+    }
+
     fn grid(&self, painter: &Painter, style: &PlotStyle, axes: &Axes) {
         axes.x_grid(painter, style, if self.alike { 1e-3 } else { 1.0 });
     }
@@ -174,9 +189,10 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
 
     let axes = draw_surfaces(&painter, &style, wave, runs, x, &along, cursor);
     let names = [("Contact pressure, kPa", "Contact pressure"), ("Film pressure, kPa gauge", "Gauge pressure")];
-    for (field, (name, rect)) in names.into_iter().zip([contact, film]).enumerate() {
-        draw_pressure(&painter, &style, rect, runs, (x, &along, cursor), name, field);
-    }
+    let charts = [0, 1].map(|field| {
+        let place = ([contact, film][field], gutter);
+        draw_pressure(ui, &style, place, runs, (x, &along, cursor), names[field], field)
+    });
 
     let range = common(runs.iter().map(|run| run.of.curves.scales.pressure));
     let titles =
@@ -207,18 +223,26 @@ fn draw_motors(ui: &mut Ui, runs: &[MotorNow<'_>], height: f32, cx: &DrawContext
         ("Contact load on one wave, N", |curves| &curves.contact),
     ];
     for ((left, right), (title, of)) in halves.into_iter().zip(curves) {
-        let rect = Rect::from_x_y_ranges(left..=right, loads.y_range());
+        let place = (Rect::from_x_y_ranges(left..=right, loads.y_range()), gutter);
         let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, of(run.of.curves))).collect();
-        over_cycle(ui, &painter, &style, rect, title, &kept, (1.0, period, cx.state.view.phase), cx);
+        over_cycle(ui, &style, place, title, &kept, (1.0, period), cx);
     }
 
-    let pointed = wave.union(*maps.last().unwrap_or(&film));
-    let response = named(ui, pointed, "Motors along one wavelength: point to read values");
-    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    let maps = maps.iter().copied().reduce(Rect::union).unwrap_or(wave);
+    let names =
+        ["Motors along one wavelength: point to read values", "Pressure maps of the motors: point to read values"];
+    let painted = [(wave, names[0]), (maps, names[1])].map(|(rect, name)| {
+        let response = named(ui, rect, name);
+        let x = response.hover_pos().and_then(|at| axes.x_at(at.x));
+        (response, x)
+    });
     let on_a_term = style.explain(ui);
-    if !on_a_term && let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
-        cx.point_at(along.to_metres(x));
-        response.on_hover_ui_at_pointer(|ui| motor_values(ui, runs, x, &along));
+    for (response, x) in painted.into_iter().chain(charts.map(|chart| along.pointed(chart))) {
+        let response = response.on_hover_cursor(CursorIcon::Crosshair);
+        if let Some(x) = x.filter(|_| !on_a_term) {
+            cx.point_at(along.to_metres(x));
+            response.on_hover_ui_at_pointer(|ui| motor_values(ui, runs, x, &along));
+        }
     }
 }
 
@@ -244,22 +268,21 @@ fn common_period(mut periods: impl Iterator<Item = f64>) -> f64 {
 
 /// Curves of all runs over the cycle, of which each has its own length.
 fn over_cycle(
-    ui: &Ui,
-    painter: &Painter,
+    ui: &mut Ui,
     style: &PlotStyle,
-    rect: Rect,
+    place: (Rect, f32),
     title: &str,
     curves: &[(Color32, &Curve)],
-    (unit, period, phase): (f64, f64, f64),
+    (unit, period): (f64, f64),
     cx: &DrawContext<'_>,
 ) {
     let traces: Vec<_> =
         curves.iter().map(|(colour, curve)| Trace { curve, lag: 0.0, offset: 0.0, colour: *colour }).collect();
     let range = common(curves.iter().map(|(_, curve)| curve.range()).chain([[0.0, 0.0]]));
     let word = title.split(',').next().unwrap_or(title);
-    let series = Series { titles: &[title], word, legend: &[], traces: &traces, range, unit, period, phase };
-    let axes = series.draw(painter, style, rect);
-    seek(ui, &axes, title, cx);
+    let (traces, phase) = (&traces[..], cx.state.view.phase);
+    let series = Series { name: title, titles: &[title], word, legend: &[], traces, range, unit, period, phase };
+    series.show(ui, style, place, cx);
 }
 
 fn draw_surfaces(
@@ -296,7 +319,7 @@ fn draw_surfaces(
             axes.at((tooth as f64 * run.recording.pitch + run.recording.x[node]) * metre, height)
         };
         let mut underside: Vec<Pos2> = Vec::new();
-        for tooth in 0..run.recording.teeth {
+        for (tooth, groove) in run.lines.grooves(run.recording, GROOVE).iter().enumerate() {
             let line = run.lines.of(tooth);
             let top = run.lines.stator[line.clone()].iter().enumerate();
             painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));
@@ -305,6 +328,9 @@ fn draw_surfaces(
                 at(tooth, i, height)
             });
             underside.extend(rotor);
+            if tooth + 1 < run.recording.teeth {
+                underside.extend(groove.iter().map(|[x, height]| axes.at(x * metre, *height)));
+            }
         }
         painter.line(underside, Stroke::new(2.2, run.of.colour));
     }
@@ -313,42 +339,43 @@ fn draw_surfaces(
 }
 
 fn draw_pressure(
-    painter: &Painter,
+    ui: &mut Ui,
     style: &PlotStyle,
-    rect: Rect,
+    (rect, gutter): (Rect, f32),
     runs: &[MotorNow<'_>],
     (x, along, cursor): ([f64; 2], &Along, Option<f64>),
     (name, word): (&str, &str),
     field: usize,
-) {
-    let ranges = runs.iter().map(|run| run.of.curves.lines[field].map(|load| load / run.motor.contact_width));
+) -> PlotResponse<()> {
+    let kilo = |run: &MotorNow<'_>| 1e-3 / run.motor.contact_width;
+    let ranges = runs.iter().map(|run| run.of.curves.lines[field].map(|load| load * kilo(run)));
     let [low, high] = common(ranges.chain([[0.0, 0.0]]));
-    let margin = 0.06 * (high - low).max(1.0);
-    let axes = Axes::new(rect, x, [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, 1e3);
-    style.title(painter, rect, word, &[name], &[]);
-    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    along.grid(painter, style, &axes);
-    let zero = axes.py(0.0);
-    painter.hline(rect.x_range(), zero, Stroke::new(1.0, style.palette.quiet));
-    for run in runs {
-        let metre = along.metre(run.recording.length);
-        for tooth in 0..run.recording.teeth {
-            let values = &[&run.lines.contact, &run.lines.film][field][run.lines.of(tooth)];
-            // Nothing rather than a line at zero where a tooth does not touch.
-            if values.iter().all(|value| *value == 0.0) {
-                continue;
+    let margin = 0.06 * (high - low).max(1e-3);
+    let written = along.written();
+    style.title(ui.painter(), rect, word, &[name], &[]);
+    let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
+    Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
+        plot.hline(level(0.0, style.palette.quiet, 1.0));
+        for run in runs {
+            let metre = along.metre(run.recording.length) * written;
+            for tooth in 0..run.recording.teeth {
+                let values = &[&run.lines.contact, &run.lines.film][field][run.lines.of(tooth)];
+                // Nothing rather than a line at zero where a tooth does not touch.
+                if values.iter().all(|value| *value == 0.0) {
+                    continue;
+                }
+                let middle = tooth as f64 * run.recording.pitch;
+                let loads = run.recording.x.iter().zip(values);
+                let points: Vec<_> = loads.map(|(xi, load)| [(middle + xi) * metre, load * kilo(run)]).collect();
+                let columns: Vec<_> = points.iter().map(|[x, load]| [*x, *load, 0.0]).collect();
+                plot.add(between(&columns, run.of.colour.gamma_multiply(0.16)));
+                plot.line(line(&points, run.of.colour, 1.6, LineStyle::Solid));
             }
-            let middle = tooth as f64 * run.recording.pitch;
-            let points = run.recording.x.iter().zip(values);
-            let line: Vec<Pos2> =
-                points.map(|(xi, load)| axes.at((middle + xi) * metre, load / run.motor.contact_width)).collect();
-            band(painter, line.iter().map(|at| (at.x, at.y, zero)), run.of.colour.gamma_multiply(0.16));
-            painter.line(line, Stroke::new(1.6, run.of.colour));
         }
-    }
-    axes.cursor(painter, style, cursor);
+        if let Some(x) = cursor {
+            plot.vline(upright(x * written, style.palette.accent, 1.0));
+        }
+    })
 }
 
 /// Values of every motor at x.
@@ -396,36 +423,32 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let across = |top: f32, height: f32| Rect::from_min_max(pos2(area.left() + gutter, top), pos2(right, top + height));
 
     // Pressure along the plates.
-    let profile = across(area.top() + title, 0.52 * body);
+    let chart = across(area.top() + title, 0.52 * body);
     let along = Along::of(runs.iter().map(|run| run.plate.length));
     let x = common(runs.iter().map(|run| [-0.5, 0.5].map(|x| x * run.plate.length * along.metre(run.plate.length))));
     let cursor = cx.state.view.cursor_x.map(|x| along.on_axis(x));
     let range = common(runs.iter().map(|run| run.of.curves.scales.pressure));
     let ambient = common(runs.iter().map(|run| [run.plate.gas.ambient_pressure; 2]));
-    let [low, high] = common([range, ambient].into_iter());
+    let [low, high] = common([range, ambient].into_iter()).map(|pressure| pressure * 1e-3);
     let margin = 0.06 * (high - low);
-    let axes = Axes::new(profile, x, [low - margin, high + margin]);
-    axes.canvas(&painter, &style);
-    axes.y_ticks(&painter, &style, 1e3);
     let titles = ["Pressure along the plate at y = 0, kPa absolute", "Pressure, kPa absolute"];
-    style.title(&painter, profile, "Film pressure", &titles, &[]);
-    let inside = painter.with_clip_rect(painter.clip_rect().intersect(profile));
-    along.grid(&inside, &style, &axes);
-    for run in runs {
-        let metre = along.metre(run.plate.length);
-        let at = |x: f64| {
-            sample::middle_pressure(run.recording, 0, x, run.place).map(|pressure| axes.at(x * metre, pressure))
-        };
-        let nodes = &run.recording.map_x;
-        let mirrored = nodes.iter().rev().filter(|x| run.recording.half_length && **x > 0.0).map(|x| -x);
-        let line: Vec<Pos2> = mirrored.chain(nodes.iter().copied()).filter_map(at).collect();
-        inside.line(line, Stroke::new(1.8, run.of.colour));
-        let rest = axes.py(run.plate.gas.ambient_pressure);
-        inside.hline(profile.x_range(), rest, Stroke::new(1.0, style.palette.quiet));
-    }
-    axes.cursor(&inside, &style, cursor);
-    along.labels(&painter, &style, &axes, "x/length");
-    let mut top = profile.bottom() + axis;
+    style.title(&painter, chart, "Film pressure", &titles, &[]);
+    let written = along.written();
+    let bounds = [x.map(|x| x * written), [low - margin, high + margin]];
+    let name = "Plates along their length: point to read values";
+    let below = Some(if along.alike { "x, mm" } else { "x/length" });
+    let charted = Inset { name, rect: chart, gutter, bounds, below }.show(ui, &style, |plot| {
+        for run in runs {
+            plot.hline(level(1e-3 * run.plate.gas.ambient_pressure, style.palette.quiet, 1.0));
+            let to_axis = 1e-3 * along.metre(run.plate.length) * written;
+            let points: Vec<_> = profile(run.recording, run.place).iter().map(|[x, p]| [x * to_axis, *p]).collect();
+            plot.line(line(&points, run.of.colour, 1.8, LineStyle::Solid));
+        }
+        if let Some(x) = cursor {
+            plot.vline(upright(x * written, style.palette.accent, 1.0));
+        }
+    });
+    let mut top = chart.bottom() + axis;
 
     // Maps, of plates that have a width.
     for (slot, run) in with_map.iter().enumerate() {
@@ -461,13 +484,13 @@ fn draw_plates(ui: &mut Ui, runs: &[PlateNow<'_>], height: f32, cx: &DrawContext
     let period = common_period(runs.iter().map(|run| run.recording.period));
     let kept: Vec<_> = runs.iter().map(|run| (run.of.colour, &run.of.curves.film)).collect();
     let title = "Mean pressure, kPa gauge";
-    over_cycle(ui, &painter, &style, left, title, &kept, (1e3, period, cx.state.view.phase), cx);
-    draw_loops(&painter, &style, right, runs, cx.state.view.phase);
+    over_cycle(ui, &style, (left, gutter), title, &kept, (1e3, period), cx);
+    draw_loops(ui, &style, (right, gutter), runs, cx.state.view.phase);
 
-    let response = named(ui, profile, "Plates along their length: point to read values");
-    let response = response.on_hover_cursor(CursorIcon::Crosshair);
     let on_a_term = style.explain(ui);
-    if !on_a_term && let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+    let (response, x) = along.pointed(charted);
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    if let Some(x) = x.filter(|_| !on_a_term) {
         cx.point_at(along.to_metres(x));
         response.on_hover_ui_at_pointer(|ui| plate_values(ui, runs, x, &along));
     }
@@ -493,25 +516,15 @@ fn plate_values(ui: &mut Ui, runs: &[PlateNow<'_>], x: f64, along: &Along) {
 }
 
 /// Mean gauge pressure against the gap over its mean.
-fn draw_loops(painter: &Painter, style: &PlotStyle, rect: Rect, runs: &[PlateNow<'_>], phase: f64) {
-    let [low, high] = common(runs.iter().map(|run| run.of.curves.film.range()).chain([[0.0, 0.0]]));
-    let [near, far] = common(runs.iter().map(|run| run.of.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
-    let (margin, side) = (0.08 * (high - low), 0.08 * (far - near));
-    let axes = Axes::new(rect, [near - side, far + side], [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, 1e3);
-    axes.x_labels(painter, style, 1.0, "gap/mean");
-    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
-    style.title(painter, rect, "Loop", &titles, &[]);
-    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    axes.x_grid(painter, style, 1.0);
-    painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, style.palette.quiet));
-    for run in runs {
-        let Some((curves, _)) = run.of.curves.scales.tooth(0) else { continue };
-        let at = |phase: f64| axes.at(curves.thickness.at(phase) / run.plate.mean_gap, run.of.curves.film.at(phase));
-        let samples = 180;
-        let line: Vec<Pos2> = (0..=samples).map(|i| at(f64::from(i) / f64::from(samples))).collect();
-        painter.line(line, Stroke::new(1.6, run.of.colour));
-        painter.circle(at(phase), 3.5, run.of.colour, Stroke::new(1.0, style.palette.canvas));
-    }
+fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: (Rect, f32), runs: &[PlateNow<'_>], phase: f64) {
+    let loads = common(runs.iter().map(|run| run.of.curves.film.range()).chain([[0.0, 0.0]]));
+    let gaps = common(runs.iter().map(|run| run.of.curves.scales.thickness.map(|gap| gap / run.plate.mean_gap)));
+    let kept = runs.iter().filter_map(|run| {
+        let (curves, _) = run.of.curves.scales.tooth(0)?;
+        let at =
+            move |phase: f64| [curves.thickness.at(phase) / run.plate.mean_gap, 1e-3 * run.of.curves.film.at(phase)];
+        Some((run.of.colour, Box::new(at) as _))
+    });
+    let kept: Vec<Loop<'_>> = kept.collect();
+    show_loops(ui, style, place, ("gap/mean", [gaps, loads.map(|load| load * 1e-3)]), &kept, phase);
 }

@@ -2,18 +2,23 @@
 
 use super::field::{self, Stamp};
 use super::map::y_labels;
-use super::pointer::{Readout, named, seek};
+use super::pointer::{Readout, named};
 use super::scales::scales_of;
 use super::series::{Series, Trace};
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, Ranges, Scales};
+use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, area, scale_bar, title_with_bar};
 use crate::job::SolvedScene;
 use crate::problem::{Plate, Scenario};
 use crate::recording::Recording;
-use eframe::egui::{self, CursorIcon, Painter, Pos2, Rect, Stroke, pos2};
+use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Stroke, pos2};
+use egui_plot::{LineStyle, PlotResponse};
+
+/// Samples of a pressure-gap loop.
+const LOOP_SAMPLES: u32 = 180;
 
 /// A plate at one instant: what its views draw.
 struct PlateFrame<'a> {
@@ -68,7 +73,7 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     };
     let (wall, profile) = (next(parts[0]), next(parts[1]));
     let axes = draw_gap(&painter, &style, wall, &shown);
-    draw_profile(&painter, &style, profile, &shown);
+    let charted = draw_profile(ui, &style, (profile, gutter), &shown);
     let mut last = profile;
     if with_map {
         last = next(parts[2]);
@@ -89,15 +94,19 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let plots = [(area.left(), middle - 0.4 * style.row), (middle + 0.4 * style.row, right)].map(|(left, right)| {
         Rect::from_min_max(pos2(left + gutter, last.bottom() + axis + title + 2.0), pos2(right, bottom))
     });
-    let over_cycle = draw_load(&painter, &style, plots[0], &shown);
-    seek(ui, &over_cycle, "Load over the cycle", cx);
-    draw_loop(&painter, &style, plots[1], &shown);
+    draw_load(ui, &style, (plots[0], gutter), &shown, cx);
+    draw_loop(ui, &style, (plots[1], gutter), &shown);
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
     readout.draw(&painter, &style, place);
 
-    let name = "Plate along its length: point to read values";
-    let response = named(ui, wall.union(last), name).on_hover_cursor(CursorIcon::Crosshair);
-    if let Some(x) = response.hover_pos().and_then(|at| axes.x_at(at.x)) {
+    let wall_response = named(ui, wall, "Plate along its length: point to read values");
+    let map_response = with_map.then(|| named(ui, last, "Pressure map of the plate: point to read values"));
+    let painted = [Some(wall_response), map_response].into_iter().flatten();
+    let painted =
+        painted.filter_map(|response| axes.x_at(response.on_hover_cursor(CursorIcon::Crosshair).hover_pos()?.x));
+    let profile_response = charted.response.on_hover_cursor(CursorIcon::Crosshair);
+    let charted = profile_response.hover_pos().map(|at| 1e-3 * charted.transform.value_from_position(at).x);
+    if let Some(x) = painted.chain(charted).last() {
         cx.point_at(x);
     }
     for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
@@ -140,32 +149,36 @@ fn draw_gap(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame
     axes
 }
 
-/// Pressure along x at y = 0.
-fn draw_profile(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) {
-    let recording = shown.recording;
+/// Pressure along x at y = 0, over x \[mm\].
+fn draw_profile(
+    ui: &mut egui::Ui,
+    style: &PlotStyle,
+    (rect, gutter): (Rect, f32),
+    shown: &PlateFrame<'_>,
+) -> PlotResponse<()> {
     let ambient = shown.plate.gas.ambient_pressure;
     let [low, high] = shown.scales.pressure;
     let (low, high) = (low.min(ambient), high.max(ambient));
     let margin = 0.06 * (high - low);
-    let axes = Axes::new(rect, shown.x_range(), [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, 1e3);
+    let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin].map(|pressure| pressure * 1e-3)];
     let title = if shown.plate.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
-    style.title(
-        painter,
-        rect,
-        "Film pressure",
-        &[title],
-        &[("film", style.palette.film), ("ambient", style.palette.quiet)],
-    );
-    let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    axes.x_grid(painter, style, 1e-3);
-    painter.hline(rect.x_range(), axes.py(ambient), Stroke::new(1.0, style.palette.quiet));
-    let at = |x: f64| sample::middle_pressure(recording, 0, x, shown.place).map(|pressure| axes.at(x, pressure));
+    let (film, quiet) = (style.palette.film, style.palette.quiet);
+    style.title(ui.painter(), rect, "Film pressure", &[title], &[("film", film), ("ambient", quiet)]);
+    let name = "Pressure along the plate: point to read values";
+    Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
+        plot.hline(level(ambient * 1e-3, quiet, 1.0));
+        plot.line(line(&profile(shown.recording, shown.place), film, 1.8, LineStyle::Solid));
+        if let Some(x) = shown.cursor {
+            plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
+        }
+    })
+}
+
+/// Absolute pressure at y = 0 from end to end: (x \[mm\], pressure \[kPa\]).
+pub(super) fn profile(recording: &Recording, place: f64) -> Vec<[f64; 2]> {
+    let at = |x: f64| Some([x * 1e3, sample::middle_pressure(recording, 0, x, place)? * 1e-3]);
     let mirrored = recording.map_x.iter().rev().filter(|x| recording.half_length && **x > 0.0).map(|x| -x);
-    let line: Vec<Pos2> = mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect();
-    painter.line(line, Stroke::new(1.8, style.palette.film));
-    axes.cursor(painter, style, shown.cursor);
+    mirrored.chain(recording.map_x.iter().copied()).filter_map(at).collect()
 }
 
 /// Unit of a load: its name and its size.
@@ -178,12 +191,13 @@ pub(super) fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
     }
 }
 
-fn draw_load(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) -> Axes {
+fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let [low, high] = shown.scales.tooth_load;
     let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
     let series = Series {
+        name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],
         word: "Film load",
         legend: &[],
@@ -193,30 +207,43 @@ fn draw_load(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFram
         period: shown.recording.period,
         phase: shown.phase,
     };
-    series.draw(painter, style, rect)
+    series.show(ui, style, place, cx);
 }
 
 /// Mean gauge pressure against the gap, once round the cycle.
-fn draw_loop(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame<'_>) {
+fn draw_loop(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>) {
     let area = shown.plate.area();
-    let [low, high] = shown.scales.tooth_load.map(|load| load / area);
-    let margin = 0.08 * (high - low);
-    let [near, far] = shown.scales.thickness;
-    let side = 0.08 * (far - near);
-    let axes = Axes::new(rect, [near - side, far + side], [low - margin, high + margin]);
-    axes.canvas(painter, style);
-    axes.y_ticks(painter, style, 1e3);
-    axes.x_labels(painter, style, 1e-6, "gap, µm");
-    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
-    style.title(painter, rect, "Loop", &titles, &[]);
-    axes.x_grid(painter, style, 1e-6);
-    painter.hline(rect.x_range(), axes.py(0.0), Stroke::new(1.0, style.palette.quiet));
     let Some((curves, _)) = shown.scales.tooth(0) else { return };
-    let at = |phase: f64| axes.at(curves.thickness.at(phase), curves.film.at(phase) / area);
-    let samples = 180;
-    let line: Vec<Pos2> = (0..=samples).map(|i| at(f64::from(i) / f64::from(samples))).collect();
-    painter.line(line, Stroke::new(1.6, style.palette.film));
-    painter.circle(at(shown.phase), 3.5, style.palette.film, Stroke::new(1.0, style.palette.canvas));
+    let at = |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
+    let ranges = [shown.scales.thickness.map(|gap| gap * 1e6), shown.scales.tooth_load.map(|load| load / area * 1e-3)];
+    show_loops(ui, style, place, ("gap, µm", ranges), &[(style.palette.film, Box::new(at))], shown.phase);
+}
+
+/// A curve over the phase, and its colour.
+pub(super) type Loop<'a> = (Color32, Box<dyn Fn(f64) -> [f64; 2] + 'a>);
+
+/// Curves of mean gauge pressure \[kPa\] against the gap over the phase, and where they are at `phase`.
+/// `along`: name of the axis of the gap, and the ranges of both.
+pub(super) fn show_loops(
+    ui: &mut egui::Ui,
+    style: &PlotStyle,
+    (rect, gutter): (Rect, f32),
+    (along, ranges): (&str, [[f64; 2]; 2]),
+    loops: &[Loop<'_>],
+    phase: f64,
+) {
+    let bounds = ranges.map(|[low, high]| [low - 0.08 * (high - low), high + 0.08 * (high - low)]);
+    let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
+    style.title(ui.painter(), rect, "Loop", &titles, &[]);
+    let name = "Mean pressure against the gap";
+    Inset { name, rect, gutter, bounds, below: Some(along) }.show(ui, style, |plot| {
+        plot.hline(level(0.0, style.palette.quiet, 1.0));
+        for (colour, at) in loops {
+            let points: Vec<_> = (0..=LOOP_SAMPLES).map(|i| at(f64::from(i) / f64::from(LOOP_SAMPLES))).collect();
+            plot.line(line(&points, *colour, 1.6, LineStyle::Solid));
+            plot.points(dots(vec![at(phase)], *colour, 3.5));
+        }
+    });
 }
 
 const LONGEST: [&str; 4] = ["x −00.00 mm", "gap 0.0000 µm", "p at y = 0 0000 kPa absolute", "load −0000 mN/m"];

@@ -1,8 +1,6 @@
 //! Regions that are pointed at and clicked, and the row of values below a view.
 
-use crate::gui::command::Command;
-use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle};
+use crate::gui::ui::paint::PlotStyle;
 use eframe::egui::{self, Align2, Painter, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 
 /// A named region that is clicked.
@@ -10,16 +8,6 @@ pub(super) fn named(ui: &Ui, rect: Rect, name: &str) -> Response {
     let response = ui.interact(rect, ui.scope_id().with(name), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, name));
     response
-}
-
-/// Clicking a plot over the cycle jumps to that phase.
-pub(super) fn seek(ui: &Ui, axes: &Axes, name: &str, cx: &DrawContext<'_>) {
-    let response = named(ui, axes.rect, &format!("{name}: click to jump there"));
-    if response.clicked()
-        && let Some(phase) = response.interact_pointer_pos().and_then(|at| axes.x_at(at.x))
-    {
-        cx.push(Command::Seek(phase.clamp(0.0, 1.0 - 1e-9)));
-    }
 }
 
 /// Values under the cursor.

@@ -1,11 +1,14 @@
-//! Small plots over the cycle, with a marker at the present phase.
+//! Small charts over the cycle, with a line at the present phase, which is dragged.
 
-use crate::gui::derived::format::number;
+use crate::gui::command::Command;
 use crate::gui::derived::scales::Curve;
-use crate::gui::ui::paint::{Axes, PlotStyle};
-use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, pos2};
+use crate::gui::ui::chart::{Inset, dots, dragged, line, upright};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::paint::PlotStyle;
+use eframe::egui::{Color32, Rect, Ui};
+use egui_plot::LineStyle;
 
-/// One curve of a small plot.
+/// One curve of a small chart.
 pub(super) struct Trace<'a> {
     pub(super) curve: &'a Curve,
     /// By how much of a cycle the curve is ahead.
@@ -15,8 +18,10 @@ pub(super) struct Trace<'a> {
     pub(super) colour: Color32,
 }
 
-/// A small plot over the cycle.
+/// A small chart over the cycle.
 pub(super) struct Series<'a> {
+    /// What tells it from other charts.
+    pub(super) name: &'a str,
     /// With the unit, long to short.
     pub(super) titles: &'a [&'a str],
     /// What the glossary explains it under.
@@ -30,41 +35,41 @@ pub(super) struct Series<'a> {
     pub(super) unit: f64,
     /// Period \[s\]; not a number for curves of several periods.
     pub(super) period: f64,
-    /// Phase at which the markers stand.
+    /// Phase at which the line stands.
     pub(super) phase: f64,
 }
 
 impl Series<'_> {
-    /// Draws the plot into `rect`, its title above and the time below.
-    pub(super) fn draw(&self, painter: &Painter, style: &PlotStyle, rect: Rect) -> Axes {
+    /// Draws the chart into `rect`, its title above, the time below and numbers in the gutter left of it. A click, or the line
+    /// when it is dragged, chooses the phase.
+    pub(super) fn show(&self, ui: &mut Ui, style: &PlotStyle, (rect, gutter): (Rect, f32), cx: &DrawContext<'_>) {
         // Of nothing at all the unit is the scale.
-        let [low, high] = if self.range == [0.0; 2] { [-0.5, 0.5].map(|end| end * self.unit) } else { self.range };
+        let [low, high] = if self.range == [0.0; 2] { [-0.5, 0.5] } else { self.range.map(|end| end / self.unit) };
         let margin = 0.08 * (high - low);
-        let axes = Axes::new(rect, [0.0, 1.0], [low - margin, high + margin]);
-        axes.canvas(painter, style);
-        axes.y_ticks(painter, style, self.unit);
-        style.title(painter, rect, self.word, self.titles, self.legend);
-        let quiet = style.palette.quiet;
-        let top = rect.bottom() + 1.0;
-        let (scale, unit) = if self.period < 1e-3 { (1e6, "µs") } else { (1e3, "ms") };
-        let (start, period) = if self.period.is_finite() {
-            (format!("0 {unit}"), format!("{} {unit}", number(self.period * scale)))
-        } else {
-            ("0".to_owned(), "one cycle".to_owned())
+        let (scale, below) = match self.period {
+            period if period < 1e-3 => (1e6 * period, "t, µs"),
+            period if period.is_finite() => (1e3 * period, "t, ms"),
+            _ => (1.0, "t/T"),
         };
-        let last = style.write(painter, pos2(rect.right(), top), Align2::RIGHT_TOP, &period, quiet);
-        if style.width(painter, &start) + style.row < last.left() - rect.left() {
-            style.write(painter, pos2(rect.left(), top), Align2::LEFT_TOP, &start, quiet);
-        }
-        let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-        inside.vline(axes.px(self.phase), rect.y_range(), Stroke::new(1.0, style.palette.accent));
+        style.title(ui.painter(), rect, self.word, self.titles, self.legend);
+        let name = format!("{}: click to jump there", self.name);
+        let bounds = [[0.0, scale], [low - margin, high + margin]];
+        let inset = Inset { name: &name, rect, gutter, bounds, below: Some(below) };
         let samples = (0.5 * rect.width()).clamp(24.0, 240.0) as usize;
-        for trace in self.traces {
-            let point = |phase: f64| axes.at(phase, trace.offset + trace.curve.at(phase + trace.lag));
-            let line: Vec<Pos2> = (0..=samples).map(|i| point(i as f64 / samples as f64)).collect();
-            inside.line(line, Stroke::new(1.6, trace.colour));
-            painter.circle(point(self.phase), 3.5, trace.colour, Stroke::new(1.0, style.palette.canvas));
+        let shown = inset.show(ui, style, |plot| {
+            plot.vline(upright(self.phase * scale, style.palette.accent, 1.0));
+            for trace in self.traces {
+                let point =
+                    |phase: f64| [phase * scale, (trace.offset + trace.curve.at(phase + trace.lag)) / self.unit];
+                let points: Vec<_> = (0..=samples).map(|i| point(i as f64 / samples as f64)).collect();
+                plot.line(line(&points, trace.colour, 1.6, LineStyle::Solid));
+                plot.points(dots(vec![point(self.phase)], trace.colour, 3.5));
+            }
+        });
+        let clicked = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked());
+        let clicked = clicked.map(|at| shown.transform.value_from_position(at).x);
+        if let Some(x) = dragged(ui, &shown.transform, self.phase * scale, &name).or(clicked) {
+            cx.push(Command::Seek((x / scale).clamp(0.0, 1.0 - 1e-9)));
         }
-        axes
     }
 }

@@ -14,13 +14,16 @@ use crate::gui::derived::format::{digits, trimmed};
 use crate::gui::derived::scales::span;
 use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::derived::words::label;
+use crate::gui::ui::cache::once;
+use crate::gui::ui::chart::{self, Inset, between, dots, tick, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, title_with_ends};
-use crate::scene::Scale;
+use crate::gui::ui::paint::{Axes, PlotStyle, field_colours, title_with_ends};
+use crate::scene::{ParameterKind, Scale};
 use eframe::egui::epaint::Mesh;
 use eframe::egui::{
-    Align2, Color32, CursorIcon, Painter, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2,
+    Align2, Color32, CursorIcon, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2,
 };
+use egui_plot::{GridMark, LineStyle, MarkerShape, Plot, PlotPoint};
 use std::sync::Arc;
 
 /// Each point has its dot if they are at least this far apart.
@@ -28,6 +31,11 @@ const DOT_SPACING: f32 = 7.0;
 /// Radius of a dot, and of the ring round the one that is pointed at.
 const DOT: f32 = 3.0;
 const RING: f32 = 7.0;
+/// Radius of what stands for a point without a value, and of one of Table I.
+const CROSS: f32 = 5.0;
+const SQUARE: f32 = 5.5;
+/// What the drawing is called.
+const NAME: &str = "Sweep: point to read a value, click to make its scene the present one";
 /// How near the pointer has to be.
 const NEAR: f32 = 40.0;
 /// Lines of equal value, about.
@@ -42,6 +50,8 @@ const FROM_ZERO: f64 = 0.6;
 /// What is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Plotted<'a> {
+    /// The sweep's number in this window.
+    pub number: u64,
     /// The sweep.
     pub sweep: &'a Sweep,
     /// Its rows so far.
@@ -103,12 +113,14 @@ pub fn show(ui: &mut Ui, plotted: &Plotted<'_>, cx: &DrawContext<'_>) {
         return;
     }
     let style = PlotStyle::new(ui);
-    let pointed = match plotted.sweep.axes() {
+    let (response, pointed) = match plotted.sweep.axes() {
         [x] => line(ui, &style, area, plotted, x),
-        [x, y] => map(ui, &style, area, plotted, x, y),
-        _ => None,
+        [x, y] => {
+            let pointed = map(ui, &style, area, plotted, x, y);
+            (named(ui, area, NAME), pointed)
+        }
+        _ => return,
     };
-    let response = named(ui, area, "Sweep: point to read a value, click to make its scene the present one");
     let on_a_term = style.explain(ui);
     // What is drawn follows the pointer of the frame before, which is this one while it rests.
     let Some(row) = pointed.filter(|_| !on_a_term) else { return };
@@ -130,20 +142,26 @@ fn ends(axis: &Axis) -> [f64; 2] {
     span(axis.values.iter().map(|value| place(axis, *value)))
 }
 
-/// Values with their places, about as many as there is room for.
-fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<(f64, String)> {
-    if axis.scale == Scale::Log {
-        let found = decades(range, most as f64, true);
-        let found: Vec<(f64, String)> = found.into_iter().map(|at| (at, short(10f64.powf(at)))).collect();
-        if (2..=most.max(2)).contains(&found.len()) {
-            return found;
-        }
+/// Round numbers with their places, about as many as there is room for.
+fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<GridMark> {
+    if axis.scale != Scale::Log {
+        return chart::marks(Ticks::new(range, most));
+    }
+    let mut found = decades(range, most as f64, true);
+    if !(2..=most.max(2)).contains(&found.len()) {
         // Less than a few: equal steps, where the logarithm has them.
         let ticks = Ticks::new(range.map(|end| 10f64.powf(end)), most);
-        return ticks.values().filter(|value| *value > 0.0).map(|value| (value.log10(), ticks.format(value))).collect();
+        found = ticks.values().filter(|value| *value > 0.0).map(f64::log10).collect();
     }
-    let ticks = Ticks::new(range, most);
-    ticks.values().map(|value| (value, ticks.format(value))).collect()
+    // A step is what is free beside a mark.
+    let gap = |pair: &[f64]| (pair[1] - pair[0]).abs();
+    let free = |i: usize| found[i.saturating_sub(1)..(i + 2).min(found.len())].windows(2).map(gap).fold(1.0, f64::min);
+    found.iter().enumerate().map(|(i, value)| GridMark { value: *value, step_size: free(i) }).collect()
+}
+
+/// What is written at a mark.
+fn written(axis: &Axis, mark: GridMark) -> String {
+    if axis.scale == Scale::Log { short(10f64.powf(mark.value)) } else { tick(mark) }
 }
 
 /// At most six digits, none for nothing.
@@ -157,24 +175,29 @@ fn name(axis: &Axis) -> String {
     if unit.is_empty() { label(axis.parameter).to_owned() } else { format!("{}, {unit}", label(axis.parameter)) }
 }
 
-/// Grid lines, values and name of the axis along x.
-fn draw_x(painter: &Painter, style: &PlotStyle, axes: &Axes, axis: &Axis, grid: bool) {
-    let most = (axes.rect.width() / (4.2 * style.row)).clamp(2.0, 12.0) as usize;
+/// About how many values there is room for along x.
+fn columns(style: &PlotStyle, width: f32) -> usize {
+    (width / (4.2 * style.row)).clamp(2.0, 12.0) as usize
+}
+
+/// Values and name of the axis along x of a map.
+fn draw_x(painter: &Painter, style: &PlotStyle, axes: &Axes, axis: &Axis) {
     let mut free = f32::NEG_INFINITY;
-    for (at, text) in marks(axis, axes.x, most) {
-        let x = axes.px(at);
-        if grid {
-            painter.vline(x, axes.rect.y_range(), Stroke::new(1.0, style.grid));
-        }
+    for mark in marks(axis, axes.x, columns(style, axes.rect.width())) {
+        let (x, text) = (axes.px(mark.value), written(axis, mark));
         let half = 0.5 * style.width(painter, &text);
         if x - half > free {
             style.write(painter, pos2(x, axes.rect.bottom() + 2.0), Align2::CENTER_TOP, &text, style.palette.quiet);
             free = x + half + 6.0;
         }
     }
-    let below = pos2(axes.rect.center().x, axes.rect.bottom() + 3.0 + style.row);
-    let named = style.write(painter, below, Align2::CENTER_TOP, &name(axis), style.text);
-    about(style, named, axis);
+    name_x(painter, style, axes.rect, axis);
+}
+
+/// The name of the axis along x, below its values.
+fn name_x(painter: &Painter, style: &PlotStyle, rect: Rect, axis: &Axis) {
+    let below = pos2(rect.center().x, rect.bottom() + 3.0 + style.row);
+    about(style, style.write(painter, below, Align2::CENTER_TOP, &name(axis), style.text), axis);
 }
 
 /// What the marks in a map are, at the right end of the line above it, right of `free`.
@@ -216,30 +239,30 @@ fn cross(painter: &Painter, at: Pos2, reach: f32, stroke: Stroke) {
     }
 }
 
-fn square(painter: &Painter, at: Pos2, colour: Color32) {
-    let rect = Rect::from_center_size(at, vec2(9.0, 9.0));
-    painter.rect_stroke(rect, 0.0, Stroke::new(1.8, colour), StrokeKind::Middle);
-}
-
-/// One parameter.
-fn line<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, axis: &Axis) -> Option<&'a Row> {
-    let painter = ui.painter_at(area);
+/// One parameter: the response of its chart, and the row that is pointed at.
+fn line<'a>(
+    ui: &mut Ui,
+    style: &PlotStyle,
+    area: Rect,
+    plotted: &Plotted<'a>,
+    axis: &Axis,
+) -> (Response, Option<&'a Row>) {
     let mut rows: Vec<(&Row, f64)> = plotted.rows.iter().map(|row| (row, place(axis, row.values[0]))).collect();
     rows.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let x = ends(axis);
     let table: Vec<[f64; 2]> = plotted
         .published
         .iter()
         .filter_map(|point| Some([place(axis, point.values[0]), plotted.published(point)?]))
+        .filter(|at| (x[0] - 1e-9..=x[1] + 1e-9).contains(&at[0]))
         .collect();
-    let x = ends(axis);
-    let inside = |at: &&[f64; 2]| (x[0] - 1e-9..=x[1] + 1e-9).contains(&at[0]);
     let bands = rows.iter().filter_map(|(row, _)| plotted.sound(row)).flat_map(|(value, error)| {
         // An error without bounds is not drawn.
         if error.is_finite() { [value - error, value + error] } else { [value; 2] }
     });
     let unsound = rows.iter().filter(|(row, _)| row.status == RunStatus::NotConverged);
     let unsound = unsound.filter_map(|(row, _)| row.numbers.get(plotted.quantity));
-    let [mut low, mut high] = span(bands.chain(unsound).chain(table.iter().filter(inside).map(|at| at[1])));
+    let [mut low, mut high] = span(bands.chain(unsound).chain(table.iter().map(|at| at[1])));
     if low > 0.0 && low < FROM_ZERO * high {
         low = 0.0;
     } else if high < 0.0 && high > FROM_ZERO * low {
@@ -247,88 +270,84 @@ fn line<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, axis:
     }
     let margin = 0.06 * (high - low);
     let y = [if low == 0.0 { 0.0 } else { low - margin }, if high == 0.0 { 0.0 } else { high + margin }];
-    let widest =
-        Ticks::new(y, 6).values().map(|v| style.width(&painter, &Ticks::new(y, 6).format(v))).fold(0.0, f32::max);
     let side = 0.02 * (x[1] - x[0]);
-    let rect = plot(area, style, widest.clamp(2.0 * style.row, 8.0 * style.row) + 8.0, 1.0);
-    let axes = Axes::new(rect, [x[0] - side, x[1] + side], y);
-    axes.canvas(&painter, style);
-    axes.y_ticks(&painter, style, 1.0);
-    draw_x(&painter, style, &axes, axis, true);
     let colour = style.palette.film;
+    let most = columns(style, area.width());
+    let gutter = 3.0 * style.row;
+    let rect = plot(area, style, gutter, 1.0);
+    let inset = Inset { name: NAME, rect, gutter, bounds: [[x[0] - side, x[1] + side], y], below: Some("") };
+    let present = plotted.present.map(|values| place(axis, values[0]));
+    let many = rect.width() / (axis.values.len() as f32) < DOT_SPACING && rows.len() > 2;
+    let marked = |chart| -> Plot<'_> {
+        let chart: Plot<'_> = chart;
+        chart
+            .x_grid_spacer(move |input| marks(axis, [input.bounds.0, input.bounds.1], most))
+            .x_axis_formatter(move |mark, _| written(axis, mark))
+    };
+    let shown = inset.show_with(ui, style, marked, |chart| {
+        if let Some(present) = present {
+            chart.vline(upright(present, style.palette.accent, 1.0).style(LineStyle::dashed_dense()));
+        }
+        // Neighbours on screen are joined if no point is missing between them that will still come.
+        let step = (x[1] - x[0]) / (axis.values.len().max(2) - 1) as f64;
+        let reach = if matches!(axis.parameter.kind, ParameterKind::Whole { .. }) { f64::INFINITY } else { 1.5 * step };
+        let joined = |a: &(&Row, f64), b: &(&Row, f64)| {
+            b.1 - a.1 <= reach && [a, b].iter().all(|(row, _)| plotted.sound(row).is_some())
+        };
+        for piece in rows.chunk_by(joined).filter(|piece| piece.len() > 1) {
+            let columns = piece.iter().filter_map(|(row, at)| {
+                let (value, error) = plotted.sound(row)?;
+                Some(([*at, value], if error.is_finite() { error } else { 0.0 }))
+            });
+            let (curve, errors): (Vec<[f64; 2]>, Vec<f64>) = columns.unzip();
+            let columns = curve.iter().zip(&errors).map(|([at, value], error)| [*at, value + error, value - error]);
+            chart.add(between(&columns.collect::<Vec<_>>(), colour.gamma_multiply(0.22)));
+            chart.line(chart::line(&curve, colour, 1.8, LineStyle::Solid));
+        }
+        let (sound, unsound): (Vec<_>, Vec<_>) = rows.iter().partition(|(row, _)| plotted.sound(row).is_some());
+        let points = |rows: &[(&Row, f64)]| -> Vec<[f64; 2]> {
+            rows.iter().map(|(row, at)| [*at, row.numbers.get(plotted.quantity).unwrap_or(y[0])]).collect()
+        };
+        if !many {
+            chart.points(dots(points(&sound), colour, DOT));
+        }
+        chart.points(dots(points(&unsound), style.palette.alarm, CROSS).shape(MarkerShape::Cross));
+        chart.points(dots(table.clone(), style.palette.contact, SQUARE).shape(MarkerShape::Square).filled(false));
+    });
+    let at = shown.transform;
+    let frame = *at.frame();
+    let painter = ui.painter_at(area);
+    name_x(&painter, style, frame, axis);
     let mut legend = vec![("computed", colour)];
     if plotted.quantity.error().is_some() {
         legend.push(("stated error", colour.gamma_multiply(0.4)));
     }
-    if table.iter().any(|at| inside(&at)) {
+    if !table.is_empty() {
         legend.push(("Table I", style.palette.contact));
     }
     let title = capitalised(&plotted.quantity.label(plotted.sweep.problem()));
-    style.title(&painter, rect, plotted.quantity.words(), &[&title], &legend);
-
-    let inner = painter.with_clip_rect(painter.clip_rect().intersect(rect.expand(RING)));
-    if let Some([present]) = plotted.present.map(|values| [place(axis, values[0])])
-        && (axes.x[0]..=axes.x[1]).contains(&present)
-    {
-        let at = axes.px(present);
-        let stroke = Stroke::new(1.0, style.palette.accent);
-        inner.extend(Shape::dashed_line(&[pos2(at, rect.top()), pos2(at, rect.bottom())], stroke, 5.0, 4.0));
-        let left = at > rect.center().x;
+    style.title(&painter, frame, plotted.quantity.words(), &[&title], &legend);
+    if let Some(x) = present.map(|x| at.position_from_point_x(x)).filter(|x| frame.x_range().contains(*x)) {
+        let left = x > frame.center().x;
         let (anchor, gap) = if left { (Align2::RIGHT_BOTTOM, -4.0) } else { (Align2::LEFT_BOTTOM, 4.0) };
-        let place = pos2(at + gap, rect.bottom() - 2.0);
-        style.term(style.write(&inner, place, anchor, "present", style.palette.accent), "present");
+        let place = pos2(x + gap, frame.bottom() - 2.0);
+        style.term(style.write(&painter, place, anchor, "present", style.palette.accent), "present");
     }
-    // Neighbours on screen are joined if no point is missing between them that will still come.
-    let step = (x[1] - x[0]) / (axis.values.len().max(2) - 1) as f64;
-    let mut piece: Vec<(Pos2, f32, f32)> = Vec::new();
-    let mut last = f64::NEG_INFINITY;
-    let end = |piece: &mut Vec<(Pos2, f32, f32)>| {
-        if piece.len() > 1 {
-            let fill = colour.gamma_multiply(0.22);
-            band(&inner, piece.iter().map(|(at, up, down)| (at.x, *up, *down)), fill);
-            inner.line(piece.iter().map(|(at, ..)| *at).collect(), Stroke::new(1.8, colour));
-        }
-        piece.clear();
-    };
-    for (row, at) in &rows {
-        let whole = matches!(axis.parameter.kind, crate::scene::ParameterKind::Whole { .. });
-        if at - last > if whole { f64::INFINITY } else { 1.5 * step } {
-            end(&mut piece);
-        }
-        match plotted.sound(row) {
-            Some((value, error)) => {
-                let error = if error.is_finite() { error } else { 0.0 };
-                piece.push((axes.at(*at, value), axes.py(value + error), axes.py(value - error)));
-                last = *at;
-            }
-            None => end(&mut piece),
-        }
-    }
-    end(&mut piece);
-    let dots = rect.width() / axis.values.len() as f32 >= DOT_SPACING;
-    for (row, at) in &rows {
-        match plotted.sound(row) {
-            Some((value, _)) if dots || rows.len() < 3 => drop(inner.circle_filled(axes.at(*at, value), DOT, colour)),
-            Some(_) => {}
-            None => cross(&inner, on_screen(plotted, &axes, row, *at), 4.0, Stroke::new(1.8, style.palette.alarm)),
-        }
-    }
-    for at in table.iter().filter(inside) {
-        square(&inner, axes.at(at[0], at[1]), style.palette.contact);
-    }
-    let pointer = pointer(ui, rect.expand(NEAR))?;
-    let far = |row: &Row, at: f64| on_screen(plotted, &axes, row, at) - pointer;
-    let (row, at) = rows.iter().min_by(|a, b| far(a.0, a.1).x.abs().total_cmp(&far(b.0, b.1).x.abs()))?;
-    (far(row, *at).x.abs() < NEAR).then(|| {
-        inner.circle_stroke(on_screen(plotted, &axes, row, *at), RING, Stroke::new(2.0, style.palette.accent));
-        *row
-    })
-}
-
-/// Where a point is on screen; one without a value at the bottom.
-fn on_screen(plotted: &Plotted<'_>, axes: &Axes, row: &Row, at: f64) -> Pos2 {
-    let value = row.numbers.get(plotted.quantity);
-    value.map_or_else(|| pos2(axes.px(at), axes.rect.bottom() - 6.0), |value| axes.at(at, value))
+    let pointed = shown.response.hover_pos().and_then(|pointer| {
+        let on_screen = |(row, at_x): &(&Row, f64)| {
+            let value = row.numbers.get(plotted.quantity).unwrap_or(y[0]);
+            at.position_from_point(&PlotPoint::new(*at_x, value))
+        };
+        let far = |row: &(&Row, f64)| (on_screen(row).x - pointer.x).abs();
+        let row = rows.iter().min_by(|a, b| far(a).total_cmp(&far(b))).filter(|row| far(row) < NEAR)?;
+        painter.with_clip_rect(frame.expand(RING)).circle_stroke(
+            on_screen(row),
+            RING,
+            Stroke::new(2.0, style.palette.accent),
+        );
+        Some(row.0)
+    });
+    (shown.response, pointed)
 }
 
 /// Ascending places, and the edges of the cells round them.
@@ -361,7 +380,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let limits = [[x_edges[0], x_edges[x_edges.len() - 1]], [y_edges[0], y_edges[y_edges.len() - 1]]];
     let most = (area.height() / (2.6 * style.row)).clamp(2.0, 10.0) as usize;
     let y_marks = marks(y, limits[1], most);
-    let widest = y_marks.iter().map(|(_, text)| style.width(&painter, text)).fold(0.0, f32::max);
+    let widest = y_marks.iter().map(|mark| style.width(&painter, &written(y, *mark))).fold(0.0, f32::max);
     let rect = plot(area, style, widest.max(2.0 * style.row) + 8.0, 2.0);
     let axes = Axes::new(rect, limits[0], limits[1]);
     axes.canvas(&painter, style);
@@ -379,9 +398,10 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let named = style.write(&painter, corner, Align2::LEFT_BOTTOM, &format!("↑ {}", name(y)), style.text);
     about(style, named, y);
     marked(&painter, style, rect, named.right(), plotted);
-    draw_x(&painter, style, &axes, x, false);
-    for (at, text) in y_marks {
-        style.write(&painter, pos2(rect.left() - 4.0, axes.py(at)), Align2::RIGHT_CENTER, &text, style.palette.quiet);
+    draw_x(&painter, style, &axes, x);
+    for mark in y_marks {
+        let (at, text) = (pos2(rect.left() - 4.0, axes.py(mark.value)), written(y, mark));
+        style.write(&painter, at, Align2::RIGHT_CENTER, &text, style.palette.quiet);
     }
 
     let inner = painter.with_clip_rect(painter.clip_rect().intersect(rect));
@@ -405,19 +425,20 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
         }
     }
     inner.add(Shape::Mesh(Arc::new(mesh)));
-    contours(&inner, style, &axes, [&xs, &ys], &values, (range, log));
+    let lines = once(ui, "contours", (plotted.number, plotted.rows.len(), plotted.quantity), || {
+        let levels = levels(Ticks::new(range, LEVELS), range, log);
+        levels.map(|level| (level, contour(&xs, &ys, &values, level))).collect::<Vec<Contour>>()
+    });
+    contours(&inner, style, &axes, &lines, (range, log));
     for row in plotted.rows.iter().filter(|row| plotted.sound(row).is_none()) {
         cross(&inner, area_of(cell(row)).center(), 4.0, Stroke::new(1.8, style.palette.alarm));
     }
     for point in plotted.published {
         let at = axes.at(place(x, point.values[0]), place(y, point.values[1]));
-        square(&inner, at, Color32::BLACK);
-        inner.rect_stroke(
-            Rect::from_center_size(at, vec2(12.0, 12.0)),
-            0.0,
-            Stroke::new(1.0, Color32::WHITE),
-            StrokeKind::Middle,
-        );
+        for (size, width, colour) in [(9.0, 1.8, Color32::BLACK), (12.0, 1.0, Color32::WHITE)] {
+            let square = Rect::from_center_size(at, vec2(size, size));
+            inner.rect_stroke(square, 0.0, Stroke::new(width, colour), StrokeKind::Middle);
+        }
     }
     if let Some([px, py]) = plotted.present.and_then(|values| <[f64; 2]>::try_from(values).ok()) {
         let at = axes.at(place(x, px), place(y, py));
@@ -437,23 +458,20 @@ fn levels(ticks: Ticks, range: [f64; 2], log: bool) -> impl Iterator<Item = f64>
     ticks.values().filter(move |level| is_contour(fraction(*level))).filter(whole)
 }
 
-/// Lines of equal value where all neighbours are known, each with its value once.
-fn contours(
-    painter: &Painter,
-    style: &PlotStyle,
-    axes: &Axes,
-    [xs, ys]: [&[f64]; 2],
-    values: &[f64],
-    (range, log): ([f64; 2], bool),
-) {
+/// A value, and the lines on which it is found.
+type Contour = (f64, Vec<Vec<[f64; 2]>>);
+
+/// Lines of equal value, each with its value once.
+fn contours(painter: &Painter, style: &PlotStyle, axes: &Axes, lines: &[Contour], (range, log): ([f64; 2], bool)) {
     let ticks = Ticks::new(range, LEVELS);
     let mut written: Vec<Rect> = Vec::new();
-    for level in levels(ticks, range, log) {
+    for (level, pieces) in lines {
+        let level = *level;
         let part = (level - range[0]) / (range[1] - range[0]);
         let colour = if part > 0.55 { Color32::from_black_alpha(190) } else { Color32::from_white_alpha(190) };
         let text = if log { short(10f64.powf(level.round())) } else { ticks.format(level) };
         let size = vec2(style.width(painter, &text) + 4.0, style.row);
-        for piece in contour(xs, ys, values, level) {
+        for piece in pieces {
             let points: Vec<Pos2> = piece.iter().map(|[x, y]| axes.at(*x, *y)).collect();
             let middle = points[points.len() / 2];
             let length: f32 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
@@ -486,7 +504,7 @@ mod tests {
     fn ticks_of_equal_ratios_are_round_whatever_the_range() {
         let texts = |vary: &str| {
             let axis = axis(vary);
-            marks(&axis, ends(&axis), 8).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
+            marks(&axis, ends(&axis), 8).into_iter().map(|mark| written(&axis, mark)).collect::<Vec<_>>()
         };
         assert_eq!(texts("film.min_spacing_nm=50:800:9:log"), ["50", "100", "200", "500"]);
         assert_eq!(texts("stator.frequency_khz=0.01:1000:9:log"), ["0.01", "0.1", "1", "10", "100", "1000"]);

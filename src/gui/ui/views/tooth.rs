@@ -5,26 +5,20 @@ use super::map::y_labels;
 use super::motor_frame::MotorFrame;
 use super::series::{Series, Trace};
 use crate::gui::derived::sample;
+use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle};
-use eframe::egui::{Painter, Rect, Ui, pos2};
+use eframe::egui::{Rect, Ui, pos2};
 
-/// What the row of the followed tooth needs below its plots, and between them.
-pub(super) struct Drawn {
-    /// The two plots over the cycle: x is the phase.
-    pub(super) plots: Vec<Axes>,
-}
-
-/// Draws into `row`: titles, plots and the axes below all inside.
+/// Draws into `row`: titles, charts and the axes below all inside. Returns where the two charts over the cycle are.
 pub(super) fn draw(
-    ui: &Ui,
-    painter: &Painter,
+    ui: &mut Ui,
     style: &PlotStyle,
-    row: Rect,
-    gutter: f32,
+    (row, gutter): (Rect, f32),
     shown: &MotorFrame<'_>,
-) -> Drawn {
+    cx: &DrawContext<'_>,
+) -> [Rect; 2] {
     let recording = shown.recording;
-    let mut drawn = Drawn { plots: Vec::new() };
+    let painter = &ui.painter_at(row.expand(2.0 * style.row));
     let gap = 0.6 * style.row;
     let cell = (row.width() - 2.0 * gap) / 3.0;
     let places: [Rect; 3] = std::array::from_fn(|i| {
@@ -48,12 +42,14 @@ pub(super) fn draw(
     let middle = shown.tooth as f64 * recording.pitch;
     axes.cursor(painter, style, shown.cursor.map(|x| x - middle));
 
-    let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return drawn };
+    let [_, gap_chart, loads_chart] = places;
+    let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
     let minimum = shown.motor.min_spacing;
     let text = style.text;
     let spacing = [Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text }];
     let [low, high] = curves.thickness.range();
     let series = Series {
+        name: "Least gap over the cycle",
         titles: &[&format!("Least gap of tooth {}, µm", shown.tooth), "Least gap, µm", "Gap, µm"],
         word: "Least gap",
         legend: &[],
@@ -63,13 +59,14 @@ pub(super) fn draw(
         period: recording.period,
         phase: shown.phase(),
     };
-    drawn.plots.push(series.draw(painter, style, places[1]));
+    series.show(ui, style, (gap_chart, gutter), cx);
     let loads = [
         Trace { curve: &curves.contact, lag, offset: 0.0, colour: style.palette.contact },
         Trace { curve: &curves.film, lag, offset: 0.0, colour: style.palette.film },
     ];
     let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
     let series = Series {
+        name: "Loads over the cycle",
         titles: &[
             &format!("Loads of tooth {}, {}", shown.tooth, unit.0),
             &format!("Tooth {}, {}", shown.tooth, unit.0),
@@ -81,6 +78,6 @@ pub(super) fn draw(
         unit: unit.1,
         ..series
     };
-    drawn.plots.push(series.draw(painter, style, places[2]));
-    drawn
+    series.show(ui, style, (loads_chart, gutter), cx);
+    [gap_chart, loads_chart]
 }

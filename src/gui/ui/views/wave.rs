@@ -9,6 +9,8 @@ use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2};
 /// Part of the height below the lowest stator top, and of the teeth in it.
 const BELOW: f32 = 0.36;
 const TOOTH: f32 = 0.15;
+/// Points of the rotor over a groove; an odd number, so that one is half-way.
+pub(super) const GROOVE: usize = 7;
 /// Part of the height above the highest point of the rotor's underside.
 const ABOVE: f32 = 0.16;
 
@@ -32,7 +34,9 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     style.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
-    shown.mark_followed(painter, style, &axes);
+    let [left, right] = shown.followed().map(|x| axes.px(x));
+    let column = Rect::from_x_y_ranges(left..=right, rect.y_range());
+    painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
     stator(painter, style, &axes, shown);
     rotor(painter, style, &axes, shown);
     touching(painter, style, &axes, shown);
@@ -84,9 +88,13 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'
     let height = |index: usize| lines.stator[index] + lines.film_thickness[index] - shown.motor.min_spacing;
     // The film, where there is any.
     let film = style.palette.film.gamma_multiply(0.25);
-    let mut underside = Vec::with_capacity(recording.teeth * nodes + 2);
-    underside.push(Pos2::ZERO);
-    for tooth in 0..recording.teeth {
+    let mut underside = Vec::with_capacity(recording.teeth * (nodes + GROOVE));
+    let grooves = lines.grooves(recording, GROOVE);
+    let at = |[x, height]: [f64; 2]| axes.at(x, height);
+    // Half a groove at either end: the wave repeats.
+    let ahead = grooves.iter().rev().take(1).flatten().skip(GROOVE / 2);
+    underside.extend(ahead.map(|[x, height]| at([x - recording.length, *height])));
+    for (tooth, groove) in grooves.iter().enumerate() {
         let line = lines.of(tooth).start;
         let middle = tooth as f64 * recording.pitch;
         let columns = (0..nodes).map(|i| {
@@ -95,12 +103,9 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'
         });
         band(painter, columns.clone().map(|(at, stator)| (at.x, at.y, stator)), film);
         underside.extend(columns.map(|(at, _)| at));
+        let shown = if tooth + 1 == recording.teeth { GROOVE / 2 + 1 } else { GROOVE };
+        underside.extend(groove.iter().take(shown).copied().map(at));
     }
-    // Half a groove at either end: the wave repeats.
-    let (Some(second), Some(last)) = (underside.get(1).copied(), underside.last().copied()) else { return };
-    let edge = 0.5 * (second.y + last.y);
-    underside[0] = pos2(axes.rect.left(), edge);
-    underside.push(pos2(axes.rect.right(), edge));
     let colour = style.palette.rotor;
     band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
     painter.line(underside, Stroke::new(1.5, colour));

@@ -1,0 +1,135 @@
+//! `squeezefilm new`: a preset from what the data sheet of a motor has.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::terminal;
+use crate::scene::new_motor::{Answers, NewMotor, QUESTIONS, Question};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
+use std::io::BufRead;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm new my.toml
+  squeezefilm new my.toml --diameter-mm 60 --frequency-khz 40 --load-n 150 --stall-torque-nm 1
+  squeezefilm new --diameter-mm 60 --frequency-khz 40 --load-n 150 | squeezefilm solve -";
+
+/// Makes a preset of your motor from what its data sheet has
+///
+/// What is needed and not given by an option is asked for, and everything else with it; an empty answer leaves it to what is
+/// assumed. What was assumed, and why, is told, and is at the head of the file.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Arguments {
+    /// The preset file to write; without one it goes to standard output
+    #[arg(value_name = "FILE")]
+    file: Option<PathBuf>,
+
+    /// Replaces a file that is there
+    #[arg(long, requires = "file")]
+    replace: bool,
+
+    #[command(flatten)]
+    answers: Given,
+}
+
+/// Answers given as options, one for each question.
+#[derive(Debug, Default)]
+struct Given(Answers);
+
+impl Args for Given {
+    fn augment_args(command: Command) -> Command {
+        command.args(QUESTIONS.iter().map(|question| {
+            let otherwise = question.otherwise.map_or_else(String::new, |assumed| format!(" [assumed: {assumed}]"));
+            let help = format!("{}: {}{otherwise}", question.words, question.allowed());
+            let check = |answer: &str| Question::check(question, answer).map(|()| answer.to_owned());
+            Arg::new(question.name)
+                .long(question.name)
+                .value_name("ANSWER")
+                .help(help)
+                .allow_negative_numbers(true)
+                .value_parser(check)
+        }))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for Given {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let answer = |question: &Question| Some((question.name, matches.get_one::<String>(question.name)?.clone()));
+        Ok(Self(QUESTIONS.iter().filter_map(answer).collect()))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        self.0.extend(Self::from_arg_matches(matches)?.0);
+        Ok(())
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    if let Some(file) = &arguments.file {
+        if file.exists() && !arguments.replace {
+            return Err(CliError::Answers(format!(
+                "{}: there is such a file already; --replace replaces it",
+                file.display()
+            )));
+        }
+        if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+            return Err(CliError::Answers(format!("{}: there is no such folder", folder.display())));
+        }
+    }
+    let mut answers = arguments.answers.0.clone();
+    if QUESTIONS.iter().any(|question| question.otherwise.is_none() && !answers.contains_key(question.name)) {
+        ask(&mut answers)?;
+    }
+    let motor = NewMotor::of(&answers).map_err(CliError::Answers)?;
+    told(&motor);
+    match &arguments.file {
+        Some(file) => {
+            motor.save(file)?;
+            terminal::note(&format!("wrote {}", file.display()));
+        }
+        None => terminal::data(&motor.to_toml()),
+    }
+    Ok(Exit::Solved)
+}
+
+/// Asks on standard error for what is not answered yet, and reads the answers from standard input, a line each. At its end nothing
+/// more is asked.
+fn ask(answers: &mut Answers) -> Result<(), CliError> {
+    let mut lines = std::io::stdin().lock().lines();
+    let open = QUESTIONS.iter().filter(|question| !answers.contains_key(question.name)).collect::<Vec<_>>();
+    for question in open {
+        loop {
+            terminal::prompt(&match question.otherwise {
+                Some(assumed) => format!("{} [{assumed}]: ", question.title()),
+                None => format!("{}: ", question.title()),
+            });
+            let Some(line) = lines.next() else { return Ok(()) };
+            let answer = line.map_err(CliError::Input)?.trim().to_owned();
+            match question.check(&answer) {
+                _ if answer.is_empty() && question.otherwise.is_some() => {}
+                _ if answer.is_empty() => continue,
+                Err(wrong) => {
+                    terminal::note(&wrong);
+                    continue;
+                }
+                Ok(()) => drop(answers.insert(question.name, answer)),
+            }
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// What was assumed, and why.
+fn told(motor: &NewMotor) {
+    let mut columns = Columns::new();
+    for assumption in &motor.assumed {
+        columns.row([assumption.key, &assumption.value, &assumption.why]);
+    }
+    terminal::note(&format!("\n{}{}", paragraph("Assumed, and why:", "", ""), columns.text("  ", &[])));
+}

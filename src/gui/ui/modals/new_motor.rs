@@ -1,0 +1,77 @@
+//! The questions of a new motor, with what is assumed where there is no answer.
+
+use super::frame::{Answer, heading};
+use crate::gui::command::Command;
+use crate::gui::derived::words::label;
+use crate::gui::state::document::Next;
+use crate::gui::ui::context::DrawContext;
+use crate::scene::Parameter;
+use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question};
+use eframe::egui::{self, Ui};
+
+/// Share of the window's height that questions and assumptions have each.
+const HEIGHTS: [f32; 2] = [0.42, 0.22];
+
+/// Asks; the answer is the motor.
+pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answer {
+    heading(ui, "A motor from its data sheet");
+    let height = ui.ctx().content_rect().height();
+    egui::ScrollArea::vertical().id_salt("questions").max_height(HEIGHTS[0] * height).show(ui, |ui| {
+        egui::Grid::new("questions").num_columns(2).show(ui, |ui| {
+            for question in QUESTIONS {
+                ask(ui, question, answers, cx);
+                ui.end_row();
+            }
+        });
+    });
+    ui.add_space(8.0);
+    let motor = NewMotor::of(answers);
+    egui::ScrollArea::vertical().id_salt("assumed").max_height(HEIGHTS[1] * height).show(ui, |ui| match &motor {
+        Ok(motor) => {
+            for assumption in &motor.assumed {
+                let words = Parameter::find(assumption.key).map_or(assumption.key, label);
+                cx.note(ui, &format!("Assumed: {words} {}: {}", assumption.value, assumption.why));
+            }
+        }
+        Err(wrong) => {
+            for line in wrong.lines() {
+                cx.note(ui, line);
+            }
+        }
+    });
+    ui.add_space(12.0);
+    ui.horizontal_wrapped(|ui| {
+        let make = ui.add_enabled(motor.is_ok(), egui::Button::new("Make this motor")).clicked();
+        let cancelled = ui.button("Cancel").clicked();
+        match motor {
+            Ok(motor) if make => Some(vec![Command::Proceed(Next::New(Box::new(motor.scene)))]),
+            _ => cancelled.then(Vec::new),
+        }
+    })
+    .inner
+}
+
+fn ask(ui: &mut Ui, question: &'static Question, answers: &Answers, cx: &DrawContext<'_>) {
+    let label = ui.label(question.title());
+    let present = answers.get(question.name).map_or("", String::as_str);
+    let hint = question.otherwise.unwrap_or("needed");
+    let mut answer = present.to_owned();
+    if let Accepts::Choice(names) = question.accepts {
+        let shown = if present.is_empty() { hint } else { present };
+        let combo = egui::ComboBox::from_id_salt(question.name).selected_text(shown).show_ui(ui, |ui| {
+            for name in names {
+                ui.selectable_value(&mut answer, (*name).to_owned(), *name);
+            }
+        });
+        combo.response.labelled_by(label.id);
+    } else {
+        let field = egui::TextEdit::singleline(&mut answer).hint_text(hint).desired_width(f32::INFINITY);
+        let field = ui.add(field).labelled_by(label.id);
+        if ui.memory(|memory| memory.focused().is_none()) && question.otherwise.is_none() && present.is_empty() {
+            field.request_focus();
+        }
+    }
+    if answer != present {
+        cx.push(Command::AnswerNewMotor(question.name, answer));
+    }
+}

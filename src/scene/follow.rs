@@ -1,0 +1,165 @@
+//! Values that follow from other keys where they are not given: pressure from altitude, viscosity and mean free path from the gas;
+//! of a motor, whichever of two ways to say the same is not used.
+
+use super::error::What;
+use super::parameter::Parameter;
+use super::values::Scene;
+use crate::digits::as_given;
+use crate::gas::species::Species;
+use crate::gas::{self, atmosphere};
+
+/// A key whose value may follow from others.
+struct Following {
+    key: &'static str,
+    /// The key that says so: the one that is given instead, or the one that chooses a model.
+    source: &'static str,
+    /// The value in the unit of `key`; `None` if the scene gives it.
+    value: fn(&Scene) -> Result<Option<f64>, What>,
+}
+
+static FOLLOWING: &[Following] = &[
+    Following { key: "film.ambient_pressure_kpa", source: "film.altitude_m", value: pressure_at_altitude },
+    Following { key: "film.viscosity_upa_s", source: "film.gas", value: viscosity },
+    Following { key: "film.mean_free_path_nm", source: "film.gas", value: mean_free_path },
+    Following {
+        key: "motor.load_per_wave_n",
+        source: "motor.load_n",
+        value: |scene| scene.from("motor.load_n", |load| Ok(load / scene.number("motor.waves")?)),
+    },
+    Following {
+        key: "motor.rotor_speed_rpm",
+        source: "motor.rotor_speed_mm_per_s",
+        value: |scene| scene.from("motor.rotor_speed_mm_per_s", |speed| Ok(60.0 * speed / scene.circumference_mm()?)),
+    },
+    Following {
+        key: "stator.tooth_width_mm",
+        source: "stator.tooth_share",
+        value: |scene| scene.from("stator.tooth_share", |share| Ok(share * scene.pitch_mm()?)),
+    },
+    Following { key: "rotor.point_compliance_um_per_n", source: "rotor.model", value: point_compliance },
+];
+
+impl Scene {
+    /// The value of a key that is not given in this scene, and that follows from others; in the unit of the key.
+    pub fn following(&self, key: &str) -> Option<f64> {
+        let following = FOLLOWING.iter().find(|following| following.key == key)?;
+        (following.value)(self).ok().flatten()
+    }
+
+    /// What an optional key would be that another one is given instead of, in the unit of the optional one.
+    pub fn alternative(&self, parameter: &Parameter) -> Option<f64> {
+        let given = parameter.instead_of.filter(|_| self.given(parameter.key).is_none())?;
+        match parameter.key {
+            "motor.load_n" => Some(self.number(given).ok()? * self.number("motor.waves").ok()?),
+            "motor.rotor_speed_mm_per_s" => Some(self.number(given).ok()? * self.circumference_mm().ok()? / 60.0),
+            "stator.tooth_share" => Some(self.number(given).ok()? / self.pitch_mm().ok()?),
+            _ => None,
+        }
+    }
+
+    /// What follows and is out of the range of its key: the key that it follows from, and what is wrong.
+    pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
+        FOLLOWING.iter().filter_map(|Following { key, source, value }| {
+            let (parameter, value) = (Parameter::find(key)?, value(self).ok()??);
+            let range = parameter.range().filter(|range| !range.contains(value))?;
+            let given = self.get(source).map_or_else(String::new, |given| format!("{source} = {given} makes "));
+            let unit = parameter.unit;
+            let message =
+                format!("{given}{key} = {} {unit}, which is out of range: allowed {range} {unit}", as_given(value));
+            Some((std::slice::from_ref(source), What::Rule { key: source, message }))
+        })
+    }
+
+    /// What follows from the number of a key, if it is given.
+    fn from(&self, key: &str, value: impl FnOnce(f64) -> Result<f64, What>) -> Result<Option<f64>, What> {
+        self.given(key).map(value).transpose()
+    }
+
+    /// The mean free path \[nm\] where it is given, and matters: it then stays as it is when pressure changes.
+    pub fn given_mean_free_path(&self) -> Option<f64> {
+        let slips = self.text("film.slip").is_ok_and(|law| law != "none");
+        self.get("film.mean_free_path_nm").filter(|_| slips)?.as_number()
+    }
+
+    /// The gas of the film, if it has a name.
+    pub(super) fn species(&self) -> Result<Option<&'static Species>, What> {
+        Ok(gas::find(self.text("film.gas")?))
+    }
+
+    /// A number of this scene in SI.
+    pub(super) fn si(&self, key: &str) -> Result<f64, What> {
+        Ok(self.parameter(key)?.si(self.number(key)?))
+    }
+}
+
+/// C_p = ℓ³/(8 EI) of a beam on a foundation that lets its deflection die out over ℓ, with I = w t³/12.
+fn point_compliance(scene: &Scene) -> Result<Option<f64>, What> {
+    if scene.text("rotor.model")? != "section" {
+        return Ok(None);
+    }
+    let second_moment = scene.si("rotor.width_mm")? * scene.si("rotor.thickness_mm")?.powi(3) / 12.0;
+    let bending = scene.si("rotor.elastic_modulus_gpa")? * second_moment;
+    Ok(Some(scene.si("rotor.decay_length_mm")?.powi(3) / (8.0 * bending) * 1e6))
+}
+
+fn pressure_at_altitude(scene: &Scene) -> Result<Option<f64>, What> {
+    Ok(scene.given("film.altitude_m").map(|altitude| atmosphere::pressure(altitude) / 1e3))
+}
+
+fn viscosity(scene: &Scene) -> Result<Option<f64>, What> {
+    let Some(gas) = scene.species()? else { return Ok(None) };
+    Ok(Some((gas.viscosity)(scene.si("film.temperature_c")?) * 1e6))
+}
+
+fn mean_free_path(scene: &Scene) -> Result<Option<f64>, What> {
+    let Some(gas) = scene.species()? else { return Ok(None) };
+    let (pressure, temperature) = (scene.si("film.ambient_pressure_kpa")?, scene.si("film.temperature_c")?);
+    Ok(Some(gas.mean_free_path(pressure, temperature) * 1e9))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_follows_is_a_number_and_never_given_too() {
+        for Following { key, source, .. } in FOLLOWING {
+            assert!(Parameter::find(key).is_some_and(|parameter| parameter.range().is_some()), "{key}");
+            assert!(Parameter::find(source).is_some(), "{source}");
+        }
+        let following = |scene: &Scene| -> Vec<_> {
+            let follows = |key: &&str| scene.following(key).is_some();
+            FOLLOWING.iter().map(|following| following.key).filter(follows).collect()
+        };
+        let mut scene = Scene::motor();
+        assert_eq!(following(&scene), Vec::<&str>::new());
+        let given = [
+            ("film.gas", "air"),
+            ("film.altitude_m", "2000"),
+            ("motor.load_n", "20"),
+            ("motor.rotor_speed_mm_per_s", "30"),
+            ("stator.tooth_share", "0.5"),
+            ("rotor.model", "section"),
+        ];
+        scene.set_all(given).unwrap();
+        assert_eq!(following(&scene), FOLLOWING.iter().map(|following| following.key).collect::<Vec<_>>());
+        assert!(FOLLOWING.iter().all(|following| scene.get(following.key).is_none()));
+    }
+
+    /// A key and the one that replaces it say the same, there and back.
+    #[test]
+    fn alternatives_agree() {
+        for key in ["motor.load_n", "motor.rotor_speed_mm_per_s", "stator.tooth_share"] {
+            let mut scene = Scene::motor();
+            scene.set("motor.rotor_speed_rpm", "40").unwrap();
+            let (before, parameter) = (scene.clone(), Parameter::find(key).unwrap());
+            let replaced = parameter.instead_of.unwrap();
+            let value = scene.alternative(parameter).unwrap();
+            scene.set(key, &value.to_string()).unwrap();
+            assert_eq!((scene.get(replaced), scene.alternative(parameter)), (None, None));
+            let again = scene.following(replaced).unwrap();
+            assert!((again / before.number(replaced).unwrap() - 1.0).abs() < 1e-14, "{key}: {again}");
+            scene.check().unwrap();
+        }
+    }
+}
