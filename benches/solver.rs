@@ -11,6 +11,7 @@ use squeezefilm::film::grid::{Axis, FilmGrid, Start};
 use squeezefilm::film::stepper::{Film, FilmState};
 use squeezefilm::plan::Plan;
 use squeezefilm::problem::{Motor, Problem, Scenario};
+use squeezefilm::rotor::ring::{Band, MATERIALS, Part, Section};
 use squeezefilm::scene::presets;
 use squeezefilm::solve::{Method, Settings, solve};
 
@@ -25,7 +26,7 @@ fn problem(preset: &str) -> Problem {
 fn fundamental() -> (Motor, Plan) {
     match problem("fundamental") {
         Problem { scenario: Scenario::Motor(motor), numerics, .. } => {
-            let plan = Plan::motor(&motor, Fidelity::Standard, &numerics);
+            let plan = Plan::motor(&motor, Fidelity::Standard, &numerics).unwrap_or_else(|fault| panic!("{fault}"));
             (motor, plan)
         }
         Problem { scenario: Scenario::Plate(_), .. } => panic!("the fundamental case is a motor"),
@@ -64,13 +65,35 @@ fn contact_solve(bencher: Bencher<'_, '_>) {
     let positions: Vec<f64> = nodes().map(|(tooth, xi)| tooth as f64 * motor.pitch() + xi).collect();
     let stator: Vec<f64> = nodes().zip(&positions).map(|((_, xi), x)| motor.stator_displacement(*x, xi, 0.0)).collect();
     let lengths: Vec<f64> = (0..motor.teeth).flat_map(|_| x.lengths.iter().copied()).collect();
-    let harmonics = cutoff(&motor.rotor, motor.wavelength(), grid.harmonic_fraction, plan.most_harmonics);
-    let modes = Modes::new(&motor.rotor, motor.wavelength(), harmonics, &positions);
+    let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics);
+    let modes = Modes::new(&plan.rotor, harmonics, &positions);
     let widths = vec![motor.contact_width; positions.len()];
     let trapped = vec![motor.contact_width * motor.min_spacing; positions.len()];
     let mut contact = Contact::new(modes, lengths, &widths, motor.gas.ambient_pressure, motor.min_spacing, motor.load);
     let mut out = Instant::default();
     bencher.bench_local(|| contact.solve(black_box(&stator), &trapped, &mut Shape::unknown(), &mut out));
+}
+
+/// Compliances of 96 harmonics of a ring with a flange, a rim and a lining, on two meshes, the finer of up to 2000 elements.
+#[divan::bench(sample_count = 20, sample_size = 1)]
+fn ring_compliances(bencher: Bencher<'_, '_>) {
+    let part = |name: &str, [inner_radius, outer_radius, bottom, top]: [f64; 4], material: usize| Part {
+        name: name.to_owned(),
+        inner_radius,
+        outer_radius,
+        bottom,
+        top,
+        material: MATERIALS[material],
+    };
+    let parts = vec![
+        part("lining", [28.85e-3, 29.15e-3, 0.0, 0.145e-3], 3),
+        part("rim", [28.3e-3, 29.7e-3, 0.145e-3, 1.2e-3], 0),
+        part("flange", [26.9e-3, 28.3e-3, 0.75e-3, 1.2e-3], 0),
+        part("body", [24.9e-3, 26.9e-3, 0.75e-3, 5.75e-3], 0),
+    ];
+    let section = Section::new(parts, Vec::new()).unwrap_or_else(|fault| panic!("{fault}"));
+    let band = Band { radius: 29e-3, width: 0.3e-3 };
+    bencher.bench_local(|| black_box(&section).compliances(band, 7, 96));
 }
 
 /// The fundamental case, all three grids and the error estimate.

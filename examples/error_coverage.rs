@@ -124,7 +124,7 @@ fn solve(changes: &[(&str, String)], fidelity: Fidelity) -> Result<Result<Period
     scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str())))?;
     let problem = Problem::new(&scene)?;
     let Scenario::Motor(motor) = &problem.scenario else { return Err("the fundamental case is a motor".into()) };
-    Ok(motor::periodic(motor, &Plan::motor(motor, fidelity, &problem.numerics), &mut (), &Cancel::new()))
+    Ok(motor::periodic(motor, &Plan::motor(motor, fidelity, &problem.numerics)?, &mut (), &Cancel::new()))
 }
 
 /// Stated and true errors of one fidelity.

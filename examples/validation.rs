@@ -58,7 +58,7 @@ fn grids() -> Result<String, Box<dyn Error>> {
     let Scenario::Motor(motor) = &problem.scenario else { return Err("the fundamental case is a motor".into()) };
     let mut sentence = String::new();
     for fidelity in Fidelity::ALL {
-        let plan = Plan::motor(motor, fidelity, &problem.numerics);
+        let plan = Plan::motor(motor, fidelity, &problem.numerics)?;
         let found = motor::periodic(motor, &plan, &mut (), &Cancel::new())?;
         let mut grid = plan.grids[0];
         let finest = grid.along << (found.alphas.len() - 1);

@@ -5,6 +5,7 @@
 //! Symbols follow `docs/theory.md`.
 
 use crate::gas::species::IdealGas;
+use crate::rotor::ring::Section;
 use serde::{Deserialize, Serialize};
 
 /// A key whose value is one of a few names.
@@ -78,7 +79,8 @@ impl Default for Gas {
     }
 }
 
-/// The rotor's normal compliance, harmonic by harmonic: displacement amplitude = C(k) × line-load amplitude.
+/// What the rotor's normal compliance follows from, displacement amplitude = C(k) × line-load amplitude. Solvers take what [`crate::rotor`]
+/// makes of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RotorCompliance {
     /// A beam on an elastic foundation in series with a local (Winkler) compliance,
@@ -94,6 +96,11 @@ pub enum RotorCompliance {
     /// Measured or computed elsewhere: `(wavenumber [rad/m], compliance [m²/N])`, wavenumbers ascending, at least
     /// one row, compliances positive. Linear between rows in (ln k, ln C); constant beyond either end.
     Table(Vec<(f64, f64)>),
+    /// The Green's function: `(x [m], deflection at x under a unit force at 0 [m/N])`, from x = 0 on, ascending, two rows or more; the same
+    /// on the other side.
+    Green(Vec<(f64, f64)>),
+    /// A ring of this cross-section, computed by finite elements.
+    Ring(Section),
 }
 
 /// A ring-type travelling-wave motor; every quantity is for one wavelength unless said otherwise.

@@ -56,7 +56,7 @@ pub struct Settings {
 }
 
 /// Why there is no solution at all.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
     /// The motor.
     #[error(transparent)]
@@ -75,14 +75,14 @@ pub enum SolveError {
 impl SolveError {
     /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]).
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::PaperPlate | Self::Memory(_))
+        matches!(self, Self::PaperPlate | Self::Memory(_) | Self::Motor(MotorError::Rotor(_)))
     }
 }
 
-/// Whether `problem` may be solved so: whether the method has such a scene, and the memory is allowed.
+/// Whether `problem` may be solved so: whether the method has such a scene, the rotor has a compliance, and the memory is allowed.
 ///
 /// # Errors
-/// [`SolveError::PaperPlate`] or [`SolveError::Memory`].
+/// [`SolveError::PaperPlate`], [`MotorError::Rotor`] or [`SolveError::Memory`].
 pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
     Ok(memory::check(need(problem, settings)?)?)
 }
@@ -90,7 +90,7 @@ pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
 fn need(problem: &Problem, settings: &Settings) -> Result<memory::Need, SolveError> {
     let spec = settings.fidelity.spec();
     Ok(match (&problem.scenario, settings.method) {
-        (Scenario::Motor(motor), Method::Auto) => memory::motor(motor, &motor_plan(motor, problem, settings, &spec)),
+        (Scenario::Motor(motor), Method::Auto) => memory::motor(motor, &motor_plan(motor, problem, settings, &spec)?),
         (Scenario::Plate(plate), Method::Auto) => memory::plate(plate, &plate_plan(plate, problem, settings, &spec)),
         (Scenario::Motor(motor), Method::Paper) => {
             let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
@@ -100,10 +100,10 @@ fn need(problem: &Problem, settings: &Settings) -> Result<memory::Need, SolveErr
     })
 }
 
-fn motor_plan(motor: &Motor, problem: &Problem, settings: &Settings, spec: &Spec) -> Plan {
+fn motor_plan(motor: &Motor, problem: &Problem, settings: &Settings, spec: &Spec) -> Result<Plan, MotorError> {
     let maps = settings.record == Record::Everything;
-    let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, spec, &problem.numerics) };
-    memory::within(plan, |plan| memory::motor(motor, plan))
+    let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, spec, &problem.numerics)? };
+    Ok(memory::within(plan, |plan| memory::motor(motor, plan)))
 }
 
 fn plate_plan(plate: &Plate, problem: &Problem, settings: &Settings, spec: &Spec) -> Plan {
@@ -146,7 +146,7 @@ pub fn solve_from(
     let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
     let mut solution = match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
-            let plan = motor_plan(motor, problem, settings, &spec);
+            let plan = motor_plan(motor, problem, settings, &spec)?;
             let mut found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let other = touching(&mut found, motor, &plan, observer, cancel);
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
@@ -177,7 +177,9 @@ pub fn solve_from(
                 recording: found.recording,
             }
         }
-        (Scenario::Motor(motor), Method::Paper) => paper::solve(motor, &problem.numerics, observer, cancel),
+        (Scenario::Motor(motor), Method::Paper) => {
+            paper::solve(motor, &problem.numerics, observer, cancel).map_err(MotorError::from)?
+        }
         (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
     };
     if let Scenario::Motor(motor) = &problem.scenario {

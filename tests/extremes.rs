@@ -39,7 +39,7 @@ fn alpha(fidelity: Fidelity, changes: &[(&str, f64)], choices: &[(&str, &str)]) 
     let mut scene = scene_with("fundamental", changes);
     scene.set_all(choices.iter().copied()).unwrap();
     let problem = Problem::new(&scene).unwrap();
-    let plan = Plan::motor(motor_of(&problem), fidelity, &problem.numerics);
+    let plan = Plan::motor(motor_of(&problem), fidelity, &problem.numerics).unwrap();
     let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
     assert_eq!(found.status, Status::Converged, "{changes:?} {choices:?}");
     check(motor_of(&problem), &plan, &found).unwrap();
@@ -255,7 +255,7 @@ fn survives(scene: &Scene, fidelity: Fidelity) -> Result<bool, String> {
     let problem = Problem::new(scene).map_err(|error| error.to_string())?;
     match &problem.scenario {
         Scenario::Motor(motor) => {
-            let plan = Plan::motor(motor, fidelity, &problem.numerics);
+            let plan = Plan::motor(motor, fidelity, &problem.numerics).unwrap();
             let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).map_err(|error| error.to_string())?;
             check(motor, &plan, &found)?;
             check_mass(motor, &plan)?;
@@ -469,7 +469,7 @@ fn options(scene: &Scene) -> String {
         Value::Whole(whole) => format!("{whole}"),
         Value::Text(text) => text,
         Value::Flag(flag) => format!("{flag}"),
-        Value::Rows(_) => String::new(),
+        Value::Rows(_) | Value::Records(_) => String::new(),
     };
     let base = Scene::new(scene.kind());
     scene
@@ -643,7 +643,7 @@ fn a_tooth_may_be_as_wide_as_the_pitch() {
             let pitch = scene.range("stator.tooth_width_mm").unwrap().max;
             scene.set_value("stator.tooth_width_mm", Value::Number(share * pitch)).unwrap();
             let problem = Problem::new(&scene).unwrap();
-            let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics);
+            let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics).unwrap();
             let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
             check(motor_of(&problem), &plan, &found).unwrap();
             assert_eq!(found.status, Status::Converged);
@@ -662,9 +662,8 @@ fn a_load_that_presses_the_wave_flat_leaves_no_film() {
     let scene = scene_with("fundamental", &[("motor.load_per_wave_n", 100.0)]);
     let problem = Problem::new(&scene).unwrap();
     let motor = motor_of(&problem);
-    let wave = std::f64::consts::TAU / motor.wavelength();
     let RotorCompliance::Beam { .. } = motor.rotor else { panic!("a beam") };
-    let flat = 1e6 * motor.load * motor.rotor.at(wave) / motor.wavelength();
+    let flat = 1e6 * motor.load * motor.compliances(1).unwrap().harmonic(1) / motor.wavelength();
     // Nine tenths of what can be pressed flat; the grooves carry nothing, so the teeth need a little more.
     let found = alpha(
         Fidelity::Standard,
@@ -704,7 +703,7 @@ fn results_are_the_same_to_the_last_bit_for_any_number_of_threads() {
             problems
                 .par_iter()
                 .map(|problem| {
-                    let plan = Plan::motor(motor_of(problem), Fidelity::Standard, &problem.numerics);
+                    let plan = Plan::motor(motor_of(problem), Fidelity::Standard, &problem.numerics).unwrap();
                     bits(&motor::periodic(motor_of(problem), &plan, &mut (), &Cancel::new()).unwrap())
                 })
                 .collect()
@@ -733,7 +732,7 @@ fn the_cost_of_a_solve_is_flat() {
                 let mut scene = scene_with("fundamental", &changes(*spacing));
                 scene.set("numerics.time", "march").unwrap();
                 let problem = Problem::new(&scene).unwrap();
-                let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics);
+                let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics).unwrap();
                 let plan = Plan { most_grids: plan.grids.len(), ..plan };
                 let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
                 assert_eq!(found.status, Status::Converged, "{frequency} kHz, {spacing} nm");

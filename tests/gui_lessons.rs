@@ -548,7 +548,7 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
 
 /// Names of the tabs of a motor, and of a plate.
 const TABS: [&[&str]; 2] = [
-    &["Motion", "Compare", "Sweep", "Torque", "Trade-off", "Start-up"],
+    &["Motion", "Compare", "Sweep", "Torque", "Trade-off", "Start-up", "Rotor"],
     &["Motion", "Compare", "Sweep", "Exact", "Trade-off", "Start-up", "Hold"],
 ];
 

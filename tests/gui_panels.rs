@@ -20,7 +20,7 @@ use squeezefilm::gui::ui::panels::{parameters, results};
 use squeezefilm::gui::ui::theme;
 use squeezefilm::job::SolvedScene;
 use squeezefilm::problem::Problem;
-use squeezefilm::scene::{ParameterKind, Scene, Value, presets};
+use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use squeezefilm::solution::{Outcome, Status};
 use squeezefilm::solve::{Settings, solve};
 use std::time::Instant;
@@ -100,6 +100,12 @@ fn scenes() -> Vec<Scene> {
     for key in ["film_nodes_along", "film_nodes_across", "steps_per_cycle"] {
         wide.set(&format!("numerics.{key}"), "41").unwrap();
     }
+    let mut green = Scene::motor();
+    green.set("rotor.green", "[[0, 0.6], [1, 0.5]]").unwrap();
+    let mut ring = Scene::motor();
+    ring.set("rotor.model", "ring").unwrap();
+    let all = "[{r_inner_mm = 0, r_outer_mm = 60, z_bottom_mm = 0, z_top_mm = 9, fixed = \"radial\"}]";
+    ring.set("rotor.support", all).unwrap();
     let mut helium = Scene::motor();
     helium.set_all([("film.gas", "helium"), ("film.altitude_m", "2000"), ("film.slip", "fukui-kaneko")]).unwrap();
     let mut section = Scene::motor();
@@ -110,7 +116,7 @@ fn scenes() -> Vec<Scene> {
         ("motor.rotor_speed_mm_per_s", "9"),
     ];
     section.set_all(others).unwrap();
-    vec![Scene::motor(), Scene::plate(), crowned, table, wide, helium, section]
+    vec![Scene::motor(), Scene::plate(), crowned, table, wide, helium, section, green, ring]
 }
 
 #[test]
@@ -131,8 +137,20 @@ fn every_parameter_has_a_named_widget() {
                 ParameterKind::Flag { .. } => has(Role::CheckBox, name),
                 ParameterKind::Choice { .. } => has(Role::ComboBox, name),
                 ParameterKind::Text { .. } => has(Role::MultilineTextInput, name),
-                ParameterKind::CsvPath => has(Role::TextInput, name),
-                ParameterKind::Rows => harness.query_by_label("2 rows").is_some(),
+                ParameterKind::CsvPath { .. } => has(Role::TextInput, name),
+                ParameterKind::Records { columns, .. } => {
+                    let Some(Value::Records(records)) = scene.get(parameter.key) else { panic!("{}", parameter.key) };
+                    records.iter().enumerate().all(|(i, record)| {
+                        let of = match &record[0] {
+                            Value::Text(part) => part.clone(),
+                            _ => format!("{} {}", name.trim_end_matches('s').to_lowercase(), i + 1),
+                        };
+                        let named = |column: &Parameter| format!("{}, {of}", labels::field_name(column));
+                        let numbers = columns.iter().filter(|column| column.range().is_some());
+                        numbers.into_iter().all(|column| has(Role::SpinButton, &named(column)))
+                    })
+                }
+                ParameterKind::Rows { .. } => harness.query_by_label("2 rows").is_some(),
             };
             assert!(found, "{} in {}", parameter.key, scene.scene());
         }

@@ -298,6 +298,34 @@ fn the_window_looks_as_it_did() {
     open_by_path(&mut results);
 }
 
+/// The rotor by itself: a ring with its parts among the parameters, and a beam.
+#[test]
+fn a_rotor_looks_as_it_did() {
+    if !can_draw() {
+        return;
+    }
+    const ROTOR: (Modifiers, Key) = (Modifiers::COMMAND, Key::Num8);
+    let mut results = SnapshotResults::new();
+    let computed = |app: &App| match app.state().run.as_deref().map(|run| &run.problem.scenario) {
+        Some(Scenario::Motor(motor)) => app.state().rotor.is_of(motor),
+        _ => false,
+    };
+    let mut window = window("ring-rotor", USUAL, &[ROTOR]);
+    until(&mut window, "the rotor is computed", computed);
+    // The label of the tab, and the heading of the group.
+    let labels = window.query_all_by_label("Rotor").count();
+    for label in 0..labels {
+        window.query_all_by_label("Rotor").nth(label).unwrap().click();
+        settle(&mut window);
+    }
+    window.snapshot("rotor-ring");
+    results.extend_harness(&mut window);
+    let mut window = self::window("fundamental", SMALL, &[ROTOR, THEME]);
+    until(&mut window, "the rotor is computed", computed);
+    window.snapshot("rotor-beam-small-light");
+    results.extend_harness(&mut window);
+}
+
 /// A path to type, and what cannot be opened, in a small window with large text.
 fn open_by_path(results: &mut SnapshotResults) {
     let mut window = window("fundamental", SMALL, &[LECTURE, OPEN]);

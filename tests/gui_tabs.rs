@@ -583,6 +583,11 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     let startup = ["α", "Least film thickness", "Highest pressure", "Cycle", "Periodic solve"];
     explains(faults, &window, "Start-up", &startup);
     click(&mut window, "Cancel the start-up");
+
+    ctrl(&mut window, Key::Num8);
+    until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
+    explains(faults, &window, "Rotor", &["Compliance", "Harmonic", "Green's function"]);
+    hovers(faults, &mut window, "present rotor", "single unit force");
     drop(window);
 
     let mut window = self::window("plate-trapped");

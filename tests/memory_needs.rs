@@ -44,7 +44,7 @@ fn need(problem: &Problem, settings: &Settings, steps: usize) -> u64 {
     };
     match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
-            memory::motor(motor, &reached(Plan::motor(motor, settings.fidelity, &problem.numerics))).bytes
+            memory::motor(motor, &reached(Plan::motor(motor, settings.fidelity, &problem.numerics).unwrap())).bytes
         }
         (Scenario::Motor(motor), Method::Paper) => {
             let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
@@ -112,7 +112,7 @@ fn the_estimate_is_what_is_allocated() {
         let numerics = Numerics { time: Time::March, ..problem.numerics };
         let need = match &problem.scenario {
             Scenario::Motor(motor) => {
-                memory::motor_startup(motor, &Plan::motor(motor, settings.fidelity, &numerics), settings.kept)
+                memory::motor_startup(motor, &Plan::motor(motor, settings.fidelity, &numerics).unwrap(), settings.kept)
             }
             Scenario::Plate(plate) => {
                 memory::plate_startup(plate, &Plan::plate(plate, settings.fidelity, &numerics), settings.kept)

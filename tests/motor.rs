@@ -8,10 +8,12 @@ use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::{self, Periodic};
-use squeezefilm::plan::Plan;
+use squeezefilm::plan::{Choice, Plan};
 use squeezefilm::problem::{Motor, Problem, RotorCompliance, Scenario};
+use squeezefilm::rotor::Wave;
 use squeezefilm::scene::{Scene, presets};
-use squeezefilm::solution::Status;
+use squeezefilm::solution::{Outcome, Status};
+use squeezefilm::solve::{Settings, solve as solve_problem};
 
 /// α of the fundamental case without discretisation error: grids up to 128 × 64 intervals and 576 steps, extrapolated
 /// (docs/validation.md).
@@ -31,7 +33,7 @@ fn motor_of(scene: &Scene) -> Motor {
 }
 
 fn plan(motor: &Motor, fidelity: Fidelity) -> Plan {
-    Plan::motor(motor, fidelity, &Default::default())
+    Plan::motor(motor, fidelity, &Default::default()).unwrap()
 }
 
 fn solve_plan(motor: &Motor, plan: &Plan) -> Periodic {
@@ -216,7 +218,11 @@ fn leaving_out_the_wedge_term_changes_alpha_by_less_than_stated() {
 fn a_compliance_table_of_the_beam_is_the_beam() {
     let beam = motor_with(&[]);
     // Interpolated in (ln k, ln C) between rows 3 % apart: a few parts in 1e4.
-    let rows = (0..400).map(|i| 50.0 * 1.03f64.powi(i)).map(|k| (k, beam.rotor.at(k))).collect();
+    let at = |k: f64| {
+        let wave = Wave { length: std::f64::consts::TAU / k, ..beam.wave() };
+        (k, beam.rotor.resolve(&wave, 1).unwrap().harmonic(1))
+    };
+    let rows = (0..400).map(|i| at(50.0 * 1.03f64.powi(i))).collect();
     let table = Motor { rotor: RotorCompliance::Table(rows), ..beam.clone() };
     let (a, b) = (solve(&beam, Fidelity::Standard).result.alpha, solve(&table, Fidelity::Standard).result.alpha);
     assert!((a / b - 1.0).abs() < 5e-4, "{a} {b}");
@@ -317,4 +323,33 @@ proptest! {
             check_frames(&motor, &found, f64::INFINITY);
         }
     }
+}
+
+#[test]
+fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_known() {
+    let problem = Problem::new(&presets::find("ring-rotor").unwrap()).unwrap();
+    let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
+    let solved = |problem: &Problem| solve_problem(problem, &settings, &mut (), &Cancel::new());
+    let Outcome::Motor(ring) = solved(&problem).unwrap().outcome else { panic!("a motor") };
+    let decisions = solved(&problem).unwrap().model.decisions;
+    let rotor = decisions.iter().find(|decision| matches!(decision.chosen, Choice::Rotor { .. })).unwrap();
+    assert!(rotor.effect > 0.0 && rotor.effect < 5e-3, "{rotor:?}");
+    let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
+    let found = motor.compliances(200).unwrap();
+    let first = std::f64::consts::TAU / motor.wavelength();
+    let rows = (1..=200).map(|n| (first * n as f64, found.harmonic(n))).collect();
+    let table = Problem {
+        scenario: Scenario::Motor(Motor { rotor: RotorCompliance::Table(rows), ..motor.clone() }),
+        ..problem.clone()
+    };
+    let Outcome::Motor(table) = solved(&table).unwrap().outcome else { panic!("a motor") };
+    assert!((ring.alpha - table.alpha).abs() < table.alpha_error, "{} {}", ring.alpha, table.alpha);
+    let stated = ring.alpha_error - table.alpha_error;
+    assert!((stated / (rotor.effect * ring.alpha) - 1.0).abs() < 0.5, "{stated} {rotor:?}");
+
+    // Where the stator touches nothing.
+    let beside = Motor { contact_radius: 0.025, ..motor.clone() };
+    let beside = Problem { scenario: Scenario::Motor(beside), ..problem.clone() };
+    let error = solved(&beside).unwrap_err();
+    assert!(error.is_bad_input() && error.to_string().contains("rotor.model = \"ring\": the contact"), "{error}");
 }

@@ -28,7 +28,7 @@ fn fundamental() -> Motor {
 }
 
 fn solve(motor: &Motor, numerics: &Numerics) -> (Solution, MotorResult) {
-    let solution = paper::solve(motor, numerics, &mut (), &Cancel::new());
+    let solution = paper::solve(motor, numerics, &mut (), &Cancel::new()).unwrap();
     match solution.outcome {
         Outcome::Motor(result) => (solution, result),
         Outcome::Plate(_) => panic!("a motor's solution"),
@@ -215,7 +215,8 @@ fn cancelling_and_other_slip_laws() {
             flag.cancel();
         },
         &cancel,
-    );
+    )
+    .unwrap();
     assert_eq!((solution.status, heard, solution.stats.cycles), (Status::Cancelled, 1, 1));
 
     let mut motor = fundamental();

@@ -450,6 +450,75 @@ fn compliance_faults_are_told_apart() {
     }
 }
 
+// ---- the ring
+
+const WEB: &str = "[[rotor.part]]\nname = \"web\"\nr_inner_mm = 28\nr_outer_mm = 30\nz_bottom_mm = 0\nz_top_mm = 1.5\n";
+
+#[test]
+fn a_section_is_read_in_either_notation_and_saved() {
+    let text = format!(
+        "schema = 1\n[rotor]\nmodel = \"ring\"\n{WEB}material = \"brass\"\n[[rotor.support]]\nr_inner_mm = 30\n\
+         r_outer_mm = 30\nz_bottom_mm = 0\nz_top_mm = 2\nfixed = \"axial-radial\"\n[film]\nmin_spacing_nm = 100\n"
+    );
+    let scene = read(&text).unwrap();
+    let Scenario::Motor(motor) = Problem::new(&scene).unwrap().scenario else { panic!("a motor") };
+    let RotorCompliance::Ring(section) = &motor.rotor else { panic!("a ring") };
+    let (part, support) = (&section.parts()[0], &section.supports()[0]);
+    assert_eq!((part.name.as_str(), part.material.name), ("web", "brass"));
+    assert_eq!((part.inner_radius, part.outer_radius, part.bottom, part.top), (0.028, 0.03, 0.0, 1.5e-3));
+    assert_eq!((support.axial, support.radial, support.circumferential), (true, true, false));
+    assert_eq!(read(&scene.to_toml()).unwrap(), scene);
+
+    let mut set = Scene::motor();
+    set.set_all([
+        ("rotor.part", "[{name = \"web\", r_inner_mm = 28, r_outer_mm = 30, z_bottom_mm = 0, z_top_mm = 1.5, material = \"brass\"}]"),
+        ("rotor.support", "[{r_inner_mm = 30, r_outer_mm = 30, z_bottom_mm = 0, z_top_mm = 2, fixed = \"axial-radial\"}]"),
+        ("film.min_spacing_nm", "100"),
+    ])
+    .unwrap();
+    assert!(set.same_model(&scene));
+    // No support is a value of its own, and a model that is chosen brings a section.
+    set.set("rotor.support", "[]").unwrap();
+    assert_eq!(read(&set.to_toml()).unwrap().get("rotor.support"), Some(Value::Records(Vec::new())));
+    let mut default = Scene::motor();
+    default.set_all([("rotor.model", "ring")]).unwrap();
+    assert!(presets::find("ring-rotor").unwrap().same_model(&default));
+    assert_eq!(read(&default.to_toml()).unwrap(), default);
+}
+
+#[test]
+fn faults_of_a_section_name_the_part_and_its_key() {
+    for (lines, expected) in [
+        (
+            format!("{WEB}material = \"wood\"\n"),
+            "my.toml:11: rotor.part, web: material = \"wood\" is not available: expected one of \"aluminium\", \"steel\"",
+        ),
+        (WEB.to_owned(), "my.toml:5: rotor.part, web: material is missing: expected one of \"aluminium\""),
+        (
+            WEB.replace("1.5", "5e9") + "material = \"steel\"\n",
+            "my.toml:10: rotor.part, web: z_top_mm = 5e9 is out of range: allowed -1000 to 1000 mm",
+        ),
+        (
+            WEB.replace("\"web\"", "\"\"") + "material = \"steel\"\nwidth_mm = 3\n",
+            "my.toml:12: rotor.part, number 1: unknown key width_mm: known are name, r_inner_mm",
+        ),
+        (
+            WEB.replace("= 30", "= 27") + "material = \"steel\"\n",
+            "my.toml:5: rotor.part: part web: outer radius = 27 mm: allowed above its inner radius, 28 mm",
+        ),
+        ("part = []\n".to_owned(), "my.toml:5: rotor.part has 0 tables: allowed 1 to 32"),
+        ("part = 3\n".to_owned(), "my.toml:5: rotor.part = 3 is of the wrong type: expected tables with name, r_inner"),
+        (
+            "support = [{r_inner_mm = 1, r_outer_mm = 1, z_bottom_mm = 0, z_top_mm = 0, fixed = \"all\"}]\n".to_owned(),
+            "my.toml:5: rotor.support: support 1: no part is within r = 1 to 1 mm",
+        ),
+    ] {
+        let message = message(&format!("[rotor]\nmodel = \"ring\"\n{lines}"));
+        assert!(message.contains(expected), "{message}\nexpected {expected}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+}
+
 // ---- --set
 
 #[test]
@@ -487,8 +556,8 @@ fn set_refuses_and_changes_nothing() {
         ("scene", "plate", "scene cannot be changed: start from another preset"),
         (
             "rotor.model",
-            "ring",
-            "rotor.model = \"ring\" is not available: expected one of \"beam\", \"section\", \"table\"",
+            "plank",
+            "rotor.model = \"plank\" is not available: expected one of \"beam\", \"section\", \"ring\", \"table\", \"green\"",
         ),
         ("rotor.compliance_csv", "no.csv", "rotor.compliance_csv = \"no.csv\": no.csv cannot be read: "),
         ("rotor.compliance", "[[1, 2, 3]]", "rotor.compliance, row 1: [1, 2, 3] is not a pair"),
@@ -669,9 +738,11 @@ fn saving_replaces_the_file_and_leaves_nothing_else() {
 fn a_saved_file_has_every_key() {
     let mut table = Scene::motor();
     table.set("rotor.compliance", "[[1, 1e-9]]").unwrap();
-    for scene in [Scene::motor(), Scene::plate(), table] {
+    let mut ring = Scene::motor();
+    ring.set("rotor.model", "ring").unwrap();
+    for scene in [Scene::motor(), Scene::plate(), table, ring] {
         let text = scene.to_toml();
-        for parameter in scene.parameters().filter(|p| p.kind != ParameterKind::CsvPath) {
+        for parameter in scene.parameters().filter(|p| !matches!(p.kind, ParameterKind::CsvPath { .. })) {
             assert!(text.contains(&format!("{} ", parameter.leaf())), "{} in\n{text}", parameter.key);
         }
     }
@@ -695,12 +766,41 @@ fn any_value(kind: ParameterKind) -> BoxedStrategy<Option<Value>> {
             proptest::sample::select(options).prop_map(|name| Some(Value::Text(name.to_owned()))).boxed()
         }
         ParameterKind::Text { .. } => any::<String>().prop_map(|text| Some(Value::Text(text))).boxed(),
-        ParameterKind::Rows => {
-            proptest::collection::btree_map(1u32..10_000_000, anywhere(Range::new(1e-20, 1.0)), 1..20)
-                .prop_map(|rows| Some(Value::Rows(rows.into_iter().map(|(k, c)| (f64::from(k) / 7.0, c)).collect())))
+        ParameterKind::Rows { columns } => {
+            // A Green's function begins at 0.
+            let first = u32::from(columns[0].key != "x_mm");
+            proptest::collection::btree_map(1u32..10_000_000, anywhere(columns[1].range().unwrap()), 1..20)
+                .prop_map(move |rows| {
+                    let x = |i: usize, k: u32| if i == 0 { first } else { first + k };
+                    let rows = rows.into_iter().enumerate();
+                    Some(Value::Rows(rows.map(|(i, (k, c))| (f64::from(x(i, k)) / 1e3, c)).collect()))
+                })
                 .boxed()
         }
-        ParameterKind::CsvPath => Just(None).boxed(),
+        // Parts on top of each other, and boxes round all of them.
+        ParameterKind::Records { columns, fewest, .. } => {
+            let number = |x: f64| Value::Number(x);
+            let stacked = move |names: Vec<(String, f64)>| {
+                let parts = names.into_iter().enumerate().map(|(i, (name, inner))| {
+                    let (low, high) = (i as f64, i as f64 + 1.0);
+                    let text = |words: &str| Value::Text(words.to_owned());
+                    match columns.len() {
+                        6 => vec![
+                            Value::Text(name),
+                            number(inner),
+                            number(40.0),
+                            number(low),
+                            number(high),
+                            text("peek"),
+                        ],
+                        _ => vec![number(0.0), number(1000.0), number(-1000.0), number(1000.0), text("axial-radial")],
+                    }
+                });
+                Some(Value::Records(parts.collect()))
+            };
+            proptest::collection::vec((any::<String>(), 0.1..30.0f64), fewest..5).prop_map(stacked).boxed()
+        }
+        ParameterKind::CsvPath { .. } => Just(None).boxed(),
     }
 }
 
@@ -747,6 +847,7 @@ fn bits(value: Value) -> Vec<u64> {
     match value {
         Value::Number(x) => vec![x.to_bits()],
         Value::Rows(rows) => rows.iter().flat_map(|(k, c)| [k.to_bits(), c.to_bits()]).collect(),
+        Value::Records(records) => records.into_iter().flatten().flat_map(bits).collect(),
         _ => Vec::new(),
     }
 }

@@ -181,7 +181,7 @@ fn a_rotor_that_floats_is_not_driven() {
 #[test]
 fn without_gas_the_contact_carries_the_load_at_every_instant() {
     let solved = solved("fundamental", &[], Fidelity::Draft);
-    let plan = Plan::motor(&solved.motor, Fidelity::Draft, &Numerics::default());
+    let plan = Plan::motor(&solved.motor, Fidelity::Draft, &Numerics::default()).unwrap();
     let cycles = without_film(&solved.motor, &plan, &Cancel::new()).unwrap().unwrap();
     assert_eq!(cycles.len(), plan.grids.len());
     let finest = cycles.last().unwrap();

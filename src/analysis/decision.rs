@@ -23,6 +23,7 @@ pub fn term(decision: &Decision) -> &'static str {
         Choice::PlateGrid { across: Some(_), .. } => "plate",
         Choice::PlateGrid { across: None, .. } => "strip",
         Choice::Steps(..) => "time",
+        Choice::Rotor { .. } => "rotor",
         Choice::NoLeaks => "leaking",
     }
 }
@@ -72,6 +73,14 @@ pub fn words(decision: &Decision) -> String {
             let follow = if follow { ", the shorter the closer the plate is" } else { "" };
             format!("{steps} steps a cycle{follow}; two coarser grids for the error estimate")
         }
+        Choice::Rotor { error, ring, .. } => {
+            let of =
+                if ring { "a ring of finite elements" } else { "a table of its deflection, turned into harmonics" };
+            let (known, effect) = (percent(error), percent(decision.effect));
+            format!(
+                "{of}; its smooth deflection under a point load is known to {known}, which changes α by less than {effect} of itself"
+            )
+        }
         Choice::NoLeaks if decision.effect == 0.0 => "none, the plate does not move".to_owned(),
         Choice::NoLeaks => format!(
             "none, the gas is trapped (σ → ∞): leaking would change the load by less than {} of itself",
@@ -115,7 +124,7 @@ mod tests {
     fn every_decision_is_a_sentence_that_follows_the_plan() {
         let problem = Problem::new(&presets::find("fundamental").unwrap()).unwrap();
         let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
-        let of = |numerics: Numerics| Plan::motor(motor, Fidelity::Standard, &numerics).decisions;
+        let of = |numerics: Numerics| Plan::motor(motor, Fidelity::Standard, &numerics).unwrap().decisions;
         let wedge = |numerics: Numerics| words(of(numerics).iter().find(|d| term(d) == "wedge term").unwrap());
         let asked = |wedge| Numerics { wedge, ..Numerics::default() };
         let [on, off] = [Wedge::On, Wedge::Off].map(|chosen| wedge(asked(chosen)));
@@ -123,7 +132,7 @@ mod tests {
         assert!(off.starts_with("left out: as asked; ") && off.contains("changes α by less than"), "{off}");
         assert!(!wedge(Numerics::default()).contains("as asked"));
         let still = Motor { shear: false, ..motor.clone() };
-        let still = Plan::motor(&still, Fidelity::Standard, &Numerics::default());
+        let still = Plan::motor(&still, Fidelity::Standard, &Numerics::default()).unwrap();
         let wedge = still.decisions.iter().find(|d| term(d) == "wedge term").unwrap();
         assert_eq!((wedge.key(), words(wedge).as_str()), (None, "left out: the scene says shear = false"));
     }

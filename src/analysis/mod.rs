@@ -10,6 +10,7 @@ pub mod exact;
 pub mod quantity;
 pub mod regime;
 pub mod reproduce;
+pub mod rotor;
 pub mod stability;
 pub mod sweep;
 pub mod table1;

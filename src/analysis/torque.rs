@@ -53,7 +53,7 @@ impl TorqueCurves {
         recording: &Recording,
         cancel: &Cancel,
     ) -> Result<Option<Self>, MotorError> {
-        let plan = Plan::motor(motor, fidelity, numerics);
+        let plan = Plan::motor(motor, fidelity, numerics)?;
         let Some(dry) = without_film(motor, &plan, cancel)? else { return Ok(None) };
         Ok(Some(Self::from_contacts(motor, result, recording, &dry)))
     }

@@ -10,11 +10,13 @@
 //! | `slip-law` | Kn = λ_a/h, h closed | 0.01, 0.1, 0.6, 88.6 | within 10 % of the Boltzmann equation's flow; end of the fit |
 //! | `sound` | s over the wavelength of sound | 1; ½ if Re is above its limit | the edges are at ambient pressure; waves stand in the film |
 //! | `sound` | sliding speed over that of sound | 1 | shear heats the gas by 4 % |
+//! | `rotor-resonance` | harmonic's frequency over the lowest natural one of its shape | 0.3 | a rotor with mass yields a tenth more |
 //! | `contact-stress` | greatest contact pressure | 276 MPa | aluminium 6061-T6 yields |
 //! | `thinness` | h/s | 0.025 | the gas beyond the edges adds 3 % to s, 10 % to the damping |
 //! | `amplitude` | amplitude/mean gap of a plate | 0.9 | 1 % of the gap is 7 % of the load |
 //!
-//! Derivations and sources are in `docs/theory.md`, section 9. `rotor-resonance` is not judged: a compliance has no mass.
+//! Derivations and sources are in `docs/theory.md`, section 9. `rotor-resonance` is judged of a ring that has been
+//! solved: a beam or a table has no mass.
 //!
 //! Density, heat and sound are those of the gas that the scene names. **One that is given by viscosity and mean free path is taken to
 //! be air at 20 °C**: kinetic theory gives ρ = πμ²/(2 p_a λ_a²), which is air's within 3 % for the preset values; but λ_a may be 0, and
@@ -24,9 +26,10 @@ mod limits;
 
 pub use limits::{Excess, NAMES, mach};
 
+use crate::plan::Choice;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Outcome, Solution};
-use limits::{Film, nearness, sliding, stress};
+use limits::{Film, nearness, resonance, sliding, stress};
 use std::f64::consts::TAU;
 
 /// The limits that a scene exceeds; none if the model is within its depth. Without a solution: what the scene alone tells,
@@ -56,6 +59,11 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
     });
     let closed = result.map(|result| result.min_gap).filter(|gap| gap.is_finite()).unwrap_or(motor.min_spacing);
     let contact = result.map_or(0.0, |result| result.max_contact);
+    let decisions = solution.map_or(&[][..], |solution| &solution.model.decisions);
+    let natural = decisions.iter().find_map(|decision| match decision.chosen {
+        Choice::Rotor { resonances, .. } => resonances,
+        _ => None,
+    });
     let film = Film {
         gas: &motor.gas,
         omega: TAU * motor.frequency,
@@ -71,6 +79,7 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
         film.slip(),
         film.sound(),
         sliding(motor),
+        natural.and_then(|natural| resonance(motor, &natural)),
         stress(contact / motor.contact_width),
         film.thinness(),
     ];

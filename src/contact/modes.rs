@@ -8,7 +8,7 @@
 //! still exactly one, because the whole compliance, C_n > 0, is positive.
 
 use crate::numerics::dot;
-use crate::problem::RotorCompliance;
+use crate::rotor::Compliances;
 use nalgebra::DMatrix;
 
 /// Cosines and sines of the harmonics at the contact nodes, and the compliance of each.
@@ -55,26 +55,25 @@ impl Shape {
 ///
 /// Harmonics from N on are given the compliance C(k_N): off by at most `fraction`, or, at the limit `most`, by what the
 /// error estimate of the finer grid shows.
-pub fn cutoff(rotor: &RotorCompliance, wavelength: f64, fraction: f64, most: usize) -> usize {
-    let k = |n: usize| std::f64::consts::TAU * n as f64 / wavelength;
-    let last = rotor.at(1e3 * k(most));
-    let matters = |n: usize| (rotor.at(k(n)) - last).abs() > fraction * last;
+pub fn cutoff(rotor: &Compliances, fraction: f64, most: usize) -> usize {
+    let last = rotor.beyond(most);
+    let matters = |n: usize| (rotor.harmonic(n) - last).abs() > fraction * last;
     (4..most).rev().find(|&n| matters(n)).map_or(4.min(most), |n| n + 1)
 }
 
 impl Modes {
-    /// `harmonics` = N at nodes `x` \[m\] on a `wavelength` \[m\].
-    pub fn new(rotor: &RotorCompliance, wavelength: f64, harmonics: usize, x: &[f64]) -> Self {
-        let k = |n: usize| std::f64::consts::TAU * n as f64 / wavelength;
-        let local = rotor.at(k(harmonics));
+    /// `harmonics` = N at nodes `x` \[m\].
+    pub fn new(rotor: &Compliances, harmonics: usize, x: &[f64]) -> Self {
+        let wavelength = rotor.wavelength();
+        let local = rotor.harmonic(harmonics);
         let count = harmonics - 1;
-        let smooth = |n: usize| rotor.at(k(n)) - local;
+        let smooth = |n: usize| rotor.harmonic(n) - local;
         let scale = (1..=count).map(|n| (2.0 * smooth(n).abs() / wavelength).sqrt()).collect();
         let sign = (1..=count).map(|n| if smooth(n) < 0.0 { -1.0 } else { 1.0 }).collect();
         // Harmonic by harmonic, every node's angle turned on by its first harmonic's.
         let nodes = x.len();
         let (mut cosines, mut sines) = (vec![1.0; nodes], vec![0.0; nodes]);
-        let first: Vec<(f64, f64)> = x.iter().map(|x| (k(1) * x).sin_cos()).collect();
+        let first: Vec<(f64, f64)> = x.iter().map(|x| (std::f64::consts::TAU / wavelength * x).sin_cos()).collect();
         for n in 1..=2 * count {
             for (i, (sin, cos)) in first.iter().enumerate() {
                 let (c, s) = (cosines[(n - 1) * nodes + i], sines[(n - 1) * nodes + i]);

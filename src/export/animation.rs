@@ -13,7 +13,6 @@ use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
-use crate::recording::sample::Touching;
 use crate::scene::show_text;
 use crate::solution::Solution;
 use color_quant::NeuQuant;
@@ -141,11 +140,7 @@ pub fn write_video(
     let count = video_frames(&solution.recording, options);
     let mut recording = Cow::Borrowed(&solution.recording);
     if count != frames(&recording, options.frames) {
-        let touching = match &problem.scenario {
-            Scenario::Motor(motor) => Touching::of(motor),
-            Scenario::Plate(_) => Touching::default(),
-        };
-        recording = Cow::Owned(recording.resampled(count, touching));
+        recording = Cow::Owned(recording.resampled(count));
     }
     if count == 0 {
         return Err(AnimationError::NoCycle);

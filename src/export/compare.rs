@@ -102,6 +102,12 @@ fn json_value(value: &Option<Value>) -> serde_json::Value {
         Some(Value::Flag(flag)) => (*flag).into(),
         Some(Value::Text(text)) => text.clone().into(),
         Some(Value::Rows(rows)) => rows.iter().map(|(k, c)| vec![*k, *c]).collect(),
+        Some(Value::Records(records)) => {
+            let cells = |record: &Vec<Value>| -> serde_json::Value {
+                record.iter().map(|cell| json_value(&Some(cell.clone()))).collect()
+            };
+            records.iter().map(cells).collect()
+        }
     }
 }
 

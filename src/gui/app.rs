@@ -112,6 +112,7 @@ impl eframe::App for App {
         }
         self.last_frame = Some(now);
         self.updater.follow_torque();
+        self.updater.follow_rotor();
         if !self.after_text.is_empty() {
             // The field hands its text over when the cursor leaves it.
             ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));

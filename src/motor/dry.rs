@@ -24,8 +24,8 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
         let nodes = teeth * nx;
         let positions: Vec<f64> = (0..nodes).map(|i| (i / nx) as f64 * motor.pitch() + axis.nodes[i % nx]).collect();
         let lengths = (0..nodes).map(|i| axis.lengths[i % nx]).collect();
-        let harmonics = cutoff(&motor.rotor, motor.wavelength(), grid.harmonic_fraction, plan.most_harmonics);
-        let modes = Modes::new(&motor.rotor, motor.wavelength(), harmonics, &positions);
+        let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics);
+        let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let nothing = vec![0.0; nodes];
         let mut contact =
             Contact::new(modes, lengths, &nothing, motor.gas.ambient_pressure, motor.min_spacing, motor.load);

@@ -3,9 +3,10 @@
 use crate::contact::ContactError;
 use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
+use crate::rotor::RotorError;
 
-/// Why a motor could not be solved. No input is known to lead here.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+/// Why a motor could not be solved. Of the steps and instants no input is known to lead here.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MotorError {
     /// A film step failed.
     #[error("film, step {step} of the cycle: {source}")]
@@ -23,6 +24,9 @@ pub enum MotorError {
         /// Why.
         source: ContactError,
     },
+    /// The rotor has no compliance.
+    #[error(transparent)]
+    Rotor(#[from] RotorError),
 }
 
 /// Interrupted or failed: what ends a round early.

@@ -14,7 +14,7 @@ use crate::film::trapped::TrappedFilm;
 use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
-use crate::recording::{Balance, LineLoads, Recording};
+use crate::recording::{Balance, LineLoads, Recording, Touching};
 use crate::solution::{Stats, Status};
 
 /// Earlier rounds that the acceleration remembers.
@@ -116,8 +116,8 @@ impl Level {
                 })
                 .collect()
         });
-        let harmonics = cutoff(&motor.rotor, motor.wavelength(), grid.harmonic_fraction, plan.most_harmonics);
-        let modes = Modes::new(&motor.rotor, motor.wavelength(), harmonics, &positions);
+        let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics);
+        let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let gas = &motor.gas;
         let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load);
         let unknowns = film_grid.unknowns();
@@ -647,7 +647,7 @@ impl Level {
 
     /// The cycle as it is drawn and exported: the lines of this, the finest grid, extrapolated with those of the `coarser` ones,
     /// coarse to fine; without them as they are.
-    pub(super) fn recording(&self, motor: &Motor, coarser: &[LineLoads], maps: bool) -> Recording {
+    pub(super) fn recording(&self, motor: &Motor, plan: &Plan, coarser: &[LineLoads], maps: bool) -> Recording {
         let grid = self.grid();
         let nx = self.nx;
         let mut stator = vec![0.0; self.line.len()];
@@ -660,6 +660,8 @@ impl Level {
         let balance = Balance { load: Some(motor.load), min_spacing: motor.min_spacing };
         let mut pressure = self.films.iter().filter(|_| maps).map(|film| film.full_pressure(self.ambient_pressure));
         let base = Recording {
+            touching: Touching { min_spacing: motor.min_spacing, compliance: plan.rotor.beyond(plan.most_harmonics) },
+            rotor: plan.rotor.clone(),
             period: motor.period(),
             stator,
             map_x: grid.x.nodes.clone(),

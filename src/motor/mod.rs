@@ -275,7 +275,7 @@ impl<'a> Transient<'a> {
                     coarser.push(level.line_loads(self.motor));
                     Recording::default()
                 } else {
-                    level.recording(self.motor, &coarser, maps)
+                    level.recording(self.motor, &self.plan, &coarser, maps)
                 }
             };
             last = match level.transient_cycle(tolerance, &mut self.stats, cancel, told) {
@@ -361,7 +361,7 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
         };
     };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
-    let mut recording = level.recording(motor, &coarser, plan.maps);
+    let mut recording = level.recording(motor, plan, &coarser, plan.maps);
     let estimate = stated(plan, found);
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error.min(1.0)).max(0.0);
     recording.judge_series(elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE));

@@ -28,6 +28,7 @@
 
 use super::mesh::Meshes;
 use crate::problem::Motor;
+use crate::rotor::Compliances;
 
 /// Rounds in which all offending nodes change together.
 const TOGETHER: usize = 40;
@@ -77,18 +78,17 @@ pub(super) struct Contact {
 }
 
 impl Contact {
-    pub(super) fn new(motor: &Motor, meshes: &Meshes) -> Self {
+    pub(super) fn new(motor: &Motor, rotor: &Compliances, meshes: &Meshes) -> Self {
         let n = meshes.n;
         let lambda = motor.wavelength();
         let column: Vec<f64> = (0..n)
             .map(|d| {
                 let sum: f64 = (1..=n / 2)
                     .map(|harmonic| {
-                        let k = std::f64::consts::TAU * harmonic as f64 / lambda;
                         let nyquist = if 2 * harmonic == n { 0.5 } else { 1.0 };
                         // Reduced first: the cosine of a large argument loses digits.
                         let turn = (harmonic * d % n) as f64 / n as f64;
-                        nyquist * motor.rotor.at(k) * (std::f64::consts::TAU * turn).cos()
+                        nyquist * rotor.harmonic(harmonic) * (std::f64::consts::TAU * turn).cos()
                     })
                     .sum();
                 2.0 / lambda * sum

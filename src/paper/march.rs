@@ -4,6 +4,7 @@ use super::contact::{Balance, Contact};
 use super::film::FactoredFilm;
 use super::mesh::Meshes;
 use crate::problem::Motor;
+use crate::rotor::Compliances;
 
 /// Change of pressure and of film thickness in a round of the inner loop, relative to the greatest, that counts as none.
 pub(super) const INNER_TOLERANCE: f64 = 1e-3;
@@ -61,9 +62,17 @@ pub(super) struct March<'a> {
 
 impl<'a> March<'a> {
     /// Everything at rest at t = 0: ambient pressure, the rotor pressed on the stator without a film.
-    pub(super) fn new(motor: &'a Motor, nx: usize, ny: usize, n: usize, steps: usize, knudsen: f64) -> Self {
+    pub(super) fn new(
+        motor: &'a Motor,
+        rotor: &Compliances,
+        nx: usize,
+        ny: usize,
+        n: usize,
+        steps: usize,
+        knudsen: f64,
+    ) -> Self {
         let meshes = Meshes::new(motor, n, nx);
-        let contact = Contact::new(motor, &meshes);
+        let contact = Contact::new(motor, rotor, &meshes);
         let (b, h_m) = (motor.tooth_width, motor.min_spacing);
         let film = FactoredFilm::new(nx, ny, motor.contact_width / b, squeeze_number(motor), knudsen);
         let (teeth, nodes) = (motor.teeth, film.nodes());

@@ -44,6 +44,7 @@ pub use film::FactoredFilm;
 
 use crate::control::{Cancel, Observer, Progress};
 use crate::problem::{Motor, Numerics, Slip};
+use crate::rotor::RotorError;
 use crate::solution::{Accuracy, Model, MotorResult, Outcome, Solution, Stats, Status, StoppedBy};
 use contact::Balance;
 use march::{INNER_TOLERANCE, March, Step};
@@ -94,8 +95,17 @@ impl Mesh {
 
 /// Solves for the periodic state of `motor` by the paper's algorithm, on the paper's meshes unless `numerics` says
 /// otherwise. The observer hears of every cycle; `cancel` is looked at in every time step.
-pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, cancel: &Cancel) -> Solution {
+///
+/// # Errors
+/// [`RotorError`] if the rotor has no compliance.
+pub fn solve(
+    motor: &Motor,
+    numerics: &Numerics,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Solution, RotorError> {
     let Mesh { nx, ny, n, steps } = Mesh::of(numerics);
+    let rotor = motor.compliances(n / 2)?;
 
     let mut warnings = Vec::new();
     let knudsen = match motor.gas.slip {
@@ -107,14 +117,14 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         }
     };
 
-    let mut march = March::new(motor, nx, ny, n, steps, knudsen);
-    let mut recorder = Recorder::new(&march);
+    let mut march = March::new(motor, &rotor, nx, ny, n, steps, knudsen);
+    let mut recorder = Recorder::new(&march, &rotor);
     let mut counts = Counts::default();
     let status = counts.cycles(&mut march, &mut recorder, observer, cancel, &mut warnings);
 
     // Of a state that is not one, the residual is the only measure there is.
     let astray = if let Status::NotConverged { residual, .. } = status { residual } else { counts.limit_cycle };
-    let relative_error = discretisation_error(nx, ny, n) + astray;
+    let relative_error = discretisation_error(nx, ny, n) + astray + rotor.relative_error();
     let recording = recorder.finish();
     let film_load = mean(&recording.film_load);
     let contact_load = mean(&recording.contact_load);
@@ -158,7 +168,7 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         steps_per_cycle: steps,
     };
     let stated = outcome.alpha_error / alpha.abs();
-    Solution {
+    Ok(Solution {
         accuracy: Accuracy { asked: 0.0, stated, stopped_by: StoppedBy::Limit },
         status,
         outcome: Outcome::Motor(outcome),
@@ -167,7 +177,7 @@ pub fn solve(motor: &Motor, numerics: &Numerics, observer: &mut dyn Observer, ca
         model: describe(motor, (nx, ny, n + 1), &march),
         warnings,
         recording,
-    }
+    })
 }
 
 /// Relative error of α that comes with the meshes: 4.5 % on the paper's own, and in proportion to the coarsest of the

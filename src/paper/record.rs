@@ -6,7 +6,8 @@
 
 use super::march::March;
 use super::mesh::Between;
-use crate::recording::{LineLoads, Recording};
+use crate::recording::{LineLoads, Recording, Touching};
+use crate::rotor::Compliances;
 
 /// Fills a [`Recording`] frame by frame; every cycle overwrites the last.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ pub(super) struct Recorder {
 
 impl Recorder {
     /// Every frame as the march stands: what is not reached before a cancellation stays so.
-    pub(super) fn new(march: &March<'_>) -> Self {
+    pub(super) fn new(march: &March<'_>, rotor: &Compliances) -> Self {
         let (motor, meshes) = (march.motor, &march.meshes);
         let (teeth, frames, nx, ny) = (motor.teeth, march.steps, march.film.nx(), march.film.ny());
         let (b, w) = (motor.tooth_width, motor.contact_width);
@@ -55,6 +56,8 @@ impl Recorder {
                 film_thickness: vec![0.0; lines],
                 ..LineLoads::default()
             },
+            touching: Touching { min_spacing: motor.min_spacing, compliance: rotor.beyond(meshes.n / 2) },
+            rotor: rotor.clone(),
             period: motor.period(),
             stator: vec![0.0; lines],
             map_x: (0..nx).map(|i| b * (i as f64 / (nx - 1) as f64 - 0.5)).collect(),

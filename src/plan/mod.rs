@@ -6,10 +6,12 @@ mod plate;
 mod reduction;
 
 pub use grid::Grid;
+pub use motor::ROTOR_EFFECT;
 pub use reduction::wedge_bound;
 
 use crate::fidelity::Fidelity;
 use crate::problem::{Flow, Named, Numerics, Teeth, Time, Wedge, Width};
+use crate::rotor::{Compliances, RESONANCES};
 use grid::nested;
 
 /// What was decided about one part of the model; `analysis::decision` says it, and why, in words.
@@ -62,6 +64,15 @@ pub enum Choice {
     },
     /// Steps in a cycle of a plate, and whether they are the shorter the closer it is.
     Steps(usize, bool),
+    /// A rotor that is known to a stated error only.
+    Rotor {
+        /// [`Compliances::relative_error`].
+        error: f64,
+        /// Whether it is computed from its cross-section.
+        ring: bool,
+        /// Lowest natural frequency of the shape of each of the first harmonics \[Hz\], of a ring; a draft does not ask for it.
+        resonances: Option<[f64; RESONANCES]>,
+    },
     /// Nothing leaks from under a plate: its gas is trapped.
     NoLeaks,
 }
@@ -100,7 +111,7 @@ impl Decision {
             Choice::Wedge(_) => Some("numerics.wedge"),
             Choice::Teeth(..) => Some("numerics.teeth"),
             Choice::Width(_) => Some("numerics.width"),
-            Choice::NoShear | Choice::NoLeaks => None,
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => None,
             Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => None,
         }
     }
@@ -113,7 +124,7 @@ impl Decision {
             Choice::Wedge(wedge) => wedge.name(),
             Choice::Teeth(teeth, _) => teeth.name(),
             Choice::Width(width) => width.name(),
-            Choice::NoShear | Choice::NoLeaks => "",
+            Choice::NoShear | Choice::NoLeaks | Choice::Rotor { .. } => "",
             Choice::MotorGrid { .. } | Choice::PlateGrid { .. } | Choice::Steps(..) => "",
         }
     }
@@ -150,6 +161,8 @@ pub struct Plan {
     pub trapped: bool,
     /// Bound of what everything that was left out changes, relative to α.
     pub left_out: f64,
+    /// The rotor; a plate has none.
+    pub rotor: Compliances,
     /// Rotor harmonics kept at most.
     pub most_harmonics: usize,
     /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.

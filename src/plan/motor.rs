@@ -6,8 +6,13 @@ use super::{Choice, Decision, Plan, ROUND_LIMIT, THINNEST_LAYER, custom, name};
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::numerics::grading::middle_clustering;
-use crate::problem::{Flow, Motor, Numerics, Teeth, Time, Wedge, Width};
+use crate::problem::{Flow, Motor, Numerics, RotorCompliance, Teeth, Time, Wedge, Width};
+use crate::rotor::{Compliances, MOST_HARMONICS, RotorError};
+use std::f64::consts::TAU;
 
+/// Effect on α, relative, of an error of the rotor's compliance, as a multiple of [`Compliances::relative_error`] (measured, and bounded by
+/// `tests/plan.rs`).
+pub const ROTOR_EFFECT: f64 = 2.0;
 /// Intervals that a crowned tooth gets beyond those of a flat one, as a multiple of them, for each factor of e by which the
 /// intervals in its middle are shorter than uniform ones.
 const MIDDLE: f64 = 1.0;
@@ -18,14 +23,22 @@ const FEWEST_ALONG: usize = 2 << (GRIDS - 1);
 
 impl Plan {
     /// The plan of a motor at a fidelity; `numerics` overrules.
-    pub fn motor(motor: &Motor, fidelity: Fidelity, numerics: &Numerics) -> Self {
+    ///
+    /// # Errors
+    /// [`RotorError`] if the rotor has no compliance.
+    pub fn motor(motor: &Motor, fidelity: Fidelity, numerics: &Numerics) -> Result<Self, RotorError> {
         Self::motor_to(motor, fidelity, &fidelity.spec(), numerics)
     }
 
     /// The plan of a motor to a specification.
-    pub fn motor_to(motor: &Motor, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Self {
+    ///
+    /// # Errors
+    /// As [`Plan::motor`].
+    pub fn motor_to(motor: &Motor, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Result<Self, RotorError> {
         let numbers = Dimensionless::of_motor(motor);
         let layer = numbers.boundary_layer;
+        let in_layer = (motor.wavelength() / (TAU * layer)) as usize;
+        let rotor = motor.compliances(in_layer.clamp(spec.most_harmonics, MOST_HARMONICS))?;
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let edge = spec.edge_fraction * layer;
         let base = spec.along.max(per_wave);
@@ -48,7 +61,7 @@ impl Plan {
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
         let steps = round_up(steps_per_pitch) * motor.teeth;
 
-        let time = time(numerics, &numbers, motor, fidelity, spec);
+        let time = time(numerics, &numbers, motor, &rotor, fidelity, spec);
         let flow = flow(numerics, &numbers, motor, fidelity, spec);
         let wedge = wedge(numerics, &numbers, motor, along, fidelity, spec);
         let trapped = time.chosen == Choice::Time(Time::Trapped);
@@ -57,10 +70,14 @@ impl Plan {
         let finest = Grid { along, across, steps, harmonic_fraction: spec.harmonic_fraction };
         let grid = Choice::MotorGrid { grid: finest, layer, edge_fraction: spec.edge_fraction, middle, spectral };
         let grid = Decision { overruled: custom(numerics), ..Decision::exact(grid) };
-        let decisions = vec![time, flow, wedge, teeth(numerics, motor), width(numerics), grid];
+        let decisions: Vec<Decision> = [time, flow, wedge, teeth(numerics, motor), width(numerics), grid]
+            .into_iter()
+            .chain(rotor_error(motor, &rotor, spec)?)
+            .collect();
         // What the trapped limit leaves out, it leaves out once.
-        let moving = |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_));
-        Self {
+        let moving =
+            |decision: &&Decision| !trapped || matches!(decision.chosen, Choice::Time(_) | Choice::Rotor { .. });
+        Ok(Self {
             fidelity: name(fidelity, numerics),
             grids: nested(finest, spectral),
             clustering_along,
@@ -78,6 +95,7 @@ impl Plan {
             },
             trapped,
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
+            rotor,
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,
@@ -88,13 +106,25 @@ impl Plan {
             round_limit: ROUND_LIMIT,
             maps: true,
             decisions,
-        }
+        })
     }
 }
 
 /// Length \[m\] in the middle of a crowned tooth over which its crown opens the gap by H_m: the film that carries, at the least.
 fn crown_length(motor: &Motor) -> f64 {
     motor.tooth_radius.map_or(f64::INFINITY, |radius| (8.0 * radius * motor.min_spacing).sqrt())
+}
+
+/// Of a rotor that is known to a stated error only.
+fn rotor_error(motor: &Motor, rotor: &Compliances, spec: &Spec) -> Result<Option<Decision>, RotorError> {
+    let error = rotor.relative_error();
+    if error == 0.0 {
+        return Ok(None);
+    }
+    let ring = matches!(motor.rotor, RotorCompliance::Ring(_));
+    let resonances = if spec.target_error < Fidelity::Draft.accuracy() { motor.resonances()? } else { None };
+    let chosen = Choice::Rotor { error, ring, resonances };
+    Ok(Some(Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(chosen) }))
 }
 
 fn teeth(numerics: &Numerics, motor: &Motor) -> Decision {

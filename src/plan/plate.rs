@@ -5,6 +5,7 @@ use super::{Choice, Decision, LEAK_EFFECT, Plan, ROUND_LIMIT, SHARE, THINNEST_LA
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::problem::{Flow, Numerics, Plate};
+use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};
 
 /// Grids beyond those of the plan, at most, and the frames of a recording beyond which there is none.
@@ -98,6 +99,7 @@ impl Plan {
             flow: Flow::Plane,
             trapped,
             left_out,
+            rotor: Compliances::default(),
             most_harmonics: spec.most_harmonics,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,

@@ -4,6 +4,7 @@ use super::{Choice, Decision, LEAK_EFFECT, SHARE, Weighed};
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, Spec};
 use crate::problem::{Flow, Motor, Numerics, Time, Wedge};
+use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};
 
 /// Effect on α, relative, of leaving out the wedge term, as a multiple of U/(2ω) over the length that gas or gap vary
@@ -73,6 +74,7 @@ pub(super) fn time(
     numerics: &Numerics,
     numbers: &Dimensionless,
     motor: &Motor,
+    rotor: &Compliances,
     fidelity: Fidelity,
     spec: &Spec,
 ) -> Decision {
@@ -87,7 +89,7 @@ pub(super) fn time(
         effect: leaks(motor, layer, active_length(motor))
             + leaks(motor, layer, motor.contact_width)
             + 2.0 * unevenness(motor) * end_share(motor)
-            + yielding(motor, layer)
+            + yielding(motor, rotor, layer)
             + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 },
         unresolved: 0.0,
         number: layer / motor.tooth_width.min(motor.contact_width),
@@ -203,9 +205,9 @@ fn unevenness(motor: &Motor) -> f64 {
 /// Bound of what the rotor's deflection under the film's own pressure changes, relative to α. In the boundary layer at the ends
 /// of a tooth the pressure falls to ambient. The rotor deflects less there, so the gap is smaller and holds less gas. The bound
 /// is twice that change of the gap over the mean gap, times the force of the compressed gas over the load if that exceeds 1.
-fn yielding(motor: &Motor, layer: f64) -> f64 {
+fn yielding(motor: &Motor, rotor: &Compliances, layer: f64) -> f64 {
     let pressure = motor.gas.ambient_pressure * motor.contact_width;
-    let bulge = motor.rotor.at(1.0 / layer) * pressure / (motor.normal_amplitude + motor.min_spacing);
+    let bulge = rotor.longer_than(1.0 / layer) * pressure / (motor.normal_amplitude + motor.min_spacing);
     let stiffness = pressure * motor.tooth_width * motor.teeth as f64 / motor.load;
     2.0 * bulge * end_share(motor) * stiffness.max(1.0)
 }

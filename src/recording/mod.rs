@@ -6,6 +6,7 @@ pub mod sample;
 pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
+use crate::rotor::Compliances;
 use std::ops::{Deref, DerefMut};
 
 /// Error of a greatest pressure over that of a load which differs as much from grid to grid: it is found where contact begins, or between
@@ -29,6 +30,10 @@ fn offset([stored, teeth, frames, nodes]: [usize; 4], tooth: usize, frame: usize
 pub struct Recording {
     /// Grid, contact, film and film thickness, without `peak` and `ambient`.
     pub lines: LineLoads,
+    /// How contact and gap exclude each other.
+    pub touching: Touching,
+    /// The rotor; a plate has none.
+    pub rotor: Compliances,
     /// Period \[s\].
     pub period: f64,
     /// One cycle of a transient: after its last frame comes another cycle, and no tooth is another one at another time.
@@ -66,6 +71,15 @@ pub struct Recording {
     /// What the lines of this recording are judged by ([`Recording::estimate`]): extrapolated from the two coarser grids, and those of
     /// the finest grid as it was solved. Empty if there were not three grids.
     pub yardsticks: Vec<LineLoads>,
+}
+
+/// How contact and gap exclude each other between two frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Touching {
+    /// Film thickness where the gap is closed \[m\].
+    pub min_spacing: f64,
+    /// Local compliance of the rotor \[m²/N\].
+    pub compliance: f64,
 }
 
 /// Film, contact and gap of one cycle on one grid, in the conventions of [`Recording`].

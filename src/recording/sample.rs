@@ -4,13 +4,10 @@
 //! frame comes the first. By lag symmetry tooth k at a place is tooth 0 at place + k·frames/teeth, so that another tooth
 //! may lie between two frames where tooth 0 does not.
 
-use super::{LineLoads, Recording};
-use crate::problem::Motor;
+use super::{LineLoads, Recording, Touching};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Wavenumber beyond all that a rotor resolves \[rad/m\]: what is left of its compliance is local.
-const LOCAL: f64 = 1e9;
 /// Harmonics of the rotor between the teeth: those of a pitch and shorter are small.
 const HARMONICS: usize = 32;
 
@@ -131,21 +128,7 @@ impl Pair {
     }
 }
 
-/// How contact and gap exclude each other between two frames.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Touching {
-    /// Film thickness where the gap is closed \[m\].
-    pub min_spacing: f64,
-    /// Local compliance of the rotor \[m²/N\].
-    pub compliance: f64,
-}
-
 impl Touching {
-    /// That of `motor`.
-    pub fn of(motor: &Motor) -> Self {
-        Self { min_spacing: motor.min_spacing, compliance: motor.rotor.at(LOCAL) }
-    }
-
     /// Gap \[m\] and contact line load \[N/m\] between (gap, load) of two frames, `weight` of the second.
     ///
     /// Where a node opens or closes, −compliance·load and the gap are two sides of one number, which passes 0 once: until
@@ -188,7 +171,7 @@ pub struct Lines {
 
 impl Lines {
     /// Reads two frames of each tooth at most; a recorded frame as it is.
-    pub fn at(recording: &Recording, place: f64, touching: Touching) -> Self {
+    pub fn at(recording: &Recording, place: f64) -> Self {
         let nodes = recording.x.len();
         let mut lines = Self { nodes, ..Self::default() };
         let all_stored = recording.stored_teeth == recording.teeth;
@@ -202,12 +185,12 @@ impl Lines {
                 let start = (stored * recording.frames + frame) * nodes;
                 start..start + nodes
             };
-            lines.read(recording, line(pair.first), line(pair.second), pair.weight, touching);
+            lines.read(recording, line(pair.first), line(pair.second), pair.weight);
         }
         lines
     }
 
-    fn read(&mut self, recording: &Recording, first: Range<usize>, second: Range<usize>, weight: f64, how: Touching) {
+    fn read(&mut self, recording: &Recording, first: Range<usize>, second: Range<usize>, weight: f64) {
         if weight == 0.0 {
             self.stator.extend_from_slice(&recording.stator[first.clone()]);
             self.film_thickness.extend_from_slice(&recording.film_thickness[first.clone()]);
@@ -215,6 +198,7 @@ impl Lines {
             self.film.extend_from_slice(&recording.film[first]);
             return;
         }
+        let how = recording.touching;
         for (i, j) in first.zip(second) {
             let mix = |field: &[f64]| field[i] + weight * (field[j] - field[i]);
             let state = |index: usize| [recording.film_thickness[index] - how.min_spacing, recording.contact[index]];
@@ -236,11 +220,12 @@ impl Lines {
     ///
     /// No load acts there, and nothing is pressed in locally, so that its height is z₀ + Σ (C_n − C_∞) q_n cos(k_n x − φ_n), q_n the harmonics of contact and film. z₀ is
     /// what is left at the edges of the two teeth, where the whole height is known.
-    pub fn grooves(&self, recording: &Recording, motor: &Motor, points: usize) -> Vec<Vec<[f64; 2]>> {
+    pub fn grooves(&self, recording: &Recording, points: usize) -> Vec<Vec<[f64; 2]>> {
         let (teeth, length) = (recording.teeth, recording.length);
         let Some(reach) = recording.x.last().copied().filter(|_| length > 0.0) else { return vec![Vec::new(); teeth] };
         let wave = TAU / length;
-        let local = motor.rotor.at(LOCAL);
+        let rotor = &recording.rotor;
+        let local = rotor.beyond(HARMONICS);
         let load = |k: usize| self.contact[k] + self.film[k];
         let at = |tooth: usize, i: usize| tooth as f64 * recording.pitch + recording.x[i];
         // Amplitudes of cosines and sines, each harmonic's angle turned on from the one before.
@@ -255,7 +240,7 @@ impl Lines {
             }
         }
         for (n, amplitude) in harmonics.iter_mut().enumerate() {
-            let smooth = motor.rotor.at(wave * (n + 1) as f64) - local;
+            let smooth = rotor.harmonic(n + 1) - local;
             *amplitude = amplitude.map(|q| smooth * q);
         }
         let mut smooth = |x: f64| {
@@ -265,7 +250,10 @@ impl Lines {
         };
         let mut rest = |tooth: usize, i: usize| {
             let k = self.of(tooth).start + i;
-            self.stator[k] + self.film_thickness[k] - motor.min_spacing - local * load(k) - smooth(at(tooth, i))
+            self.stator[k] + self.film_thickness[k]
+                - recording.touching.min_spacing
+                - local * load(k)
+                - smooth(at(tooth, i))
         };
         let last = self.nodes - 1;
         let edges: Vec<[f64; 2]> = (0..teeth).map(|tooth| [rest(tooth, 0), rest(tooth, last)]).collect();
@@ -292,9 +280,9 @@ fn turned(angle: f64, harmonics: &mut [[f64; 2]], mut each: impl FnMut(&mut [f64
 impl Recording {
     /// The same cycle at `frames` instants, evenly spaced from its first frame; between recorded frames read as [`Lines`] are. All teeth
     /// are stored, and no errors.
-    pub fn resampled(&self, frames: usize, touching: Touching) -> Self {
+    pub fn resampled(&self, frames: usize) -> Self {
         let place = |frame: usize| (frame * self.frames) as f64 / frames.max(1) as f64;
-        let lines: Vec<Lines> = (0..frames).map(|frame| Lines::at(self, place(frame), touching)).collect();
+        let lines: Vec<Lines> = (0..frames).map(|frame| Lines::at(self, place(frame))).collect();
         let field = |of: fn(&Lines) -> &[f64]| -> Vec<f64> {
             let teeth = 0..self.teeth;
             teeth
@@ -334,6 +322,8 @@ impl Recording {
             min_film_thickness: mix(&self.min_film_thickness, 1),
             max_pressure: mix(&self.max_pressure, 1),
             teeth_in_contact: touch.collect(),
+            touching: self.touching,
+            rotor: self.rotor.clone(),
             period: self.period,
             transient: self.transient,
             map_x: self.map_x.clone(),
@@ -462,13 +452,14 @@ mod tests {
             film: lines().map(|(_, load)| load).collect(),
             ..LineLoads::default()
         };
-        Recording { lines, stator, ..Recording::default() }
+        let touching = Touching { min_spacing: 0.5, compliance: 0.1 };
+        Recording { lines, stator, touching, ..Recording::default() }
     }
 
     #[test]
     fn a_recorded_frame_is_read_as_it_is() {
         let recording = passing(1, 6);
-        let lines = Lines::at(&recording, 2.0, Touching { min_spacing: 0.5, compliance: 0.1 });
+        let lines = Lines::at(&recording, 2.0);
         for tooth in 0..3 {
             let offset = recording.line_offset(tooth, 2);
             assert_eq!(lines.film_thickness[lines.of(tooth)], recording.film_thickness[offset..offset + 2]);
@@ -478,10 +469,9 @@ mod tests {
 
     #[test]
     fn between_frames_one_tooth_and_its_lag_are_what_all_teeth_stored_are() {
-        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
         let (one, all) = (passing(1, 6), passing(3, 6));
         for place in [0.0, 0.3, 2.5, 5.9] {
-            let (a, b) = (Lines::at(&one, place, how), Lines::at(&all, place, how));
+            let (a, b) = (Lines::at(&one, place), Lines::at(&all, place));
             for (left, right) in [(&a.film_thickness, &b.film_thickness), (&a.contact, &b.contact), (&a.film, &b.film)]
             {
                 assert_eq!(left.len(), 6);
@@ -491,26 +481,25 @@ mod tests {
         // Frames that the teeth do not divide: tooth 1 lies between two frames where tooth 0 lies on one.
         let uneven = passing(1, 7);
         let (place, lag) = (2.0, 7.0 / 3.0);
-        let (here, ahead) = (Lines::at(&uneven, place, how), Lines::at(&uneven, place + lag, how));
+        let (here, ahead) = (Lines::at(&uneven, place), Lines::at(&uneven, place + lag));
         assert!(here.film[here.of(1)].iter().zip(&ahead.film[ahead.of(0)]).all(|(x, y)| (x - y).abs() < 1e-12));
     }
 
     #[test]
     fn a_cycle_is_read_at_other_instants_with_every_recorded_one_as_it_was() {
-        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
         let recording = passing(1, 6);
-        let finer = recording.resampled(24, how);
+        let finer = recording.resampled(24);
         assert_eq!((finer.frames, finer.stored_teeth, finer.film.len()), (24, 3, 3 * 24 * 2));
         for (tooth, frame) in [(0, 0), (1, 2), (2, 5)] {
             let (a, b) = (recording.line_offset(tooth, frame), finer.line_offset(tooth, 4 * frame));
             assert_eq!(recording.film[a..a + 2], finer.film[b..b + 2]);
             assert_eq!(recording.contact[a..a + 2], finer.contact[b..b + 2]);
         }
-        let between = Lines::at(&recording, 2.25, how);
+        let between = Lines::at(&recording, 2.25);
         let at = finer.line_offset(1, 9);
         assert_eq!(finer.film_thickness[at..at + 2], between.film_thickness[between.of(1)]);
         let map = self::recording(4, 1, true);
-        let finer = map.resampled(8, how);
+        let finer = map.resampled(8);
         let middle = |map: &Recording, frame: usize| Plane::of(map, 0, frame).unwrap().values[4];
         assert_eq!(middle(&finer, 4), middle(&map, 2));
         assert_eq!(middle(&finer, 3), 0.5 * (middle(&map, 1) + middle(&map, 2)));
@@ -518,10 +507,9 @@ mod tests {
 
     #[test]
     fn a_transient_does_not_run_back_into_its_beginning() {
-        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
         let repeating = passing(3, 6);
         let once = Recording { transient: true, ..repeating.clone() };
-        let film = |recording: &Recording, place: f64| Lines::at(recording, place, how).film;
+        let film = |recording: &Recording, place: f64| Lines::at(recording, place).film;
         assert_eq!(film(&once, 5.7), film(&once, 5.0));
         assert_ne!(film(&repeating, 5.7), film(&repeating, 5.0));
         assert_eq!(film(&once, 2.5), film(&repeating, 2.5));
@@ -536,11 +524,10 @@ mod tests {
 
     #[test]
     fn contact_and_gap_exclude_each_other_between_frames_too() {
-        let how = Touching { min_spacing: 0.5, compliance: 0.1 };
         let recording = passing(1, 6);
-        let (mut opened, mut before) = (0, Lines::at(&recording, 0.0, how));
+        let (mut opened, mut before) = (0, Lines::at(&recording, 0.0));
         for step in 0..=600 {
-            let lines = Lines::at(&recording, f64::from(step) / 100.0, how);
+            let lines = Lines::at(&recording, f64::from(step) / 100.0);
             for (i, (thickness, contact)) in lines.film_thickness.iter().zip(&lines.contact).enumerate() {
                 let gap = thickness - 0.5;
                 assert!(gap >= -1e-12 && *contact >= 0.0);
@@ -555,7 +542,7 @@ mod tests {
         // Every node of every tooth opens once and closes once.
         assert_eq!(opened, 12);
         // Nodes that pass on which side they are at the second frame exactly, and values that exclude nothing.
-        assert_eq!(how.between([0.0, 2.0], [0.0, 0.0], 1.0), [0.0, 0.0]);
+        assert_eq!(recording.touching.between([0.0, 2.0], [0.0, 0.0], 1.0), [0.0, 0.0]);
         assert_eq!(Touching::default().between([0.1, 0.0], [0.3, 0.0], 0.5), [0.2, 0.0]);
     }
 }

@@ -2,21 +2,131 @@
 //!
 //! By translation invariance along the ring, a line load q_n cos(k_n x), k_n = 2πn/λ, deflects the rotor by
 //! C(k_n) q_n cos(k_n x). The rigid offset (n = 0) is not part of the compliance: the load balance fixes it.
+//!
+//! Every model is resolved once, before anything is solved, into the [`Compliances`] of the harmonics of the wave. That may fail: a ring
+//! may be free to tilt. It is done as part of a solve and not where a scene is checked ([`crate::problem::Problem::new`]), because a ring
+//! takes long and the window checks a scene while a slider is dragged.
+
+mod compliances;
+mod green;
+pub mod ring;
 
 use crate::problem::{Motor, RotorCompliance};
+use compliances::smooth_share;
+pub use compliances::{Compliances, RotorError, Wave};
+use rayon::prelude::*;
+use ring::{Band, Section};
+use std::collections::VecDeque;
+use std::sync::{Mutex, PoisonError};
+
+/// Wavenumber beyond all that a beam or a table resolves \[rad/m\]: what is left of its compliance is local.
+const LOCAL: f64 = 1e9;
+/// Harmonics that anything may ask for: those of the finest contact mesh of the paper's method.
+pub const MOST_HARMONICS: usize = 2500;
+/// Harmonics whose natural frequencies are computed of a ring.
+pub const RESONANCES: usize = 3;
+/// Rings of which is kept what was computed, for the next solve of the same one.
+const KEPT: usize = 64;
 
 impl RotorCompliance {
-    /// Compliance C(k) \[m²/N\] at wavenumber `k` \[rad/m\], k > 0.
-    pub fn at(&self, k: f64) -> f64 {
-        match self {
+    /// Compliances of the first `count` harmonics of `wave`.
+    ///
+    /// # Errors
+    /// [`RotorError`] of a ring that the wave does not touch, or that nothing holds.
+    pub fn resolve(&self, wave: &Wave, count: usize) -> Result<Compliances, RotorError> {
+        let waves = |at: &dyn Fn(f64) -> f64| Compliances {
+            wavelength: wave.length,
+            harmonics: (1..=count).map(|n| at(std::f64::consts::TAU * n as f64 / wave.length)).collect(),
+            local: at(LOCAL),
+            relative_error: 0.0,
+        };
+        Ok(match self {
             Self::Beam { decay_length, point_compliance, local_compliance } => {
                 let foundation = 1.0 / (2.0 * decay_length * point_compliance);
-                let kl = k * decay_length;
-                1.0 / (foundation * (1.0 + 0.25 * kl * kl * kl * kl)) + local_compliance
+                waves(&|k| {
+                    let kl = k * decay_length;
+                    1.0 / (foundation * (1.0 + 0.25 * kl * kl * kl * kl)) + local_compliance
+                })
             }
-            Self::Table(rows) => interpolate_log(rows, k),
-        }
+            Self::Table(rows) => waves(&|k| interpolate_log(rows, k)),
+            Self::Green(rows) => green::resolve(rows, wave, count)?,
+            Self::Ring(section) => of_ring(section, wave)?,
+        })
     }
+}
+
+impl Motor {
+    /// The wave, where it touches the rotor.
+    pub fn wave(&self) -> Wave {
+        let band = Band { radius: self.contact_radius, width: self.contact_width };
+        Wave { length: self.wavelength(), waves: self.waves, band }
+    }
+
+    /// What the rotor's model comes to for the first `count` harmonics.
+    ///
+    /// # Errors
+    /// See [`RotorCompliance::resolve`].
+    pub fn compliances(&self, count: usize) -> Result<Compliances, RotorError> {
+        self.rotor.resolve(&self.wave(), count)
+    }
+
+    /// Lowest natural frequency of the shape of each of the first harmonics of the wave \[Hz\]; `None` of a rotor whose mass is not known.
+    ///
+    /// # Errors
+    /// [`RotorError`] of a ring that cannot be computed.
+    pub fn resonances(&self) -> Result<Option<[f64; RESONANCES]>, RotorError> {
+        let RotorCompliance::Ring(section) = &self.rotor else { return Ok(None) };
+        let found = RESONATING.or((section.clone(), self.waves), |_| {
+            let orders: Vec<u32> = (1..).take(RESONANCES).map(|n: u32| n * self.waves).collect();
+            let lowest = orders.into_par_iter().map(|order| section.natural_frequencies(order, 1));
+            let mut resonances = [f64::INFINITY; RESONANCES];
+            for (resonance, found) in resonances.iter_mut().zip(lowest.collect::<Result<Vec<_>, _>>()?) {
+                *resonance = found.first().map_or(f64::INFINITY, |frequency| frequency.value);
+            }
+            Ok::<_, RotorError>(resonances)
+        })?;
+        Ok(Some(found))
+    }
+}
+
+/// What was computed last, for whoever asks for the same again. A result does not depend on whether it is found here.
+struct Kept<K, V>(Mutex<VecDeque<(K, V)>>);
+
+impl<K: PartialEq, V: Clone> Kept<K, V> {
+    const fn new() -> Self {
+        Self(Mutex::new(VecDeque::new()))
+    }
+
+    /// What `key` gave, or what `compute` makes of it.
+    fn or<E>(&self, key: K, compute: impl FnOnce(&K) -> Result<V, E>) -> Result<V, E> {
+        let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = kept().iter().find(|(known, _)| *known == key) {
+            return Ok(found.clone());
+        }
+        let found = compute(&key)?;
+        let mut kept = kept();
+        kept.truncate(KEPT - 1);
+        kept.push_front((key, found.clone()));
+        Ok(found)
+    }
+}
+
+static RINGS: Kept<(Section, Wave), Compliances> = Kept::new();
+static RESONATING: Kept<(Section, u32), [f64; RESONANCES]> = Kept::new();
+
+fn of_ring(section: &Section, wave: &Wave) -> Result<Compliances, RotorError> {
+    RINGS.or((section.clone(), *wave), |_| {
+        let ring::RingCompliances { harmonics: found, resolved, .. } =
+            section.compliances(wave.band, wave.waves, MOST_HARMONICS)?;
+        let harmonics: Vec<f64> = found.iter().map(|harmonic| harmonic.value).collect();
+        let off = found[..resolved].iter().map(|harmonic| harmonic.error).sum();
+        Ok(Compliances {
+            wavelength: wave.length,
+            relative_error: smooth_share(&harmonics, off),
+            harmonics: harmonics.into(),
+            local: 0.0,
+        })
+    })
 }
 
 /// An end of a table counts as covering a wavenumber that is this near to it, relative.
@@ -64,14 +174,21 @@ fn interpolate_log(rows: &[(f64, f64)], k: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// A wave so long that its harmonics are dense.
+    fn wave(length: f64) -> Wave {
+        Wave { length, waves: 7, band: Band { radius: 0.029, width: 3e-4 } }
+    }
+
     #[test]
     fn beam_point_compliance_is_the_sum_over_all_wavenumbers() {
         // ∫ C dk/2π of the beam alone is the deflection under a unit point load.
         let (decay_length, point_compliance) = (4.0e-3, 0.64e-6);
         let rotor = RotorCompliance::Beam { decay_length, point_compliance, local_compliance: 0.0 };
         let dk = 1.0;
-        let sum: f64 = (0..2_000_000).map(|i| rotor.at((i as f64 + 0.5) * dk) * dk).sum();
-        let point = sum / std::f64::consts::PI;
+        let found = rotor.resolve(&wave(std::f64::consts::TAU / dk), 2_000_000).unwrap();
+        // The trapezoidal rule, with C(0) = 2 ℓ C_p.
+        let sum: f64 = (1..=2_000_000).map(|n| found.harmonic(n) * dk).sum();
+        let point = (sum + decay_length * point_compliance * dk) / std::f64::consts::PI;
         assert!((point / point_compliance - 1.0).abs() < 1e-6, "{point}");
     }
 
@@ -95,9 +212,10 @@ mod tests {
     #[test]
     fn table_passes_through_its_rows_and_is_constant_beyond() {
         let rotor = RotorCompliance::Table(vec![(10.0, 4e-9), (1000.0, 1e-9)]);
-        assert_eq!(rotor.at(1.0), 4e-9);
-        assert!((rotor.at(10.0) - 4e-9).abs() < 1e-22);
-        assert!((rotor.at(100.0) - 2e-9).abs() < 1e-22);
-        assert_eq!(rotor.at(1e6), 1e-9);
+        let at = |k: f64| rotor.resolve(&wave(std::f64::consts::TAU / k), 1).unwrap().harmonic(1);
+        assert_eq!(at(1.0), 4e-9);
+        assert!((at(10.0) - 4e-9).abs() < 1e-22);
+        assert!((at(100.0) - 2e-9).abs() < 1e-22);
+        assert_eq!(at(1e6), 1e-9);
     }
 }

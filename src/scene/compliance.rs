@@ -1,4 +1,5 @@
-//! The rotor's compliance as a table: rows of (wavenumber \[1/m\], compliance \[m²/N\]), wavenumbers ascending.
+//! The rotor as a table: of its compliance, rows of (wavenumber \[1/m\], compliance \[m²/N\]), or of its Green's function, rows of
+//! (x \[mm\], deflection \[µm/N\]) from x = 0 on; the first column ascending.
 //!
 //! A preset gives it inline,
 //!
@@ -10,8 +11,10 @@
 //!
 //! or as `compliance_csv = "file.csv"`, a path relative to the preset's folder. The CSV file has the header
 //! `wavenumber_per_m,compliance_m2_per_n` or `harmonic,compliance_m2_per_n`; harmonics n = 1, 2, … become wavenumbers
-//! k = 2πn/λ with the wavelength λ = 2πr/waves of the scene. Lines that start with `#` are comments. The scene keeps
-//! the rows, so that a saved preset needs no second file and a change of `motor.waves` leaves the rotor as it is.
+//! k = 2πn/λ with the wavelength λ = 2πr/waves of the scene. With `model = "green"` the keys are `green` and `green_csv`, and the header
+//! is `x_mm,deflection_um_per_n`: the deflection at x under a unit force at 0, which is the same on its other side. Lines that start with
+//! `#` are comments. The scene keeps the rows, so that a saved preset needs no second file and a change of `motor.waves` leaves the rotor
+//! as it is.
 
 use super::error::{Fault, SceneError, What};
 use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
@@ -21,10 +24,16 @@ use std::path::Path;
 /// Most rows of a table.
 pub const MOST_ROWS: usize = 100_000;
 
-/// The columns of a row, said of as keys are.
-pub static COLUMNS: [Parameter; 2] = [
+/// The columns of a row of compliances, said of as keys are.
+pub static COMPLIANCE: [Parameter; 2] = [
     column("wavenumber_per_m", "1/m", 1e-3, 1e9, "Wavenumber k"),
     column("compliance_m2_per_n", "m²/N", 1e-20, 1.0, "Displacement amplitude over line-load amplitude"),
+];
+
+/// Those of a row of the Green's function.
+pub static GREEN: [Parameter; 2] = [
+    column("x_mm", "mm", 0.0, 1e4, "Distance x from the force, along the ring"),
+    column("deflection_um_per_n", "µm/N", -1e6, 1e6, "Deflection at x under a unit force"),
 ];
 
 /// What a CSV file may have in place of the wavenumber.
@@ -39,30 +48,37 @@ const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about
     Parameter { key, unit, belongs: Belongs::Motor, when: None, instead_of: None, absent: None, kind, about }
 }
 
-/// Checks one row against its ranges and the wavenumber of the row `before`.
-pub(super) fn check_row(row: (f64, f64), before: Option<f64>) -> Result<(), What> {
-    for (column, value) in COLUMNS.iter().zip([row.0, row.1]) {
+/// Checks one row against the ranges of its columns and the row `before`.
+pub(super) fn check_row(columns: &'static [Parameter; 2], row: (f64, f64), before: Option<f64>) -> Result<(), What> {
+    for (column, value) in columns.iter().zip([row.0, row.1]) {
         column.accept(Value::Number(value))?;
     }
     match before {
-        Some(before) if row.0 <= before => Err(What::NotAscending(row.0, before)),
+        Some(before) if row.0 <= before => Err(What::NotAscending { column: columns[0].key, value: row.0, before }),
+        None if row.0 != 0.0 && columns[0].key == GREEN[0].key => Err(What::NotFromZero(row.0)),
         _ => Ok(()),
     }
 }
 
 /// Checks a table held in memory, up to its first fault.
-pub(super) fn check_rows(key: &'static str, rows: &[(f64, f64)]) -> Result<(), What> {
+pub(super) fn check_rows(key: &'static str, columns: &'static [Parameter; 2], rows: &[(f64, f64)]) -> Result<(), What> {
     if rows.is_empty() || rows.len() > MOST_ROWS {
         return Err(What::TooManyRows { key, rows: rows.len(), limit: MOST_ROWS });
     }
     let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
-    let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(*row, before)).zip(1..);
+    let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(columns, *row, before)).zip(1..);
     checked.try_for_each(|(checked, row)| checked.map_err(|fault| What::Row { key, row, fault: fault.into() }))
 }
 
-/// Reads the text of a CSV file. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and the line.
-pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(f64, f64)>, SceneError> {
-    const KEY: &str = "rotor.compliance_csv";
+/// Reads the text of a CSV file for the `key` that names it. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and
+/// the line.
+pub(super) fn read_csv(
+    key: &'static str,
+    columns: &'static [Parameter; 2],
+    text: &str,
+    path: &Path,
+    wavelength: f64,
+) -> Result<Vec<(f64, f64)>, SceneError> {
     let fault =
         |line: Option<usize>, what| Fault { origin: Some(path.to_owned()), line, column: line.and(Some(1)), what };
     let mut reader = csv::ReaderBuilder::new()
@@ -75,7 +91,7 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
 
     let header = match records.next() {
         Some(Ok(header)) => header,
-        _ => return Err(fault(Some(1), What::CsvHeader).into()),
+        _ => return Err(fault(Some(1), What::CsvHeader { key, columns }).into()),
     };
     let line_of = |record: &csv::StringRecord| {
         // The position is where the reader stood before blank lines and comments: step over them.
@@ -86,9 +102,9 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
         })
     };
     let harmonics = match header.iter().collect::<Vec<_>>()[..] {
-        ["harmonic", "compliance_m2_per_n"] => true,
-        ["wavenumber_per_m", "compliance_m2_per_n"] => false,
-        _ => return Err(fault(line_of(&header), What::CsvHeader).into()),
+        ["harmonic", second] if second == COMPLIANCE[1].key && columns[1].key == second => true,
+        [first, second] if [first, second] == [columns[0].key, columns[1].key] => false,
+        _ => return Err(fault(line_of(&header), What::CsvHeader { key, columns }).into()),
     };
 
     let mut rows: Vec<(f64, f64)> = Vec::new();
@@ -96,32 +112,37 @@ pub(super) fn read_csv(text: &str, path: &Path, wavelength: f64) -> Result<Vec<(
     for (i, record) in records.enumerate() {
         let row = i + 1;
         if row > MOST_ROWS {
-            faults.push(fault(None, What::TooManyRows { key: KEY, rows: row, limit: MOST_ROWS }));
+            faults.push(fault(None, What::TooManyRows { key, rows: row, limit: MOST_ROWS }));
             break;
         }
         let (line, parsed) = match record {
-            Ok(record) => (line_of(&record), row_of(&record, harmonics, wavelength)),
+            Ok(record) => (line_of(&record), row_of(&record, columns, harmonics, wavelength)),
             Err(error) => {
                 let line = error.position().map(|position| position.line() as usize);
-                (line, Err(What::NotAPair(show_text(&error.to_string()))))
+                (line, Err(What::NotAPair { found: show_text(&error.to_string()), columns }))
             }
         };
         let before = rows.last().map(|row| row.0);
-        match parsed.and_then(|row| check_row(row, before).map(|()| row)) {
+        match parsed.and_then(|row| check_row(columns, row, before).map(|()| row)) {
             Ok(row) => rows.push(row),
-            Err(wrong) => faults.push(fault(line, What::Row { key: KEY, row, fault: wrong.into() })),
+            Err(wrong) => faults.push(fault(line, What::Row { key, row, fault: wrong.into() })),
         }
     }
     let rows = faults.or(rows)?;
     if rows.is_empty() {
-        return Err(fault(None, What::TooManyRows { key: KEY, rows: 0, limit: MOST_ROWS }).into());
+        return Err(fault(None, What::TooManyRows { key, rows: 0, limit: MOST_ROWS }).into());
     }
     Ok(rows)
 }
 
-fn row_of(record: &csv::StringRecord, harmonics: bool, wavelength: f64) -> Result<(f64, f64), What> {
+fn row_of(
+    record: &csv::StringRecord,
+    columns: &'static [Parameter; 2],
+    harmonics: bool,
+    wavelength: f64,
+) -> Result<(f64, f64), What> {
     let [first, second] = record.iter().collect::<Vec<_>>()[..] else {
-        return Err(What::NotAPair(show_text(&record.iter().collect::<Vec<_>>().join(","))));
+        return Err(What::NotAPair { found: show_text(&record.iter().collect::<Vec<_>>().join(",")), columns });
     };
     let number = |column: &'static Parameter, field| {
         let value = column.accept(column.read(field)?)?;
@@ -130,24 +151,26 @@ fn row_of(record: &csv::StringRecord, harmonics: bool, wavelength: f64) -> Resul
     let wavenumber = if harmonics {
         std::f64::consts::TAU * number(&HARMONIC, first)? / wavelength
     } else {
-        number(&COLUMNS[0], first)?
+        number(&columns[0], first)?
     };
-    Ok((wavenumber, number(&COLUMNS[1], second)?))
+    Ok((wavenumber, number(&columns[1], second)?))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const KEY: &str = "rotor.compliance_csv";
+
     fn lines(text: &str) -> Vec<(Option<usize>, String)> {
-        let faults = read_csv(text, Path::new("r.csv"), 1.0).unwrap_err();
+        let faults = read_csv(KEY, &COMPLIANCE, text, Path::new("r.csv"), 1.0).unwrap_err();
         faults.faults().iter().map(|fault| (fault.line, fault.to_string())).collect()
     }
 
     #[test]
     fn harmonics_become_wavenumbers() {
         let text = "# a comment\nharmonic, compliance_m2_per_n\n1, 2e-9\n\n3, 1e-9\n";
-        let rows = read_csv(text, Path::new("r.csv"), 0.5).unwrap();
+        let rows = read_csv(KEY, &COMPLIANCE, text, Path::new("r.csv"), 0.5).unwrap();
         assert_eq!(rows, [(2.0 * std::f64::consts::TAU, 2e-9), (6.0 * std::f64::consts::TAU, 1e-9)]);
     }
 
@@ -191,5 +214,16 @@ mod tests {
                 .1
                 .contains("harmonic = 1.5 is of the wrong type: expected a whole number from 1 to")
         );
+    }
+
+    #[test]
+    fn a_greens_function_begins_at_its_force() {
+        let read = |text: &str| read_csv("rotor.green_csv", &GREEN, text, Path::new("g.csv"), 1.0);
+        assert_eq!(read("x_mm,deflection_um_per_n\n0,0.6\n1,-0.1\n").unwrap(), [(0.0, 0.6), (1.0, -0.1)]);
+        let told = |text: &str| read(text).unwrap_err().to_string();
+        assert!(told("x_mm,deflection_um_per_n\n0.5,0.6\n").contains("row 1: x_mm = 0.5 is not 0"));
+        assert!(told("x_mm,deflection_um_per_n\n0,0.6\n0,0.5\n").contains("x_mm = 0 is not above 0, the one before"));
+        let told = told("harmonic,compliance_m2_per_n\n1,1e-9\n");
+        assert!(told.contains("expected the header x_mm,deflection_um_per_n"), "{told}");
     }
 }

@@ -1,9 +1,14 @@
 //! Scene to problem: keys get fields, and the units of the field become SI.
 
+use super::compliance::GREEN;
 use super::error::{SceneError, What};
+use super::parameter::Parameter;
+use super::section::{PART, SUPPORT};
+use super::value::Value;
 use super::values::{Kind, Scene};
 use crate::gas::species::IdealGas;
 use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
+use crate::rotor::ring::{MATERIALS, Part, RingError, Section, Support};
 use serde::Deserialize;
 use serde::de::value::{Error, StrDeserializer};
 
@@ -57,7 +62,11 @@ impl Problem {
                         point_compliance: si("rotor.point_compliance_um_per_n")?,
                         local_compliance: si("rotor.local_compliance_m2_per_n")?,
                     },
-                    "table" => RotorCompliance::Table(scene.compliance().to_vec()),
+                    "table" => RotorCompliance::Table(scene.rows("rotor.compliance").to_vec()),
+                    "green" => RotorCompliance::Green(
+                        scene.rows("rotor.green").iter().map(|(x, g)| (GREEN[0].si(*x), GREEN[1].si(*g))).collect(),
+                    ),
+                    "ring" => RotorCompliance::Ring(scene.section()?),
                     _ => return Err(scene.unknown_key("rotor.model")),
                 },
                 min_spacing: si("film.min_spacing_nm")?,
@@ -74,6 +83,41 @@ impl Problem {
             }),
         };
         Ok(Self { name: scene.name.clone(), scenario, numerics: scene.numerics() })
+    }
+}
+
+impl Scene {
+    /// The cross-section of the ring, checked.
+    pub(super) fn section(&self) -> Result<Section, What> {
+        let records = |key: &'static str| match self.get(key) {
+            Some(Value::Records(records)) => records,
+            _ => Vec::new(),
+        };
+        let lengths = |columns: &[Parameter], cells: &[Value]| -> Vec<f64> {
+            let numbers = columns.iter().zip(cells).filter(|(column, _)| column.range().is_some());
+            numbers.filter_map(|(column, cell)| Some(column.si(cell.as_number()?))).collect()
+        };
+        let text = |cell: Option<&Value>| match cell {
+            Some(Value::Text(text)) => text.clone(),
+            _ => String::new(),
+        };
+        let parts = records("rotor.part").into_iter().filter_map(|cells| {
+            let [inner_radius, outer_radius, bottom, top] = lengths(&PART, &cells)[..] else { return None };
+            let material = text(cells.last());
+            let material = *MATERIALS.iter().find(|known| known.name == material)?;
+            Some(Part { name: text(cells.first()), inner_radius, outer_radius, bottom, top, material })
+        });
+        let supports = records("rotor.support").into_iter().filter_map(|cells| {
+            let [inner_radius, outer_radius, bottom, top] = lengths(&SUPPORT, &cells)[..] else { return None };
+            let fixed = text(cells.last());
+            let holds = |direction: &str| fixed == "all" || fixed.split('-').any(|held| held == direction);
+            let [radial, axial, circumferential] = ["radial", "axial", "circumferential"].map(holds);
+            Some(Support { inner_radius, outer_radius, bottom, top, radial, axial, circumferential })
+        });
+        Section::new(parts.collect(), supports.collect()).map_err(|fault| {
+            let key = if matches!(fault, RingError::Support { .. }) { "rotor.support" } else { "rotor.part" };
+            What::Rule { key, message: format!("{key}: {fault}") }
+        })
     }
 }
 

@@ -9,8 +9,8 @@ use std::path::Path;
 
 impl Scene {
     /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes.
-    /// `none` or nothing removes an optional key. A path given for `rotor.compliance_csv` is relative to the current
-    /// folder. Giving a compliance table makes `rotor.model` "table".
+    /// `none` or nothing removes an optional key. A path given for a CSV file is relative to the current folder. Giving a
+    /// table, or the parts of a ring, makes `rotor.model` that of the key. Tables are written as in TOML.
     ///
     /// # Errors
     ///
@@ -25,10 +25,12 @@ impl Scene {
             return Ok(());
         }
         let value = match parameter.kind {
-            ParameterKind::Rows => parse::rows_from_text(parameter, text)?,
-            ParameterKind::CsvPath => {
-                let rows = parse::read_compliance(text, Path::new(text), self.wavelength()?)?;
-                return Ok(self.assign(self.parameter("rotor.compliance")?, rows)?);
+            ParameterKind::Rows { columns } => parse::rows_from_text(parameter, columns, text)?,
+            ParameterKind::Records { columns, .. } => parse::records_from_text(parameter, columns, text)?,
+            ParameterKind::CsvPath { rows } => {
+                let of = self.parameter(rows)?;
+                let rows = parse::read_table(parameter, of, text, Path::new(text), self.wavelength()?)?;
+                return Ok(self.assign(of, rows)?);
             }
             _ => parameter.read(text)?,
         };
@@ -94,11 +96,10 @@ impl Scene {
         let parameter = self.parameter(key)?;
         match (self.applies(parameter), parameter.kind) {
             (Ok(()), _) if !self.heeds(key) => Err(What::NoEffect { key: parameter.key, scene: self.scene() }),
-            (Err(What::Elsewhere { selector, .. }), ParameterKind::Rows | ParameterKind::CsvPath)
-                if selector != "scene" =>
-            {
-                Ok(parameter)
-            }
+            (
+                Err(What::Elsewhere { selector, .. }),
+                ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } | ParameterKind::Records { .. },
+            ) if selector != "scene" => Ok(parameter),
             // What is set takes the place of what was given instead.
             (Err(What::BothGiven { .. }), _) => Ok(parameter),
             (applies, _) => applies.map(|()| parameter),
@@ -135,6 +136,7 @@ impl Scene {
         let shown = |scene: &Self, Parameter { key, unit, .. }: &Parameter| match scene.get(key) {
             None => "none".to_owned(),
             Some(Value::Rows(_)) => "another table".to_owned(),
+            Some(Value::Records(_)) => "other parts".to_owned(),
             Some(value) => format!("{value} {unit}").trim_end().to_owned(),
         };
         let changes = self.changed(original).map(|parameter| {
@@ -169,8 +171,18 @@ mod tests {
             ParameterKind::Flag { .. } => vec![Value::Flag(false), Value::Flag(true)],
             ParameterKind::Choice { options, .. } => options.iter().map(|name| Value::Text((*name).into())).collect(),
             ParameterKind::Text { .. } => vec![Value::Text("other".into())],
-            ParameterKind::Rows => vec![Value::Rows(vec![(7.0, 1e-9)])],
-            ParameterKind::CsvPath => Vec::new(),
+            ParameterKind::Rows { columns } => {
+                let first = if columns[0].key == "x_mm" { 0.0 } else { 7.0 };
+                vec![Value::Rows(vec![(first, 1e-9), (8.0, 1e-10)])]
+            }
+            ParameterKind::Records { columns, .. } => {
+                let lowest = |column: &Parameter| match column.range() {
+                    Some(range) => Value::Number(range.min),
+                    None => column.default().unwrap(),
+                };
+                vec![Value::Records(vec![columns.iter().map(lowest).collect()])]
+            }
+            ParameterKind::CsvPath { .. } => Vec::new(),
         };
         all.into_iter().filter(|value| parameter.default().as_ref() != Some(value)).collect()
     }

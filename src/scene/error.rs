@@ -256,14 +256,56 @@ pub enum What {
         fault: Box<What>,
     },
     /// A row that is not two numbers, as written.
-    #[error("{0} is not a pair of numbers, wavenumber_per_m and compliance_m2_per_n")]
-    NotAPair(String),
-    /// A wavenumber that is not above the one in the row before \[1/m\].
-    #[error("wavenumber_per_m = {} is not above {}, the one before: sort the rows", show_number(*.0), show_number(*.1))]
-    NotAscending(f64, f64),
-    /// The CSV file of the compliance cannot be read.
-    #[error("rotor.compliance_csv = \"{given}\": {} {fault}", path.display())]
+    #[error("{found} is not a pair of numbers, {} and {}", columns[0].key, columns[1].key)]
+    NotAPair {
+        /// What is there.
+        found: String,
+        /// What a row holds.
+        columns: &'static [Parameter; 2],
+    },
+    /// A row whose first number is not above that of the row before.
+    #[error("{column} = {} is not above {}, the one before: sort the rows", show_number(*value), show_number(*before))]
+    NotAscending {
+        /// The first column.
+        column: &'static str,
+        /// The number.
+        value: f64,
+        /// That of the row before.
+        before: f64,
+    },
+    /// A Green's function that does not begin where the force is.
+    #[error("x_mm = {} is not 0: the first row is the deflection under the force itself", show_number(*.0))]
+    NotFromZero(f64),
+    /// Too few or too many tables.
+    #[error("{key} has {count} tables: allowed {fewest} to {most}")]
+    Count {
+        /// The dotted key.
+        key: &'static str,
+        /// Tables given.
+        count: usize,
+        /// Fewest.
+        fewest: usize,
+        /// Most.
+        most: usize,
+    },
+    /// One of an array of tables, such as a part of the rotor, is wrong.
+    #[error("{key}, {which}: {fault}")]
+    Record {
+        /// The dotted key.
+        key: &'static str,
+        /// Its name, or which of them it is, from 1.
+        which: String,
+        /// What is wrong with it, said of its keys.
+        fault: Box<What>,
+    },
+    /// A key of such a table that is missing.
+    #[error("{} is missing: expected {}", .0.key, .0.accepts())]
+    Missing(&'static Parameter),
+    /// A CSV file cannot be read.
+    #[error("{key} = \"{given}\": {} {fault}", path.display())]
     Csv {
+        /// The dotted key.
+        key: &'static str,
         /// The value of the key.
         given: String,
         /// The file looked for.
@@ -272,11 +314,13 @@ pub enum What {
         fault: ReadError,
     },
     /// The CSV file has another header. What is in it is not shown: it may be any file of this machine.
-    #[error(
-        "rotor.compliance_csv: this is no compliance table: expected the header harmonic,compliance_m2_per_n or \
-         wavenumber_per_m,compliance_m2_per_n"
-    )]
-    CsvHeader,
+    #[error("{key}: this is no {},{}", no_table(columns), columns[1].key)]
+    CsvHeader {
+        /// The dotted key.
+        key: &'static str,
+        /// The columns of the table.
+        columns: &'static [Parameter; 2],
+    },
     /// Neither a built-in preset nor a file.
     #[error(
         "unknown preset {name}: it is neither a built-in preset nor a file{}; squeezefilm presets lists the built-in ones",
@@ -302,14 +346,26 @@ impl What {
             Self::Unknown { key, .. } | Self::Elsewhere { key, .. } => key,
             Self::Fixed(key) | Self::NoEffect { key, .. } | Self::BothGiven { key, .. } | Self::Rule { key, .. } => key,
             Self::TooManyRows { key, .. } | Self::Row { key, .. } | Self::NotATable { table: key, .. } => key,
+            Self::Count { key, .. }
+            | Self::Record { key, .. }
+            | Self::Csv { key, .. }
+            | Self::CsvHeader { key, .. } => key,
             Self::Refused { parameter, .. } | Self::OutOfRange { parameter, .. } => parameter.key,
             Self::SchemaMissing | Self::SchemaUnsupported(_) => "schema",
             Self::UnknownScene { .. } => "scene",
-            Self::Csv { .. } | Self::CsvHeader => "rotor.compliance_csv",
             Self::Read(_) | Self::Unwritable(_) | Self::Syntax(_) | Self::UnknownPreset { .. } => return None,
-            Self::NotAPair(_) | Self::NotAscending(..) => return None,
+            Self::NotAPair { .. } | Self::NotAscending { .. } | Self::NotFromZero(_) | Self::Missing(_) => return None,
         })
     }
+}
+
+/// What a CSV file of these columns would be, and how its header would begin.
+fn no_table(columns: &[Parameter; 2]) -> String {
+    let (what, other) = match columns[1].key {
+        "compliance_m2_per_n" => ("compliance table", "harmonic,compliance_m2_per_n or "),
+        _ => ("table of a deflection", ""),
+    };
+    format!("{what}: expected the header {other}{}", columns[0].key)
 }
 
 fn with_unit(parameter: &Parameter) -> String {

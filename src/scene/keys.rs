@@ -3,10 +3,12 @@
 //! `problem.rs`, filled in `convert.rs`; a key of `[numerics]` needs a field of the same name in
 //! [`Numerics`](crate::problem::Numerics), and is filled by itself.
 
+use super::compliance::{COMPLIANCE, GREEN};
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
-use super::parameter::ParameterKind::{CsvPath, Rows};
+use super::parameter::ParameterKind::{CsvPath, Records, Rows};
 use super::parameter::Scale::{Linear, Log};
 use super::parameter::{Belongs, Model, Parameter, ParameterKind, Range, Scale};
+use super::section::{PART, PARTS, SUPPORT, SUPPORTS};
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::Write as _;
 
@@ -14,6 +16,8 @@ const BEAM: Model = ("rotor.model", &["beam"]);
 const SECTION: Model = ("rotor.model", &["section"]);
 const BENDING: Model = ("rotor.model", &["beam", "section"]);
 const TABLE: Model = ("rotor.model", &["table"]);
+const GREENS: Model = ("rotor.model", &["green"]);
+const RING: Model = ("rotor.model", &["ring"]);
 const BOLTZMANN: Model = ("film.slip", &["fukui-kaneko"]);
 const CUSTOM: Model = ("film.gas", &["custom"]);
 const NAMED: Model = ("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"]);
@@ -54,7 +58,8 @@ pub static PARAMETERS: &[Parameter] = &[
         "Radius of a crowned tooth top").absent("flat teeth"),
 
     number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
-    choice("rotor.model", Motor, &["beam", "section", "table"], "beam", "How the rotor's compliance is described"),
+    choice("rotor.model", Motor, &["beam", "section", "ring", "table", "green"], "beam",
+        "How the rotor's compliance is described"),
     number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
         "Length over which the deflection under a point load dies out").when(BENDING),
     number("rotor.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 70.0,
@@ -65,8 +70,16 @@ pub static PARAMETERS: &[Parameter] = &[
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BENDING),
-    other("rotor.compliance_csv", Motor, CsvPath, "CSV file of the compliance, relative to the preset's folder").when(TABLE),
-    other("rotor.compliance", Motor, Rows, "Compliance per wavenumber, inline").when(TABLE),
+    other("rotor.compliance_csv", Motor, CsvPath { rows: "rotor.compliance" },
+        "CSV file of the compliance, relative to the preset's folder").when(TABLE),
+    other("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Compliance per wavenumber, inline").when(TABLE),
+    other("rotor.green_csv", Motor, CsvPath { rows: "rotor.green" },
+        "CSV file of the deflection under a unit force, relative to the preset's folder").when(GREENS),
+    other("rotor.green", Motor, Rows { columns: &GREEN }, "Deflection under a unit force, over the distance from it, inline").when(GREENS),
+    other("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: PARTS },
+        "Rectangles of the ring's cross-section; the stator touches the lowest").when(RING),
+    other("rotor.support", Motor, Records { columns: &SUPPORT, fewest: 0, default: SUPPORTS },
+        "Boxes in which the ring is held").when(RING),
 
     number("plate.length_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0, "Length of the plate along x"),
     number("plate.width_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0,
@@ -128,7 +141,7 @@ impl Parameter {
     pub(super) fn rank(&self) -> u8 {
         match self.kind {
             _ if self.selects() => 0,
-            ParameterKind::Rows | ParameterKind::CsvPath => 3,
+            ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 3,
             _ => 1 + u8::from(self.instead_of.is_some()),
         }
     }

@@ -35,6 +35,7 @@ mod parse;
 pub mod presets;
 pub mod quantity_text;
 mod rules;
+mod section;
 pub mod table1;
 mod value;
 mod values;
@@ -42,7 +43,7 @@ mod write;
 
 pub use error::{Fault, SCHEMA, SceneError, What};
 pub use keys::{PARAMETERS, markdown};
-pub use parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
+pub use parameter::{Belongs, Cell, Parameter, ParameterKind, Range, Scale};
 pub use value::Value;
 pub(crate) use value::{escaped, show_text};
 pub use values::{Kind, Scene};

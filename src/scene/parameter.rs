@@ -79,10 +79,43 @@ pub enum ParameterKind {
         /// The value of an absent key.
         default: &'static str,
     },
-    /// Pairs of wavenumber \[1/m\] and compliance \[m²/N\], see [`super::compliance`].
-    Rows,
+    /// Pairs of numbers, see [`super::compliance`].
+    Rows {
+        /// What the numbers of a pair are.
+        columns: &'static [Parameter; 2],
+    },
     /// The path of a CSV file, read when the scene is; the scene keeps its rows, not the path.
-    CsvPath,
+    CsvPath {
+        /// The key of the rows.
+        rows: &'static str,
+    },
+    /// An array of tables.
+    Records {
+        /// The keys of each table, each without a table of its own.
+        columns: &'static [Parameter],
+        /// Fewest tables.
+        fewest: usize,
+        /// The value of an absent key: a cell for each column.
+        default: &'static [&'static [Cell]],
+    },
+}
+
+/// One value of a default table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell {
+    /// A number, in the unit of its column.
+    Number(f64),
+    /// Text, or the name of a choice.
+    Text(&'static str),
+}
+
+impl From<&Cell> for Value {
+    fn from(cell: &Cell) -> Self {
+        match cell {
+            Cell::Number(number) => Self::Number(*number),
+            Cell::Text(text) => Self::Text((*text).to_owned()),
+        }
+    }
 }
 
 /// The scenes that a key belongs to.
@@ -197,8 +230,11 @@ impl Parameter {
             ParameterKind::Whole { default, .. } => Value::Whole(i64::from(default)),
             ParameterKind::Flag { default } => Value::Flag(default),
             ParameterKind::Choice { default, .. } | ParameterKind::Text { default } => Value::Text(default.to_owned()),
-            ParameterKind::Rows => Value::Rows(Vec::new()),
-            ParameterKind::CsvPath => return None,
+            ParameterKind::Rows { .. } => Value::Rows(Vec::new()),
+            ParameterKind::Records { default, .. } => {
+                Value::Records(default.iter().map(|record| record.iter().map(Value::from).collect()).collect())
+            }
+            ParameterKind::CsvPath { .. } => return None,
         })
     }
 
@@ -214,8 +250,12 @@ impl Parameter {
                 format!("one of {}", quoted.join(", "))
             }
             ParameterKind::Text { .. } => "text in quotes".to_owned(),
-            ParameterKind::Rows => "rows [wavenumber_per_m, compliance_m2_per_n]".to_owned(),
-            ParameterKind::CsvPath => "the path of a CSV file".to_owned(),
+            ParameterKind::Rows { columns: [first, second] } => format!("rows [{}, {}]", first.key, second.key),
+            ParameterKind::Records { columns, .. } => {
+                let keys: Vec<_> = columns.iter().map(|column| column.key).collect();
+                format!("tables with {}", keys.join(", "))
+            }
+            ParameterKind::CsvPath { .. } => "the path of a CSV file".to_owned(),
         };
         if let Some(meaning) = self.absent {
             let _ = write!(words, ", or none ({meaning})");

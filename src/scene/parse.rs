@@ -1,6 +1,7 @@
 //! TOML text to a scene. Reads the spanned tree rather than serde's types, so that every fault has its line and all of
 //! them are found in one reading.
 
+use super::accept::{check_count, named};
 use super::compliance::{self, MOST_ROWS, check_row};
 use super::error::{Fault, SCHEMA, SceneError, What};
 use super::keys::tables;
@@ -46,19 +47,46 @@ impl Scene {
     }
 }
 
-/// Reads the CSV file at `path`; `given` is the value of the key, for the message. `wavelength` in \[m\].
-pub(super) fn read_compliance(given: &str, path: &Path, wavelength: f64) -> Result<Value, SceneError> {
-    let unreadable = |fault| What::Csv { given: show_text(given), path: path.to_owned(), fault };
+/// Reads the CSV file at `path`, which `parameter` names, for the rows of the key `of`; `given` is the value of the key, for the message.
+/// `wavelength` in \[m\].
+pub(super) fn read_table(
+    parameter: &'static Parameter,
+    of: &'static Parameter,
+    given: &str,
+    path: &Path,
+    wavelength: f64,
+) -> Result<Value, SceneError> {
+    let key = parameter.key;
+    let ParameterKind::Rows { columns } = of.kind else {
+        return Err(What::wrong_type(parameter, show_text(given)).into());
+    };
+    let unreadable = |fault| What::Csv { key, given: show_text(given), path: path.to_owned(), fault };
     let text = input::read_text(path, LARGEST_FILE).map_err(unreadable)?;
-    compliance::read_csv(&text, path, wavelength).map(Value::Rows)
+    compliance::read_csv(key, columns, &text, path, wavelength).map(Value::Rows)
 }
 
-/// The rows of a compliance table from the text of `--set`, written as in TOML.
-pub(super) fn rows_from_text(parameter: &'static Parameter, text: &str) -> Result<Value, SceneError> {
+/// The rows of a table from the text of `--set`, written as in TOML.
+pub(super) fn rows_from_text(
+    parameter: &'static Parameter,
+    columns: &'static [Parameter; 2],
+    text: &str,
+) -> Result<Value, SceneError> {
     let tree = DeValue::parse(text).map_err(|_| What::wrong_type(parameter, show_text(text)))?;
     let mut faults = SceneError::none();
-    let rows = rows_from_toml(parameter, &tree, text, &mut |_, what| faults.push(what));
+    let rows = rows_from_toml(parameter, columns, &tree, text, &mut |_, what| faults.push(what));
     faults.or(Value::Rows(rows))
+}
+
+/// An array of tables from the text of `--set`, written as in TOML.
+pub(super) fn records_from_text(
+    parameter: &'static Parameter,
+    columns: &'static [Parameter],
+    text: &str,
+) -> Result<Value, SceneError> {
+    let tree = DeValue::parse(text).map_err(|_| What::wrong_type(parameter, show_text(text)))?;
+    let mut faults = SceneError::none();
+    let records = records_from_toml(parameter, columns, &tree, text, &mut |_, what| faults.push(what));
+    faults.or(Value::Records(records))
 }
 
 struct Reader<'t> {
@@ -90,7 +118,7 @@ impl Reader<'_> {
         // A CSV file comes after the rows that it may be given beside.
         entries.sort_by_cached_key(|(at, key, _)| {
             let parameter = Parameter::find(key);
-            let file = parameter.is_some_and(|parameter| parameter.kind == ParameterKind::CsvPath);
+            let file = parameter.is_some_and(|parameter| matches!(parameter.kind, ParameterKind::CsvPath { .. }));
             (parameter.map_or(0, Parameter::rank), file, at.start)
         });
         for (at, key, value) in entries {
@@ -173,18 +201,27 @@ impl Reader<'_> {
             Ok(()) => {}
         }
         let read = match parameter.kind {
-            ParameterKind::Rows => {
-                let mut in_order = true;
-                let rows = rows_from_toml(parameter, value, self.text, &mut |span, what| {
+            ParameterKind::Rows { .. } | ParameterKind::Records { .. } => {
+                let (mut in_order, text) = (true, self.text);
+                let mut fault = |span, what| {
                     in_order = false;
                     self.fault(Some(span), || what);
-                });
+                };
+                let read = match parameter.kind {
+                    ParameterKind::Records { columns, .. } => {
+                        Value::Records(records_from_toml(parameter, columns, value, text, &mut fault))
+                    }
+                    ParameterKind::Rows { columns } => {
+                        Value::Rows(rows_from_toml(parameter, columns, value, text, &mut fault))
+                    }
+                    _ => return,
+                };
                 if !in_order {
                     return;
                 }
-                Ok(Value::Rows(rows))
+                Ok(read)
             }
-            ParameterKind::CsvPath => return self.csv(scene, parameter, value),
+            ParameterKind::CsvPath { rows } => return self.csv(scene, parameter, rows, value),
             _ => value_from_toml(parameter, value.get_ref())
                 .ok_or_else(|| What::wrong_type(parameter, self.written(span.clone()))),
         };
@@ -198,23 +235,25 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the compliance from the CSV file that a key names.
-    fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, value: &Spanned<DeValue<'_>>) {
+    /// Reads the table of the key `rows` from the CSV file that a key names.
+    fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, rows: &str, value: &Spanned<DeValue<'_>>) {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
             let found = self.written(value.span());
             return self.fault(span, || What::wrong_type(parameter, found));
         };
-        if self.spans.contains_key("rotor.compliance") {
-            return self.fault(span, || What::BothGiven { key: parameter.key, other: "rotor.compliance" });
+        if let Some(other) = Parameter::find(rows).filter(|other| self.spans.contains_key(other.key)) {
+            return self.fault(span, || What::BothGiven { key: parameter.key, other: other.key });
         }
         if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
             return;
         }
         let path = self.origin.parent().unwrap_or(Path::new("")).join(given);
-        let read =
-            scene.wavelength().map_err(SceneError::from).and_then(|length| read_compliance(given, &path, length));
-        let set = read.and_then(|rows| Ok(scene.assign(scene.parameter("rotor.compliance")?, rows)?));
+        let read = |scene: &Scene| {
+            let of = scene.parameter(rows)?;
+            Ok::<_, SceneError>((of, read_table(parameter, of, given, &path, scene.wavelength()?)?))
+        };
+        let set = read(scene).and_then(|(of, rows)| Ok(scene.assign(of, rows)?));
         if let Err(error) = set {
             match error.faults() {
                 // About the file as such, and not about a line of it.
@@ -228,7 +267,9 @@ impl Reader<'_> {
     fn rules(&mut self, scene: &Scene) {
         for (keys, what) in scene.broken_rules() {
             // A CSV file that was not read, as its wavelength is at fault, may be one.
-            let unread = keys.contains(&"rotor.compliance_csv") && self.spans.contains_key("rotor.compliance_csv");
+            let unread = ["rotor.compliance_csv", "rotor.green_csv"]
+                .iter()
+                .any(|key| keys.contains(key) && self.spans.contains_key(key));
             if !self.at_fault(keys) && !unread {
                 // The line of the first key of the rule that the file gives.
                 let span = keys.iter().find_map(|key| self.spans.get(key)).cloned();
@@ -273,6 +314,7 @@ fn value_from_toml(parameter: &Parameter, value: &DeValue<'_>) -> Option<Value> 
 /// of each.
 fn rows_from_toml(
     parameter: &'static Parameter,
+    columns: &'static [Parameter; 2],
     value: &Spanned<DeValue<'_>>,
     text: &str,
     fault: &mut dyn FnMut(Bytes<usize>, What),
@@ -289,11 +331,11 @@ fn rows_from_toml(
             for (row, i) in array.iter().zip(1..) {
                 let numbers = row.get_ref().as_array().map(|pair| pair.iter().map(|value| number(value.get_ref())));
                 let checked = match numbers.map(Vec::from_iter).as_deref() {
-                    Some([Some(wavenumber), Some(compliance)]) => {
-                        let pair = (*wavenumber, *compliance);
-                        check_row(pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
+                    Some([Some(first), Some(second)]) => {
+                        let pair = (*first, *second);
+                        check_row(columns, pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
                     }
-                    _ => Err(What::NotAPair(written(row.span()))),
+                    _ => Err(What::NotAPair { found: written(row.span()), columns }),
                 };
                 if let Err(wrong) = checked {
                     fault(row.span(), What::Row { key, row: i, fault: wrong.into() });
@@ -302,6 +344,63 @@ fn rows_from_toml(
         }
     }
     rows
+}
+
+/// An array of tables, those that are in order; `fault` is told of the others, with the place of each.
+fn records_from_toml(
+    parameter: &'static Parameter,
+    columns: &'static [Parameter],
+    value: &Spanned<DeValue<'_>>,
+    text: &str,
+    fault: &mut dyn FnMut(Bytes<usize>, What),
+) -> Vec<Vec<Value>> {
+    let written = |span: Bytes<usize>| show_text(text.get(span).unwrap_or_default());
+    let key = parameter.key;
+    let ParameterKind::Records { fewest, .. } = parameter.kind else { return Vec::new() };
+    let Some(array) = value.get_ref().as_array() else {
+        fault(value.span(), What::wrong_type(parameter, written(value.span())));
+        return Vec::new();
+    };
+    if let Err(what) = check_count(key, array.len(), fewest) {
+        fault(value.span(), what);
+        return Vec::new();
+    }
+    let mut records = Vec::new();
+    for (table, number) in array.iter().zip(1..) {
+        let Some(given) = table.get_ref().as_table() else {
+            fault(table.span(), What::wrong_type(parameter, written(table.span())));
+            continue;
+        };
+        let name = columns.first().and_then(|column| given.get(column.key)).and_then(|value| value.get_ref().as_str());
+        let which = named(&name.map(|name| Value::Text(name.to_owned())).into_iter().collect::<Vec<_>>(), number);
+        let mut wrong = |span, what: What| {
+            fault(span, What::Record { key, which: which.clone(), fault: what.into() });
+        };
+        let keys: Vec<&'static str> = columns.iter().map(|column| column.key).collect();
+        for (unknown, _) in given.iter().filter(|(given, _)| !keys.contains(&given.get_ref().as_ref())) {
+            let near = nearest(unknown.get_ref(), keys.iter().copied()).map(str::to_owned);
+            let key = show_text(unknown.get_ref());
+            wrong(unknown.span(), What::Unknown { kind: "key", key, nearest: near, siblings: keys.clone() });
+        }
+        let mut record = Vec::new();
+        for column in columns {
+            let Some(cell) = given.get(column.key) else {
+                wrong(table.span(), What::Missing(column));
+                continue;
+            };
+            let read = value_from_toml(column, cell.get_ref())
+                .ok_or_else(|| What::wrong_type(column, written(cell.span())))
+                .and_then(|value| column.accept(value));
+            match read {
+                Ok(value) => record.push(value),
+                Err(what) => wrong(cell.span(), what),
+            }
+        }
+        if record.len() == columns.len() {
+            records.push(record);
+        }
+    }
+    records
 }
 
 /// A TOML integer or float as a number.

@@ -49,6 +49,7 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     "tooth-radius-6.5m",
     "tooth-radius-10m",
     "levitating",
+    "ring-rotor",
     "motor-60mm-helium",
     "plate-viscous",
     "plate-crossover",

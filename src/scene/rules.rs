@@ -18,7 +18,11 @@ struct Rule {
 }
 
 static RULES: &[Rule] = &[
-    Rule { keys: &["rotor.model", "rotor.compliance", "rotor.compliance_csv"], check: table_is_given },
+    Rule {
+        keys: &["rotor.model", "rotor.compliance", "rotor.compliance_csv", "rotor.green", "rotor.green_csv"],
+        check: table_is_given,
+    },
+    Rule { keys: &["rotor.part", "rotor.support"], check: ring_hangs_together },
     Rule { keys: &["numerics.wedge", "film.shear"], check: wedge_is_there },
     Rule {
         keys: &["stator.tooth_width_mm", "motor.contact_radius_mm", "motor.waves", "stator.teeth_per_wave"],
@@ -79,9 +83,18 @@ impl Scene {
 }
 
 fn table_is_given(scene: &Scene) -> Result<(), What> {
-    let missing = scene.text("rotor.model")? == "table" && scene.compliance().is_empty();
-    let message = || "rotor.model = \"table\" needs rotor.compliance_csv or rotor.compliance".to_owned();
-    unless(missing, "rotor.model", message)
+    let (model, rows) = match scene.text("rotor.model")? {
+        "table" => ("table", "rotor.compliance"),
+        "green" => ("green", "rotor.green"),
+        _ => return Ok(()),
+    };
+    unless(scene.rows(rows).is_empty(), "rotor.model", || {
+        format!("rotor.model = \"{model}\" needs {rows}_csv or {rows}")
+    })
+}
+
+fn ring_hangs_together(scene: &Scene) -> Result<(), What> {
+    scene.section().map(|_| ())
 }
 
 fn wedge_is_there(scene: &Scene) -> Result<(), What> {

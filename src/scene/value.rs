@@ -15,8 +15,10 @@ pub enum Value {
     Flag(bool),
     /// Text, or the name of a choice.
     Text(String),
-    /// Rows of a compliance table: (wavenumber \[1/m\], compliance \[m²/N\]).
+    /// Rows of a table of pairs of numbers, in the units of its columns.
     Rows(Vec<(f64, f64)>),
+    /// An array of tables, each as the values of its columns, in their order.
+    Records(Vec<Vec<Value>>),
 }
 
 impl Value {
@@ -25,7 +27,7 @@ impl Value {
         match self {
             Self::Number(number) => Some(*number),
             Self::Whole(whole) => Some(*whole as f64),
-            Self::Flag(_) | Self::Text(_) | Self::Rows(_) => None,
+            Self::Flag(_) | Self::Text(_) | Self::Rows(_) | Self::Records(_) => None,
         }
     }
 }
@@ -38,6 +40,11 @@ impl fmt::Display for Value {
             Self::Flag(flag) => write!(f, "{flag}"),
             Self::Text(text) => f.write_str(&show_text(text)),
             Self::Rows(rows) => write!(f, "{} rows", rows.len()),
+            Self::Records(records) if records.is_empty() => f.write_str("none"),
+            Self::Records(records) => {
+                let cells = |record: &Vec<Self>| record.iter().map(Self::to_string).collect::<Vec<_>>().join(" ");
+                f.write_str(&records.iter().map(cells).collect::<Vec<_>>().join("; "))
+            }
         }
     }
 }

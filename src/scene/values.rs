@@ -72,7 +72,7 @@ impl Scene {
     }
 
     /// The value of a dotted key, in the key's unit. `None` for an optional key that is absent, a key of another scene
-    /// or rotor model, an unknown key, and `rotor.compliance_csv` (the scene keeps the rows, under `rotor.compliance`).
+    /// or rotor model, an unknown key, and a path to a table (the scene keeps its rows, under the key of those).
     pub fn get(&self, key: &str) -> Option<Value> {
         match key {
             "schema" => Some(Value::Whole(SCHEMA)),
@@ -200,7 +200,8 @@ impl Scene {
     pub(super) fn assign(&mut self, parameter: &'static Parameter, value: Value) -> Result<(), What> {
         let value = parameter.accept(value)?;
         // A table that is given chooses the model that it belongs to.
-        if let (ParameterKind::Rows, Some((selector, model))) = (parameter.kind, parameter.when) {
+        let table = matches!(parameter.kind, ParameterKind::Rows { .. } | ParameterKind::Records { .. });
+        if let (true, Some((selector, model))) = (table, parameter.when) {
             self.assign(self.parameter(selector)?, Value::Text(model.concat()))?;
         }
         self.put(parameter, Some(value));
@@ -277,9 +278,9 @@ impl Scene {
         }
     }
 
-    /// The rows of the rotor's compliance table; none of another model.
-    pub(super) fn compliance(&self) -> &[(f64, f64)] {
-        match self.values.get("rotor.compliance") {
+    /// The rows of a key; none of another model.
+    pub(super) fn rows(&self, key: &str) -> &[(f64, f64)] {
+        match self.values.get(key) {
             Some(Value::Rows(rows)) => rows,
             _ => &[],
         }

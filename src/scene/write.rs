@@ -2,7 +2,7 @@
 //! the fewest digits that read back to the same bits.
 
 use super::error::{Fault, SCHEMA, SceneError, What};
-use super::parameter::Parameter;
+use super::parameter::{Parameter, ParameterKind};
 use super::value::{Value, is_unseen};
 use super::values::Scene;
 use crate::atomic::write_file;
@@ -66,9 +66,29 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
             quoted
         }
         Value::Rows(rows) => {
-            let _ = writeln!(text, "{leaf} = [  # [wavenumber_per_m, compliance_m2_per_n]");
-            for (wavenumber, compliance) in rows {
-                let _ = writeln!(text, "  [{wavenumber:?}, {compliance:?}],");
+            if let ParameterKind::Rows { columns: [first, second] } = parameter.kind {
+                let _ = writeln!(text, "{leaf} = [  # [{}, {}]", first.key, second.key);
+            }
+            for (first, second) in rows {
+                let _ = writeln!(text, "  [{first:?}, {second:?}],");
+            }
+            text.push_str("]\n");
+            return;
+        }
+        Value::Records(records) => {
+            let ParameterKind::Records { columns, .. } = parameter.kind else { return };
+            let _ = writeln!(text, "{leaf} = [  # {}", parameter.about);
+            for record in records {
+                let pair = |(column, value): (&Parameter, &Value)| {
+                    let value = match value {
+                        Value::Text(words) => quote(words),
+                        Value::Number(number) => format!("{number:?}"),
+                        value => value.to_string(),
+                    };
+                    format!("{} = {value}", column.key)
+                };
+                let pairs: Vec<_> = columns.iter().zip(record).map(pair).collect();
+                let _ = writeln!(text, "  {{ {} }},", pairs.join(", "));
             }
             text.push_str("]\n");
             return;

@@ -18,6 +18,8 @@ const WAVELENGTHS: f64 = 1.0;
 const WAVELENGTHS_IN_THE_FILM: f64 = 0.5;
 /// Greatest sliding speed over that of sound.
 const MACH: f64 = 1.0;
+/// Greatest frequency over a natural one: there the rotor answers a tenth more than it does at rest, 1/(1 − 0.3²).
+const RESONANCE: f64 = 0.3;
 /// Yield stress of aluminium 6061-T6 \[MPa\].
 const YIELD_MPA: f64 = 276.0;
 /// Greatest gap over the shorter side.
@@ -28,8 +30,8 @@ const ELONGATION: f64 = 1.3;
 pub(super) const AMPLITUDE: f64 = 0.9;
 
 /// The names of all limits in JSON.
-pub const NAMES: [&str; 7] =
-    ["gas-inertia", "isothermal", "slip-law", "sound", "contact-stress", "thinness", "amplitude"];
+pub const NAMES: [&str; 8] =
+    ["gas-inertia", "isothermal", "slip-law", "sound", "rotor-resonance", "contact-stress", "thinness", "amplitude"];
 
 /// One limit that a scene exceeds.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -189,6 +191,30 @@ pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
         rounded(100.0 * gas.prandtl * (gas.heat_ratio - 1.0) * value * value / 8.0)
     );
     excess("sound", value, MACH, "", text)
+}
+
+/// `natural`: the lowest natural frequency of the shape of each of the first harmonics \[Hz\].
+pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
+    let ratio = |(n, natural): &(u32, &f64)| f64::from(*n) * motor.frequency / **natural;
+    let nearest = (1..).zip(natural).max_by(|a, b| ratio(a).total_cmp(&ratio(b)))?;
+    let value = ratio(&nearest);
+    let (n, natural) = nearest;
+    let answer = if value < 0.99 {
+        format!(
+            "with its mass, which is left out, it would yield up to {} times as much",
+            rounded(1.0 / (1.0 - value * value))
+        )
+    } else {
+        "its mass, which is left out, decides how it moves".to_owned()
+    };
+    let text = format!(
+        "Harmonic {n} of the wave drives the rotor at {} kHz, and the lowest natural frequency of that shape, {} waves round the ring, is \
+         {} kHz: {answer}.",
+        rounded(1e-3 * f64::from(n) * motor.frequency),
+        n * motor.waves,
+        rounded(1e-3 * natural),
+    );
+    excess("rotor-resonance", value, RESONANCE, "", text)
 }
 
 /// `pressure`: the greatest contact pressure \[Pa\].

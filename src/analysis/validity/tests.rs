@@ -1,10 +1,11 @@
 //! A case inside each limit and one outside.
 
-use super::limits::AMPLITUDE;
+use super::limits::{AMPLITUDE, resonance};
 use super::{Excess, NAMES, names, outside};
 use crate::control::Cancel;
 use crate::fidelity::Fidelity;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
+use crate::plan::{Choice, Decision};
 use crate::problem::{Gas, Problem, Scenario, Slip};
 use crate::recording::Recording;
 use crate::scene::{Scene, presets};
@@ -245,4 +246,27 @@ fn built_in_presets_show_what_they_should() {
         let found = outside(&problem, Some(&solve_draft(&problem)));
         assert_eq!(names(&found), expected, "{name}: {found:?}");
     }
+}
+
+#[test]
+fn rotor_resonance() {
+    let problem = Problem::new(&Scene::motor()).unwrap();
+    let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
+    // 30, 60 and 90 kHz.
+    assert_eq!(resonance(motor, &[101e3, 250e3, 500e3]), None);
+    let found = [resonance(motor, &[101e3, 150e3, 500e3]).unwrap()];
+    check(&found, "rotor-resonance", 0.4, 0.3);
+    assert!(found[0].text.contains("Harmonic 2 of the wave drives the rotor at 60 kHz"), "{found:?}");
+    assert!(
+        found[0].text.contains("14 waves round the ring, is 150 kHz") && found[0].text.contains("1.19 times"),
+        "{found:?}"
+    );
+    assert!(resonance(motor, &[30.01e3, 1e6, 1e6]).unwrap().text.contains("its mass, which is left out, decides"));
+    // What a solve has found is judged, and a beam has no mass.
+    let mut solved = solution(200e-9);
+    let names_of = |solved: &Solution| names(&outside(&problem, Some(solved)));
+    assert!(!names_of(&solved).contains(&"rotor-resonance"));
+    let chosen = Choice::Rotor { error: 1e-3, ring: true, resonances: Some([40e3, 200e3, 400e3]) };
+    solved.model.decisions = vec![Decision { chosen, overruled: false, effect: 1e-3, weighed: None }];
+    assert!(names_of(&solved).contains(&"rotor-resonance"));
 }

@@ -31,6 +31,10 @@ const LABELS: &[(&str, &str)] = &[
     ("rotor.local_compliance_m2_per_n", "Local compliance"),
     ("rotor.compliance_csv", "Compliance from a CSV file"),
     ("rotor.compliance", "Compliance table"),
+    ("rotor.green_csv", "Deflection from a CSV file"),
+    ("rotor.green", "Deflection table"),
+    ("rotor.part", "Parts"),
+    ("rotor.support", "Supports"),
     ("plate.length_mm", "Length"),
     ("plate.width_mm", "Width"),
     ("plate.mean_gap_um", "Mean gap"),
@@ -58,6 +62,16 @@ const LABELS: &[(&str, &str)] = &[
     ("numerics.time", "Leaking in time"),
 ];
 
+/// Names of the columns of arrays of tables, by key; a name is one everywhere.
+const COLUMNS: &[(&str, &str)] = &[
+    ("r_inner_mm", "Inner radius"),
+    ("r_outer_mm", "Outer radius"),
+    ("z_bottom_mm", "Bottom"),
+    ("z_top_mm", "Top"),
+    ("material", "Material"),
+    ("fixed", "Fixed"),
+];
+
 /// What the checkbox of an optional parameter says, by key.
 const SWITCHES: &[(&str, &str)] = &[
     ("stator.tooth_radius_m", "Crowned teeth"),
@@ -77,7 +91,20 @@ const SWITCHES: &[(&str, &str)] = &[
 const CHOICES: &[(&str, &str, &str)] = &[
     ("rotor.model", "beam", "Beam on a foundation"),
     ("rotor.model", "section", "Beam of a rectangular section"),
+    ("rotor.model", "ring", "Ring, by its cross-section"),
     ("rotor.model", "table", "Table from a file"),
+    ("rotor.model", "green", "Deflection from a file"),
+    ("material", "aluminium", "Aluminium"),
+    ("material", "steel", "Steel"),
+    ("material", "brass", "Brass"),
+    ("material", "peek", "PEEK"),
+    ("fixed", "axial", "Axially"),
+    ("fixed", "radial", "Radially"),
+    ("fixed", "circumferential", "Circumferentially"),
+    ("fixed", "axial-radial", "Axially, radially"),
+    ("fixed", "axial-circumferential", "Axially, circumferentially"),
+    ("fixed", "radial-circumferential", "Radially, circumferentially"),
+    ("fixed", "all", "In all directions"),
     ("film.gas", "custom", "Custom"),
     ("film.gas", "air", "Air"),
     ("film.gas", "nitrogen", "Nitrogen"),
@@ -118,7 +145,7 @@ fn find(table: &'static [(&'static str, &'static str)], key: &str) -> Option<&'s
 
 /// The name of a parameter; its key if it has none, which a test excludes.
 pub fn label(parameter: &Parameter) -> &'static str {
-    find(LABELS, parameter.key).unwrap_or(parameter.key)
+    find(LABELS, parameter.key).or_else(|| find(COLUMNS, parameter.key)).unwrap_or(parameter.key)
 }
 
 /// What the checkbox of an optional parameter says.

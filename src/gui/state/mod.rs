@@ -9,6 +9,7 @@ pub mod hold;
 pub mod lessons;
 pub mod modal;
 pub mod pins;
+pub mod rotor;
 pub mod startup;
 pub mod sweep;
 pub mod switch_effect;

@@ -20,6 +20,8 @@ pub enum Tab {
     Hold,
     /// Error against solve time.
     Tradeoff,
+    /// A motor's rotor by itself.
+    Rotor,
 }
 
 impl Tab {
@@ -32,6 +34,7 @@ impl Tab {
         (Self::Tradeoff, "Trade-off"),
         (Self::Startup, "Start-up"),
         (Self::Hold, "Hold"),
+        (Self::Rotor, "Rotor"),
     ];
 
     /// Its label, of a scene that is a plate or a motor.
@@ -40,9 +43,9 @@ impl Tab {
         if self == Self::Torque && plate { "Exact" } else { name }
     }
 
-    /// Whether there is something to see in it: only a plate can be held.
+    /// Whether there is something to see in it: only a plate can be held, and only a motor has a rotor.
     pub fn is_of(self, plate: bool) -> bool {
-        plate || self != Self::Hold
+        self != if plate { Self::Rotor } else { Self::Hold }
     }
 
     /// Whether it moves with the cycle.

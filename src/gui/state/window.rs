@@ -9,6 +9,7 @@ use super::hold::HoldState;
 use super::lessons::{LessonState, OnScreen};
 use super::modal::Modal;
 use super::pins::{Page, Pins};
+use super::rotor::RotorState;
 use super::startup::StartupState;
 use super::sweep::SweepState;
 use super::switch_effect::SwitchHistory;
@@ -48,6 +49,8 @@ pub struct State {
     pub sweep: SweepState,
     /// Torque over speed.
     pub torque: TorqueState,
+    /// The rotor by itself.
+    pub rotor: RotorState,
     /// Lessons, tour and glossary.
     pub lessons: LessonState,
     /// The start-up, if one was asked for.
@@ -85,6 +88,7 @@ impl State {
             pins: Pins::default(),
             sweep: SweepState::default(),
             torque: TorqueState::default(),
+            rotor: RotorState::default(),
             lessons: LessonState::new(None),
             startup: None,
             hold: None,

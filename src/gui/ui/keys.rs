@@ -132,6 +132,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             window(key(CTRL, Key::Num5), "Show the trade-off", || Command::Show(Tab::Tradeoff)),
             window(key(CTRL, Key::Num6), "Show the start-up", || Command::Show(Tab::Startup)),
             window(key(CTRL, Key::Num7), "Hold a plate", || Command::Show(Tab::Hold)),
+            window(key(CTRL, Key::Num8), "Show the rotor", || Command::Show(Tab::Rotor)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
             window(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),

@@ -102,6 +102,7 @@ fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         (Tab::Sweep, _) => tabs::sweep::show(ui, cx),
         (Tab::Startup, _) => tabs::startup::show(ui, cx),
         (Tab::Hold, _) => tabs::hold::show(ui, cx),
+        (Tab::Rotor, _) => tabs::rotor::show(ui, cx),
         (Tab::Tradeoff, _) => tabs::tradeoff::show(ui, cx),
     }
 }

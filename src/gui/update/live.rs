@@ -1,6 +1,7 @@
-//! What is computed while one looks: a start-up, a plate in the hand, and torque over speed.
+//! What is computed while one looks: a start-up, a plate in the hand, torque over speed, and the rotor.
 
 use super::updater::Updater;
+use crate::analysis::rotor::RotorCurves;
 use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
@@ -41,6 +42,21 @@ impl Updater {
                     .transpose()
             });
             self.state.torque.begin(&run, task);
+        }
+    }
+
+    /// Computes the rotor of the present scene while its tab is shown.
+    pub fn follow_rotor(&mut self) {
+        let Tab::Rotor = self.state.view.tab else { return };
+        let Ok(Problem { scenario: Scenario::Motor(motor), .. }) = Problem::new(self.state.document.scene()) else {
+            return;
+        };
+        if self.state.rotor.lacks(&motor) {
+            let theirs = motor.clone();
+            let task = Task::start("rotor", self.wake(Duration::ZERO), move |cancel, _: &(dyn Fn(()) + Sync)| {
+                RotorCurves::of(&theirs, cancel).map_err(|error| error.to_string()).transpose()
+            });
+            self.state.rotor.begin(&motor, task);
         }
     }
 

@@ -144,6 +144,7 @@ impl Updater {
             state.sweep.review(state.document.scene());
         }
         state.torque.drain();
+        state.rotor.drain();
         if let Some(startup) = &mut state.startup {
             startup.drain();
             if startup.stale(state.document.scene()) {

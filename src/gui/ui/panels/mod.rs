@@ -7,5 +7,6 @@ pub mod lesson;
 pub mod menu;
 pub mod model;
 pub mod parameters;
+pub mod records;
 pub mod results;
 pub mod timeline;

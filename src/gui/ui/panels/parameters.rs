@@ -1,6 +1,7 @@
 //! The left panel: every parameter of the scene. Reads the scene, pushes commands.
 
 use super::field::{self, Field};
+use super::records;
 use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
 use crate::gui::derived::sliders::{inside, slider_range};
@@ -122,12 +123,11 @@ impl Panel<'_> {
         let shown = |p: &&'static Parameter| self.scene.has(p) || self.scene.following(p.key).is_some();
         let inside = |p: &&'static Parameter| p.table() == table && !is_main(self.scene, p);
         let mut parameters: Vec<_> = PARAMETERS.iter().filter(shown).filter(inside).collect();
-        if table == "rotor"
-            && self.scene.kind() == Kind::Motor
-            && !parameters.iter().any(|p| p.kind == ParameterKind::CsvPath)
-        {
+        if table == "rotor" && self.scene.kind() == Kind::Motor {
             // A file that is given to a beam replaces it.
-            parameters.extend(Parameter::find("rotor.compliance_csv"));
+            let file = |p: &&'static Parameter| matches!(p.kind, ParameterKind::CsvPath { .. });
+            let others: Vec<_> = PARAMETERS.iter().filter(|p| file(p) && !parameters.contains(p)).collect();
+            parameters.extend(others);
         }
         parameters
     }
@@ -150,9 +150,13 @@ impl Panel<'_> {
                 (ParameterKind::Choice { options, .. }, Some(Value::Text(name))) => {
                     self.choice_row(ui, parameter, options, name);
                 }
-                (ParameterKind::Rows, Some(Value::Rows(rows))) => self.rows_row(ui, parameter, rows.len()),
+                (ParameterKind::Rows { .. }, Some(Value::Rows(rows))) => self.rows_row(ui, parameter, rows.len()),
+                (ParameterKind::Records { columns, fewest, .. }, Some(Value::Records(of))) => {
+                    self.label_row(ui, parameter);
+                    records::show(ui, self.cx, parameter, columns, fewest, of);
+                }
                 (ParameterKind::Text { .. }, Some(value)) => self.text_row(ui, parameter, value),
-                (ParameterKind::CsvPath, _) => self.path_row(ui, parameter),
+                (ParameterKind::CsvPath { .. }, _) => self.path_row(ui, parameter),
                 // No scene has a value of another type than its key.
                 _ => {}
             }
@@ -336,7 +340,8 @@ impl Panel<'_> {
             .show_ui(ui, |ui| {
                 for option in options {
                     // A table is chosen by giving its file, below.
-                    let possible = (parameter.key, *option) != ("rotor.model", "table") || name == "table";
+                    let file = parameter.key == "rotor.model" && ["table", "green"].contains(option);
+                    let possible = !file || *option == name;
                     let text = choice(parameter.key, option);
                     let picked = ui.add_enabled(possible, egui::Button::selectable(*option == name, text));
                     if picked.on_disabled_hover_text("Give a CSV file below").clicked() && *option != name {
@@ -375,7 +380,11 @@ impl Panel<'_> {
             wrapped: false,
         };
         let field = field.show(ui, self.cx).labelled_by(name.id);
-        beside(ui.clip_rect(), field, "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n");
+        let columns = match parameter.key {
+            "rotor.green_csv" => "Columns x_mm and deflection_um_per_n",
+            _ => "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n",
+        };
+        beside(ui.clip_rect(), field, columns);
     }
 
     fn rows_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, rows: usize) {
@@ -408,7 +417,8 @@ impl Panel<'_> {
 
     /// The default of a parameter that has one in this scene.
     fn default(&self, parameter: &Parameter) -> Option<Value> {
-        if parameter.absent.is_some() || matches!(parameter.kind, ParameterKind::Text { .. } | ParameterKind::Rows) {
+        let own = matches!(parameter.kind, ParameterKind::Text { .. } | ParameterKind::Rows { .. });
+        if parameter.absent.is_some() || own {
             return None;
         }
         parameter.default()

@@ -4,6 +4,7 @@ pub mod compare;
 pub mod exact;
 pub mod hold;
 pub mod labels;
+pub mod rotor;
 pub mod startup;
 pub mod sweep;
 pub mod torque;

@@ -6,7 +6,7 @@ use super::scales::scales_of;
 use super::{loads, map, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
-use crate::gui::derived::sample::{self, Lines, Touching};
+use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{PlotStyle, area};
@@ -56,14 +56,13 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let Some(area) = area(ui, recording) else { return };
     let scales = scales_of(ui, run, within);
     let place = cx.state.view.place(recording);
-    let touching = Touching::of(motor);
     let shown = MotorFrame {
         run: (run.number, run.fidelity),
         recording,
         motor,
         scales: &scales,
         place,
-        lines: Lines::at(recording, place, touching),
+        lines: Lines::at(recording, place),
         tooth: cx.state.view.tooth.min(recording.teeth.saturating_sub(1)),
         cursor: cx.state.view.cursor_x,
     };

@@ -9,7 +9,7 @@ use super::wave::GROOVE;
 use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::sample::{self, Lines, Touching};
+use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, RunCurves, common};
 use crate::gui::ui::chart::{Inset, between, level, line, upright};
 use crate::gui::ui::context::DrawContext;
@@ -73,8 +73,7 @@ pub fn show(ui: &mut Ui, runs: &[Overlaid<'_>], cx: &DrawContext<'_>) {
         let place = cx.state.view.place(recording);
         match &run.run.problem.scenario {
             Scenario::Motor(motor) => {
-                let touching = Touching::of(motor);
-                let lines = Lines::at(recording, place, touching);
+                let lines = Lines::at(recording, place);
                 motors.push(MotorNow { of: *run, recording, motor, place, lines });
             }
             Scenario::Plate(plate) => plates.push(PlateNow { of: *run, recording, plate, place }),
@@ -319,7 +318,7 @@ fn draw_surfaces(
             axes.at((tooth as f64 * run.recording.pitch + run.recording.x[node]) * metre, height)
         };
         let mut underside: Vec<Pos2> = Vec::new();
-        for (tooth, groove) in run.lines.grooves(run.recording, run.motor, GROOVE).iter().enumerate() {
+        for (tooth, groove) in run.lines.grooves(run.recording, GROOVE).iter().enumerate() {
             let line = run.lines.of(tooth);
             let top = run.lines.stator[line.clone()].iter().enumerate();
             painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));

@@ -6,7 +6,7 @@ use super::pointer::{Readout, named};
 use super::scales::scales_of;
 use super::series::{Series, Trace};
 use crate::gui::derived::format::{number, times};
-use crate::gui::derived::sample::{self, Lines, Touching};
+use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, Ranges, Scales};
 use crate::gui::ui::chart::{Inset, dots, level, line, upright};
 use crate::gui::ui::context::DrawContext;
@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let scales = scales_of(ui, run, within);
     let place = cx.state.view.place(recording);
     let phase = place / recording.frames.max(1) as f64;
-    let lines = Lines::at(recording, place, Touching::default());
+    let lines = Lines::at(recording, place);
     let shown = PlateFrame { recording, plate, scales: &scales, place, phase, lines, cursor: cx.state.view.cursor_x };
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);

@@ -27,7 +27,7 @@ mod tests {
     use crate::gui::ui::theme;
     use crate::problem::Problem;
     use crate::recording::Recording;
-    use crate::recording::sample::{Lines, Touching};
+    use crate::recording::sample::Lines;
     use crate::scene::presets;
     use crate::solve::{Method, Settings, solve};
     use eframe::egui::{Vec2, pos2, vec2};
@@ -144,9 +144,9 @@ mod tests {
         let wave = TAU / recording.length;
         let (mut bent, mut straight) = (0.0_f64, 0.0_f64);
         for place in [0.0, 0.37 * recording.frames as f64] {
-            let touching = Touching::of(motor);
-            let lines = Lines::at(recording, place, touching);
-            let grooves = lines.grooves(recording, motor, 3);
+            let touching = recording.touching;
+            let lines = Lines::at(recording, place);
+            let grooves = lines.grooves(recording, 3);
             let last = recording.x.len() - 1;
             let height = |k: usize| lines.stator[k] + lines.film_thickness[k] - motor.min_spacing;
             for (tooth, groove) in grooves.iter().enumerate() {

@@ -89,7 +89,7 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'
     // The film, where there is any.
     let film = style.palette.film.gamma_multiply(0.25);
     let mut underside = Vec::with_capacity(recording.teeth * (nodes + GROOVE));
-    let grooves = lines.grooves(recording, shown.motor, GROOVE);
+    let grooves = lines.grooves(recording, GROOVE);
     let at = |[x, height]: [f64; 2]| axes.at(x, height);
     // Half a groove at either end: the wave repeats.
     let ahead = grooves.iter().rev().take(1).flatten().skip(GROOVE / 2);

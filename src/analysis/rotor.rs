@@ -1,0 +1,186 @@
+//! A rotor by itself: its compliance beside those of other models, its Green's function, and of a ring how the load bends it.
+
+use crate::control::Cancel;
+use crate::problem::{Motor, Problem, RotorCompliance, Scenario};
+use crate::recording::LineLoads;
+use crate::rotor::ring::{Deflection, Mesh, Section};
+use crate::rotor::{Compliances, RotorError};
+use crate::scene::Scene;
+use std::f64::consts::TAU;
+
+/// Harmonics that are shown, and that the Green's function is the sum of.
+const HARMONICS: usize = 180;
+/// Harmonics of the load that bend the section as it is drawn.
+const BENDING: u32 = 4;
+/// Points of the Green's function over half the wavelength.
+const POINTS: usize = 240;
+
+/// One model of the rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// What it is called.
+    pub name: &'static str,
+    /// C(k_n) \[m²/N\] for n = 1, 2, ….
+    pub compliance: Vec<f64>,
+    /// (x \[m\], deflection \[m/N\] under a unit force in every wavelength, the mean left out), x from 0 to half the wavelength.
+    pub green: Vec<[f64; 2]>,
+}
+
+/// The cross-section of a ring, its mesh, and how each harmonic of a line load bends it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bent {
+    /// The section.
+    pub section: Section,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// How a unit line load of the harmonics n = 1, 2, … bends it.
+    pub harmonics: Vec<Deflection>,
+}
+
+/// What is known of a rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorCurves {
+    /// The present model, and then the others that have the same wave: the beam fitted to Table I and the ring of the preset.
+    pub curves: Vec<Curve>,
+    /// Estimated error of the present model's deflection under a point load, relative.
+    pub relative_error: f64,
+    /// Lowest natural frequencies of the first harmonics \[Hz\], of a ring.
+    pub resonances: Option<Vec<f64>>,
+    /// Of a ring.
+    pub bent: Option<Bent>,
+}
+
+impl RotorCurves {
+    /// Of the rotor of `motor`; `None` if cancelled.
+    ///
+    /// # Errors
+    /// [`RotorError`] if it has no compliance.
+    pub fn of(motor: &Motor, cancel: &Cancel) -> Result<Option<Self>, RotorError> {
+        let present = motor.compliances(HARMONICS)?;
+        let mut curves = vec![curve("present rotor", &present)];
+        for (name, model) in [("beam fitted to Table I", "beam"), ("ring of the preset", "ring")] {
+            if cancel.is_cancelled() {
+                return Ok(None);
+            }
+            // One that the stator does not touch, since the wave is elsewhere, is left out.
+            let other = reference(model).filter(|other| *other != motor.rotor);
+            let other = other.and_then(|rotor| rotor.resolve(&motor.wave(), HARMONICS).ok());
+            curves.extend(other.map(|found| curve(name, &found)));
+        }
+        let bent = match &motor.rotor {
+            RotorCompliance::Ring(section) => {
+                let band = motor.wave().band;
+                let mesh = section.mesh(band)?;
+                let mut harmonics = Vec::new();
+                for n in 1..=BENDING {
+                    if cancel.is_cancelled() {
+                        return Ok(None);
+                    }
+                    harmonics.push(section.deflection(band, n * motor.waves)?);
+                }
+                Some(Bent { section: section.clone(), mesh, harmonics })
+            }
+            _ => None,
+        };
+        let resonances = motor.resonances()?.map(Vec::from);
+        Ok(Some(Self { curves, relative_error: present.relative_error(), resonances, bent }))
+    }
+}
+
+/// The rotor of a motor with every key at its default but for the model.
+fn reference(model: &str) -> Option<RotorCompliance> {
+    let mut scene = Scene::motor();
+    scene.set("rotor.model", model).ok()?;
+    match Problem::new(&scene).ok()?.scenario {
+        Scenario::Motor(motor) => Some(motor.rotor),
+        Scenario::Plate(_) => None,
+    }
+}
+
+fn curve(name: &'static str, rotor: &Compliances) -> Curve {
+    let compliance: Vec<f64> = (1..=HARMONICS).map(|n| rotor.harmonic(n)).collect();
+    let length = rotor.wavelength();
+    let green = |i: usize| {
+        let turn = 0.5 * i as f64 / POINTS as f64;
+        let terms = (1..).zip(&compliance).map(|(n, c)| c * (TAU * f64::from(n) * turn).cos());
+        [turn * length, 2.0 / length * terms.sum::<f64>()]
+    };
+    Curve { name, green: (0..=POINTS).map(green).collect(), compliance }
+}
+
+impl Bent {
+    /// Displacement (u_r, u_z) \[m\] of each node, above the place that the first harmonic of the load on the rotor presses most at `frame`.
+    pub fn under(&self, loads: &LineLoads, frame: usize) -> Vec<[f64; 2]> {
+        let amplitudes: Vec<[f64; 2]> = (1..=self.harmonics.len()).map(|n| harmonic(loads, frame, n)).collect();
+        let crest = amplitudes.first().map_or(0.0, |[cosine, sine]| sine.atan2(*cosine));
+        let mut moved = vec![[0.0; 2]; self.mesh.nodes.len()];
+        for ((n, [cosine, sine]), bent) in (1..).zip(&amplitudes).zip(&self.harmonics) {
+            let (s, c) = (f64::from(n) * crest).sin_cos();
+            let load = cosine * c + sine * s;
+            for (moved, (radial, axial)) in moved.iter_mut().zip(bent.radial.iter().zip(&bent.axial)) {
+                moved[0] += load * radial;
+                moved[1] += load * axial;
+            }
+        }
+        moved
+    }
+}
+
+/// Cosine and sine amplitudes \[N/m\] of harmonic `n` of what film and contact press with at `frame`.
+fn harmonic(loads: &LineLoads, frame: usize, n: usize) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for tooth in 0..loads.teeth {
+        let line = loads.line_offset(tooth, frame);
+        for (i, (x, length)) in loads.x.iter().zip(&loads.node_length).enumerate() {
+            let force = (loads.film[line + i] + loads.contact[line + i]) * length;
+            let (s, c) = (TAU * n as f64 * (tooth as f64 * loads.pitch + x) / loads.length).sin_cos();
+            sum[0] += 2.0 / loads.length * force * c;
+            sum[1] += 2.0 / loads.length * force * s;
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_greens_function_is_the_beams() {
+        let Scenario::Motor(motor) = Problem::new(&Scene::motor()).unwrap().scenario else { panic!("a motor") };
+        let found = RotorCurves::of(&motor, &Cancel::new()).unwrap().unwrap();
+        // Beside itself the beam is not shown again.
+        assert!(found.curves.iter().all(|curve| !curve.name.starts_with("beam")) && found.bent.is_none());
+        let green = &found.curves[0].green;
+        // Images a wavelength apart, the local compliance aside, from half the wavelength on: G(x) − G(x').
+        let beam = |x: f64| {
+            let images = (-4..=4).map(|i| ((x + f64::from(i) * motor.wavelength()) / 4e-3).abs());
+            0.64e-6 * images.map(|s| (-s).exp() * (s.cos() + s.sin())).sum::<f64>()
+        };
+        let [from, to] = [POINTS / 3, POINTS];
+        let exact = beam(green[from][0]) - beam(green[to][0]);
+        assert!(((green[from][1] - green[to][1]) / exact - 1.0).abs() < 0.05, "{:?} {exact}", green[from]);
+    }
+
+    #[test]
+    fn harmonics_of_a_load_come_back() {
+        let (teeth, nodes, length) = (3, 40, 0.03);
+        let x: Vec<f64> = (0..nodes).map(|i| 0.01 * ((f64::from(i) + 0.5) / f64::from(nodes) - 0.5)).collect();
+        let load = |x: f64| 5.0 + 3.0 * (TAU * 2.0 * x / length).cos() - 2.0 * (TAU * 2.0 * x / length).sin();
+        let film = (0..3).flat_map(|tooth| x.iter().map(move |x| load(f64::from(tooth) * 0.01 + x))).collect();
+        let loads = LineLoads {
+            frames: 1,
+            length,
+            teeth,
+            stored_teeth: teeth,
+            pitch: 0.01,
+            node_length: vec![0.01 / f64::from(nodes); x.len()],
+            contact: vec![0.0; teeth * x.len()],
+            film,
+            x,
+            ..LineLoads::default()
+        };
+        let [cosine, sine] = harmonic(&loads, 0, 2);
+        assert!((cosine - 3.0).abs() < 1e-12 && (sine + 2.0).abs() < 1e-12, "{cosine} {sine}");
+    }
+}

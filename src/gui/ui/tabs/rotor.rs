@@ -1,0 +1,324 @@
+//! The rotor by itself: compliance by harmonic and Green's function of several models, and the section of a ring, to scale, with its
+//! mesh and as the present load bends it. The edges of its parts can be dragged.
+
+use crate::analysis::rotor::{Bent, Curve, RotorCurves};
+use crate::digits::percent;
+use crate::gui::command::Command;
+use crate::gui::derived::format::{digits, power_of_ten};
+use crate::gui::ui::cache::once;
+use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, powers, title};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::Hint;
+use crate::problem::{Problem, Scenario};
+use crate::scene::{Parameter, Value};
+use eframe::egui::{self, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
+use egui_plot::{LineStyle, Points};
+
+/// Heights of the charts and of the section: shares of the tab, and at least this many lines of text.
+const SHARES: [f32; 3] = [0.3, 0.3, 0.5];
+const LEAST_LINES: [f32; 3] = [10.0, 10.0, 14.0];
+/// In a tab wider than this, in heights of the text, the charts stand beside each other.
+const BESIDE: f32 = 36.0;
+const WIDTH: f32 = 2.0;
+/// Harmonics that the chart of compliances shows.
+const SHOWN: usize = 64;
+/// The greatest displacement as it is drawn, as a share of the section's size.
+const MAGNIFIED: f64 = 0.06;
+/// How near to an edge the pointer takes it \[points\].
+const REACH: f32 = 5.0;
+/// What a dragged edge is rounded to \[mm\].
+const STEP: f64 = 0.01;
+/// Shows the tab.
+pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
+    let height = ui.available_height();
+    let scene = cx.state.document.scene();
+    let Ok(Problem { scenario: Scenario::Motor(motor), .. }) = Problem::new(scene) else {
+        cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
+        return;
+    };
+    egui::ScrollArea::vertical().id_salt("rotor").auto_shrink(false).show(ui, |ui| {
+        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
+        ui.set_max_width(ui.available_width() - 14.0);
+        let known = cx.state.rotor.found();
+        match known {
+            None => drop(ui.label("Computing the rotor…")),
+            Some(_) if !cx.state.rotor.is_of(&motor) => cx.note(ui, "Of the rotor before this edit"),
+            Some(_) => {}
+        }
+        let found = match known {
+            Some(Ok(found)) => Some(found),
+            Some(Err(why)) => {
+                cx.say(ui, format!("There are no curves to show: {why}"), cx.colours.alarm);
+                None
+            }
+            None => None,
+        };
+        let em = ui.text_style_height(&TextStyle::Body);
+        let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
+        if let Some(found) = found {
+            curves(ui, found, [tall(0), tall(1)], cx);
+            numbers(ui, found, cx);
+        }
+        if let Some(Value::Records(parts)) = scene.get("rotor.part") {
+            ui.add_space(4.0);
+            title(ui, "Cross-section of the rotor, mm: drag an edge", "Cross-section");
+            let bent = found.and_then(|found| found.bent.as_ref()).filter(|_| cx.state.rotor.is_of(&motor));
+            section(ui, &parts, [motor.contact_radius, motor.contact_width], bent, tall(2), cx);
+        }
+    });
+}
+
+/// The models in the order of the legend, each with its colour and line.
+fn styles(cx: &DrawContext<'_>) -> [(Color32, LineStyle); 3] {
+    let colours = &cx.colours;
+    [(colours.film, SOLID), (colours.contact, LineStyle::dashed_loose()), (colours.rotor, LineStyle::dashed_dense())]
+}
+
+fn curves(ui: &mut Ui, found: &RotorCurves, heights: [f32; 2], cx: &DrawContext<'_>) {
+    let styled: Vec<_> = found.curves.iter().zip(styles(cx)).collect();
+    let entries: Vec<_> = styled.iter().map(|(curve, (colour, style))| (curve.name, *colour, *style)).collect();
+    legend(ui, &entries);
+    let em = ui.text_style_height(&TextStyle::Body);
+    if ui.available_width() > BESIDE * em {
+        ui.columns(2, |columns| {
+            compliance(&mut columns[0], &styled, heights[0], cx);
+            green(&mut columns[1], &styled, heights[0], cx);
+        });
+    } else {
+        compliance(ui, &styled, heights[0], cx);
+        green(ui, &styled, heights[1], cx);
+    }
+}
+
+type Styled<'a> = [(&'a Curve, (Color32, LineStyle))];
+
+fn compliance(ui: &mut Ui, curves: &Styled<'_>, height: f32, _cx: &DrawContext<'_>) {
+    let name = "Compliance by harmonic, m²/N";
+    title(ui, name, "Compliance");
+    let lines: Vec<(Vec<[f64; 2]>, Color32, LineStyle)> = curves
+        .iter()
+        .map(|(curve, (colour, style))| {
+            let points = (1..).zip(&curve.compliance).take(SHOWN);
+            (points.map(|(n, c)| [f64::from(n).log10(), c.log10()]).collect(), *colour, *style)
+        })
+        .collect();
+    let logs = lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point[1]));
+    let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    let whole = place(ui, height);
+    let plot = chart(ui, name, height)
+        .x_axis_label("harmonic n of the wave")
+        .x_grid_spacer(|input| powers(&input, 6.0, true))
+        .y_grid_spacer(|input| powers(&input, 6.0, false))
+        .x_axis_formatter(|mark, _| digits(10f64.powf(mark.value).round(), 3))
+        .y_axis_formatter(|mark, _| power_of_ten(mark.value.round()));
+    let bounds = [[0.0, (SHOWN as f64).log10()], [low - 0.1, high + 0.1]];
+    let shown = framed(ui, (name, plot), bounds, |plot| {
+        for (points, colour, style) in &lines {
+            plot.line(line(points, *colour, WIDTH, *style));
+            plot.points(Points::new("", points.clone()).color(*colour).radius(2.0).allow_hover(false));
+        }
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some("Harmonic"), "Compliance");
+}
+
+fn green(ui: &mut Ui, curves: &Styled<'_>, height: f32, _cx: &DrawContext<'_>) {
+    let name = "Deflection under a unit force, µm/N";
+    title(ui, name, "Green's function");
+    let lines: Vec<(Vec<[f64; 2]>, Color32, LineStyle)> = curves
+        .iter()
+        .map(|(curve, (colour, style))| {
+            let half = curve.green.iter().map(|[x, g]| [1e3 * x, 1e6 * g]);
+            let both = half.clone().rev().map(|[x, g]| [-x, g]).chain(half.skip(1));
+            (both.collect(), *colour, *style)
+        })
+        .collect();
+    let points = || lines.iter().flat_map(|(points, ..)| points.iter());
+    let most = |i: usize| points().map(|point| point[i]).fold(f64::NEG_INFINITY, f64::max);
+    let least = points().map(|point| point[1]).fold(f64::INFINITY, f64::min);
+    let (end, top) = (most(0), most(1));
+    let whole = place(ui, height);
+    let plot = chart(ui, name, height).x_axis_label("x from the force, mm");
+    let shown = framed(ui, (name, plot), [[-end, end], [least - 0.05 * (top - least), 1.05 * top]], |plot| {
+        for (points, colour, style) in &lines {
+            plot.line(line(points, *colour, WIDTH, *style));
+        }
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), None, "Green's function");
+}
+
+fn numbers(ui: &mut Ui, found: &RotorCurves, cx: &DrawContext<'_>) {
+    let deflection = found.curves[0].green[0][1] * 1e6;
+    let known = match found.relative_error {
+        0.0 => String::new(),
+        error => format!(", known to {}", percent(error)),
+    };
+    let mut text = format!("Present rotor: {} µm/N under a unit force{known}", digits(deflection, 3));
+    if let Some(resonances) = &found.resonances {
+        let khz: Vec<_> = resonances.iter().map(|hertz| digits(1e-3 * hertz, 3)).collect();
+        text += &format!("; lowest natural frequencies of harmonics 1 to {}: {} kHz", khz.len(), khz.join(", "));
+    }
+    cx.note(ui, text);
+}
+
+/// The window onto the section: millimetres to points, one scale for both.
+#[derive(Clone, Copy)]
+struct Scale {
+    origin: Pos2,
+    points: f64,
+}
+
+impl Scale {
+    fn at(self, r: f64, z: f64) -> Pos2 {
+        pos2(self.origin.x + (self.points * r) as f32, self.origin.y - (self.points * z) as f32)
+    }
+}
+
+/// Inner and outer radius, bottom and top of a part \[mm\].
+fn lengths(part: &[Value]) -> Option<[f64; 4]> {
+    let numbers: Vec<f64> = part.iter().filter_map(Value::as_number).collect();
+    numbers.try_into().ok()
+}
+
+fn section(
+    ui: &mut Ui,
+    parts: &[Vec<Value>],
+    [radius, width]: [f64; 2],
+    bent: Option<&Bent>,
+    height: f32,
+    cx: &DrawContext<'_>,
+) {
+    let boxes: Vec<[f64; 4]> = parts.iter().filter_map(|part| lengths(part)).collect();
+    let (rect, canvas) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    canvas.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Cross-section of the rotor"));
+    let bound = |i: usize, pick: fn(f64, f64) -> f64| boxes.iter().map(|part| part[i]).reduce(pick).unwrap_or(0.0);
+    let now = [bound(0, f64::min), bound(1, f64::max), bound(2, f64::min), bound(3, f64::max)];
+    // While an edge is dragged the scale stays.
+    let kept = canvas.id.with("bounds");
+    let dragged: Option<[f64; 4]> = ui.data(|data| data.get_temp(kept));
+    let [left, right, bottom, top] = dragged.unwrap_or(now);
+    let (wide, tall) = ((right - left).max(1e-3), (top - bottom).max(1e-3));
+    let points = (f64::from(0.86 * rect.width()) / wide).min(f64::from(0.8 * rect.height()) / tall);
+    let middle = (0.5 * (left + right), 0.5 * (bottom + top));
+    let origin = rect.center() - vec2((points * middle.0) as f32, -(points * middle.1) as f32);
+    let scale = Scale { origin, points };
+    let painter = ui.painter().with_clip_rect(rect);
+    let outline = Stroke::new(1.5, cx.colours.rotor);
+    let fill = cx.colours.canvas.lerp_to_gamma(cx.colours.rotor, 0.35);
+    for [inner, outer, low, high] in &boxes {
+        let area = Rect::from_two_pos(scale.at(*inner, *low), scale.at(*outer, *high));
+        painter.rect_filled(area, 0.0, fill);
+        painter.rect_stroke(area, 0.0, outline, egui::StrokeKind::Middle);
+    }
+    if let Some(bent) = bent {
+        elements(&painter, ui, bent, scale, [wide, tall], cx);
+    }
+    contact(&painter, [1e3 * radius, 1e3 * width], now[2], scale, cx);
+    supports(&painter, scale, cx);
+    let mut dragging = false;
+    for (number, (part, lengths)) in parts.iter().zip(&boxes).enumerate() {
+        let [inner, outer, low, high] = *lengths;
+        let name = match part.first() {
+            Some(Value::Text(name)) if !name.is_empty() => name.clone(),
+            _ => format!("part {}", number + 1),
+        };
+        let area = Rect::from_two_pos(scale.at(inner, low), scale.at(outer, high));
+        let text = TextStyle::Small.resolve(ui.style());
+        if area.width() > 4.0 * text.size && area.height() > 1.2 * text.size {
+            painter.text(area.center(), egui::Align2::CENTER_CENTER, &name, text, ui.visuals().strong_text_color());
+        }
+        let edges = [
+            Rect::from_two_pos(area.left_top(), area.left_bottom()),
+            Rect::from_two_pos(area.right_top(), area.right_bottom()),
+            Rect::from_two_pos(area.left_bottom(), area.right_bottom()),
+            Rect::from_two_pos(area.left_top(), area.right_top()),
+        ];
+        for (which, edge) in edges.into_iter().enumerate() {
+            let id = canvas.id.with((number, which));
+            let cursor = if which < 2 { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical };
+            let held = ui.interact(edge.expand(REACH).intersect(rect), id, Sense::drag()).on_hover_cursor(cursor);
+            let named = format!("{} of {name}, to drag", label(which));
+            held.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &named));
+            if held.hovered() || held.dragged() {
+                painter.rect_stroke(edge, 0.0, Stroke::new(3.0, cx.colours.accent), egui::StrokeKind::Middle);
+            }
+            let held = held.hint(format!("{} of {name}: {} mm", label(which), digits(lengths[which], 5)));
+            dragging |= held.dragged();
+            let (Some(at), true) = (held.interact_pointer_pos(), held.dragged() || held.drag_stopped()) else {
+                continue;
+            };
+            let along =
+                if which < 2 { f64::from(at.x - origin.x) / points } else { f64::from(origin.y - at.y) / points };
+            let value = (along / STEP).round() * STEP;
+            let place = part.iter().enumerate().filter(|(_, value)| value.as_number().is_some()).nth(which);
+            if let Some((place, _)) = place {
+                let mut edited = parts.to_vec();
+                // As few digits as the step has.
+                edited[number][place] = Value::Number((value * 1e4).round() / 1e4);
+                let key = Parameter::find("rotor.part").map_or("rotor.part", |parameter| parameter.key);
+                cx.push(Command::Set { key, value: Value::Records(edited), dragging: held.dragged() });
+            }
+        }
+    }
+    ui.data_mut(|data| match dragged {
+        None if dragging => drop(data.insert_temp(kept, now)),
+        Some(_) if !dragging => data.remove::<[f64; 4]>(kept),
+        _ => {}
+    });
+}
+
+/// What the length at this place of a part is called.
+fn label(which: usize) -> &'static str {
+    ["Inner radius", "Outer radius", "Bottom", "Top"].get(which).copied().unwrap_or_default()
+}
+
+/// The mesh as it is, and magnified as the load bends it.
+fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Scale, [wide, tall]: [f64; 2], cx: &DrawContext<'_>) {
+    let node = |i: usize, moved: Option<(&[[f64; 2]], f64)>| {
+        let [r, z] = bent.mesh.nodes[i];
+        let [u, w] = moved.map_or([0.0; 2], |(moved, factor)| moved[i].map(|u| factor * u));
+        scale.at(1e3 * (r + u), 1e3 * (z + w))
+    };
+    let draw = |moved: Option<(&[[f64; 2]], f64)>, stroke: Stroke| {
+        for element in &bent.mesh.elements {
+            let corners: Vec<Pos2> = element.nodes[..4].iter().map(|i| node(*i, moved)).collect();
+            painter.add(egui::Shape::closed_line(corners, stroke));
+        }
+    };
+    draw(None, Stroke::new(0.5, cx.colours.quiet.gamma_multiply(0.6)));
+    let Some(run) = cx.state.run.as_ref().filter(|run| !cx.state.stale(run)) else { return };
+    if run.solution.recording.frames == 0 {
+        return;
+    }
+    let key = (run.number, run.fidelity, bent.mesh.nodes.len());
+    let moved = once(ui, "bent rotor", key, || bent.under(&run.solution.recording.lines, 0));
+    let most = moved.iter().flatten().fold(0.0, |top: f64, u| top.max(u.abs()));
+    if moved.len() != bent.mesh.nodes.len() || most == 0.0 {
+        return;
+    }
+    let factor = MAGNIFIED * 1e-3 * wide.max(tall) / most;
+    draw(Some((moved.as_slice(), factor)), Stroke::new(0.8, cx.colours.film));
+    let text = format!(
+        "under the present load, where it presses most: up to {} µm, drawn {} times as large",
+        digits(1e6 * most, 3),
+        digits(factor, 2)
+    );
+    let at = painter.clip_rect().left_bottom() + vec2(4.0, -4.0);
+    painter.text(at, egui::Align2::LEFT_BOTTOM, text, TextStyle::Small.resolve(ui.style()), cx.colours.film);
+}
+
+/// Where the stator touches.
+fn contact(painter: &egui::Painter, [radius, width]: [f64; 2], height: f64, scale: Scale, cx: &DrawContext<'_>) {
+    let ends = [scale.at(radius - 0.5 * width, height), scale.at(radius + 0.5 * width, height)];
+    painter.line_segment(ends, Stroke::new(4.0, cx.colours.contact));
+}
+
+/// Where it is held.
+fn supports(painter: &egui::Painter, scale: Scale, cx: &DrawContext<'_>) {
+    let Some(Value::Records(supports)) = cx.state.document.scene().get("rotor.support") else { return };
+    for [inner, outer, low, high] in supports.iter().filter_map(|support| lengths(support)) {
+        let area = Rect::from_two_pos(scale.at(inner, low), scale.at(outer, high)).expand(2.0);
+        painter.rect_stroke(area, 0.0, Stroke::new(2.0, cx.colours.accent), egui::StrokeKind::Middle);
+    }
+}

@@ -1,0 +1,280 @@
+//! The mesh of a section: quadratic quadrilaterals on a tensor grid, dense at the contact and at corners.
+//!
+//! Every edge of a part, a support or the contact band is a line of the grid. Between two lines the size of an element grows from what
+//! is fine there by a constant share of the distance, so that it follows the singular stress at a corner. All sizes are scaled
+//! by one factor, so that the mesh has about as many elements as were asked for. A finer mesh halves every element, and contains
+//! the displacements of the coarser one: its compliance can only be greater.
+
+use super::section::{Band, Part, RingError, Section, common, mm, same};
+
+/// Nodes of an element.
+pub const NODES: usize = 9;
+
+/// A mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// (r, z) of each node \[m\].
+    pub nodes: Vec<[f64; 2]>,
+    /// The elements.
+    pub elements: Vec<Element>,
+    /// For each node, whether a support holds it along r, θ and z.
+    pub held: Vec<[bool; 3]>,
+}
+
+/// One element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Element {
+    /// Its nodes, three from left to right, of the lower side first, of the upper side last: number 4 is its middle.
+    pub nodes: [usize; NODES],
+    /// Which part of the section it belongs to.
+    pub part: usize,
+}
+
+/// Elements of the mesh that is to be halved once more.
+const COARSE: usize = 500;
+/// The most elements of it, if lines alone make that many.
+const MOST: usize = 4 * COARSE;
+/// Size of elements at a line, in shares of the narrower of the intervals beside it.
+const AT_LINE: f64 = 0.03;
+/// Size of elements at the contact, in shares of its width or of the height of the part that is in contact.
+const AT_CONTACT: f64 = 0.1;
+/// Growth of elements with the distance from a line.
+const GROWTH: f64 = 1.0;
+
+impl Section {
+    /// The mesh on which the ring is solved with a contact `band`.
+    ///
+    /// # Errors
+    /// [`RingError`] if the band is not within the lowest face or the mesh would be too large.
+    pub fn mesh(&self, band: Band) -> Result<Mesh, RingError> {
+        self.meshes(Some(band)).map(|[_, fine]| fine)
+    }
+
+    /// A mesh and that with every element halved both ways.
+    pub(super) fn meshes(&self, band: Option<Band>) -> Result<[Mesh; 2], RingError> {
+        let [coarse, fine] = [1, 2].map(|halves| Mesh::new(self, band, COARSE, halves));
+        Ok([coarse?, fine?])
+    }
+
+    /// Whether the band is within one of the lowest faces.
+    pub(super) fn check_band(&self, band: Band) -> Result<(), RingError> {
+        let (inner, outer) = band.radii();
+        let within = |face: &(f64, f64)| {
+            (face.0 < inner || same(face.0, inner)) && (outer < face.1 || same(outer, face.1)) && band.width > 0.0
+        };
+        if self.contact_faces().iter().any(within) {
+            return Ok(());
+        }
+        let faces = self.contact_faces().into_iter().map(|(a, b)| format!("{} to {} mm", mm(a), mm(b)));
+        let allowed = faces.collect::<Vec<_>>().join(" or ");
+        Err(RingError::Band { inner_mm: mm(inner), outer_mm: mm(outer), allowed })
+    }
+}
+
+/// The lines of the grid along one coordinate.
+#[derive(Clone, Debug)]
+struct Lines {
+    /// Ascending.
+    at: Vec<f64>,
+    /// For each interval between two lines, how many elements fit from its beginning up to each of `POINTS` equal parts of it, before scaling.
+    sums: Vec<Vec<f64>>,
+}
+
+impl Lines {
+    /// Points of the trapezoidal rule.
+    const POINTS: usize = 128;
+
+    /// Of `edges` in any order, those that are one counted once; `fine` are lines with elements no larger than given.
+    fn new(mut edges: Vec<f64>, fine: &[(f64, f64)]) -> Self {
+        edges.sort_by(f64::total_cmp);
+        edges.dedup_by(|a, b| same(*a, *b));
+        let gap = |i: usize| edges.get(i + 1).map_or(f64::INFINITY, |next| next - edges[i]);
+        let size = |i: usize| {
+            let narrower = gap(i).min(if i > 0 { gap(i - 1) } else { f64::INFINITY });
+            let asked = fine.iter().filter(|(line, _)| same(*line, edges[i])).map(|(_, size)| *size);
+            asked.fold(AT_LINE * narrower, f64::min)
+        };
+        let sizes: Vec<f64> = (0..edges.len()).map(size).collect();
+        let density = |x: f64| {
+            let size = edges.iter().zip(&sizes).map(|(line, size)| size + GROWTH * (x - line).abs());
+            1.0 / size.fold(f64::INFINITY, f64::min)
+        };
+        let sums = edges.windows(2).map(|ends| {
+            let step = (ends[1] - ends[0]) / Self::POINTS as f64;
+            let trapezium = |i: usize| {
+                let x = ends[0] + step * i as f64;
+                0.5 * step * (density(x) + density(x + step))
+            };
+            let parts = (0..Self::POINTS).scan(0.0, |sum, i| {
+                *sum += trapezium(i);
+                Some(*sum)
+            });
+            std::iter::once(0.0).chain(parts).collect()
+        });
+        Self { sums: sums.collect(), at: edges }
+    }
+
+    /// Elements of the interval `i` with sizes `scale` as large.
+    fn count(&self, i: usize, scale: f64) -> usize {
+        (self.sums[i][Self::POINTS] / scale).ceil().max(1.0) as usize
+    }
+
+    /// Edges of the elements, and the interval of each element: equal shares of the density, each divided into `halves`.
+    fn divided(&self, scale: f64, halves: usize) -> (Vec<f64>, Vec<usize>) {
+        let (mut edges, mut intervals) = (vec![self.at[0]], Vec::new());
+        for (interval, (ends, sums)) in self.at.windows(2).zip(&self.sums).enumerate() {
+            let (count, mut before) = (self.count(interval, scale), ends[0]);
+            for part in 1..=count {
+                let share = sums[Self::POINTS] * part as f64 / count as f64;
+                let i = sums.partition_point(|sum| *sum < share).clamp(1, Self::POINTS);
+                let between = i as f64 - 1.0 + (share - sums[i - 1]) / (sums[i] - sums[i - 1]);
+                let end =
+                    if part == count { ends[1] } else { ends[0] + (ends[1] - ends[0]) * between / Self::POINTS as f64 };
+                edges.extend((1..=halves).map(|half| before + (end - before) * half as f64 / halves as f64));
+                intervals.extend(std::iter::repeat_n(interval, halves));
+                before = end;
+            }
+        }
+        (edges, intervals)
+    }
+}
+
+impl Mesh {
+    /// About `elements` elements, each divided into `halves` both ways.
+    pub(super) fn new(
+        section: &Section,
+        band: Option<Band>,
+        elements: usize,
+        halves: usize,
+    ) -> Result<Self, RingError> {
+        let (mut along, mut up) = (Vec::new(), Vec::new());
+        for part in section.parts() {
+            along.extend([part.inner_radius, part.outer_radius]);
+            up.extend([part.bottom, part.top]);
+        }
+        let within = |edges: &[f64], x: f64| {
+            let low = edges.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = edges.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            x > low && x < high
+        };
+        for support in section.supports() {
+            for radius in [support.inner_radius, support.outer_radius] {
+                if within(&along, radius) {
+                    along.push(radius);
+                }
+            }
+            for height in [support.bottom, support.top] {
+                if within(&up, height) {
+                    up.push(height);
+                }
+            }
+        }
+        let (mut fine_along, mut fine_up) = (Vec::new(), Vec::new());
+        if let Some(band) = band {
+            section.check_band(band)?;
+            let size = AT_CONTACT * section.depth(band);
+            let (inner, outer) = band.radii();
+            along.extend([inner, outer]);
+            fine_along.extend([(inner, size), (outer, size)]);
+            fine_up.push((section.contact_height(), size));
+        }
+        let grid = Grid::new(section, Lines::new(along, &fine_along), Lines::new(up, &fine_up));
+        // The smallest elements of which there are no more than asked for, within a hundredth.
+        let (mut many, mut few) = (1e-2_f64, 1e4_f64);
+        while few / many > 1.01 {
+            let scale = (many * few).sqrt();
+            if grid.elements(scale) > elements { many = scale } else { few = scale }
+        }
+        let least = grid.elements(few);
+        if least > elements.max(MOST) {
+            return Err(RingError::Elements { elements: least, most: MOST });
+        }
+        Ok(grid.mesh(section, few, halves))
+    }
+
+    /// Inner and outer radius, bottom and top of `element`.
+    pub(super) fn corners(&self, element: &Element) -> [f64; 4] {
+        let ([inner, bottom], [outer, top]) = (self.nodes[element.nodes[0]], self.nodes[element.nodes[8]]);
+        [inner, outer, bottom, top]
+    }
+}
+
+impl Section {
+    /// The size below which the stress of the contact varies: the width of the band, or the height of the lowest part it is on.
+    pub(super) fn depth(&self, band: Band) -> f64 {
+        let height = self.contact_height();
+        let touching =
+            self.parts().iter().filter(|part| same(part.bottom, height) && common(part.radii(), band.radii()) > 0.0);
+        touching.map(|part| part.top - part.bottom).fold(band.width, f64::min)
+    }
+}
+
+/// The lines both ways, and which part is between them.
+struct Grid {
+    along: Lines,
+    up: Lines,
+    /// Part of each interval i along r and j along z, `[i + j · intervals along r]`.
+    parts: Vec<Option<usize>>,
+}
+
+impl Grid {
+    fn new(section: &Section, along: Lines, up: Lines) -> Self {
+        let within = |ends: &[f64], (low, high): (f64, f64)| (low..high).contains(&(0.5 * (ends[0] + ends[1])));
+        let mut parts = Vec::new();
+        for high in up.at.windows(2) {
+            let here = |wide: &[f64], part: &Part| within(wide, part.radii()) && within(high, part.heights());
+            parts.extend(along.at.windows(2).map(|wide| section.parts().iter().position(|part| here(wide, part))));
+        }
+        Self { along, up, parts }
+    }
+
+    /// Elements with sizes `scale` as large.
+    fn elements(&self, scale: f64) -> usize {
+        let columns = self.along.sums.len();
+        let filled = self.parts.iter().enumerate().filter(|(_, part)| part.is_some());
+        filled.map(|(k, _)| self.along.count(k % columns, scale) * self.up.count(k / columns, scale)).sum()
+    }
+
+    fn mesh(&self, section: &Section, scale: f64, halves: usize) -> Mesh {
+        let (radii, along) = self.along.divided(scale, halves);
+        let (heights, up) = self.up.divided(scale, halves);
+        let (columns, intervals) = (2 * along.len() + 1, self.along.sums.len());
+        let mut elements = Vec::new();
+        for (j, row) in up.iter().enumerate() {
+            for (i, column) in along.iter().enumerate() {
+                if let Some(part) = self.parts[column + row * intervals] {
+                    let nodes = std::array::from_fn(|node| 2 * i + node % 3 + (2 * j + node / 3) * columns);
+                    elements.push(Element { nodes, part });
+                }
+            }
+        }
+        // Places of the grid without an element have no node.
+        let mut number = vec![usize::MAX; columns * (2 * up.len() + 1)];
+        elements.iter().flat_map(|element| element.nodes).for_each(|place| number[place] = 0);
+        let middle = |edges: &[f64], i: usize| 0.5 * (edges[i / 2] + edges[i.div_ceil(2)]);
+        let mut nodes = Vec::new();
+        for (place, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == 0) {
+            *number = nodes.len();
+            nodes.push([middle(&radii, place % columns), middle(&heights, place / columns)]);
+        }
+        elements.iter_mut().for_each(|element| element.nodes = element.nodes.map(|place| number[place]));
+        let held = nodes.iter().map(|node| section.held(*node)).collect();
+        Mesh { nodes, elements, held }
+    }
+}
+
+impl Section {
+    /// Which directions (r, θ, z) supports hold at a point.
+    fn held(&self, [r, z]: [f64; 2]) -> [bool; 3] {
+        let inside = |x: f64, low: f64, high: f64| (x > low || same(x, low)) && (x < high || same(x, high));
+        let mut held = [false; 3];
+        for support in self.supports() {
+            if inside(r, support.inner_radius, support.outer_radius) && inside(z, support.bottom, support.top) {
+                held[0] |= support.radial;
+                held[1] |= support.circumferential;
+                held[2] |= support.axial;
+            }
+        }
+        held
+    }
+}

@@ -1,0 +1,159 @@
+//! Natural frequencies: K u = ω² M u, by subspace iteration.
+//!
+//! A few vectors are multiplied by (K + sM)⁻¹ M again and again, which turns them towards the lowest modes, and the lowest modes in
+//! their span are taken each time (Rayleigh and Ritz). The shift s > 0 makes the matrix positive definite where nothing holds a rigid motion. Source: K.-J. Bathe,
+//! *Finite Element Procedures* (1996), section 11.6.
+
+use super::compliance::Stated;
+use super::element::DIRECTIONS;
+use super::mesh::Mesh;
+use super::section::{RingError, Section};
+use super::solve::{System, free_motions};
+use crate::numerics::dot;
+use nalgebra::{DMatrix, SymmetricEigen};
+
+/// Vectors that are iterated beside those asked for.
+const BESIDE: usize = 8;
+/// The most iterations.
+const MOST: usize = 60;
+/// Relative change of a squared frequency at which it counts as found.
+const SETTLED: f64 = 1e-9;
+
+impl Section {
+    /// The lowest `count` natural frequencies \[Hz\] of order `order`, ascending; rigid motions that nothing holds are left out.
+    /// Order 0 has those with torsion alone and those without.
+    ///
+    /// # Errors
+    /// [`RingError`] if the mesh would be too large.
+    pub fn natural_frequencies(&self, order: u32, count: usize) -> Result<Vec<Stated>, RingError> {
+        let meshes = self.meshes(None)?;
+        let [coarse, fine] = &meshes;
+        let (coarse, fine) = rayon::join(|| lowest(self, coarse, order, count), || lowest(self, fine, order, count));
+        Ok(coarse?.iter().zip(&fine?).map(|(coarse, fine)| Stated::extrapolated(*coarse, *fine)).collect())
+    }
+}
+
+/// The lowest frequencies \[Hz\] on one mesh.
+fn lowest(section: &Section, mesh: &Mesh, order: u32, count: usize) -> Result<Vec<f64>, RingError> {
+    let system = System::new(section, mesh)?;
+    let fault = RingError::Singular { order };
+    // Far below the frequency of a wave as long as the ring is round, far above rounding.
+    let slowest = section
+        .parts()
+        .iter()
+        .map(|part| part.material.youngs_modulus / part.material.density)
+        .fold(f64::INFINITY, f64::min);
+    let outer = section.parts().iter().map(|part| part.outer_radius).fold(0.0, f64::max);
+    let shift = 1e-2 * slowest / (outer * outer);
+    let factor = system.factor(f64::from(order), shift)?;
+    let rigid = free_motions(mesh, order).len();
+    let (wanted, size) = (count + rigid, system.size);
+    let held: Vec<bool> = mesh.held.iter().flatten().copied().collect();
+    let vectors = (wanted + BESIDE).min(held.iter().filter(|held| !**held).count());
+    if vectors == 0 {
+        return Ok(Vec::new());
+    }
+    let of = |j: usize| held.iter().enumerate().map(|(i, held)| if *held { 0.0 } else { start(i, j) }).collect();
+    let mut pushed: Vec<Vec<f64>> = (0..vectors).map(of).collect();
+    let mut found = vec![f64::INFINITY; vectors];
+    for _ in 0..MOST {
+        let mut moved = pushed.concat();
+        factor.solve(&mut moved, vectors)?;
+        let mut moved: Vec<Vec<f64>> = moved.chunks(size).map(<[f64]>::to_vec).collect();
+        let mut inertia: Vec<Vec<f64>> =
+            moved.iter().map(|moved| system.products(moved)).map(|[.., inertia]| inertia).collect();
+        // Each at right angles to those before it in the sense of the mass; twice, because they are nearly parallel.
+        for j in (0..vectors).flat_map(|j| [j, j]) {
+            for i in 0..j {
+                let share = -dot(&moved[j], &inertia[i]);
+                for all in [&mut moved, &mut inertia, &mut pushed] {
+                    add(all, j, share, i);
+                }
+            }
+            let norm = dot(&moved[j], &inertia[j]).sqrt();
+            for all in [&mut moved, &mut inertia, &mut pushed] {
+                all[j].iter_mut().for_each(|x| *x /= norm);
+            }
+        }
+        let stiffness =
+            DMatrix::from_fn(vectors, vectors, |i, j| 0.5 * (dot(&moved[i], &pushed[j]) + dot(&moved[j], &pushed[i])));
+        let eigen = SymmetricEigen::try_new(stiffness, f64::EPSILON, 1000).ok_or(fault.clone())?;
+        let mut ascending: Vec<usize> = (0..vectors).collect();
+        ascending.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+        let squares: Vec<f64> = ascending.iter().map(|k| eigen.eigenvalues[*k]).collect();
+        let mixed = |k: &usize| {
+            let mut mixed = vec![0.0; size];
+            for (j, inertia) in inertia.iter().enumerate() {
+                let share = eigen.eigenvectors[(j, *k)];
+                mixed.iter_mut().zip(inertia).for_each(|(x, y)| *x += share * y);
+            }
+            mixed
+        };
+        pushed = ascending.iter().map(mixed).collect();
+        let settled = squares.iter().zip(&found).take(wanted).all(|(now, before)| (now / before - 1.0).abs() < SETTLED);
+        found = squares;
+        if settled {
+            break;
+        }
+    }
+    let hertz = |square: f64| (square - shift).max(0.0).sqrt() / std::f64::consts::TAU;
+    Ok(found.into_iter().take(wanted).skip(rigid).map(hertz).collect())
+}
+
+/// Adds `share` times the vector `i` to the vector `j`, i < j.
+fn add(all: &mut [Vec<f64>], j: usize, share: f64, i: usize) {
+    let (before, from) = all.split_at_mut(j);
+    from[0].iter_mut().zip(&before[i]).for_each(|(x, y)| *x += share * y);
+}
+
+/// Component `i` of the vector `j` that the iteration starts from: anything that has a part along every mode.
+fn start(i: usize, j: usize) -> f64 {
+    let turn = (i / DIRECTIONS) as f64 * (1.0 + j as f64) * 0.618_033_988_749_894_9 + (i % DIRECTIONS) as f64 * 0.3;
+    1.0 / (1.0 + j as f64) + (std::f64::consts::TAU * turn).sin()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rotor::ring::section::{MATERIALS, Support};
+
+    /// Frequencies of a thin ring of square section, in its plane (A. E. H. Love, *Treatise on the Mathematical Theory of
+    /// Elasticity*, 4th ed. (1927), §293: ω² = EI m²(m²−1)²/(ρA R⁴(m²+1))) and out of it, with torsion: m² + EI/GJ in place of
+    /// m² + 1, which is Love's m² + 1 + ν of a round wire.
+    #[test]
+    fn a_thin_ring_vibrates_as_love_says() {
+        let (radius, side, steel) = (0.1, 1e-3, MATERIALS[1]);
+        let section = Section::rectangle((radius - 0.5 * side, radius + 0.5 * side), (0.0, side), steel, Vec::new());
+        let bending_over_torsion = (1.0 / 12.0) * 2.0 * (1.0 + steel.poisson_ratio) / 0.140_577;
+        for order in [2_u32, 3, 5] {
+            let found = section.natural_frequencies(order, 2).unwrap();
+            let m2 = f64::from(order * order);
+            let scale = steel.youngs_modulus * side * side / 12.0 / (steel.density * radius.powi(4));
+            let hertz = |below: f64| (scale * m2 * (m2 - 1.0).powi(2) / below).sqrt() / std::f64::consts::TAU;
+            for (found, exact) in found.iter().zip([hertz(m2 + bending_over_torsion), hertz(m2 + 1.0)]) {
+                assert!((found.value / exact - 1.0).abs() < 1e-3, "order {order}: {found:?}, {exact}");
+                assert!(found.error < 1e-3 * exact, "order {order}: {found:?}");
+            }
+        }
+    }
+
+    /// Order 0 of the same ring: torsion of the section as a whole at the speed of extension is the breathing mode,
+    /// ω² = E/(ρR²). Free, it has two rigid motions, which are left out; held axially only one, and the stated modes stay ascending.
+    #[test]
+    fn rigid_motions_are_left_out() {
+        let (radius, side, steel) = (0.1, 1e-3, MATERIALS[1]);
+        let whole = ((radius - 0.5 * side, radius + 0.5 * side), (0.0, side));
+        let free = Section::rectangle(whole.0, whole.1, steel, Vec::new());
+        let breathing = (steel.youngs_modulus / steel.density).sqrt() / radius / std::f64::consts::TAU;
+        let found = free.natural_frequencies(0, 2).unwrap();
+        let near = |value: f64, exact: f64| (value / exact - 1.0).abs() < 1e-3;
+        // The other is rotation of the section about its middle, hoop stress against the moment of inertia of a square: ω² = E/(2ρR²).
+        assert!(near(found[0].value, breathing / 2.0_f64.sqrt()) && near(found[1].value, breathing), "{found:?}");
+        let first = free.natural_frequencies(1, 1).unwrap()[0];
+        assert!(first.value > 0.5 * breathing, "{first:?}");
+        let held = Support::at_height(0.0, [false, true, true]);
+        let held = Section::rectangle(whole.0, whole.1, steel, vec![held]);
+        let found = held.natural_frequencies(0, 2).unwrap();
+        assert!(found[0].value > 0.9 * breathing && found[1].value > found[0].value, "{found:?}");
+    }
+}

@@ -1,0 +1,411 @@
+//! The cross-section of a ring: what a person draws, checked.
+//!
+//! Coordinates are (r, z): the radius from the ring's axis and the height along it. The stator is below: the ring touches it with
+//! the lowest face of its section.
+
+/// An isotropic elastic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Its name in presets.
+    pub name: &'static str,
+    /// Young's modulus E \[Pa\], positive.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio ν, 0 to 0.49.
+    pub poisson_ratio: f64,
+    /// Density ρ \[kg/m³\], positive.
+    pub density: f64,
+}
+
+/// Typical values at 20 °C. Sources, in this order: 6061-T6, typical properties of the Aluminum Association (as in ASM Handbook 2);
+/// structural steel, EN 1993-1-1, 3.2.6, and EN 1991-1-1, table A.4; free-cutting brass C36000, Copper Development Association;
+/// PEEK 450G without filler, data sheet of Victrex (E by ISO 527, ρ by ISO 1183) and its properties guide (ν).
+pub const MATERIALS: &[Material] = &[
+    Material { name: "aluminium", youngs_modulus: 68.9e9, poisson_ratio: 0.33, density: 2700.0 },
+    Material { name: "steel", youngs_modulus: 210e9, poisson_ratio: 0.30, density: 7850.0 },
+    Material { name: "brass", youngs_modulus: 97e9, poisson_ratio: 0.31, density: 8490.0 },
+    Material { name: "peek", youngs_modulus: 4.0e9, poisson_ratio: 0.40, density: 1300.0 },
+];
+
+/// A rectangle of one material, turned round the axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// What messages and drawings call it.
+    pub name: String,
+    /// Inner radius \[m\], positive.
+    pub inner_radius: f64,
+    /// Outer radius \[m\].
+    pub outer_radius: f64,
+    /// Height of its lower face \[m\].
+    pub bottom: f64,
+    /// Height of its upper face \[m\].
+    pub top: f64,
+    /// What it is made of.
+    pub material: Material,
+}
+
+/// Where the ring is held: what of it lies within this box, edges included, cannot move in the directions that are fixed. A box without
+/// width or height is a line or a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Inner radius \[m\].
+    pub inner_radius: f64,
+    /// Outer radius \[m\].
+    pub outer_radius: f64,
+    /// Height of its lower edge \[m\].
+    pub bottom: f64,
+    /// Height of its upper edge \[m\].
+    pub top: f64,
+    /// No displacement along r.
+    pub radial: bool,
+    /// No displacement along z.
+    pub axial: bool,
+    /// No displacement along θ.
+    pub circumferential: bool,
+}
+
+/// Where the stator touches the ring: a band of the lowest face of the section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// Contact radius r, the middle of the band \[m\].
+    pub radius: f64,
+    /// Radial width w of the band \[m\].
+    pub width: f64,
+}
+
+impl Band {
+    /// Inner and outer radius \[m\].
+    pub(super) fn radii(self) -> (f64, f64) {
+        (self.radius - 0.5 * self.width, self.radius + 0.5 * self.width)
+    }
+}
+
+/// Why a ring cannot be computed. Lengths in the messages are in millimetres, as people draw them.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RingError {
+    /// A section without parts.
+    #[error("the section has no part: allowed one or more")]
+    NoPart,
+    /// A part whose faces are not in order, or whose dimensions are not finite.
+    #[error("part {part}: {what}")]
+    Part {
+        /// Its name.
+        part: String,
+        /// What is wrong and what is allowed.
+        what: String,
+    },
+    /// Two parts share more than an edge.
+    #[error("parts {first} and {second} overlap: parts may share an edge, and no more")]
+    Overlap {
+        /// The first of the two.
+        first: String,
+        /// The second.
+        second: String,
+    },
+    /// A part that shares no edge with the rest.
+    #[error(
+        "part {part} is not connected with part {first}: allowed are parts that share an edge, of which a corner is not enough"
+    )]
+    Disconnected {
+        /// The part that is on its own.
+        part: String,
+        /// The first part of the section.
+        first: String,
+    },
+    /// A support that is not in order.
+    #[error("support {number}: {what}")]
+    Support {
+        /// Which of the supports, from 1.
+        number: usize,
+        /// What is wrong and what is allowed.
+        what: String,
+    },
+    /// The stator touches where the section has no face.
+    #[error(
+        "the contact from r = {inner_mm} to {outer_mm} mm is not within the lowest face of the section: allowed {allowed}"
+    )]
+    Band {
+        /// Inner radius of the contact \[mm\].
+        inner_mm: f64,
+        /// Outer radius of the contact \[mm\].
+        outer_mm: f64,
+        /// The lowest faces, as "28.5 to 29.5 mm".
+        allowed: String,
+    },
+    /// Nothing holds the ring against a rigid motion of this order.
+    #[error("no support holds the ring against {motion}: {allowed}")]
+    Free {
+        /// The motion in words.
+        motion: &'static str,
+        /// What would hold it.
+        allowed: &'static str,
+    },
+    /// The mesh would be too large.
+    #[error(
+        "the section needs a mesh of {elements} elements, allowed up to {most}: its smallest dimensions are too small beside its largest"
+    )]
+    Elements {
+        /// Elements that it needs.
+        elements: usize,
+        /// The most that are allowed.
+        most: usize,
+    },
+    /// The equations of this order have no solution to working precision.
+    #[error(
+        "the equations of the section cannot be solved to working precision for order {order}: its parts are too unequal"
+    )]
+    Singular {
+        /// The order m.
+        order: u32,
+    },
+    /// There is not enough memory for the equations.
+    #[error("not enough memory for the equations of the section")]
+    Memory,
+}
+
+/// A checked cross-section: parts that do not overlap and hang together, supports that hold something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    parts: Vec<Part>,
+    supports: Vec<Support>,
+}
+
+impl Section {
+    /// Checks the parts and supports.
+    ///
+    /// # Errors
+    /// [`RingError`] names the first part or support that is not in order, and what is allowed.
+    pub fn new(parts: Vec<Part>, supports: Vec<Support>) -> Result<Self, RingError> {
+        if parts.is_empty() {
+            return Err(RingError::NoPart);
+        }
+        parts.iter().try_for_each(Part::check)?;
+        for (i, first) in parts.iter().enumerate() {
+            if let Some(second) = parts[i + 1..].iter().find(|second| first.overlaps(second)) {
+                return Err(RingError::Overlap { first: first.name.clone(), second: second.name.clone() });
+            }
+        }
+        let mut reached = vec![0];
+        let mut next = 0;
+        while let Some(&from) = reached.get(next) {
+            let beside = |i: &usize| !reached.contains(i) && parts[*i].shares_edge(&parts[from]);
+            let found: Vec<usize> = (0..parts.len()).filter(beside).collect();
+            reached.extend(found);
+            next += 1;
+        }
+        if let Some(alone) = (0..parts.len()).find(|i| !reached.contains(i)) {
+            return Err(RingError::Disconnected { part: parts[alone].name.clone(), first: parts[0].name.clone() });
+        }
+        for (i, support) in supports.iter().enumerate() {
+            support.check(&parts).map_err(|what| RingError::Support { number: i + 1, what })?;
+        }
+        Ok(Self { parts, supports })
+    }
+
+    /// The parts, in the order given.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The supports, in the order given.
+    pub fn supports(&self) -> &[Support] {
+        &self.supports
+    }
+
+    /// Height of the lowest face, which the stator touches \[m\].
+    pub fn contact_height(&self) -> f64 {
+        self.parts.iter().map(|part| part.bottom).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The lowest faces, as intervals of the radius \[m\], ascending; neighbours that touch are one.
+    pub fn contact_faces(&self) -> Vec<(f64, f64)> {
+        let height = self.contact_height();
+        let mut lowest: Vec<_> = self.parts.iter().filter(|part| same(part.bottom, height)).collect();
+        lowest.sort_by(|a, b| a.inner_radius.total_cmp(&b.inner_radius));
+        let mut faces: Vec<(f64, f64)> = Vec::new();
+        for part in lowest {
+            match faces.last_mut() {
+                Some(face) if same(face.1, part.inner_radius) => face.1 = part.outer_radius,
+                _ => faces.push((part.inner_radius, part.outer_radius)),
+            }
+        }
+        faces
+    }
+}
+
+/// Lengths that differ by less than this are one \[m\].
+pub(super) const SAME: f64 = 1e-9;
+
+/// Whether two coordinates are one.
+pub(super) fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() < SAME
+}
+
+/// A length for people, in millimetres.
+pub(super) fn mm(length: f64) -> f64 {
+    crate::digits::as_given(1e3 * length)
+}
+
+/// The length that two intervals have in common, negative if they are apart.
+pub(super) fn common(a: (f64, f64), b: (f64, f64)) -> f64 {
+    a.1.min(b.1) - a.0.max(b.0)
+}
+
+impl Part {
+    fn check(&self) -> Result<(), RingError> {
+        let fault = |what: String| Err(RingError::Part { part: self.name.clone(), what });
+        let (inner, outer, bottom, top) = (mm(self.inner_radius), mm(self.outer_radius), mm(self.bottom), mm(self.top));
+        if ![inner, outer, bottom, top].iter().all(|length| length.is_finite()) {
+            return fault("a dimension is not a number".to_owned());
+        }
+        if self.inner_radius < SAME {
+            return fault(format!("inner radius = {inner} mm: allowed above 0"));
+        }
+        if self.outer_radius - self.inner_radius < 1e3 * SAME {
+            return fault(format!(
+                "outer radius = {outer} mm: allowed above its inner radius, {inner} mm, by 0.001 mm or more"
+            ));
+        }
+        if self.top - self.bottom < 1e3 * SAME {
+            return fault(format!("top = {top} mm: allowed above its bottom, {bottom} mm, by 0.001 mm or more"));
+        }
+        let Material { youngs_modulus, poisson_ratio, density, .. } = self.material;
+        if !(youngs_modulus > 0.0 && youngs_modulus.is_finite()) {
+            return fault(format!("Young's modulus = {youngs_modulus} Pa: allowed above 0"));
+        }
+        if !(0.0..=0.49).contains(&poisson_ratio) {
+            return fault(format!("Poisson's ratio = {poisson_ratio}: allowed 0 to 0.49"));
+        }
+        if !(density > 0.0 && density.is_finite()) {
+            return fault(format!("density = {density} kg/m³: allowed above 0"));
+        }
+        Ok(())
+    }
+
+    pub(super) fn radii(&self) -> (f64, f64) {
+        (self.inner_radius, self.outer_radius)
+    }
+
+    pub(super) fn heights(&self) -> (f64, f64) {
+        (self.bottom, self.top)
+    }
+
+    fn overlaps(&self, other: &Self) -> bool {
+        common(self.radii(), other.radii()) > SAME && common(self.heights(), other.heights()) > SAME
+    }
+
+    fn shares_edge(&self, other: &Self) -> bool {
+        let (along, up) = (common(self.radii(), other.radii()), common(self.heights(), other.heights()));
+        (along > SAME && up > -SAME) || (up > SAME && along > -SAME)
+    }
+}
+
+impl Support {
+    fn check(&self, parts: &[Part]) -> Result<(), String> {
+        let (inner, outer) = (mm(self.inner_radius), mm(self.outer_radius));
+        let (bottom, top) = (mm(self.bottom), mm(self.top));
+        if ![inner, outer, bottom, top].iter().all(|length| length.is_finite()) {
+            return Err("a dimension is not a number".to_owned());
+        }
+        if self.outer_radius < self.inner_radius {
+            return Err(format!("outer radius = {outer} mm: allowed from its inner radius, {inner} mm"));
+        }
+        if self.top < self.bottom {
+            return Err(format!("top = {top} mm: allowed from its bottom, {bottom} mm"));
+        }
+        if !(self.radial || self.axial || self.circumferential) {
+            return Err("it fixes no direction: allowed radial, axial, circumferential, or several of them".to_owned());
+        }
+        let holds = |part: &Part| {
+            common((self.inner_radius, self.outer_radius), part.radii()) > -SAME
+                && common((self.bottom, self.top), part.heights()) > -SAME
+        };
+        if !parts.iter().any(holds) {
+            return Err(format!(
+                "no part is within r = {inner} to {outer} mm, z = {bottom} to {top} mm: allowed is a box that touches a part"
+            ));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+impl Section {
+    /// One rectangle.
+    pub(super) fn rectangle(
+        radii: (f64, f64),
+        heights: (f64, f64),
+        material: Material,
+        supports: Vec<Support>,
+    ) -> Self {
+        let (inner_radius, outer_radius) = radii;
+        let part =
+            Part { name: "ring".to_owned(), inner_radius, outer_radius, bottom: heights.0, top: heights.1, material };
+        Self::new(vec![part], supports).unwrap()
+    }
+}
+
+#[cfg(test)]
+impl Support {
+    /// All of the section at one height, held in the given directions of r, z and θ.
+    pub(super) fn at_height(height: f64, [radial, axial, circumferential]: [bool; 3]) -> Self {
+        Self { inner_radius: 0.0, outer_radius: 1e3, bottom: height, top: height, radial, axial, circumferential }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(name: &str, radii: (f64, f64), heights: (f64, f64)) -> Part {
+        let [inner_radius, outer_radius, bottom, top] = [radii.0, radii.1, heights.0, heights.1].map(|mm| 1e-3 * mm);
+        Part { name: name.to_owned(), inner_radius, outer_radius, bottom, top, material: MATERIALS[0] }
+    }
+
+    fn refused(parts: Vec<Part>, supports: Vec<Support>) -> String {
+        Section::new(parts, supports).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_section_that_is_not_in_order_is_refused_with_what_is_allowed() {
+        assert!(refused(Vec::new(), Vec::new()).contains("no part"));
+        let text = refused(vec![part("web", (29.0, 28.0), (0.0, 1.0))], Vec::new());
+        assert!(text.contains("part web: outer radius = 28 mm: allowed above its inner radius, 29 mm"), "{text}");
+        let text = refused(vec![part("web", (0.0, 28.0), (0.0, 1.0))], Vec::new());
+        assert!(text.contains("inner radius = 0 mm: allowed above 0"), "{text}");
+        let text = refused(vec![part("web", (27.0, 28.0), (f64::NAN, 1.0))], Vec::new());
+        assert!(text.contains("not a number"), "{text}");
+        let flange = || part("flange", (25.0, 30.0), (1.0, 2.0));
+        let text = refused(vec![flange(), part("web", (28.0, 29.0), (0.0, 1.5))], Vec::new());
+        assert!(text.contains("parts flange and web overlap"), "{text}");
+        let corner = refused(vec![flange(), part("web", (30.0, 31.0), (0.0, 1.0))], Vec::new());
+        assert!(corner.contains("part web is not connected with part flange"), "{corner}");
+        let held = Support {
+            inner_radius: 20e-3,
+            outer_radius: 21e-3,
+            bottom: 0.0,
+            top: 1e-3,
+            radial: false,
+            axial: true,
+            circumferential: false,
+        };
+        let text = refused(vec![flange()], vec![held]);
+        assert!(text.contains("support 1: no part is within r = 20 to 21 mm"), "{text}");
+        let text = refused(vec![flange()], vec![Support { axial: false, ..held }]);
+        assert!(text.contains("support 1: it fixes no direction"), "{text}");
+        let touching = Support { outer_radius: 25e-3, bottom: 2e-3, top: 2e-3, ..held };
+        assert!(Section::new(vec![flange(), part("web", (28.0, 29.0), (0.0, 1.0))], vec![touching]).is_ok());
+    }
+
+    #[test]
+    fn contact_faces_are_the_lowest_and_neighbours_are_one() {
+        let parts = vec![
+            part("flange", (25.0, 31.0), (1.0, 2.0)),
+            part("second", (29.0, 29.5), (0.0, 1.0)),
+            part("first", (28.0, 29.0), (0.0, 1.0)),
+            part("apart", (30.0, 30.5), (0.0, 1.0)),
+        ];
+        let section = Section::new(parts, Vec::new()).unwrap();
+        let faces: Vec<_> = section.contact_faces().iter().map(|face| (mm(face.0), mm(face.1))).collect();
+        assert_eq!(faces, [(28.0, 29.5), (30.0, 30.5)]);
+    }
+}

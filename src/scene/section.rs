@@ -1,0 +1,98 @@
+//! The cross-section of a ring as arrays of tables, in millimetres: its parts, and where it is held.
+//!
+//! ```toml
+//! [rotor]
+//! model = "ring"
+//!
+//! [[rotor.part]]
+//! name = "flange"
+//! r_inner_mm = 26.0
+//! r_outer_mm = 29.5
+//! z_bottom_mm = 1.0
+//! z_top_mm = 1.5
+//! material = "aluminium"
+//!
+//! [[rotor.support]]
+//! r_inner_mm = 26.0
+//! r_outer_mm = 26.0
+//! z_bottom_mm = 1.0
+//! z_top_mm = 1.5
+//! fixed = "axial"
+//! ```
+//!
+//! Radii are from the ring's axis, heights from wherever one likes, upwards from the stator: it touches the lowest faces.
+
+use super::parameter::{Belongs, Cell, Parameter, ParameterKind, Range, Scale};
+use crate::rotor::ring::MATERIALS;
+
+/// The names of the materials.
+const NAMES: [&str; MATERIALS.len()] = {
+    let mut names = [""; MATERIALS.len()];
+    let mut i = 0;
+    while i < names.len() {
+        names[i] = MATERIALS[i].name;
+        i += 1;
+    }
+    names
+};
+
+/// What a support may hold.
+const FIXED: [&str; 7] =
+    ["axial", "radial", "circumferential", "axial-radial", "axial-circumferential", "radial-circumferential", "all"];
+
+/// The keys of a part.
+pub(super) static PART: [Parameter; 6] = [
+    column("name", "", ParameterKind::Text { default: "" }, "What messages and drawings call it"),
+    length("r_inner_mm", 0.05, "Inner radius"),
+    length("r_outer_mm", 0.05, "Outer radius"),
+    length("z_bottom_mm", -1000.0, "Height of its lower face"),
+    length("z_top_mm", -1000.0, "Height of its upper face"),
+    column("material", "", ParameterKind::Choice { options: &NAMES, default: "aluminium" }, "What it is made of"),
+];
+
+/// The keys of a support.
+pub(super) static SUPPORT: [Parameter; 5] = [
+    length("r_inner_mm", 0.0, "Inner radius of the box"),
+    length("r_outer_mm", 0.0, "Outer radius of the box"),
+    length("z_bottom_mm", -1000.0, "Height of its lower edge"),
+    length("z_top_mm", -1000.0, "Height of its upper edge"),
+    column(
+        "fixed",
+        "",
+        ParameterKind::Choice { options: &FIXED, default: "axial" },
+        "Directions in which what lies in the box cannot move",
+    ),
+];
+
+/// A section plausible for the rotor of a camera lens: an aluminium ring with a rim on a thin flange, and on the rim a lining of plastic. Flange and
+/// lining are such that the compliance comes close to that of the beam fitted to Table I (docs/theory.md, section 4).
+pub(super) const PARTS: &[&[Cell]] = &[
+    &part("lining", [28.85, 29.15, 0.0, 0.145], "peek"),
+    &part("rim", [28.3, 29.7, 0.145, 1.2], "aluminium"),
+    &part("flange", [26.9, 28.3, 0.75, 1.2], "aluminium"),
+    &part("body", [24.9, 26.9, 0.75, 5.75], "aluminium"),
+];
+
+/// None: the load on it is balanced.
+pub(super) const SUPPORTS: &[&[Cell]] = &[];
+
+const fn part(name: &'static str, [inner, outer, bottom, top]: [f64; 4], material: &'static str) -> [Cell; 6] {
+    [
+        Cell::Text(name),
+        Cell::Number(inner),
+        Cell::Number(outer),
+        Cell::Number(bottom),
+        Cell::Number(top),
+        Cell::Text(material),
+    ]
+}
+
+const fn column(key: &'static str, unit: &'static str, kind: ParameterKind, about: &'static str) -> Parameter {
+    Parameter { key, unit, belongs: Belongs::Motor, when: None, instead_of: None, absent: None, kind, about }
+}
+
+const fn length(key: &'static str, min: f64, about: &'static str) -> Parameter {
+    let (range, slider) = (Range::new(min, 1000.0), Range::new(if min < 0.0 { -20.0 } else { min }, 60.0));
+    let kind = ParameterKind::Number { range, slider, scale: Scale::Linear, default: 1.0 };
+    column(key, "mm", kind, about)
+}
