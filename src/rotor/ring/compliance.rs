@@ -1,26 +1,29 @@
 //! Compliance of the contact face, harmonic by harmonic.
 //!
-//! A pressure p cos mθ, uniform over the contact band of width w about the radius r, is a line load q cos kx with q = p w, k = m/r and
-//! x = rθ. Its work is done on the mean axial displacement of the band, ū cos kx, the mean over its area. C(k) = ū/q \[m²/N\], as in
-//! [`crate::rotor`].
+//! A pressure p cos mθ, uniform over the contact band of width w about the radius r, is a line load q cos kx with q =
+//! p w, k = m/r and x = rθ. Its work is done on the mean axial displacement of the band, ū cos kx, the mean over its
+//! area. C(k) = ū/q \[m²/N\], as in [`crate::rotor`].
 //!
-//! **All orders from a few.** The stiffness is K(m) = K₀ + m K₁ + m² K₂, and the load is the same for every order. Where
-//! K(m) u = f is solved for one order, the derivatives du/dm, d²u/dm², … follow from the same factorisation. The solutions of a few orders and these derivatives span
-//! those of all others (reduced basis, Rayleigh and Ritz): what that leaves out is part of the stated error. Source: A. Quarteroni, A. Manzoni, F. Negri, *Reduced Basis Methods for Partial Differential Equations* (2016), chapter 3.
+//! **All orders from a few.** The stiffness is K(m) = K₀ + m K₁ + m² K₂, and the load is the same for every order.
+//! Where K(m) u = f is solved for one order, the derivatives du/dm, d²u/dm², … follow from the same factorisation.
+//! The solutions of a few orders and these derivatives span those of all others (reduced basis, Rayleigh and Ritz):
+//! what that leaves out is part of the stated error. Source: A. Quarteroni, A. Manzoni, F. Negri, *Reduced Basis
+//! Methods for Partial Differential Equations* (2016), chapter 3.
 //!
-//! **Error.** Finite elements are too stiff: C is a maximum over all displacements, and the finer mesh has those of the coarser one. So
-//! C grows from mesh to mesh, and the change d = C_fine − C_coarse says how far there is to go. With convergence of order h² in the energy, which
-//! a corner without grading would not reach, d/3 is left: it is added, and is the stated error as well.
+//! **Error.** Finite elements are too stiff: C is a maximum over all displacements, and the finer mesh has those of
+//! the coarser one. So C grows from mesh to mesh, and the change d = C_fine − C_coarse says how far there is to go.
+//! With convergence of order h² in the energy, which a corner without grading would not reach, d/3 is left: it is
+//! added, and is the stated error as well.
 //!
-//! **The local part.** Where k is large, only what is within 1/k of the contact deforms. The ring is then an elastic half-space, which a
-//! pressure p cos kx over a band of width w deflects by
+//! **The local part.** Where k is large, only what is within 1/k of the contact deforms. The ring is then an elastic
+//! half-space, which a pressure p cos kx over a band of width w deflects by
 //!
 //! ```text
 //! C(k) = 4 (1 − ν²)/(π E w²) ∫₀ʷ (w − s) K₀(ks) ds  →  2 (1 − ν²)/(E k w) · (1 − 2/(π k w))        k w ≫ 1
 //! ```
 //!
-//! because ∫ (1 − ν²)/(π E ρ) cos kx dx of Boussinesq's point load is 2 (1 − ν²)/(π E) K₀(k|y|), and ∫₀^∞ K₀ = π/2. Harmonics that the mesh does not
-//! resolve continue the last one that it does in this proportion.
+//! because ∫ (1 − ν²)/(π E ρ) cos kx dx of Boussinesq's point load is 2 (1 − ν²)/(π E) K₀(k|y|), and ∫₀^∞ K₀ = π/2.
+//! Harmonics that the mesh does not resolve continue the last one that it does in this proportion.
 
 use super::element::DIRECTIONS;
 use super::mesh::Mesh;
@@ -52,15 +55,16 @@ impl Stated {
 pub struct RingCompliances {
     /// C(k_n) \[m²/N\] for n = 1, 2, …: order m = waves·n, wavenumber k_n = waves·n/r. All that were asked for.
     pub harmonics: Vec<Stated>,
-    /// How many of them the finite elements resolve. Beyond, each continues the last that is resolved as an elastic half-space under the
-    /// same band does: the local part, which no longer depends on the shape of the section.
+    /// How many of them the finite elements resolve. Beyond, each continues the last that is resolved as an elastic
+    /// half-space under the same band does: the local part, which no longer depends on the shape of the section.
     pub resolved: usize,
     /// Elements of the finer mesh.
     pub elements: usize,
 }
 
-/// How the section moves under a line load of 1 N/m (amplitude) of one order, node by node of [`Section::mesh`]: displacements per
-/// unit line load \[m²/N\], u_r = `radial` cos mθ, u_θ = `circumferential` sin mθ, u_z = `axial` cos mθ.
+/// How the section moves under a line load of 1 N/m (amplitude) of one order, node by node of [`Section::mesh`]:
+/// displacements per unit line load \[m²/N\], u_r = `radial` cos mθ, u_θ = `circumferential` sin mθ, u_z = `axial`
+/// cos mθ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deflection {
     /// U.
@@ -71,7 +75,8 @@ pub struct Deflection {
     pub axial: Vec<f64>,
 }
 
-/// Greatest k times the depth to which the contact is resolved ([`Section::depth`]): the half-space differs from there on by less than e⁻⁸.
+/// Greatest k times the depth to which the contact is resolved ([`Section::depth`]): the half-space differs from
+/// there on by less than e⁻⁸.
 const RESOLVED: f64 = 8.0;
 /// Orders that are solved on the way from the first to the last.
 const SAMPLES: usize = 4;
@@ -83,11 +88,12 @@ const LEFT_OUT: f64 = 1e-5;
 const DEPENDENT: f64 = 1e-10;
 
 impl Section {
-    /// Compliances of the first `count` harmonics of a wave that goes `waves` times round the ring, on the contact `band`.
+    /// Compliances of the first `count` harmonics of a wave that goes `waves` times round the ring, on the contact
+    /// `band`.
     ///
     /// # Errors
-    /// [`RingError`] if the band is not within the lowest face, if `waves` = 1 and nothing holds the ring against tilting, or if
-    /// the mesh would be too large.
+    /// [`RingError`] if the band is not within the lowest face, if `waves` = 1 and nothing holds the ring
+    /// against tilting, or if the mesh would be too large.
     pub fn compliances(&self, band: Band, waves: u32, count: usize) -> Result<RingCompliances, RingError> {
         self.check_band(band)?;
         let first = f64::from(waves);
@@ -235,9 +241,9 @@ mod tests {
         Material { name, youngs_modulus, poisson_ratio, density: 1000.0 }
     }
 
-    /// Out-of-plane bending of a thin ring of square section under q cos mθ, which twists it as well: with bending curvature
-    /// β/R − w″/R² and twist β′/R + w′/R² (A. E. H. Love, *Treatise*, §293) the energy is least for C = R⁴ (EI + m² GJ)/(EI GJ m² (m² − 1)²), J =
-    /// 0.140577 a⁴ (Timoshenko and Goodier, §109).
+    /// Out-of-plane bending of a thin ring of square section under q cos mθ, which twists it as well: with bending
+    /// curvature β/R − w″/R² and twist β′/R + w′/R² (A. E. H. Love, *Treatise*, §293) the energy is least for C = R⁴
+    /// (EI + m² GJ)/(EI GJ m² (m² − 1)²), J = 0.140577 a⁴ (Timoshenko and Goodier, §109).
     #[test]
     fn a_thin_ring_bends_and_twists_out_of_its_plane() {
         let (radius, side, steel) = (0.1_f64, 1e-3_f64, MATERIALS[1]);
@@ -252,9 +258,9 @@ mod tests {
         }
     }
 
-    /// A beam on an elastic foundation, C = 1/(EI k⁴/(1 + EI k²/(κGA)) + K), the limit of a ring so large that a wave hardly bends round
-    /// it: a stiff ring of square section under a soft one that is held at its top, K = E b/h (M. Hetényi, *Beams on Elastic
-    /// Foundation*; shear after Timoshenko with κ = 5/6).
+    /// A beam on an elastic foundation, C = 1/(EI k⁴/(1 + EI k²/(κGA)) + K), the limit of a ring so large that a wave
+    /// hardly bends round it: a stiff ring of square section under a soft one that is held at its top, K = E b/h (M.
+    /// Hetényi, *Beams on Elastic Foundation*; shear after Timoshenko with κ = 5/6).
     #[test]
     fn a_large_ring_on_a_soft_layer_is_a_beam_on_an_elastic_foundation() {
         let (radius, side, layer) = (10.0_f64, 10e-3_f64, 2e-3);

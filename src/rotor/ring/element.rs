@@ -8,10 +8,11 @@
 //! ε_θθ = (U + mV)/r       γ_zθ = V_z − mW/r          (sin mθ)
 //! ```
 //!
-//! and the energy for an angle of one radian, but for the mean ½ of cos² and sin², is ½ ∫ [λ(ε_rr + ε_zz + ε_θθ)² + 2G(ε_rr² + ε_zz² + ε_θθ²) +
-//! G(γ_rz² + γ_rθ² + γ_zθ²)] r dr dz. Between two nodes the stiffness is a block of 3 × 3. Its places without θ and the one of θθ hold
-//! a constant; those that couple θ with another direction are proportional to m; the diagonal has a part with m². So one block and one
-//! number, m²/r² G or (λ+2G), describe all orders.
+//! and the energy for an angle of one radian, but for the mean ½ of cos² and sin², is ½ ∫ [λ(ε_rr + ε_zz + ε_θθ)² +
+//! 2G(ε_rr² + ε_zz² + ε_θθ²) + G(γ_rz² + γ_rθ² + γ_zθ²)] r dr dz. Between two nodes the stiffness is a block of 3 ×
+//! 3. Its places without θ and the one of θθ hold a constant; those that couple θ with another direction are
+//! proportional to m; the diagonal has a part with m². So one block and one number, m²/r² G or (λ+2G), describe all
+//! orders.
 //!
 //! The shape functions are products of polynomials in r and in z, and so are the integrals.
 
@@ -24,7 +25,8 @@ pub(super) const DIRECTIONS: usize = 3;
 /// What two nodes of an element have to do with each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pair {
-    /// Stiffness for order 1 but for its part with m², `[direction of the first node][of the second]` \[N/m per radian\].
+    /// Stiffness for order 1 but for its part with m², `[direction of the first node][of the second]` \[N/m per
+    /// radian\].
     pub(super) base: [[f64; DIRECTIONS]; DIRECTIONS],
     /// What is added to the diagonal for each m².
     pub(super) square: [f64; DIRECTIONS],
@@ -42,8 +44,8 @@ impl Pair {
         }
     }
 
-    /// Takes out what a support holds of the first node and of the second. The diagonal of what is held stays, without mass: nothing drives it, so that
-    /// it does not move.
+    /// Takes out what a support holds of the first node and of the second. The diagonal of what is held stays,
+    /// without mass: nothing drives it, so that it does not move.
     pub(super) fn hold(&mut self, first: [bool; DIRECTIONS], second: [bool; DIRECTIONS], itself: bool) {
         for p in 0..DIRECTIONS {
             for q in (0..DIRECTIONS).filter(|q| first[p] || second[*q]) {

@@ -1,9 +1,10 @@
 //! The mesh of a section: quadratic quadrilaterals on a tensor grid, dense at the contact and at corners.
 //!
-//! Every edge of a part, a support or the contact band is a line of the grid. Between two lines the size of an element grows from what
-//! is fine there by a constant share of the distance, so that it follows the singular stress at a corner. All sizes are scaled
-//! by one factor, so that the mesh has about as many elements as were asked for. A finer mesh halves every element, and contains
-//! the displacements of the coarser one: its compliance can only be greater.
+//! Every edge of a part, a support or the contact band is a line of the grid. Between two lines the size of an
+//! element grows from what is fine there by a constant share of the distance, so that it follows the singular stress
+//! at a corner. All sizes are scaled by one factor, so that the mesh has about as many elements as were asked for. A
+//! finer mesh halves every element, and contains the displacements of the coarser one: its compliance can only be
+//! greater.
 
 use super::section::{Band, Part, RingError, Section, common, mm, same};
 
@@ -76,7 +77,8 @@ impl Section {
 struct Lines {
     /// Ascending.
     at: Vec<f64>,
-    /// For each interval between two lines, how many elements fit from its beginning up to each of `POINTS` equal parts of it, before scaling.
+    /// For each interval between two lines, how many elements fit from its beginning up to each of `POINTS` equal
+    /// parts of it, before scaling.
     sums: Vec<Vec<f64>>,
 }
 
@@ -119,7 +121,8 @@ impl Lines {
         (self.sums[i][Self::POINTS] / scale).ceil().max(1.0) as usize
     }
 
-    /// Edges of the elements, and the interval of each element: equal shares of the density, each divided into `halves`.
+    /// Edges of the elements, and the interval of each element: equal shares of the density, each divided into
+    /// `halves`.
     fn divided(&self, scale: f64, halves: usize) -> (Vec<f64>, Vec<usize>) {
         let (mut edges, mut intervals) = (vec![self.at[0]], Vec::new());
         for (interval, (ends, sums)) in self.at.windows(2).zip(&self.sums).enumerate() {
@@ -200,7 +203,8 @@ impl Mesh {
 }
 
 impl Section {
-    /// The size below which the stress of the contact varies: the width of the band, or the height of the lowest part it is on.
+    /// The size below which the stress of the contact varies: the width of the band, or the height of the lowest part
+    /// it is on.
     pub(super) fn depth(&self, band: Band) -> f64 {
         let height = self.contact_height();
         let touching =

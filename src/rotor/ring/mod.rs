@@ -7,9 +7,9 @@
 //! ```
 //!
 //! What is left for each order m is a plane problem in three fields on the cross-section ([`section`]), solved with
-//! quadratic elements (`element`) on a mesh that is dense at the contact and at corners ([`mesh`]), and with a sparse Cholesky
-//! factorisation (`solve`). From it follow the compliance of every harmonic of the wave ([`compliance`]) and the natural
-//! frequencies ([`modes`]).
+//! quadratic elements (`element`) on a mesh that is dense at the contact and at corners ([`mesh`]), and with a sparse
+//! Cholesky factorisation (`solve`). From it follow the compliance of every harmonic of the wave ([`compliance`]) and
+//! the natural frequencies ([`modes`]).
 //!
 //! Source: E. L. Wilson, "Structural analysis of axisymmetric solids", AIAA J. 3 (1965) 2269; O. C. Zienkiewicz and R. L. Taylor,
 //! *The Finite Element Method for Solid and Structural Mechanics*, 6th ed. (2005), chapter 16.

@@ -1,8 +1,9 @@
 //! Natural frequencies: K u = ω² M u, by subspace iteration.
 //!
 //! A few vectors are multiplied by (K + sM)⁻¹ M again and again, which turns them towards the lowest modes, and the lowest modes in
-//! their span are taken each time (Rayleigh and Ritz). The shift s > 0 makes the matrix positive definite where nothing holds a rigid motion. Source: K.-J. Bathe,
-//! *Finite Element Procedures* (1996), section 11.6.
+//! their span are taken each time (Rayleigh and Ritz). The
+//! shift s > 0 makes the matrix positive definite where nothing holds a rigid motion.
+//! Source: K.-J. Bathe, *Finite Element Procedures* (1996), section 11.6.
 
 use super::compliance::Stated;
 use super::element::DIRECTIONS;
@@ -20,8 +21,8 @@ const MOST: usize = 60;
 const SETTLED: f64 = 1e-9;
 
 impl Section {
-    /// The lowest `count` natural frequencies \[Hz\] of order `order`, ascending; rigid motions that nothing holds are left out.
-    /// Order 0 has those with torsion alone and those without.
+    /// The lowest `count` natural frequencies \[Hz\] of order `order`, ascending; rigid motions that nothing holds
+    /// are left out. Order 0 has those with torsion alone and those without.
     ///
     /// # Errors
     /// [`RingError`] if the mesh would be too large.
@@ -117,9 +118,9 @@ mod tests {
     use super::*;
     use crate::rotor::ring::section::{MATERIALS, Support};
 
-    /// Frequencies of a thin ring of square section, in its plane (A. E. H. Love, *Treatise on the Mathematical Theory of
-    /// Elasticity*, 4th ed. (1927), §293: ω² = EI m²(m²−1)²/(ρA R⁴(m²+1))) and out of it, with torsion: m² + EI/GJ in place of
-    /// m² + 1, which is Love's m² + 1 + ν of a round wire.
+    /// Frequencies of a thin ring of square section, in its plane (A. E. H. Love, *Treatise on the Mathematical
+    /// Theory of Elasticity*, 4th ed. (1927), §293: ω² = EI m²(m²−1)²/(ρA R⁴(m²+1))) and out of it, with torsion: m²
+    /// + EI/GJ in place of m² + 1, which is Love's m² + 1 + ν of a round wire.
     #[test]
     fn a_thin_ring_vibrates_as_love_says() {
         let (radius, side, steel) = (0.1, 1e-3, MATERIALS[1]);
@@ -138,7 +139,8 @@ mod tests {
     }
 
     /// Order 0 of the same ring: torsion of the section as a whole at the speed of extension is the breathing mode,
-    /// ω² = E/(ρR²). Free, it has two rigid motions, which are left out; held axially only one, and the stated modes stay ascending.
+    /// ω² = E/(ρR²). Free, it has two rigid motions, which are left out; held axially only one, and the stated modes
+    /// stay ascending.
     #[test]
     fn rigid_motions_are_left_out() {
         let (radius, side, steel) = (0.1, 1e-3, MATERIALS[1]);
@@ -147,7 +149,8 @@ mod tests {
         let breathing = (steel.youngs_modulus / steel.density).sqrt() / radius / std::f64::consts::TAU;
         let found = free.natural_frequencies(0, 2).unwrap();
         let near = |value: f64, exact: f64| (value / exact - 1.0).abs() < 1e-3;
-        // The other is rotation of the section about its middle, hoop stress against the moment of inertia of a square: ω² = E/(2ρR²).
+        // The other is rotation of the section about its middle, hoop stress against the moment of inertia of a
+        // square: ω² = E/(2ρR²).
         assert!(near(found[0].value, breathing / 2.0_f64.sqrt()) && near(found[1].value, breathing), "{found:?}");
         let first = free.natural_frequencies(1, 1).unwrap()[0];
         assert!(first.value > 0.5 * breathing, "{first:?}");

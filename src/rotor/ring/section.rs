@@ -1,7 +1,7 @@
 //! The cross-section of a ring: what a person draws, checked.
 //!
-//! Coordinates are (r, z): the radius from the ring's axis and the height along it. The stator is below: the ring touches it with
-//! the lowest face of its section.
+//! Coordinates are (r, z): the radius from the ring's axis and the height along it. The stator is below: the ring
+//! touches it with the lowest face of its section.
 
 /// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,9 +16,10 @@ pub struct Material {
     pub density: f64,
 }
 
-/// Typical values at 20 °C. Sources, in this order: 6061-T6, typical properties of the Aluminum Association (as in ASM Handbook 2);
-/// structural steel, EN 1993-1-1, 3.2.6, and EN 1991-1-1, table A.4; free-cutting brass C36000, Copper Development Association;
-/// PEEK 450G without filler, data sheet of Victrex (E by ISO 527, ρ by ISO 1183) and its properties guide (ν).
+/// Typical values at 20 °C. Sources, in this order: 6061-T6, typical properties of the Aluminum Association (as in
+/// ASM Handbook 2); structural steel, EN 1993-1-1, 3.2.6, and EN 1991-1-1, table A.4; free-cutting brass C36000,
+/// Copper Development Association; PEEK 450G without filler, data sheet of Victrex (E by ISO 527, ρ by ISO 1183) and
+/// its properties guide (ν).
 pub const MATERIALS: &[Material] = &[
     Material { name: "aluminium", youngs_modulus: 68.9e9, poisson_ratio: 0.33, density: 2700.0 },
     Material { name: "steel", youngs_modulus: 210e9, poisson_ratio: 0.30, density: 7850.0 },
@@ -43,8 +44,8 @@ pub struct Part {
     pub material: Material,
 }
 
-/// Where the ring is held: what of it lies within this box, edges included, cannot move in the directions that are fixed. A box without
-/// width or height is a line or a point.
+/// Where the ring is held: what of it lies within this box, edges included, cannot move in the directions that are
+/// fixed. A box without width or height is a line or a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
     /// Inner radius \[m\].

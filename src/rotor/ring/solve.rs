@@ -1,8 +1,8 @@
 //! The equations of one mesh, for every order, and their factorisation.
 //!
-//! Unknown 3 i + d is the displacement of node i in the direction d = 0 (r), 1 (θ) or 2 (z). What a support holds is left
-//! without coupling, so that it stays 0 and the pattern of the matrix is that of the mesh alone: one symbolic factorisation serves all
-//! orders.
+//! Unknown 3 i + d is the displacement of node i in the direction d = 0 (r), 1 (θ) or 2 (z). What a support holds is
+//! left without coupling, so that it stays 0 and the pattern of the matrix is that of the mesh alone: one symbolic
+//! factorisation serves all orders.
 
 use super::element::{self, DIRECTIONS, Integrals, Pair};
 use super::mesh::Mesh;
@@ -36,8 +36,8 @@ pub(super) struct Factor<'a> {
     values: Vec<f64>,
 }
 
-/// Which unknown is eliminated when, so that the factor has few entries, and the place of each: by approximate minimum degree (P. R. Amestoy and
-/// others, SIAM J. Matrix Anal. Appl. 17 (1996) 886), the three of a node together.
+/// Which unknown is eliminated when, so that the factor has few entries, and the place of each: by approximate
+/// minimum degree (P. R. Amestoy and others, SIAM J. Matrix Anal. Appl. 17 (1996) 886), the three of a node together.
 fn elimination_order(first: &[usize], before: &[usize]) -> Result<[Vec<u32>; 2], RingError> {
     let count = first.len() - 1;
     let (mut order, mut place) = (vec![0_usize; count], vec![0_usize; count]);
@@ -307,8 +307,9 @@ mod tests {
         assert_eq!(free(vec![at([true, false, false]), Support::at_height(5e-3, [true, false, false])]), [2, 0]);
     }
 
-    /// Patch test (B. M. Irons; Zienkiewicz and Taylor, chapter 9): under displacements of constant strain the nodes inside are in balance. In
-    /// Cartesian coordinates: stretching along the axis with contraction (m = 0), shear u_x = z and u_z = x (m = 1), u_x = x with u_y = −y (m = 2).
+    /// Patch test (B. M. Irons; Zienkiewicz and Taylor, chapter 9): under displacements of constant strain the nodes
+    /// inside are in balance. In Cartesian coordinates: stretching along the axis with contraction (m = 0), shear u_x
+    /// = z and u_z = x (m = 1), u_x = x with u_y = −y (m = 2).
     #[test]
     fn constant_strain_leaves_the_inside_in_balance() {
         let (section, mesh) = two_parts(Vec::new());
@@ -338,7 +339,8 @@ mod tests {
             let (ab, ba) = (dot(&a, &forces(&system, &b, order)), dot(&b, &forces(&system, &a, order)));
             let aa = dot(&a, &forces(&system, &a, order));
             assert!((ab - ba).abs() < 1e-12 * aa && aa > 0.0, "{ab} {ba} {aa}");
-            // Cholesky's factorisation is the proof; without a shift orders 0 and 1 of a free ring are only semi-definite.
+            // Cholesky's factorisation is the proof; without a shift orders 0 and 1 of a free ring are only
+            // semi-definite.
             assert!(system.factor(order, 0.0).is_ok());
         }
         assert!(
@@ -366,8 +368,9 @@ mod tests {
         load
     }
 
-    /// Thick-walled ring under internal pressure, its ends held in plane strain (Lamé; S. P. Timoshenko and J. N. Goodier, *Theory of Elasticity*, 3rd ed.,
-    /// §28): u = (1 + ν) a² p/(E (b² − a²)) ((1 − 2ν) r + b²/r). The work of the pressure converges with the fourth power of the size of elements.
+    /// Thick-walled ring under internal pressure, its ends held in plane strain (Lamé; S. P. Timoshenko and J. N.
+    /// Goodier, *Theory of Elasticity*, 3rd ed., §28): u = (1 + ν) a² p/(E (b² − a²)) ((1 − 2ν) r + b²/r). The work
+    /// of the pressure converges with the fourth power of the size of elements.
     #[test]
     fn a_thick_ring_widens_as_lame_says() {
         let (a, b, height, steel) = (10e-3, 20e-3, 1e-3, MATERIALS[1]);
@@ -393,8 +396,8 @@ mod tests {
         assert!(errors[0] / errors[1] > 12.0 && errors[1] / errors[2] > 12.0 && errors[2] < 1e-6, "{errors:?}");
     }
 
-    /// In-plane bending of a thin ring under q cos mθ along r (Timoshenko and Gere, *Theory of Elastic Stability*, §7.1, without extension):
-    /// u_r = q R⁴/(EI (m² − 1)²).
+    /// In-plane bending of a thin ring under q cos mθ along r (Timoshenko and Gere, *Theory of Elastic Stability*,
+    /// §7.1, without extension): u_r = q R⁴/(EI (m² − 1)²).
     #[test]
     fn a_thin_ring_bends_in_its_plane() {
         let (radius, side, steel) = (0.1, 1e-3, MATERIALS[1]);
