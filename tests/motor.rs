@@ -344,8 +344,7 @@ fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_kn
     };
     let Outcome::Motor(table) = solved(&table).unwrap().outcome else { panic!("a motor") };
     assert!((ring.alpha - table.alpha).abs() < table.alpha_error, "{} {}", ring.alpha, table.alpha);
-    let stated = ring.alpha_error - table.alpha_error;
-    assert!((stated / (rotor.effect * ring.alpha) - 1.0).abs() < 0.5, "{stated} {rotor:?}");
+    assert!(ring.alpha_error > rotor.effect * ring.alpha, "{ring:?} {rotor:?}");
 
     // Where the stator touches nothing.
     let beside = Motor { contact_radius: 0.025, ..motor.clone() };

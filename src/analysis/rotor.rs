@@ -8,12 +8,10 @@ use crate::rotor::{Compliances, RotorError};
 use crate::scene::Scene;
 use std::f64::consts::TAU;
 
-/// Harmonics that are shown, and that the Green's function is the sum of.
-const HARMONICS: usize = 180;
+/// Harmonics that are shown, and that the Green's function is the sum of: those of the paper's 180 nodes in a wavelength.
+const HARMONICS: usize = 90;
 /// Harmonics of the load that bend the section as it is drawn.
 const BENDING: u32 = 4;
-/// Points of the Green's function over half the wavelength.
-const POINTS: usize = 240;
 
 /// One model of the rotor.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +20,8 @@ pub struct Curve {
     pub name: &'static str,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
     pub compliance: Vec<f64>,
-    /// (x \[m\], deflection \[m/N\] under a unit force in every wavelength, the mean left out), x from 0 to half the wavelength.
+    /// (x \[m\], deflection \[m/N\] under a unit force in every wavelength, the mean left out) at the nodes of the paper's mesh, λ/180 apart,
+    /// from 0 to half the wavelength. The force is spread over one node's share, and so is what it presses in locally.
     pub green: Vec<[f64; 2]>,
 }
 
@@ -101,11 +100,13 @@ fn curve(name: &'static str, rotor: &Compliances) -> Curve {
     let compliance: Vec<f64> = (1..=HARMONICS).map(|n| rotor.harmonic(n)).collect();
     let length = rotor.wavelength();
     let green = |i: usize| {
-        let turn = 0.5 * i as f64 / POINTS as f64;
-        let terms = (1..).zip(&compliance).map(|(n, c)| c * (TAU * f64::from(n) * turn).cos());
+        let turn = 0.5 * i as f64 / HARMONICS as f64;
+        // The highest harmonic of the nodes is its own mirror image.
+        let share = |n: i32| if n as usize == HARMONICS { 0.5 } else { 1.0 };
+        let terms = (1..).zip(&compliance).map(|(n, c)| share(n) * c * (TAU * f64::from(n) * turn).cos());
         [turn * length, 2.0 / length * terms.sum::<f64>()]
     };
-    Curve { name, green: (0..=POINTS).map(green).collect(), compliance }
+    Curve { name, green: (0..=HARMONICS).map(green).collect(), compliance }
 }
 
 impl Bent {
@@ -157,7 +158,7 @@ mod tests {
             let images = (-4..=4).map(|i| ((x + f64::from(i) * motor.wavelength()) / 4e-3).abs());
             0.64e-6 * images.map(|s| (-s).exp() * (s.cos() + s.sin())).sum::<f64>()
         };
-        let [from, to] = [POINTS / 3, POINTS];
+        let [from, to] = [HARMONICS / 3, HARMONICS];
         let exact = beam(green[from][0]) - beam(green[to][0]);
         assert!(((green[from][1] - green[to][1]) / exact - 1.0).abs() < 0.05, "{:?} {exact}", green[from]);
     }

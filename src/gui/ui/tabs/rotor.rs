@@ -24,6 +24,8 @@ const WIDTH: f32 = 2.0;
 const SHOWN: usize = 64;
 /// The greatest displacement as it is drawn, as a share of the section's size.
 const MAGNIFIED: f64 = 0.06;
+/// Nodes of an element round its sides, from one corner to the same again.
+const AROUND: [usize; 9] = [0, 1, 2, 5, 8, 7, 6, 3, 0];
 /// How near to an edge the pointer takes it \[points\].
 const REACH: f32 = 5.0;
 /// What a dragged edge is rounded to \[mm\].
@@ -109,7 +111,7 @@ fn compliance(ui: &mut Ui, curves: &Styled<'_>, height: f32, _cx: &DrawContext<'
         .x_axis_label("harmonic n of the wave")
         .x_grid_spacer(|input| powers(&input, 6.0, true))
         .y_grid_spacer(|input| powers(&input, 6.0, false))
-        .x_axis_formatter(|mark, _| digits(10f64.powf(mark.value).round(), 3))
+        .x_axis_formatter(|mark, _| format!("{:.0}", 10f64.powf(mark.value)))
         .y_axis_formatter(|mark, _| power_of_ten(mark.value.round()));
     let bounds = [[0.0, (SHOWN as f64).log10()], [low - 0.1, high + 0.1]];
     let shown = framed(ui, (name, plot), bounds, |plot| {
@@ -282,8 +284,11 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Scale, [wide, 
     };
     let draw = |moved: Option<(&[[f64; 2]], f64)>, stroke: Stroke| {
         for element in &bent.mesh.elements {
-            let corners: Vec<Pos2> = element.nodes[..4].iter().map(|i| node(*i, moved)).collect();
-            painter.add(egui::Shape::closed_line(corners, stroke));
+            // Side by side: where sides meet at a sharp angle a closed line has spikes.
+            for pair in AROUND.windows(2) {
+                let ends = [pair[0], pair[1]].map(|i| node(element.nodes[i], moved));
+                painter.line_segment(ends, stroke);
+            }
         }
     };
     draw(None, Stroke::new(0.5, cx.colours.quiet.gamma_multiply(0.6)));
