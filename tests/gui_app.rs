@@ -220,19 +220,20 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
 fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     let mut window = window("fundamental");
     solved(&mut window);
+    let steps = |window: &mut Harness<'static, App>| (0..3).for_each(|_| window.step());
     window.get_by_label("File").click();
-    window.run_steps(3);
-    window.get_by_label("New motor…").click();
-    window.run_steps(3);
+    steps(&mut window);
+    window.get_by_label_contains("New motor…").click();
+    steps(&mut window);
     let make = |window: &Harness<'static, App>| window.get_by_label("Make this motor").accesskit_node().is_disabled();
     assert!(make(&window));
     for (field, text) in
         [("Outer diameter of the stator, mm", "60"), ("Frequency, kHz", "40"), ("Axial load on the rotor, N", "150")]
     {
         window.get_by_role_and_label(Role::TextInput, field).click();
-        window.run_steps(2);
+        steps(&mut window);
         window.get_by_role_and_label(Role::TextInput, field).type_text(text);
-        window.run_steps(2);
+        steps(&mut window);
     }
     window.get_by_label_contains("Assumed: Minimum spacing H_m 200 nm: as in the motor of Maeno and Bogy");
     assert!(!make(&window));

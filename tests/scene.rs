@@ -437,7 +437,7 @@ fn compliance_faults_are_told_apart() {
         ),
         (
             "model = \"table\"\ndecay_length_mm = 4.0\ncompliance = [[1, 1e-9]]\n",
-            "my.toml:5: rotor.decay_length_mm belongs to rotor.model = \"beam\", and this is rotor.model = \"table\"",
+            "my.toml:5: rotor.decay_length_mm belongs to rotor.model = \"beam\" or \"section\", and this is rotor.model = \"table\"",
         ),
         (
             "compliance = [[1, 1e-9]]\n",
