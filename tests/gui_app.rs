@@ -220,7 +220,7 @@ fn a_preset_of_the_menu_is_opened_and_solved() {
 fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     let mut window = window("fundamental");
     solved(&mut window);
-    let steps = |window: &mut Harness<'static, App>| (0..3).for_each(|_| window.step());
+    let steps = |window: &mut Harness<'static, App>| (0..8).for_each(|_| window.step());
     window.get_by_label("File").click();
     steps(&mut window);
     window.get_by_label_contains("New motor…").click();

@@ -28,10 +28,12 @@ fn fundamental() -> Motor {
 }
 
 fn solve(motor: &Motor, numerics: &Numerics) -> (Solution, MotorResult) {
-    let solution = paper::solve(motor, numerics, &mut (), &Cancel::new()).unwrap();
-    match solution.outcome {
-        Outcome::Motor(result) => (solution, result),
-        Outcome::Plate(_) => panic!("a motor's solution"),
+    match paper::solve(motor, numerics, &mut (), &Cancel::new()) {
+        Ok(solution) => match solution.outcome {
+            Outcome::Motor(result) => (solution, result),
+            Outcome::Plate(_) => panic!("a motor's solution"),
+        },
+        Err(error) => panic!("{error}"),
     }
 }
 

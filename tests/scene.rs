@@ -103,8 +103,8 @@ fn messages_name_file_line_key_value_and_range() {
         ),
         ("[plate]\nlength_mm = 1\n", "my.toml:3: [plate] belongs to scene = \"plate\", and this is scene = \"motor\""),
         (
-            "[rotor]\nmodel = \"ring\"\n",
-            "my.toml:4: rotor.model = \"ring\" is not available: expected one of \"beam\", \"section\", \"table\"",
+            "[rotor]\nmodel = \"plank\"\n",
+            "my.toml:4: rotor.model = \"plank\" is not available: expected one of \"beam\", \"section\", \"ring\", \"table\", \"green\"",
         ),
         (
             "[numerics]\ncontact_nodes = 5\n",

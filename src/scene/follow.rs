@@ -42,7 +42,7 @@ static FOLLOWING: &[Following] = &[
 impl Scene {
     /// The value of a key that is not given in this scene, and that follows from others; in the unit of the key.
     pub fn following(&self, key: &str) -> Option<f64> {
-        let following = FOLLOWING.iter().find(|following| following.key == key)?;
+        let following = FOLLOWING.iter().find(|following| following.key == key && self.is_set(following.source))?;
         (following.value)(self).ok().flatten()
     }
 
@@ -59,17 +59,19 @@ impl Scene {
 
     /// What follows and is out of the range of its key: the key that it follows from, and what is wrong.
     pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
-        FOLLOWING.iter().filter_map(|Following { key, source, value }| {
-            let (parameter, value) = (Parameter::find(key)?, value(self).ok()??);
-            // To ten digits, as a person would write it.
-            let value = as_given(value);
-            let range = parameter.range().filter(|range| !range.contains(value))?;
-            let given = self.get(source).map_or_else(String::new, |given| format!("{source} = {given} makes "));
-            let unit = parameter.unit;
-            let message =
-                format!("{given}{key} = {} {unit}, which is out of range: allowed {range} {unit}", as_given(value));
-            Some((std::slice::from_ref(source), What::Rule { key: source, message }))
-        })
+        FOLLOWING.iter().filter(|following| self.is_set(following.source)).filter_map(
+            |Following { key, source, value }| {
+                let (parameter, value) = (Parameter::find(key)?, value(self).ok()??);
+                // To ten digits, as a person would write it.
+                let value = as_given(value);
+                let range = parameter.range().filter(|range| !range.contains(value))?;
+                let given = self.get(source).map_or_else(String::new, |given| format!("{source} = {given} makes "));
+                let unit = parameter.unit;
+                let message =
+                    format!("{given}{key} = {} {unit}, which is out of range: allowed {range} {unit}", as_given(value));
+                Some((std::slice::from_ref(source), What::Rule { key: source, message }))
+            },
+        )
     }
 
     /// What follows from the number of a key, if it is given.

@@ -250,6 +250,11 @@ impl Scene {
         stored.or_else(|| self.following(parameter.key)).or_else(|| parameter.default()?.as_number())
     }
 
+    /// Whether a key has another value than its default.
+    pub(super) fn is_set(&self, key: &str) -> bool {
+        self.values.contains_key(key)
+    }
+
     /// The number that an optional key has in this scene.
     pub(super) fn given(&self, key: &str) -> Option<f64> {
         self.values.get(key).and_then(Value::as_number)

@@ -9,12 +9,15 @@ use std::sync::Arc;
 /// The computation: what was found, or why there is nothing; `None` if it was cancelled.
 pub type RotorTask = Task<(), Option<Result<RotorCurves, String>>>;
 
+/// A rotor and the wave that runs round it.
+type RingedRotor = (RotorCompliance, Wave);
+
 /// What is known, and what is being computed.
 #[derive(Debug, Default)]
 pub struct RotorState {
-    asked: Option<(RotorCompliance, Wave)>,
+    asked: Option<RingedRotor>,
     task: Option<RotorTask>,
-    found: Option<((RotorCompliance, Wave), Result<Arc<RotorCurves>, String>)>,
+    found: Option<(RingedRotor, Result<Arc<RotorCurves>, String>)>,
 }
 
 impl RotorState {

@@ -188,7 +188,7 @@ pub enum SweepMessage {
     /// Its points are known.
     Built(Arc<Sweep>),
     /// A point is solved.
-    Solved(Row),
+    Solved(Box<Row>),
 }
 
 /// The work of a sweep: it builds the points, unless they are known, and solves them. It returns all rows in order.
@@ -397,7 +397,7 @@ impl SweepState {
                 }
                 SweepMessage::Solved(row) => {
                     if let Some(Swept { rows, .. }) = &mut self.swept {
-                        rows.insert(rows.partition_point(|other| other.point < row.point), row);
+                        rows.insert(rows.partition_point(|other| other.point < row.point), *row);
                     }
                 }
             }

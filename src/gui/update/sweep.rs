@@ -71,7 +71,7 @@ impl Updater {
     fn run_sweep(&mut self, goes_on: bool, build: impl FnOnce(Tell<'_>) -> Result<Known, SweepError> + Send + 'static) {
         let task = Task::start("sweep", self.wake(REDRAW), move |cancel, tell| {
             let (sweep, done) = build(tell)?;
-            let solve = || sweep.run(&done, cancel, &|row| tell(SweepMessage::Solved(row.clone())));
+            let solve = || sweep.run(&done, cancel, &|row| tell(SweepMessage::Solved(Box::new(row.clone()))));
             // A pool of its own: an export or another task need not wait until this is done.
             Ok(match rayon::ThreadPoolBuilder::new().build() {
                 Ok(pool) => pool.install(solve),

@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
         Ok(motor) => {
             for assumption in &motor.assumed {
                 let words = Parameter::find(assumption.key).map_or(assumption.key, label);
-                cx.note(ui, &format!("Assumed: {words} {}: {}", assumption.value, assumption.why));
+                cx.note(ui, format!("Assumed: {words} {}: {}", assumption.value, assumption.why));
             }
         }
         Err(wrong) => {

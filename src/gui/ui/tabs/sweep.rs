@@ -135,10 +135,10 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
     let running = swept.filter(|swept| swept.running());
     let building = cx.state.sweep.building();
     ui.horizontal_wrapped(|ui| {
-        if building || running.is_some() {
-            if ui.button("Cancel the sweep").hint("Ends it; what is solved stays, and it can go on").clicked() {
-                cx.push(SweepCommand::Cancel);
-            }
+        if (building || running.is_some())
+            && ui.button("Cancel the sweep").hint("Ends it; what is solved stays, and it can go on").clicked()
+        {
+            cx.push(SweepCommand::Cancel);
         }
         match running {
             _ if building => drop(ui.label("Its points are being made")),

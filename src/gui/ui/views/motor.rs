@@ -12,7 +12,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{PlotStyle, area};
 use crate::job::SolvedScene;
 use crate::problem::Scenario;
-use eframe::egui::{self, CursorIcon, Pos2, Rect, Response, pos2};
+use eframe::egui::{self, CursorIcon, Pos2, Rect, pos2};
 
 /// Where the parts go.
 #[derive(Clone, Copy, Debug)]
@@ -88,9 +88,8 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let map = named(ui, layout.map, "Pressure maps of the teeth: point to read values, click a tooth to follow it");
     let along = |at: Pos2| axes.x_at(at.x);
     let charted_along = |at: Pos2| Some(1e-3 * charted.transform.value_from_position(at).x);
-    let regions: [(Response, &dyn Fn(Pos2) -> Option<f64>); 3] =
-        [(wave, &along), (charted.response.clone(), &charted_along), (map, &along)];
-    for (response, along) in regions {
+    let charted_response = charted.response.clone();
+    for (response, along) in [(wave, &along as &dyn Fn(Pos2) -> _), (charted_response, &charted_along), (map, &along)] {
         let response = response.on_hover_cursor(CursorIcon::Crosshair);
         if let Some(x) = response.hover_pos().and_then(along) {
             cx.point_at(x);
