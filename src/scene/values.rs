@@ -93,7 +93,11 @@ impl Scene {
 
     /// Whether this scene has a key: its own kind and model do, and no other key replaces it.
     pub fn has(&self, parameter: &'static Parameter) -> bool {
-        self.applies(parameter).is_ok()
+        // Most keys that it has not are known without the words of why.
+        let other =
+            matches!((parameter.belongs, self.kind), (Belongs::Motor, Kind::Plate) | (Belongs::Plate, Kind::Motor));
+        let chosen = |(selector, needs): (&str, &[&str])| self.text(selector).is_ok_and(|model| needs.contains(&model));
+        !other && parameter.when.is_none_or(chosen) && self.applies(parameter).is_ok()
     }
 
     /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics
