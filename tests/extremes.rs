@@ -369,6 +369,46 @@ fn the_main_keys_two_by_two_at_the_ends_of_their_ranges() {
     assert_eq!((astray, &faults), (0, &Vec::new()));
 }
 
+/// Random motors, each of which did not converge for a reason of its own.
+#[test]
+fn motors_that_were_hard_to_reach_converge() {
+    let keys = [
+        "motor.contact_radius_mm",
+        "motor.waves",
+        "motor.load_per_wave_n",
+        "motor.rotor_speed_rpm",
+        "stator.frequency_khz",
+        "stator.normal_amplitude_um",
+        "stator.teeth_per_wave",
+        "stator.tooth_radius_m",
+        "stator.tooth_width_mm",
+        "rotor.contact_width_mm",
+        "rotor.decay_length_mm",
+        "rotor.point_compliance_um_per_n",
+        "rotor.local_compliance_m2_per_n",
+        "film.min_spacing_nm",
+        "film.ambient_pressure_kpa",
+        "film.viscosity_upa_s",
+        "film.mean_free_path_nm",
+    ];
+    #[rustfmt::skip]
+    let motors = [
+        ("gas leaves within a step", "false",
+         [69.41, 5.0, 0.016466, -1233.9, 0.36581, 0.92903, 3.0, 48.871, 20.894, 7.0633, 26.665, 0.024241, 1.3157e-9, 21.451, 675.61, 42.903, 4.8369e6]),
+        ("the contact is stiffer than the last bits of its place", "true",
+         [1.0, 7.0, 0.01, 2357.0, 0.016861, 0.062735, 8.0, 845.94, 0.01024, 0.56204, 31.028, 0.04112, 0.0, 5.0, 3.5209, 3.9092, 84941.0]),
+        ("a wedge turns the slow shift round", "true",
+         [4.5766, 4.0, 1.0641, 1919.1, 0.89017, 0.23546, 1.0, 0.01, 0.79193, 3.3726, 2.4045, 0.10745, 2.2476e-9, 222.9, 1.3149, 195.22, 6746.0]),
+    ];
+    for (reason, shear, values) in motors {
+        let pairs: Vec<(&str, f64)> = keys.into_iter().zip(values).collect();
+        let mut scene = scene_with("fundamental", &pairs);
+        scene.set("film.slip", "second-order").unwrap();
+        scene.set("film.shear", shear).unwrap();
+        assert_eq!(survives(&scene, Fidelity::Draft), Ok(true), "{reason}");
+    }
+}
+
 #[test]
 fn the_coarsest_grid_that_a_scene_may_ask_for() {
     for width in [0.03, 0.15, 1.7353, 2.88] {

@@ -83,18 +83,18 @@ fn curves(ui: &mut Ui, found: &RotorCurves, heights: [f32; 2], cx: &DrawContext<
     let em = ui.text_style_height(&TextStyle::Body);
     if ui.available_width() > BESIDE * em {
         ui.columns(2, |columns| {
-            compliance(&mut columns[0], &styled, heights[0], cx);
-            green(&mut columns[1], &styled, heights[0], cx);
+            compliance(&mut columns[0], &styled, heights[0]);
+            green(&mut columns[1], &styled, heights[0]);
         });
     } else {
-        compliance(ui, &styled, heights[0], cx);
-        green(ui, &styled, heights[1], cx);
+        compliance(ui, &styled, heights[0]);
+        green(ui, &styled, heights[1]);
     }
 }
 
 type Styled<'a> = [(&'a Curve, (Color32, LineStyle))];
 
-fn compliance(ui: &mut Ui, curves: &Styled<'_>, height: f32, _cx: &DrawContext<'_>) {
+fn compliance(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
     let name = "Compliance by harmonic, m²/N";
     title(ui, name, "Compliance");
     let lines: Vec<(Vec<[f64; 2]>, Color32, LineStyle)> = curves
@@ -124,7 +124,7 @@ fn compliance(ui: &mut Ui, curves: &Styled<'_>, height: f32, _cx: &DrawContext<'
     axes(ui, whole, *shown.transform.frame(), Some("Harmonic"), "Compliance");
 }
 
-fn green(ui: &mut Ui, curves: &Styled<'_>, height: f32, _cx: &DrawContext<'_>) {
+fn green(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
     let name = "Deflection under a unit force, µm/N";
     title(ui, name, "Green's function");
     let lines: Vec<(Vec<[f64; 2]>, Color32, LineStyle)> = curves
