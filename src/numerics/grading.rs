@@ -22,11 +22,13 @@ fn inverse(ratio: f64) -> f64 {
     }
     // s/sinh s falls monotonically from 1; 700 keeps sinh finite.
     let (mut low, mut high) = (0.0_f64, 700.0_f64);
-    for _ in 0..200 {
+    loop {
         let s = 0.5 * (low + high);
+        if s <= low || s >= high {
+            return s;
+        }
         if s / s.sinh() > ratio { low = s } else { high = s }
     }
-    0.5 * (low + high)
 }
 
 /// The map: η ∈ [−1, 1] to [−1, 1].

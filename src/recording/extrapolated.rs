@@ -8,7 +8,7 @@
 //! costs is put right at the end, with the contact's load or, where there is none, with the film's.
 
 use super::{LineLoads, Recording, offset};
-use std::ops::Range;
+use std::ops::{Add, Range};
 
 /// What the lines of a scene have to obey.
 #[derive(Clone, Copy, Debug)]
@@ -98,32 +98,45 @@ impl LineLoads {
 
     /// Film load of each frame \[N\].
     pub fn film_loads(&self) -> Vec<f64> {
-        self.series(0.0, |sum, line, i| sum + self.film[line + i] * self.node_length[i])
+        self.series(|nodes| self.load(&self.film[nodes]), Add::add)
+    }
+
+    /// Contact load of each frame \[N\].
+    pub fn contact_loads(&self) -> Vec<f64> {
+        self.series(|nodes| self.load(&self.contact[nodes]), Add::add)
     }
 
     /// Greatest pressure of each frame \[Pa\].
     pub fn max_pressures(&self) -> Vec<f64> {
-        self.series(0.0, |most: f64, line, i| most.max(self.peak[line + i]))
+        self.series(|nodes| self.peak[nodes].iter().copied().fold(0.0, f64::max), f64::max)
     }
 
     /// Least film thickness of each frame \[m\].
     pub fn min_film_thicknesses(&self) -> Vec<f64> {
-        self.series(f64::INFINITY, |least: f64, line, i| least.min(self.film_thickness[line + i]))
+        self.series(|nodes| self.film_thickness[nodes].iter().copied().fold(f64::INFINITY, f64::min), f64::min)
+    }
+
+    /// Teeth that touch in each frame.
+    pub fn touching_teeth(&self) -> Vec<usize> {
+        self.series(|nodes| usize::from(self.contact[nodes].iter().any(|c| *c > 0.0)), Add::add)
+    }
+
+    /// Of line loads on one line \[N\].
+    fn load(&self, line: &[f64]) -> f64 {
+        line.iter().zip(&self.node_length).map(|(force, length)| force * length).sum()
     }
 
     /// Teeth that touch, mean over the cycle.
     pub fn teeth_in_contact(&self) -> f64 {
-        let touching = self.contact.chunks_exact(self.x.len()).filter(|line| line.iter().any(|c| *c > 0.0)).count();
-        (touching * self.teeth) as f64 / (self.stored_teeth * self.frames) as f64
+        self.touching_teeth().iter().sum::<usize>() as f64 / self.frames as f64
     }
 
-    /// A value of each frame, from every node of every tooth.
-    fn series(&self, start: f64, add: impl Fn(f64, usize, usize) -> f64) -> Vec<f64> {
-        let of = |frame: usize| {
-            let lines = (0..self.teeth).map(|tooth| self.line_offset(tooth, frame));
-            lines.fold(start, |value, line| (0..self.x.len()).fold(value, |value, i| add(value, line, i)))
-        };
-        (0..self.frames).map(of).collect()
+    /// A value of each frame: those of its teeth's lines, joined.
+    fn series<T: Copy>(&self, of_line: impl Fn(Range<usize>) -> T, join: impl Fn(T, T) -> T) -> Vec<T> {
+        let nodes = self.x.len();
+        let lines: Vec<T> = (0..self.stored_teeth * self.frames).map(|k| of_line(k * nodes..(k + 1) * nodes)).collect();
+        let teeth = |frame: usize| (0..self.teeth).map(move |tooth| self.line_offset(tooth, frame) / nodes);
+        (0..self.frames).filter_map(|frame| teeth(frame).map(|line| lines[line]).reduce(&join)).collect()
     }
 }
 
@@ -155,11 +168,20 @@ impl Recording {
             }
         }
         let other_pressure = pressure.split_off(size.min(pressure.len()));
-        let peak = std::mem::take(&mut lines.peak);
-        lines.ambient = Vec::new();
-        let mut recording = Self { lines, pressure, other_pressure, yardsticks, ..self };
-        recording.fill_series(&peak);
-        recording
+        let max_pressure = lines.max_pressures();
+        (lines.peak, lines.ambient) = (Vec::new(), Vec::new());
+        Self {
+            film_load: lines.film_loads(),
+            contact_load: lines.contact_loads(),
+            teeth_in_contact: lines.touching_teeth(),
+            min_film_thickness: lines.min_film_thicknesses(),
+            max_pressure,
+            lines,
+            pressure,
+            other_pressure,
+            yardsticks,
+            ..self
+        }
     }
 }
 

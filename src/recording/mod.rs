@@ -135,30 +135,6 @@ impl Recording {
         }
     }
 
-    /// Fills the series of each frame from the lines.
-    pub fn fill_series(&mut self, peak: &[f64]) {
-        let nodes = self.x.len();
-        for frame in 0..self.frames {
-            let (mut film, mut contact, mut touching) = (0.0, 0.0, 0);
-            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-            for tooth in 0..self.teeth {
-                let line = self.line_offset(tooth, frame);
-                for (i, length) in self.node_length.iter().enumerate() {
-                    film += self.film[line + i] * length;
-                    contact += self.contact[line + i] * length;
-                    least = least.min(self.film_thickness[line + i]);
-                    most = most.max(peak[line + i]);
-                }
-                touching += usize::from(self.contact[line..line + nodes].iter().any(|c| *c > 0.0));
-            }
-            self.film_load.push(film);
-            self.contact_load.push(contact);
-            self.teeth_in_contact.push(touching);
-            self.min_film_thickness.push(least);
-            self.max_pressure.push(most);
-        }
-    }
-
     /// Errors of the series, frame by frame: that of the fields there, from what they are judged by, and `everywhere`, the relative error
     /// of the gas's force that no grid shows.
     pub fn judge_series(&mut self, everywhere: f64) {
