@@ -1,8 +1,8 @@
 //! Start-up: the transient from rest, cycle after cycle, until the cycle repeats.
 //!
 //! At t = 0 the wave stands still at its full amplitude, pressed against the rotor, and the gas is at ambient pressure; then it
-//! travels. Every tooth is marched and nothing is accelerated, because the way is the result. (A plate likewise, from the gap of
-//! t = 0.) It ends where the periodic solve, which is made first, says: `tests/startup.rs` compares the two.
+//! travels. Every tooth is marched and nothing is accelerated, because the way is the result. A plate is at rest at its mean gap and
+//! moves away from the wall first; its first cycle begins a quarter of a period later, where the gap is widest. It ends where the periodic solve, which is made first, says: `tests/startup.rs` compares the two.
 //!
 //! The mean of a cycle that does not repeat is that of the trapezoidal rule, from its first instant to the first of the next. How exact a
 //! start-up is, is judged by the headline of every cycle, as a share of the greatest of them. The way is marched to its end on the grids
@@ -346,7 +346,10 @@ impl<'a> SceneTransient<'a> {
             Scenario::Motor(motor) => {
                 Self::Motor(Box::new(motor::Transient::at_rest(motor, plan, width_error, stats)?))
             }
-            Scenario::Plate(plate) => Self::Plate(Box::new(plate::Transient::at_rest(plate, plan, width_error, stats))),
+            Scenario::Plate(plate) => {
+                let transient = plate::Transient::at_rest(plate, plan, width_error, stats).map_err(SolveError::Plate)?;
+                Self::Plate(Box::new(transient))
+            }
         })
     }
 

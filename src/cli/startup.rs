@@ -33,7 +33,8 @@ Files of --out:
 
 /// Starts a preset from rest and follows it, cycle by cycle, until the cycle repeats
 ///
-/// At t = 0 the wave stands still, pressed against the rotor, and the gas is at ambient pressure. Every tooth is marched. The
+/// At t = 0 the wave stands still, pressed against the rotor, and the gas is at ambient pressure; a plate rests at its mean gap, and
+/// its cycles are counted from the widest gap that follows. Every tooth is marched. The
 /// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors. Cycles are marched again
 /// on finer grids until the headline of every one is as exact as was asked, as a share of the greatest of them.
 #[derive(Debug, Args)]

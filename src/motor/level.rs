@@ -510,7 +510,12 @@ impl Level {
             anderson.advance(&mut present, &image);
             self.unpack(&present);
         }
-        Ok(Status::NotConverged { residual, tolerance: plan.tolerance })
+        // What has not become small enough: what single nodes change by, or else what is left of α.
+        let (residual, tolerance) = match residual < plan.tolerance {
+            true => (self.astray(), self.allowed(plan)),
+            false => (residual, plan.tolerance),
+        };
+        Ok(Status::NotConverged { residual, tolerance })
     }
 
     /// How far α may still be from that of a cycle that repeats.

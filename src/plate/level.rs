@@ -99,12 +99,19 @@ impl Level {
         self.dt.len()
     }
 
-    /// Rest, at the gap of step 0, gas at ambient pressure.
-    pub(super) fn rest(&mut self) {
-        let nx = self.cycle.grid().x.len();
-        self.state = FilmState::at_rest(vec![self.gap[0]; self.state.trapped.len()]);
-        self.cycle.grid().line_integral(&self.state.trapped, &mut self.line[..nx]);
+    /// Rest at the mean gap, gas at ambient pressure; then, opening first, up to the beginning of the first cycle.
+    pub(super) fn rest(&mut self, mean_gap: f64, stats: &mut Stats) -> Result<(), Interrupted> {
+        self.state = FilmState::at_rest(vec![mean_gap; self.state.trapped.len()]);
         self.cycle.remember(false);
+        // The gap is the mean one three quarters of a cycle after it is widest, which may be between two steps.
+        let steps = self.steps();
+        let whole = steps / 4;
+        let first = steps - whole;
+        let part = 0.25 * steps as f64 - whole as f64;
+        if part > 0.0 {
+            self.advance_by(part * self.dt[first], first, first, stats)?;
+        }
+        (first + 1..=steps).try_for_each(|step| self.advance(step, step % steps, stats))
     }
 
     /// Starts from the state on another grid, interpolated linearly between its nodes.
@@ -157,11 +164,16 @@ impl Level {
 
     /// One step, to step `m` of the cycle.
     fn advance(&mut self, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
+        self.advance_by(self.dt[m], step, m, stats)
+    }
+
+    /// As [`Level::advance`], in a time of its own \[s\].
+    fn advance_by(&mut self, dt: f64, step: usize, m: usize, stats: &mut Stats) -> Result<(), Interrupted> {
         let nx = self.cycle.grid().x.len();
         let here = m * nx..(m + 1) * nx;
         let taken = self
             .cycle
-            .advance(m, &self.gap[here.clone()], None, self.dt[m], &mut self.state, &mut self.line[here])
+            .advance(m, &self.gap[here.clone()], None, dt, &mut self.state, &mut self.line[here])
             .map_err(|source| Interrupted::Failed { step, source })?;
         stats.film_steps += 1;
         stats.film_solves += u64::from(taken.solves);

@@ -26,15 +26,18 @@ impl std::fmt::Debug for Transient {
 }
 
 impl Transient {
-    /// At rest at the gap of t = 0, gas at ambient pressure. `width_error`: that of the mean load, by the nodes across \[N\]; `stats`:
-    /// what it has cost so far.
-    pub fn at_rest(plate: &Plate, plan: &Plan, width_error: f64, stats: Stats) -> Self {
+    /// From rest at the mean gap, gas at ambient pressure, to the widest gap, where the first cycle begins. `width_error`: that of the mean
+    /// load, by the nodes across \[N\]; `stats`: what it has cost so far.
+    ///
+    /// # Errors
+    /// [`Interrupted::Failed`] if a film step has no solution to working precision.
+    pub fn at_rest(plate: &Plate, plan: &Plan, width_error: f64, mut stats: Stats) -> Result<Self, Interrupted> {
         // It does not repeat, as frames between steps would ask.
         let plan = &plan.even_steps();
         let plate = if plan.turned { plate.turned() } else { plate.clone() };
         let mut levels: Vec<Level> = plan.grids.iter().map(|grid| Level::new(&plate, plan, grid)).collect();
-        levels.iter_mut().for_each(Level::rest);
-        Self { plate, turned: plan.turned, maps: plan.maps, levels, width_error, stats }
+        levels.iter_mut().try_for_each(|level| level.rest(plate.mean_gap, &mut stats))?;
+        Ok(Self { plate, turned: plan.turned, maps: plan.maps, levels, width_error, stats })
     }
 
     /// The next cycle, from the present instant on: means and extremes, the fields of the finest grid, and the largest change

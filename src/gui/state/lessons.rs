@@ -429,6 +429,7 @@ impl RunningLesson {
             (Scenario::Motor(_), Some(merit)) => {
                 let (with, without) = (&merit.with_film, &merit.without_film);
                 live.set(Live::Stall, with.stall_torque.value);
+                live.set(Live::PresentTorque, with.present.torque.value);
                 live.set(Live::DryStall, without.stall_torque.value);
                 live.set(Live::Output, with.max_power.value);
                 live.set(Live::DryOutput, without.max_power.value);

@@ -65,6 +65,8 @@ pub struct View {
     pub budget: f64,
     /// Phase of the cycle shown, 0 ≤ phase < 1.
     pub phase: f64,
+    /// Whole cycles played so far: how far a rotor has turned.
+    pub cycles: f64,
     /// Whether the animation runs.
     pub playing: bool,
     /// Seconds on screen for one cycle.
@@ -86,6 +88,7 @@ impl Default for View {
             accuracy: 1e-2,
             budget: 16e-3,
             phase: 0.0,
+            cycles: 0.0,
             playing: true,
             seconds_per_cycle: 6.0,
             tooth: 0,

@@ -25,6 +25,7 @@ impl Updater {
         }
         let on = state.view.phase + elapsed / state.view.seconds_per_cycle;
         state.view.phase = on.rem_euclid(1.0);
+        state.view.cycles += on.div_euclid(1.0);
         if let (Tab::Startup, Some(startup), true) = (state.view.tab, &mut state.startup, on >= 1.0) {
             startup.next_cycle();
         }

@@ -70,9 +70,9 @@ fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.add_space(8.0);
     for text in [
         "How does the film come to carry load, from the moment at which the vibration begins?",
-        "At t = 0 the gas is at ambient pressure everywhere: the wave stands still, pressed against the rotor (a plate is held \
-         at its largest gap). Then it moves. Every tooth is followed, with nothing accelerated, until the cycle repeats; each \
-         cycle is shown as soon as it is computed. Nothing is computed before you ask.",
+        "At first the gas is at ambient pressure everywhere: the wave stands still, pressed against the rotor (a plate rests at its \
+         mean gap, and begins by moving away from the wall). Then it moves. Every tooth is followed, with nothing accelerated, until \
+         the cycle repeats; each cycle is shown as soon as it is computed. Nothing is computed before you ask.",
     ] {
         cx.note(ui, text);
         ui.add_space(4.0);

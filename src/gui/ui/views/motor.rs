@@ -62,6 +62,7 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
         motor,
         scales: &scales,
         place,
+        cycles: cx.state.view.cycles,
         lines: Lines::at(recording, place),
         tooth: cx.state.view.tooth.min(recording.teeth.saturating_sub(1)),
         cursor: cx.state.view.cursor_x,

@@ -15,6 +15,8 @@ pub(super) struct MotorFrame<'a> {
     pub(super) scales: &'a Scales,
     /// The instant, in frames.
     pub(super) place: f64,
+    /// Whole cycles that went before.
+    pub(super) cycles: f64,
     /// The lines at that instant.
     pub(super) lines: Lines,
     pub(super) tooth: usize,

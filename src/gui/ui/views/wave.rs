@@ -1,16 +1,22 @@
 //! The stator's travelling wave with its teeth, the rotor's deflected underside, the film between them, and where they
-//! touch. Heights are exaggerated; the factor and a scale bar are given.
+//! touch. Heights are exaggerated; the factor and a scale bar are given. While the rotor turns, what drives it is drawn as well, on the scale of
+//! the heights: the way of the followed tooth's top round its ellipse, with its speed along the ring, and marks that the rotor takes along.
 
 use super::motor_frame::MotorFrame;
 use crate::gui::derived::format::times;
 use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar};
-use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2};
+use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2, vec2};
+use std::f64::consts::TAU;
 
 /// Part of the height below the lowest stator top, and of the teeth in it.
 const BELOW: f32 = 0.36;
 const TOOTH: f32 = 0.15;
 /// Points of the rotor over a groove; an odd number, so that one is half-way.
 pub(super) const GROOVE: usize = 7;
+/// Lines of text between two marks on a rotor that turns.
+const MARKS: f32 = 3.0;
+/// Points of an ellipse.
+const POINTS: u32 = 48;
 /// Part of the height above the highest point of the rotor's underside.
 const ABOVE: f32 = 0.16;
 
@@ -38,8 +44,14 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     let column = Rect::from_x_y_ranges(left..=right, rect.y_range());
     painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
     stator(painter, style, &axes, shown);
-    rotor(painter, style, &axes, shown);
+    let underside = rotor(painter, style, &axes, shown);
+    if shown.motor.rotor_speed != 0.0 {
+        marks(painter, style, &underside, scale, shown);
+    }
     touching(painter, style, &axes, shown);
+    if shown.motor.rotor_speed != 0.0 {
+        ellipse(painter, style, &axes, scale, shown);
+    }
     axes.cursor(painter, style, shown.cursor);
     axes
 }
@@ -81,7 +93,8 @@ fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<
     }
 }
 
-fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
+/// Draws the rotor; its underside, from left to right.
+fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) -> Vec<Pos2> {
     let recording = shown.recording;
     let nodes = recording.x.len();
     let lines = &shown.lines;
@@ -108,7 +121,42 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'
     }
     let colour = style.palette.rotor;
     band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
-    painter.line(underside, Stroke::new(1.5, colour));
+    painter.line(underside.clone(), Stroke::new(1.5, colour));
+    underside
+}
+
+/// Marks on the rotor, which move as it does; `scale`: pixels per metre.
+fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], scale: f64, shown: &MotorFrame<'_>) {
+    let (Some(first), Some(last)) = (underside.first(), underside.last()) else { return };
+    let apart = MARKS * style.row;
+    let turned = shown.motor.rotor_speed / shown.motor.frequency * (shown.cycles + shown.phase()) * scale;
+    let mut x = first.x + turned.rem_euclid(f64::from(apart)) as f32;
+    let stroke = Stroke::new(2.0, style.palette.canvas);
+    while x < last.x {
+        let right = underside.partition_point(|at| at.x < x).max(1);
+        let (a, b) = (underside[right - 1], underside[right]);
+        let y = a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x).max(f32::EPSILON);
+        painter.line_segment([pos2(x, y - 2.0), pos2(x, y - 2.0 - 0.8 * style.row)], stroke);
+        x += apart;
+    }
+}
+
+/// The ellipse that the top of the followed tooth goes round, where it is, and its speed along the ring; `scale`: pixels per metre.
+fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, scale: f64, shown: &MotorFrame<'_>) {
+    let motor = shown.motor;
+    let middle = shown.tooth as f64 * shown.recording.pitch;
+    let centre = axes.at(middle, 0.0);
+    let [high, wide] = [motor.normal_amplitude, motor.tangential_amplitude].map(|amplitude| (scale * amplitude) as f32);
+    let at = |turns: f64| {
+        let (sin, cos) = (TAU * turns).sin_cos();
+        centre + vec2(wide * sin as f32, -high * cos as f32)
+    };
+    let stroke = Stroke::new(1.0, style.palette.accent);
+    painter.line((0..=POINTS).map(|i| at(f64::from(i) / f64::from(POINTS))).collect(), stroke);
+    let phase = shown.phase() + middle / shown.recording.length;
+    let (top, along) = (at(phase), wide * (TAU * phase).cos() as f32);
+    painter.circle_filled(top, 4.0, style.palette.accent);
+    painter.arrow(top, vec2(along, 0.0), Stroke::new(2.5, style.palette.accent));
 }
 
 /// A thick line wherever the contact carries load.
