@@ -99,7 +99,7 @@ impl<L> Found<L> {
 }
 
 /// What a solve by all of its grids gives, and what it would without the finest: the less these differ, the more exact are both.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Nested<T> {
     /// By all grids.
     pub fine: T,

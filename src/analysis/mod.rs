@@ -11,6 +11,7 @@ pub mod quantity;
 pub mod regime;
 pub mod reproduce;
 pub mod rotor;
+pub mod sensitivity;
 pub mod stability;
 pub mod sweep;
 pub mod table1;

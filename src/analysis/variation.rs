@@ -8,7 +8,7 @@
 //! open is nearly the same in all of them; how well their cycles repeat changes D by less than a millionth. What does change it are
 //! contact edges that pass a node of the grid: f has ripples as fine as the grid, which a very short step would differentiate. The error of
 //! a derivative is therefore taken from two steps, |D(h) − D(2h)|, and from two ladders of grids, the difference to the D of the same
-//! solves without their finest grid; their sum is stated (measured in `docs/theory.md`).
+//! solves without their finest grid. Their sum is stated, and what the plan leaves out of the model (measured in `docs/theory.md`).
 //!
 //! Where p is at an end of its range, or a rule between keys has no room on one side, D is one-sided, (4 f(h) − f(2h) − 3 f(0))/2h,
 //! and its error the difference to (f(h) − f(0))/h.
@@ -84,16 +84,24 @@ pub enum Sides {
 pub struct Slope {
     /// The derivative; not finite where the number is not known.
     pub value: f64,
+    /// The same without the finest grid.
+    pub coarse: f64,
     /// Its estimated error by the length of the step, absolute.
     pub step_error: f64,
-    /// Its estimated error by the grids, absolute.
-    pub grid_error: f64,
+    /// Its estimated error by what the plan leaves out of the model, absolute: a term that changes the number by a share ε is taken to change as
+    /// the key does, and the derivative with it by ε of the number over the scale of the key.
+    pub left_out: f64,
 }
 
 impl Slope {
+    /// Its estimated error by the grids, absolute.
+    pub fn grid_error(&self) -> f64 {
+        (self.value - self.coarse).abs()
+    }
+
     /// Its whole estimated error, absolute.
     pub fn error(&self) -> f64 {
-        self.step_error + self.grid_error
+        self.step_error + self.grid_error() + self.left_out
     }
 }
 
@@ -116,7 +124,7 @@ pub struct Column {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jacobian {
     /// The numbers in the middle.
-    pub numbers: Vec<f64>,
+    pub numbers: Nested<Vec<f64>>,
     /// By each key, in the order of the variation.
     pub columns: Vec<Column>,
 }
@@ -243,7 +251,9 @@ impl Variation {
             let points: Result<Vec<_>, String> = found.drain(..plan.points.len()).collect();
             let slopes = match (plan.refused, points) {
                 (Some(why), _) => Err(why),
-                (None, points) => points.map(|points| slopes(plan.sides, plan.step, &middle, &points)),
+                (None, points) => points.map(|points| {
+                    slopes(plan.sides, plan.step, centre.left_out() * STEP / plan.step, &middle, &points)
+                }),
             };
             Column {
                 parameter: self.parameters[column],
@@ -254,7 +264,7 @@ impl Variation {
             }
         });
         let columns = columns.collect();
-        Some(Jacobian { numbers: middle.fine, columns })
+        Some(Jacobian { numbers: middle, columns })
     }
 
     /// Where to solve for the derivative by one key.
@@ -305,8 +315,15 @@ fn read(
     }
 }
 
-/// The slopes of all numbers, from those in the middle and at the points of the sides.
-fn slopes(sides: Sides, step: f64, middle: &Nested<Vec<f64>>, points: &[Nested<Vec<f64>>]) -> Vec<Slope> {
+/// The slopes of all numbers, from those in the middle and at the points of the sides. `relative`: what is left out of the model, as a share of
+/// a number, over the scale of the key.
+fn slopes(
+    sides: Sides,
+    step: f64,
+    relative: f64,
+    middle: &Nested<Vec<f64>>,
+    points: &[Nested<Vec<f64>>],
+) -> Vec<Slope> {
     // D(h), and what the length of the step is judged by.
     let derivative = |middle: f64, at: &[f64]| match (sides, at) {
         (Sides::Both, [b2, b1, a1, a2]) => ((a1 - b1) / (2.0 * step), (a2 - b2) / (4.0 * step)),
@@ -323,8 +340,9 @@ fn slopes(sides: Sides, step: f64, middle: &Nested<Vec<f64>>, points: &[Nested<V
             let at: Option<Vec<f64>> = points.iter().map(|point| Some(point.coarse.as_ref()?[i])).collect();
             Some(derivative(middle[i], &at?).0)
         });
-        let grid_error = coarse.map_or(f64::INFINITY, |coarse| (value - coarse).abs());
-        Slope { value, step_error: (value - longer).abs(), grid_error }
+        let left_out = relative * middle.fine[i].abs();
+        // A single grid tells nothing of its error.
+        Slope { value, coarse: coarse.unwrap_or(f64::INFINITY), step_error: (value - longer).abs(), left_out }
     };
     (0..middle.fine.len()).map(number).collect()
 }

@@ -13,7 +13,7 @@ use crate::motor::{self, Warm};
 use crate::plan::Plan;
 use crate::plate;
 use crate::problem::{Problem, Scenario};
-use crate::solution::Solution;
+use crate::solution::{Outcome, Solution};
 
 /// What a cycle has to repeat to, relative: the change of the trapped gas, and of the load.
 const TOLERANCE: f64 = 1e-6;
@@ -65,6 +65,14 @@ impl Centre {
                 let solved = found.map(|found| of_plate(found, &plan, cancel));
                 Ok(Self { plan, warm: cold, problem: problem.clone(), solved })
             }
+        }
+    }
+
+    /// Bound of what the plan leaves out of the model, as a share of the headline; a rotor that floats carries its load whatever that is.
+    pub fn left_out(&self) -> f64 {
+        match &self.solved.fine.outcome {
+            Outcome::Motor(result) if result.levitated => 0.0,
+            _ => self.plan.left_out,
         }
     }
 
