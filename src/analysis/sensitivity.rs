@@ -250,8 +250,13 @@ impl Sensitivity {
     }
 
     /// What to draw of an output, the greatest first: the elasticities of all keys that have a scale; or, of uncertain keys, what each
-    /// contributes to the uncertainty, in the unit of the output.
-    pub fn tornado(&self, output: usize, uncertainties: &Uncertainties) -> Vec<(&'static Parameter, Estimate)> {
+    /// contributes to the uncertainty, in the unit of the output. And how many are left out because they are less than [`LEAST`] of the
+    /// greatest.
+    pub fn tornado(
+        &self,
+        output: usize,
+        uncertainties: &Uncertainties,
+    ) -> (Vec<(&'static Parameter, Estimate)>, usize) {
         let mut bars: Vec<_> = if uncertainties.is_empty() {
             let columns = self.columns.iter().enumerate().filter(|(_, column)| column.scale().is_some());
             columns.filter_map(|(i, column)| Some((column.parameter, self.elasticity(output, i)?))).collect()
@@ -259,7 +264,11 @@ impl Sensitivity {
             self.propagated(output, uncertainties).parts
         };
         bars.sort_by(|(_, a), (_, b)| b.value.abs().total_cmp(&a.value.abs()));
-        bars
+        let least = LEAST * bars.first().map_or(0.0, |(_, bar)| bar.value.abs());
+        let shown = bars.iter().take_while(|(_, bar)| bar.value.abs() >= least && bar.value != 0.0).count();
+        let smaller = bars.len() - shown;
+        bars.truncate(shown);
+        (bars, smaller)
     }
 
     /// Solves `draws` random scenes of these uncertainties on rayon's pool; the same seed gives the same draws, whatever the number of threads.
@@ -309,6 +318,9 @@ impl Sensitivity {
         }
     }
 }
+
+/// Bars of a tornado that are shorter than this share of the longest are left out.
+pub const LEAST: f64 = 0.01;
 
 /// A draw is given up after so many.
 const MOST_REDRAWN: usize = 1000;

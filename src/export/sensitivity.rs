@@ -1,6 +1,6 @@
 //! Sensitivities and uncertainties as JSON and as CSV, with the same names, and as figures.
 
-use crate::analysis::sensitivity::{MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
+use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
 use crate::analysis::variation::{Column, Sides, Slope};
 use crate::digits::significant;
 use crate::estimate::Estimate;
@@ -267,10 +267,7 @@ impl Found<'_> {
         };
         let mut figure = self.figure_of(format!("{what}, with the error of the derivative."), fidelity);
         for (output, of) in self.sensitivity.outputs.iter().enumerate() {
-            let bars = self.sensitivity.tornado(output, self.uncertainties);
-            let greatest = bars.first().map_or(0.0, |(_, bar)| bar.value.abs());
-            let (shown, rest): (Vec<_>, Vec<_>) =
-                bars.into_iter().partition(|(_, bar)| bar.value.abs() >= LEAST * greatest);
+            let (shown, smaller) = self.sensitivity.tornado(output, self.uncertainties);
             let unit = of.unit(self.sensitivity.problem());
             let axis = if certain {
                 Axis::new(format!("{}, % for 1 % more", of.words()), "")
@@ -288,8 +285,8 @@ impl Found<'_> {
                 let error = [bar.value - bar.error, bar.value + bar.error].map(|x| [x, y]);
                 panel = panel.layer(Line::new("", error, Style { width: 0.8, ..Style::default() }));
             }
-            if !rest.is_empty() {
-                panel.title = format!("{} more below {} % of the longest", rest.len(), significant(100.0 * LEAST, 1));
+            if smaller > 0 {
+                panel.title = format!("{smaller} more below {} % of the longest", significant(100.0 * LEAST, 1));
             }
             let ends = shown.iter().flat_map(|(_, bar)| [-1.0, 1.0].map(|sign| bar.value + sign * bar.error));
             let room = 1.03;
@@ -350,6 +347,3 @@ impl Found<'_> {
         Some(figure)
     }
 }
-
-/// Bars that are shorter than this share of the longest are left out.
-const LEAST: f64 = 0.01;
