@@ -60,7 +60,7 @@ fn derivatives_are_as_exact_as_they_say() {
     ];
     for preset in ["fundamental", "min-spacing-100nm"] {
         let exact: Vec<[f64; 3]> = keys.iter().map(|key| independent(preset, key, 0.02)).collect();
-        for fidelity in [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine] {
+        for (fidelity, most) in [(Fidelity::Draft, 0.25), (Fidelity::Standard, 0.1), (Fidelity::Fine, 0.04)] {
             let found = sensitivity(&presets::find(preset).unwrap(), &keys, fidelity);
             for (column, key) in keys.iter().enumerate() {
                 for (output, quantity) in MOTOR_QUANTITIES.iter().enumerate() {
@@ -70,7 +70,7 @@ fn derivatives_are_as_exact_as_they_say() {
                     let off = (value - exact).abs();
                     assert!(off <= error + 1e-3, "{preset} {fidelity} {key} {quantity:?}: {value} ± {error}, {exact}");
                     assert!(
-                        error < 0.1 * value.abs().max(0.2),
+                        error < most * value.abs().max(0.2),
                         "{preset} {fidelity} {key} {quantity:?}: {value} ± {error}"
                     );
                 }
@@ -122,7 +122,7 @@ fn what_is_proportional_has_the_elasticity_one() {
         assert!(error > 0.0 && error < 0.01, "{output} {column}: {error}");
     }
     let propagated = found.propagated(1, &uncertainties(found.scene(), &[("motor.dry_friction", "10%")]));
-    assert!((propagated.deviation.value / found.values[1].value - 0.1).abs() < 1e-9);
+    assert!((propagated.deviation.value / found.values[1].value - 0.1).abs() < 1e-7);
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn small_uncertainties_are_linear() {
     }
     // It is not the linear estimate in disguise: far away the film is not linear.
     let far = uncertainties(&scene, &[("film.min_spacing_nm", "40%")]);
-    let drawn = found.monte_carlo(&far, 200, 7, &Cancel::new(), &|| ()).unwrap();
+    let drawn = found.monte_carlo(&far, DRAWS, 7, &Cancel::new(), &|| ()).unwrap();
     assert!(drawn.spread(0).unwrap().mean > found.values[0].value + 4.0 * drawn.spread(0).unwrap().mean_error());
 }
 
@@ -236,12 +236,14 @@ fn text_object_and_files_agree() {
     for (i, record) in records.iter().enumerate() {
         let by = &outputs[i / 2]["by"][i % 2];
         for (name, cell) in names.iter().zip(record) {
-            let expected = match &by[name] {
-                Value::Null => String::new(),
-                Value::String(text) => text.clone(),
-                number => number.to_string(),
-            };
-            assert_eq!(cell, expected, "{name}");
+            match &by[name] {
+                Value::Null => assert_eq!(cell, "", "{name}"),
+                Value::String(text) => assert_eq!(cell, text, "{name}"),
+                number => {
+                    let (cell, number) = (cell.parse::<f64>().unwrap(), number.as_f64().unwrap());
+                    assert!((cell - number).abs() <= 1e-14 * number.abs(), "{name}");
+                }
+            }
         }
     }
     for output in outputs {
