@@ -16,7 +16,6 @@ use super::variation::{Column, Jacobian, Slope, Variation, VariationError};
 use crate::control::Cancel;
 use crate::digits::as_given;
 use crate::estimate::Estimate;
-use crate::ladder::Nested;
 use crate::problem::{Problem, Scenario};
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError};
 use crate::solution::{Solution, Status};
@@ -310,12 +309,8 @@ impl Sensitivity {
         let found = caught(|| self.centre.solve(problem, cancel))
             .map_err(|panic| format!("the solver failed: {panic}"))?
             .map_err(|error| error.to_string())?;
-        match found {
-            Some(Nested { fine, .. }) if matches!(fine.status, Status::Converged | Status::NotResolved { .. }) => {
-                Ok(values(problem, &fine))
-            }
-            _ => Err("it has no periodic state on the grids of the scene".to_owned()),
-        }
+        let found = found.ok_or("it has no periodic state on the grids of the scene")?;
+        Ok(values(problem, &found.fine))
     }
 }
 

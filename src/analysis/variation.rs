@@ -18,7 +18,7 @@ use crate::control::Cancel;
 use crate::ladder::Nested;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError, Value};
-use crate::solution::{Solution, Status};
+use crate::solution::Solution;
 use crate::solve::near::Centre;
 use rayon::prelude::*;
 
@@ -222,7 +222,12 @@ impl Variation {
         solved: &(dyn Fn(usize) + Sync),
     ) -> Option<Jacobian> {
         let middle = read(&centre.problem, &centre.solved, numbers);
-        let plans: Vec<_> = (0..self.parameters.len()).map(|column| self.steps(values, column)).collect();
+        let unsettled = (!centre.is_settled()).then(|| "the scene itself is not converged".to_owned());
+        let plan = |column| match &unsettled {
+            None => self.steps(values, column),
+            why => Steps { step: f64::NAN, sides: Sides::Both, points: Vec::new(), refused: why.clone() },
+        };
+        let plans: Vec<_> = (0..self.parameters.len()).map(plan).collect();
         let jobs: Vec<(usize, usize)> = plans
             .iter()
             .enumerate()
@@ -233,11 +238,7 @@ impl Variation {
             let found = caught(|| centre.solve(problem, cancel));
             solved(jobs.len());
             match found {
-                Ok(Ok(Some(found))) => match found.fine.status {
-                    Status::Converged | Status::NotResolved { .. } => Ok(read(problem, &found, numbers)),
-                    Status::NotConverged { .. } => Err("a solve beside it does not converge".to_owned()),
-                    Status::Cancelled => Err("cancelled".to_owned()),
-                },
+                Ok(Ok(Some(found))) => Ok(read(problem, &found, numbers)),
                 Ok(Ok(None)) => Err("a solve beside it has no periodic state on the same grids".to_owned()),
                 Ok(Err(error)) => Err(error.to_string()),
                 Err(panic) => Err(format!("the solver failed: {panic}")),

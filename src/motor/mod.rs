@@ -28,6 +28,8 @@ use level::Level;
 
 /// Rounds that a start from another motor's state is given.
 const WARM_ROUNDS: usize = 12;
+/// The same where the cycle has to repeat to round-off, nearly.
+const NEAR_ROUNDS: usize = 80;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
 
@@ -125,8 +127,7 @@ pub fn periodic_near(
 ) -> Result<(Nested<Periodic>, Warm, Plan), MotorError> {
     let mut stats = Stats::default();
     let last = near.found.as_ref().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let warm_rounds = plan.round_limit;
-    let mut search = Search { motor, plan, warm_rounds, observer: &mut (), cancel, stats: &mut stats };
+    let mut search = Search { motor, plan, warm_rounds: NEAR_ROUNDS, observer: &mut (), cancel, stats: &mut stats };
     let mut found = climb(&mut search, plan, last, cancel)?;
     let pinned = found.pinned(plan);
     let nested = found.nested(|found| finish(motor, &pinned, found, stats));

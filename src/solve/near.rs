@@ -2,8 +2,8 @@
 //!
 //! Two solves to an accuracy of half a per cent differ by up to as much, even if the problems hardly do: each chooses its own grids, terms
 //! and harmonics, and stops as soon as its cycle repeats well enough. Here one problem is solved first, and all others by its plan: on
-//! the same grids, which move with what is varied, with the same terms left out, and until the cycle repeats much more exactly than an
-//! accuracy asks for. The error of the grid is then nearly the same in all of them, and cancels in a difference.
+//! the same grids, which move with what is varied, with the same terms left out, and, where it can, until the cycle repeats much more
+//! exactly than an accuracy asks for. The error of the grid is then nearly the same in all of them, and cancels in a difference.
 
 use super::{Method, Record, Settings, SolveError, motor_plan, of_motor, of_plate, perform, plate_plan};
 use crate::control::Cancel;
@@ -13,7 +13,7 @@ use crate::motor::{self, Warm};
 use crate::plan::Plan;
 use crate::plate;
 use crate::problem::{Problem, Scenario};
-use crate::solution::{Outcome, Solution};
+use crate::solution::{Outcome, Solution, Status};
 
 /// What a cycle has to repeat to, relative: the change of the trapped gas, and of the load.
 const TOLERANCE: f64 = 1e-6;
@@ -45,27 +45,46 @@ impl Centre {
         let spec = settings.fidelity.spec();
         let cold = Warm::default();
         let warm = last.map_or(&cold, |last| &last.warm);
+        // First to find the grids that the accuracy needs; then by them, until the cycle repeats.
         match &problem.scenario {
             Scenario::Motor(motor) => {
                 let plan = motor_plan(motor, problem, &settings, &spec)?;
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
-                // To find the grids that the accuracy needs; then by them until the cycle repeats.
-                let (_, warm, pinned) = motor::periodic_near(warm, motor, &plan, cancel)?;
-                let plan = tight(pinned);
-                let (found, warm, plan) = motor::periodic_near(&warm, motor, &plan, cancel)?;
-                let solved = found.map(|found| performed(problem, of_motor(found, motor, &plan, cancel)));
+                let (mut found, mut warm, mut plan) = motor::periodic_near(warm, motor, &plan, cancel)?;
+                if settled(found.fine.status) {
+                    let (again, state, exact) = motor::periodic_near(&warm, motor, &tight(&plan), cancel)?;
+                    if settled(again.fine.status) && alike(&plan, &exact) {
+                        (found, warm, plan) = (again, state, exact);
+                    }
+                }
+                let of = |found| {
+                    let mut solution = performed(problem, of_motor(found, motor, &plan, cancel));
+                    solution.warnings.extend(motor.compliance_not_covered());
+                    solution
+                };
+                let solved = found.map(of);
                 Ok(Self { plan, warm, problem: problem.clone(), solved })
             }
             Scenario::Plate(plate) => {
                 let plan = plate_plan(plate, problem, &settings, &spec);
                 let _taken = memory::take(memory::plate(plate, &plan), cancel)?;
-                let (_, pinned) = plate::periodic_near(plate, &plan, cancel).map_err(SolveError::Plate)?;
-                let plan = tight(pinned);
-                let (found, plan) = plate::periodic_near(plate, &plan, cancel).map_err(SolveError::Plate)?;
+                let (mut found, mut plan) = plate::periodic_near(plate, &plan, cancel).map_err(SolveError::Plate)?;
+                if settled(found.fine.status) {
+                    let (again, exact) =
+                        plate::periodic_near(plate, &tight(&plan), cancel).map_err(SolveError::Plate)?;
+                    if settled(again.fine.status) && alike(&plan, &exact) {
+                        (found, plan) = (again, exact);
+                    }
+                }
                 let solved = found.map(|found| of_plate(found, &plan, cancel));
                 Ok(Self { plan, warm: cold, problem: problem.clone(), solved })
             }
         }
+    }
+
+    /// Whether its cycle repeats: if it does not, a difference from it means nothing.
+    pub fn is_settled(&self) -> bool {
+        settled(self.solved.fine.status)
     }
 
     /// Bound of what the plan leaves out of the model, as a share of the headline; a rotor that floats carries its load whatever that is.
@@ -76,8 +95,8 @@ impl Centre {
         }
     }
 
-    /// Solves a problem near this one, by its plan and from its state: the result does not depend on what else was solved. `None` if it has
-    /// no periodic state on all of these grids: it is then not near.
+    /// Solves a problem of the same kind near this one, by its plan and from its state: the result does not depend on what else was solved.
+    /// `None` if it has no periodic state on all of these grids: it is then not near.
     ///
     /// # Errors
     /// As [`super::solve`].
@@ -89,20 +108,25 @@ impl Centre {
                 let plan = self.plan.near(&own.rotor);
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
                 let (found, _, used) = motor::periodic_near(&self.warm, motor, &plan, cancel)?;
-                Ok(alike(&plan, &used)
-                    .then(|| found.map(|found| performed(problem, of_motor(found, motor, &plan, cancel)))))
+                let near = settled(found.fine.status) && alike(&plan, &used);
+                Ok(near.then(|| found.map(|found| performed(problem, of_motor(found, motor, &plan, cancel)))))
             }
             Scenario::Plate(plate) => {
                 let _taken = memory::take(memory::plate(plate, &self.plan), cancel)?;
                 let (found, used) = plate::periodic_near(plate, &self.plan, cancel).map_err(SolveError::Plate)?;
-                Ok(alike(&self.plan, &used).then(|| found.map(|found| of_plate(found, &self.plan, cancel))))
+                let near = settled(found.fine.status) && alike(&self.plan, &used);
+                Ok(near.then(|| found.map(|found| of_plate(found, &self.plan, cancel))))
             }
         }
     }
 }
 
-fn tight(plan: Plan) -> Plan {
-    Plan { tolerance: plan.tolerance.min(TOLERANCE), accuracy: REPEATING, ..plan }
+fn tight(plan: &Plan) -> Plan {
+    Plan { tolerance: plan.tolerance.min(TOLERANCE), accuracy: REPEATING, ..plan.clone() }
+}
+
+fn settled(status: Status) -> bool {
+    matches!(status, Status::Converged | Status::NotResolved { .. })
 }
 
 /// Whether both have the same grids.
