@@ -5,6 +5,7 @@
 //! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
 
 pub mod hold;
+pub mod sensitivity;
 pub mod startup;
 pub mod task;
 pub mod tradeoff;

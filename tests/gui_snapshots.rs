@@ -298,6 +298,33 @@ fn the_window_looks_as_it_did() {
     open_by_path(&mut results);
 }
 
+/// What the results depend on, before and after parameters are uncertain.
+#[test]
+fn sensitivities_look_as_they_did() {
+    if !can_draw() {
+        return;
+    }
+    let mut results = SnapshotResults::new();
+    let mut window = window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num9)]);
+    window.get_by_label("Compute sensitivities").click();
+    window.run_steps(2);
+    until(&mut window, "sensitivities", |app| app.state().sensitivity.found().is_some());
+    window.snapshot("sensitivity");
+    for (parameter, amount) in [("Minimum spacing H_m", "20%"), ("Load on one wave", "±10%")] {
+        window.get_by_role_and_label(Role::TextInput, &format!("Uncertainty of {parameter}")).click();
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::TextInput, &format!("Uncertainty of {parameter}")).type_text(amount);
+        window.run_steps(2);
+    }
+    window.get_by_label("Draw and solve").click();
+    window.run_steps(2);
+    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo().is_some());
+    window.get_by_label("Draw and solve").scroll_to_me();
+    settle(&mut window);
+    window.snapshot("sensitivity-uncertain");
+    results.extend_harness(&mut window);
+}
+
 /// The rotor by itself: a ring with its parts among the parameters, and a beam.
 #[test]
 fn a_rotor_looks_as_it_did() {

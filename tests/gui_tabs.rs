@@ -9,12 +9,14 @@ use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::compare;
 use squeezefilm::analysis::quantity::Quantity;
+use squeezefilm::analysis::sensitivity::{Sensitivity, Uncertainties};
 use squeezefilm::analysis::sweep::Sweep;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::compare::{difference_text, value_text};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
+use squeezefilm::gui::derived::format::digits;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::pins::Page;
@@ -588,6 +590,18 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
     explains(faults, &window, "Rotor", &["Compliance", "Harmonic", "Green's function"]);
     hovers(faults, &mut window, "present rotor", "single unit force");
+
+    ctrl(&mut window, Key::Num9);
+    explains(faults, &window, "Sensitivity, before", &[]);
+    click(&mut window, "Compute sensitivities");
+    until(&mut window, "sensitivities", |app| app.state().sensitivity.found().is_some());
+    type_into(&mut window, "Uncertainty of Minimum spacing H_m", "20%");
+    click(&mut window, "Draw and solve");
+    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo().is_some());
+    let words = ["α", "Stall torque", "No-load speed", "Elasticity", "Uncertainty", "Stated error", "Random scenes"];
+    explains(faults, &window, "Sensitivity", &words);
+    explains(faults, &window, "Sensitivity, table", &["Parameter", "Share of the variance"]);
+    hovers(faults, &mut window, "Decay length", "rotor.decay_length_mm");
     drop(window);
 
     let mut window = self::window("plate-trapped");
@@ -613,6 +627,53 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
 }
 
 #[test]
+fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    ctrl(&mut window, Key::Num9);
+    let state = |window: &Window| -> bool { window.state().state().sensitivity.found().is_some() };
+    assert!(!state(&window), "nothing is computed before it is asked for");
+    click(&mut window, "Compute sensitivities");
+    until(&mut window, "sensitivities", |app| app.state().sensitivity.found().is_some());
+    let scene = presets::find("fundamental").unwrap();
+    let settings = Settings { fidelity: window.state().state().document.target(), ..Settings::default() };
+    let none: [&str; 0] = [];
+    let alone = Sensitivity::of(&scene, &none, &settings, &Cancel::new(), &|_| ()).unwrap().unwrap();
+    let found = std::sync::Arc::clone(window.state().state().sensitivity.found().unwrap());
+    assert_eq!(found.columns, alone.columns);
+    let value = |found: &Sensitivity, output: usize| digits(found.values[output].value, 4);
+    window.get_by_label(&value(&found, 0));
+    click(&mut window, "stall torque");
+    window.get_by_label(&format!("{}\u{a0}N·m", value(&found, 1)));
+
+    // An uncertainty makes one of the result; what makes no sense is refused in its place.
+    let spacing = "Uncertainty of Minimum spacing H_m";
+    type_into(&mut window, spacing, "20%");
+    let given = [("film.min_spacing_nm", "20%".parse().unwrap())];
+    let uncertainties = Uncertainties::new(&scene, &given).unwrap();
+    let spread = found.propagated(1, &uncertainties).deviation.value;
+    window.get_by_label(&format!("± {} by the parameters", digits(spread, 2)));
+    window.get_by_label(&format!("± {} numerical", digits(found.values[1].error, 2)));
+    type_into(&mut window, "Uncertainty of Frequency", "much");
+    let refused = window.state().state().sensitivity.refused("stator.frequency_khz").unwrap().to_owned();
+    assert!(refused.contains("expected a standard deviation"), "{refused}");
+    window.get_by_label(&format!("± {} by the parameters", digits(spread, 2)));
+
+    // Random scenes are those of the command, and go when the uncertainties are others.
+    click(&mut window, "Draw and solve");
+    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo().is_some());
+    let carlo = window.state().state().sensitivity.carlo().unwrap().clone();
+    assert_eq!(Some(carlo), alone.monte_carlo(&uncertainties, 500, 1, &Cancel::new(), &|| ()));
+    type_into(&mut window, spacing, "10%");
+    assert!(window.state().state().sensitivity.carlo().is_none());
+
+    // Of another scene they say so.
+    assert!(!shows(&window, "before the scene changed"));
+    type_into(&mut window, "Minimum spacing H_m in nm", "150");
+    assert!(shows(&window, "before the scene changed; compute again"));
+}
+
+#[test]
 fn exports_say_what_they_write() {
     let mut window = window("plate-crossover");
     solved(&mut window);
@@ -622,8 +683,13 @@ fn exports_say_what_they_write() {
     window.run_steps(10);
     let told = told(&window);
     let exports: Vec<_> = told.iter().filter(|(role, name, _)| *role == Role::Button && name.ends_with('…')).collect();
-    for entry in ["All results, into a folder…", "Sweep as table…", "Comparison as HTML…", "Trade-off as figure…"]
-    {
+    for entry in [
+        "All results, into a folder…",
+        "Sweep as table…",
+        "Comparison as HTML…",
+        "Trade-off as figure…",
+        "Sensitivities, into a folder…",
+    ] {
         let found = exports.iter().find(|(_, name, _)| name == entry).unwrap_or_else(|| panic!("{entry}: {exports:?}"));
         assert!(found.2.as_ref().is_some_and(|text| text.len() > 20), "{found:?}");
     }

@@ -39,6 +39,11 @@ impl Harmonic<f64> {
     }
 }
 
+/// What stiffness and damping of a plate are in; those of a strip are per metre of width.
+pub fn units(plate: &Plate) -> [&'static str; 2] {
+    if plate.width.is_some() { ["N/m", "N·s/m"] } else { ["N/m²", "N·s/m²"] }
+}
+
 /// Loads of the limits over the cycle \[N, of a strip N/m\], at the frames of a recording.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Limits {

@@ -2,6 +2,7 @@
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::compare::CompareError;
+use crate::analysis::sensitivity::SensitivityError;
 use crate::analysis::sweep::SweepError;
 use crate::atomic::WriteError;
 use crate::export::animation::AnimationError;
@@ -71,6 +72,9 @@ pub(super) enum CliError {
     /// A sweep that cannot be made.
     #[error(transparent)]
     Sweep(#[from] SweepError),
+    /// A sensitivity that cannot be told.
+    #[error(transparent)]
+    Sensitivity(#[from] SensitivityError),
     /// A comparison that cannot be made.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -148,9 +152,11 @@ impl CliError {
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Solve(error) if error.is_bad_input() => Exit::BadInput,
+            Self::Sensitivity(SensitivityError::Solve(error)) if !error.is_bad_input() => Exit::Other,
             Self::Output(_) if self.is_silent() => Exit::Unread,
             Self::Scene(_)
             | Self::Sweep(_)
+            | Self::Sensitivity(_)
             | Self::Compare(_)
             | Self::Resume { .. }
             | Self::Busy { .. }

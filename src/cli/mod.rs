@@ -12,6 +12,7 @@ mod options;
 mod presets;
 mod progress;
 mod reproduce;
+mod sensitivity;
 mod solve;
 mod stability;
 mod startup;
@@ -55,6 +56,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
     Tradeoff(tradeoff::Arguments),
     Stability(stability::Arguments),
+    Sensitivity(sensitivity::Arguments),
     Startup(startup::Arguments),
     Animate(animate::Arguments),
     Presets(presets::Arguments),
@@ -69,6 +71,7 @@ Examples:
   squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
   squeezefilm compare fundamental min-spacing-100nm --out results
   squeezefilm reproduce
+  squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=20%
   squeezefilm startup fundamental
   squeezefilm animate fundamental --out wave.gif
   squeezefilm new my.toml
@@ -112,6 +115,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Reproduce(arguments)) => reproduce::run(&arguments, &command_line(words)),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
         Some(Command::Stability(arguments)) => stability::run(&arguments, &command_line(words)),
+        Some(Command::Sensitivity(arguments)) => sensitivity::run(&arguments, &command_line(words)),
         Some(Command::Startup(arguments)) => startup::run(&arguments, &command_line(words)),
         Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),

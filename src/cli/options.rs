@@ -270,7 +270,8 @@ fn figure_format() -> ValueParser {
     PossibleValuesParser::new(names).map(format).into()
 }
 
-fn pair(text: &str) -> Result<(String, String), String> {
+/// `key=value`, as text.
+pub(super) fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
         _ => Err("expected key=value, as in film.min_spacing_nm=100".to_owned()),

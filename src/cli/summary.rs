@@ -1,14 +1,13 @@
 //! A solution for people: aligned, a unit on every number, as many digits as its error justifies.
 
 use super::columns::{Columns, paragraph};
-use crate::analysis::exact::Comparison;
+use crate::analysis::exact::{Comparison, units};
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::Excess;
 use crate::digits::{as_given, duration, percent, significant, with_error};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::export::exact::units;
 use crate::export::json::{Summary, beside_limit};
 use crate::gas::species::IdealGas;
 use crate::problem::{Motor, Plate, Problem, Scenario};

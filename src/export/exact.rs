@@ -2,13 +2,7 @@
 
 use super::estimates;
 use crate::analysis::exact::Comparison;
-use crate::problem::Plate;
 use serde::ser::{Serialize, SerializeMap, Serializer};
-
-/// What stiffness and damping of a plate are in; those of a strip are per metre of width.
-pub fn units(plate: &Plate) -> [&'static str; 2] {
-    if plate.width.is_some() { ["N/m", "N·s/m"] } else { ["N/m²", "N·s/m²"] }
-}
 
 /// The object: σ/Q, Q the factor by which slip raises the flow at the mean gap; spring and damping over p_a · area · ε, and the same as
 /// stiffness \[N/m, of a strip per metre of width\] and damping \[N s/m\]; `linear_…` is exact for ε → 0 (Langlois 1962 of a strip, Blech 1983

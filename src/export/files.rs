@@ -5,7 +5,7 @@ use super::animation::{AnimationError, Movie, Options, cycle, frames, video_fram
 use super::compare::{self, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
-use super::{csv, figures, npz, sweep, torque};
+use super::{csv, figures, npz, sensitivity, sweep, torque};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
@@ -289,5 +289,25 @@ pub fn swept(
     staged.add("sweep.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
     stage_figure(&mut staged, "sweep", &sweep::figure(swept, rows), formats)?;
     staged.add("scene.toml", |out| out.write_all(swept.scene().to_toml().as_bytes()))?;
+    staged.commit()
+}
+
+/// What `squeezefilm sensitivity --out` writes into a folder.
+pub fn sensitivity(
+    folder: &Path,
+    found: &sensitivity::Found<'_>,
+    fidelity: &str,
+    command: &[String],
+    formats: &[Format],
+) -> Result<Vec<PathBuf>, WriteError> {
+    let mut staged = Staged::new(folder)?;
+    staged.add("sensitivity.csv", |out| csv::rows(found.rows(), out))?;
+    staged.add("sensitivity.json", |out| out.write_all(json::document(&found.object(fidelity), command).as_bytes()))?;
+    stage_figure(&mut staged, "sensitivity", &found.tornado(fidelity), formats)?;
+    if let Some(histogram) = found.histogram(fidelity) {
+        staged.add("monte-carlo.csv", |out| found.write_draws(out))?;
+        stage_figure(&mut staged, "monte-carlo", &histogram, formats)?;
+    }
+    staged.add("scene.toml", |out| out.write_all(found.sensitivity.scene().to_toml().as_bytes()))?;
     staged.commit()
 }

@@ -14,6 +14,7 @@ pub mod json;
 mod mp4;
 pub mod npz;
 pub mod reproduce;
+pub mod sensitivity;
 pub mod stability;
 pub mod startup;
 pub mod sweep;

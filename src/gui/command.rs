@@ -81,6 +81,8 @@ pub enum Command {
     Pin(PinCommand),
     /// Asks something of the sweep.
     Sweep(SweepCommand),
+    /// About what the results depend on.
+    Sensitivity(SensitivityCommand),
     /// About the plate that is held.
     Hold(HoldCommand),
     /// About the start-up.
@@ -208,6 +210,23 @@ pub enum StartupCommand {
     Replay,
 }
 
+/// About what the results depend on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SensitivityCommand {
+    /// Computes the derivatives.
+    Start,
+    /// Ends what is being computed.
+    Cancel,
+    /// Looks at this of the results.
+    Look(usize),
+    /// The uncertainty of a key, as it is typed; empty for none.
+    Uncertainty(&'static str, String),
+    /// How many random scenes.
+    Draws(usize),
+    /// Solves random scenes.
+    Draw,
+}
+
 /// About the plate that is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HoldCommand {
@@ -263,7 +282,7 @@ macro_rules! commands_of {
 }
 
 commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold(HoldCommand), Lesson(LessonCommand));
-commands_of!(Proceed(Next));
+commands_of!(Proceed(Next), Sensitivity(SensitivityCommand));
 
 impl Command {
     /// The parameter that it edits.

@@ -31,6 +31,8 @@ pub enum Export {
     TradeoffTable,
     /// The measured trade-off as a figure.
     TradeoffFigure,
+    /// All that `sensitivity --out` writes.
+    Sensitivity,
 }
 
 impl Export {
@@ -48,6 +50,7 @@ impl Export {
             Self::Sweep => "sweep",
             Self::TradeoffTable => "tradeoff.csv",
             Self::TradeoffFigure => "tradeoff.svg",
+            Self::Sensitivity => "sensitivity",
         }
     }
 
@@ -62,6 +65,7 @@ impl Export {
             Self::Comparison => "Export the comparison into a folder",
             Self::ComparisonReport => "Export a report of the pinned runs as HTML",
             Self::Sweep => "Export the sweep into a folder",
+            Self::Sensitivity => "Export the sensitivities into a folder",
             Self::SweepTable | Self::TradeoffTable => "Export the table as CSV",
             Self::SweepFigure | Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
         }
@@ -86,13 +90,16 @@ impl Export {
             Self::SweepFigure => "The sweep as it is drawn here, with the published points",
             Self::TradeoffTable => "A row for each setting, with its time and its error",
             Self::TradeoffFigure => "Error against solve time of all settings, as it is drawn here",
+            Self::Sensitivity => {
+                "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"
+            }
         }
     }
 
     /// Kind of file and its extensions; `None` for a folder.
     pub fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
         match self {
-            Self::Data | Self::Figures | Self::Comparison | Self::Sweep => None,
+            Self::Data | Self::Figures | Self::Comparison | Self::Sweep | Self::Sensitivity => None,
             Self::Fields => Some(("NumPy archive", &["npz"])),
             Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
             Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),

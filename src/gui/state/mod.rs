@@ -10,6 +10,7 @@ pub mod lessons;
 pub mod modal;
 pub mod pins;
 pub mod rotor;
+pub mod sensitivity;
 pub mod startup;
 pub mod sweep;
 pub mod switch_effect;

@@ -22,6 +22,8 @@ pub enum Tab {
     Tradeoff,
     /// A motor's rotor by itself.
     Rotor,
+    /// What the results depend on, and how uncertain they are.
+    Sensitivity,
 }
 
 impl Tab {
@@ -35,6 +37,7 @@ impl Tab {
         (Self::Startup, "Start-up"),
         (Self::Hold, "Hold"),
         (Self::Rotor, "Rotor"),
+        (Self::Sensitivity, "Sensitivity"),
     ];
 
     /// Its label, of a scene that is a plate or a motor.

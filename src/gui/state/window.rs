@@ -10,6 +10,7 @@ use super::lessons::{LessonState, OnScreen};
 use super::modal::Modal;
 use super::pins::{Page, Pins};
 use super::rotor::RotorState;
+use super::sensitivity::SensitivityState;
 use super::startup::StartupState;
 use super::sweep::SweepState;
 use super::switch_effect::SwitchHistory;
@@ -51,6 +52,8 @@ pub struct State {
     pub torque: TorqueState,
     /// The rotor by itself.
     pub rotor: RotorState,
+    /// What the results depend on.
+    pub sensitivity: SensitivityState,
     /// Lessons, tour and glossary.
     pub lessons: LessonState,
     /// The start-up, if one was asked for.
@@ -89,6 +92,7 @@ impl State {
             sweep: SweepState::default(),
             torque: TorqueState::default(),
             rotor: RotorState::default(),
+            sensitivity: SensitivityState::default(),
             lessons: LessonState::new(None),
             startup: None,
             hold: None,
@@ -153,6 +157,7 @@ impl State {
             Export::SweepTable | Export::SweepFigure | Export::Sweep => {
                 self.sweep.swept().is_some_and(|swept| !swept.rows().is_empty())
             }
+            Export::Sensitivity => self.sensitivity.found().is_some(),
             Export::TradeoffTable | Export::TradeoffFigure => {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff().points.is_empty())
             }

@@ -104,5 +104,6 @@ fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         (Tab::Hold, _) => tabs::hold::show(ui, cx),
         (Tab::Rotor, _) => tabs::rotor::show(ui, cx),
         (Tab::Tradeoff, _) => tabs::tradeoff::show(ui, cx),
+        (Tab::Sensitivity, _) => tabs::sensitivity::show(ui, cx),
     }
 }

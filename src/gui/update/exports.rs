@@ -11,7 +11,7 @@ use crate::export::figure::{self, Format};
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::Summary;
 use crate::export::sweep::{figure_of, write_csv};
-use crate::export::{csv, tradeoff};
+use crate::export::{csv, sensitivity, tradeoff};
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::pins::{fidelity, to_compare};
@@ -127,6 +127,19 @@ impl Updater {
                         Ok(vec![path])
                     }
                     _ => Ok(files::swept(&path, &sweep, &rows, &[], &BESIDE_DATA)?),
+                })
+            }
+            Export::Sensitivity => {
+                let state = &self.state.sensitivity;
+                let (found, uncertainties) = (Arc::clone(state.found()?), state.uncertainties()?.clone());
+                let (carlo, fidelity) = (state.carlo().cloned(), state.fidelity().to_string());
+                Box::new(move |_| {
+                    let found = sensitivity::Found {
+                        sensitivity: &found,
+                        uncertainties: &uncertainties,
+                        carlo: carlo.as_ref(),
+                    };
+                    Ok(files::sensitivity(&path, &found, &fidelity, &[], &BESIDE_DATA)?)
                 })
             }
             Export::TradeoffTable | Export::TradeoffFigure => {

@@ -9,6 +9,7 @@ mod pins;
 pub mod platform;
 mod run;
 mod scene;
+mod sensitivity;
 pub mod storage;
 mod sweep;
 mod tradeoff;

@@ -60,6 +60,7 @@ impl Updater {
             Command::Sweep(command) => self.sweep(command),
             Command::Hold(command) => self.hold(command),
             Command::Startup(command) => self.start_up(command),
+            Command::Sensitivity(command) => self.sensitivity(command),
             Command::Lesson(command) => self.teach(command),
             Command::Measure => self.measure(),
             Command::CancelMeasure => state.tradeoff.iter_mut().for_each(|measured| measured.cancel()),
@@ -145,6 +146,7 @@ impl Updater {
         }
         state.torque.drain();
         state.rotor.drain();
+        state.sensitivity.drain();
         if let Some(startup) = &mut state.startup {
             startup.drain();
             if startup.stale(state.document.scene()) {

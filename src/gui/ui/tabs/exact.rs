@@ -1,9 +1,8 @@
 //! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
 //! invariant.
 
-use crate::analysis::exact::{Harmonic, aspect};
+use crate::analysis::exact::{Harmonic, aspect, units};
 use crate::estimate::Estimate;
-use crate::export::exact::units;
 use crate::gui::derived::exact::{ExactCurves, small_amplitude};
 use crate::gui::derived::format::uncertain;
 use crate::gui::derived::format::{digits, power_of_ten};

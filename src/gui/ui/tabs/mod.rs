@@ -5,6 +5,7 @@ pub mod exact;
 pub mod hold;
 pub mod labels;
 pub mod rotor;
+pub mod sensitivity;
 pub mod startup;
 pub mod sweep;
 pub mod torque;

@@ -1,0 +1,264 @@
+//! `squeezefilm sensitivity`: derivatives of the results by every key, and what uncertain keys make of them.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::options::{CommonOptions, pair};
+use super::progress::Bar;
+use super::terminal;
+use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
+use crate::digits::{duration, percent, significant, with_error};
+use crate::export::files;
+use crate::export::json;
+use crate::export::sensitivity::Found;
+use crate::problem::Problem;
+use crate::scene::show_text;
+use crate::solve::{Method, check};
+use clap::Args;
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm sensitivity fundamental
+  squeezefilm sensitivity fundamental --keys film.min_spacing_nm,motor.load_per_wave_n --json
+  squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=20% --uncertainty film.viscosity_upa_s=0.2
+  squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=±30 --monte-carlo 500 --out results";
+
+const FILES: &str = "\
+Files of --out:
+  sensitivity.csv   a row for each result and key: derivative, elasticity, errors, part of the uncertainty
+  sensitivity.json  what --json prints
+  sensitivity.svg   a tornado chart for each result; and sensitivity.png
+  monte-carlo.csv   with --monte-carlo: a row for each draw; and monte-carlo.svg, a histogram of each result, and .png
+  scene.toml        the scene: a preset again";
+
+/// Tells how much the results depend on each parameter, and how uncertain they are if the parameters are
+///
+/// Derivatives of α, stall torque and no-load speed (of a plate: load, stiffness and damping) by every key that is a number, from solves
+/// on one set of grids. Each comes with its own error. Uncertainties of the parameters become one of the results, kept apart from the
+/// numerical error.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: String,
+
+    /// Only these keys, divided by commas [default: all that act, whole numbers left out]
+    #[arg(long, value_name = "KEYS", value_delimiter = ',')]
+    keys: Vec<String>,
+
+    /// Uncertainty of a key; may be repeated
+    ///
+    /// A standard deviation in the unit of the key or in per cent of its value: film.min_spacing_nm=20% or =40. With ± in front they are
+    /// limits, and all values between are equally likely. Keys are independent of each other.
+    #[arg(long = "uncertainty", value_name = "KEY=AMOUNT", value_parser = uncertainty)]
+    uncertainties: Vec<(String, Uncertainty)>,
+
+    /// Solves so many random scenes of these uncertainties as well
+    #[arg(long, value_name = "N", requires = "uncertainties", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    monte_carlo: Option<u32>,
+
+    /// Where the random numbers begin: the same seed draws the same scenes
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "monte_carlo")]
+    seed: u64,
+
+    #[command(flatten)]
+    common: CommonOptions,
+}
+
+fn uncertainty(text: &str) -> Result<(String, Uncertainty), String> {
+    let (key, amount) = pair(text)?;
+    Ok((key, amount.parse().map_err(|error: crate::analysis::sensitivity::UncertaintyError| error.to_string())?))
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let uncertainties = Uncertainties::new(&scene, &arguments.uncertainties)?;
+    let mut keys = arguments.keys.clone();
+    if !keys.is_empty() {
+        keys.extend(
+            arguments.uncertainties.iter().map(|(key, _)| key.clone()).filter(|key| !arguments.keys.contains(key)),
+        );
+    }
+    let (folder, settings, cancel) = arguments.common.begin()?;
+    if settings.method == Method::Paper {
+        return Err(CliError::Usage("--method paper: sensitivities are those of our own method; allowed here: auto"));
+    }
+    if arguments.common.solve.budget.is_some() {
+        return Err(CliError::Usage(
+            "--budget: solves that are compared are equally exact; allowed here: --fidelity or --accuracy",
+        ));
+    }
+    check(&Problem::new(&scene)?, &settings)?;
+    let draws = arguments.monte_carlo.unwrap_or(0) as usize;
+
+    let started = Instant::now();
+    let bar = Bar::share();
+    let counted = std::sync::atomic::AtomicUsize::new(0);
+    let told = |all: usize, what: &str| {
+        let done = counted.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+        bar.share_done(done as f64 / all.max(1) as f64, what);
+    };
+    let sensitivity = Sensitivity::of(&scene, &keys, &settings, &cancel, &|all| told(all, "derivatives"))?;
+    counted.store(0, std::sync::atomic::Ordering::Relaxed);
+    let carlo = sensitivity.as_ref().filter(|_| draws > 0).map(|sensitivity| {
+        sensitivity.monte_carlo(&uncertainties, draws, arguments.seed, &cancel, &|| told(draws, "random scenes"))
+    });
+    let wall_s = started.elapsed().as_secs_f64();
+    drop(bar);
+    let (Some(sensitivity), false) = (sensitivity, matches!(carlo, Some(None))) else {
+        terminal::note("cancelled; nothing was written");
+        return Ok(Exit::Other);
+    };
+    let carlo = carlo.flatten();
+
+    sensitivity.warnings().iter().for_each(|warning| terminal::warning(warning));
+    if let Some(warning) = carlo.as_ref().and_then(warning) {
+        terminal::warning(&warning);
+    }
+    let found = Found { sensitivity: &sensitivity, uncertainties: &uncertainties, carlo: carlo.as_ref() };
+    let fidelity = settings.fidelity.to_string();
+    let object = || json::document(&found.object(&fidelity), command);
+    terminal::result(arguments.common.output.json, object, || text(&found));
+    terminal::note(&format!("computed in {}", duration(wall_s)));
+    if let Some(folder) = folder {
+        let paths = files::sensitivity(folder, &found, &fidelity, command, &arguments.common.figures.formats())?;
+        terminal::note(&super::solve::written(folder, &paths));
+    }
+    Ok(Exit::of(&sensitivity.status()))
+}
+
+/// What is missing in the random draws.
+fn warning(carlo: &MonteCarlo) -> Option<String> {
+    let all = carlo.draws.len() + carlo.failures.len();
+    let failed = carlo.failures.first().map(|first| {
+        format!(
+            "{} of {all} random scenes could not be solved and are missing, the first because {first}",
+            carlo.failures.len()
+        )
+    });
+    let redrawn = (carlo.redrawn > 0).then(|| {
+        format!(
+            "{} random scenes were outside of what is allowed and were drawn again, which makes the spread smaller",
+            carlo.redrawn
+        )
+    });
+    let all: Vec<String> = failed.into_iter().chain(redrawn).collect();
+    (!all.is_empty()).then(|| all.join("; "))
+}
+
+/// An elasticity that is round-off.
+const NOTHING: f64 = 1e-9;
+
+/// For people: elasticities by key, and what uncertain keys make of the results.
+fn text(found: &Found<'_>) -> String {
+    let sensitivity = found.sensitivity;
+    let (problem, outputs) = (sensitivity.problem(), sensitivity.outputs);
+    let name = show_text(&sensitivity.scene().name);
+    let mut text =
+        paragraph(&format!("{name}: per cent that each result changes with 1 % more of each parameter"), "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row(std::iter::once(String::new()).chain(outputs.iter().map(|output| output.label(problem))));
+    let values = sensitivity
+        .values
+        .iter()
+        .map(|found| if found.value.is_finite() { with_error(found.value, found.error) } else { "none".to_owned() });
+    columns.row(std::iter::once("value".to_owned()).chain(values));
+    let greatest = |column: usize| {
+        let of = |output: usize| sensitivity.elasticity(output, column).map_or(0.0, |found| found.value.abs());
+        let headline = of(0);
+        (
+            sensitivity.columns[column].scale().is_some(),
+            if headline > 0.0 { headline } else { (1..outputs.len()).map(of).fold(0.0, f64::max) },
+        )
+    };
+    let mut order: Vec<usize> = (0..sensitivity.columns.len()).collect();
+    order.sort_by(|a, b| {
+        let (a, b) = (greatest(*a), greatest(*b));
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    for column in &order {
+        let by = &sensitivity.columns[*column];
+        let relative = by.scale().is_some();
+        let key = if relative {
+            by.parameter.key.to_owned()
+        } else {
+            format!("{} (per {})", by.parameter.key, by.parameter.unit)
+        };
+        let unit = if relative { 1.0 } else { 100.0 };
+        let cell = |output: usize| match sensitivity.elasticity(output, *column) {
+            Some(found) if found.value.abs() + found.error < NOTHING => "0".to_owned(),
+            Some(found) => with_error(unit * found.value, unit * found.error),
+            None => "none".to_owned(),
+        };
+        columns.row(std::iter::once(key).chain((0..outputs.len()).map(cell)));
+    }
+    let right: Vec<usize> = (1..=outputs.len()).collect();
+    text.push_str(&columns.text("  ", &right));
+    let unknown =
+        sensitivity.columns.iter().filter_map(|column| Some((column.parameter.key, column.slopes.as_ref().err()?)));
+    for (key, why) in unknown {
+        text.push_str(&paragraph(&format!("No derivative by {key}: {why}"), "\n", ""));
+    }
+    let whole = sensitivity.whole();
+    if !whole.is_empty() {
+        text.push_str(&paragraph(&format!("Whole numbers have no derivative: {}.", whole.join(", ")), "\n", ""));
+    }
+    if !found.uncertainties.is_empty() {
+        text.push_str(&uncertain(found));
+    }
+    text
+}
+
+fn uncertain(found: &Found<'_>) -> String {
+    let sensitivity = found.sensitivity;
+    let problem = sensitivity.problem();
+    let given = found.uncertainties.iter().map(|(parameter, at, given)| {
+        format!("{} = {at} ± {} {}", parameter.key, significant(given.deviation(at), 3), parameter.unit)
+            .trim_end()
+            .to_owned()
+    });
+    let given: Vec<String> = given.collect();
+    let mut text = paragraph(&format!("Standard deviations, for {}:", given.join(", ")), "\n", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    let mut head = vec!["", "value", "by the parameters", "numerical error", "most of it by"];
+    if found.carlo.is_some() {
+        head.extend(["Monte Carlo", "5 % … 95 %"]);
+    }
+    columns.row(head);
+    for (i, output) in sensitivity.outputs.iter().enumerate() {
+        let value = sensitivity.values[i];
+        if !value.value.is_finite() {
+            continue;
+        }
+        let propagated = sensitivity.propagated(i, found.uncertainties);
+        let digits = |value: f64| significant(value, 4);
+        let mut parts = propagated.parts.clone();
+        parts.sort_by(|a, b| b.1.value.abs().total_cmp(&a.1.value.abs()));
+        let most = parts.first().and_then(|(parameter, _)| Some((parameter.key, propagated.share(parameter)?)));
+        let mut row = vec![
+            output.label(problem),
+            digits(value.value),
+            format!("± {}", significant(propagated.deviation.value, 2)),
+            if value.error.is_finite() { format!("± {}", significant(value.error, 2)) } else { String::new() },
+            most.map_or_else(String::new, |(key, share)| format!("{key}, {}", percent(share))),
+        ];
+        if let Some(carlo) = found.carlo {
+            let spread = carlo.spread(i);
+            row.push(spread.as_ref().map_or_else(String::new, |spread| {
+                format!("{} ± {}", digits(spread.mean), significant(spread.deviation, 2))
+            }));
+            row.push(spread.map_or_else(String::new, |spread| {
+                format!("{} … {}", digits(spread.quantiles[0]), digits(spread.quantiles[2]))
+            }));
+        }
+        columns.row(row);
+    }
+    text.push_str(&columns.text("  ", &[1]));
+    if let Some(carlo) = found.carlo {
+        text.push_str(&format!("\n{} random scenes, seed {}.\n", carlo.draws.len(), carlo.seed));
+    }
+    text
+}

@@ -1,0 +1,349 @@
+//! Sensitivities and uncertainties as JSON and as CSV, with the same names, and as figures.
+
+use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
+use crate::analysis::variation::{Column, Sides, Slope};
+use crate::digits::significant;
+use crate::estimate::Estimate;
+use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Legend, Line, Mark, Panel, Provenance, Style};
+use crate::solution::Status;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// What was found: derivatives, uncertainties of the keys, and random draws, if there are any.
+#[derive(Clone, Copy, Debug)]
+pub struct Found<'a> {
+    /// Results and derivatives.
+    pub sensitivity: &'a Sensitivity,
+    /// Uncertain keys; may be none.
+    pub uncertainties: &'a Uncertainties,
+    /// Random draws.
+    pub carlo: Option<&'a MonteCarlo>,
+}
+
+/// The object of `--json`. What is not known is null.
+#[derive(Clone, Debug, Serialize)]
+pub struct Object {
+    /// Name of the scene.
+    pub preset: String,
+    /// `motor` or `plate`.
+    pub scene: &'static str,
+    /// Fidelity.
+    pub fidelity: String,
+    /// The solve in the middle converged.
+    pub converged: bool,
+    /// One for each result.
+    pub outputs: Vec<OutputObject>,
+    /// Keys that act and are whole numbers, which have no derivative.
+    pub whole_numbers: Vec<&'static str>,
+    /// The random draws, if there are any.
+    pub monte_carlo: Option<CarloObject>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// One result.
+#[derive(Clone, Debug, Serialize)]
+pub struct OutputObject {
+    /// Its name.
+    pub name: &'static str,
+    /// Its unit; empty for a pure number.
+    pub unit: &'static str,
+    /// Its value …
+    pub value: Option<f64>,
+    /// … and its estimated numerical error, absolute.
+    pub error: Option<f64>,
+    /// The standard deviation that the uncertain keys make, to first order; null without any.
+    pub uncertainty: Option<f64>,
+    /// Estimated error of that, absolute.
+    pub uncertainty_error: Option<f64>,
+    /// Uncertain keys whose part is missing in it.
+    pub uncertainty_without: Vec<&'static str>,
+    /// How the random draws are distributed.
+    pub monte_carlo: Option<SpreadObject>,
+    /// One for each key.
+    pub by: Vec<Row>,
+}
+
+/// A result by a key, a row of the CSV.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// The result.
+    pub output: &'static str,
+    /// The key.
+    pub key: &'static str,
+    /// Unit of the key.
+    pub key_unit: &'static str,
+    /// Value of the key.
+    pub at: f64,
+    /// Derivative, in the unit of the result over that of the key.
+    pub derivative: Option<f64>,
+    /// Its estimated error, absolute: the sum of the next three.
+    pub derivative_error: Option<f64>,
+    /// By the length of the step.
+    pub step_error: Option<f64>,
+    /// By the grids.
+    pub grid_error: Option<f64>,
+    /// By what is left out of the model.
+    pub left_out_error: Option<f64>,
+    /// By how many per cent the result changes with 1 % of the key, of a temperature from absolute zero.
+    pub elasticity: Option<f64>,
+    /// Its estimated error, absolute.
+    pub elasticity_error: Option<f64>,
+    /// Step of the differences, in the unit of the key.
+    pub step: f64,
+    /// `both`, or the side on which there is room: `above` or `below`.
+    pub sides: &'static str,
+    /// Standard deviation of the key, in its unit, if it is uncertain.
+    pub uncertainty: Option<f64>,
+    /// What it contributes to that of the result, signed.
+    pub contribution: Option<f64>,
+    /// Its share of the variance of the result, 0 to 1.
+    pub variance_share: Option<f64>,
+    /// Why there is no derivative.
+    pub why: Option<String>,
+}
+
+/// The random draws.
+#[derive(Clone, Debug, Serialize)]
+pub struct CarloObject {
+    /// Where the random numbers began.
+    pub seed: u64,
+    /// Draws that were solved.
+    pub solved: usize,
+    /// Draws that could not be solved, and are missing.
+    pub failed: usize,
+    /// Draws outside of what is allowed, drawn again.
+    pub redrawn: usize,
+}
+
+/// How the draws of a result are distributed.
+#[derive(Clone, Debug, Serialize)]
+pub struct SpreadObject {
+    /// Draws that have the result.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// The standard deviation of the mean, because there are no more draws.
+    pub mean_error: f64,
+    /// Standard deviation.
+    pub standard_deviation: f64,
+    /// 5 % of the draws are below.
+    pub quantile_5: f64,
+    /// Median.
+    pub quantile_50: f64,
+    /// 95 % of the draws are below.
+    pub quantile_95: f64,
+}
+
+impl From<Spread> for SpreadObject {
+    fn from(spread: Spread) -> Self {
+        let [quantile_5, quantile_50, quantile_95] = spread.quantiles;
+        Self {
+            count: spread.count,
+            mean: spread.mean,
+            mean_error: spread.mean_error(),
+            standard_deviation: spread.deviation,
+            quantile_5,
+            quantile_50,
+            quantile_95,
+        }
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+impl Found<'_> {
+    /// The object of `--json`.
+    pub fn object(&self, fidelity: &str) -> Object {
+        let sensitivity = self.sensitivity;
+        Object {
+            preset: sensitivity.scene().name.clone(),
+            scene: sensitivity.scene().scene(),
+            fidelity: fidelity.to_owned(),
+            converged: sensitivity.status() == Status::Converged,
+            outputs: (0..sensitivity.outputs.len()).map(|output| self.output(output)).collect(),
+            whole_numbers: sensitivity.whole(),
+            monte_carlo: self.carlo.map(|carlo| CarloObject {
+                seed: carlo.seed,
+                solved: carlo.draws.len(),
+                failed: carlo.failures.len(),
+                redrawn: carlo.redrawn,
+            }),
+            warnings: sensitivity.warnings().to_vec(),
+        }
+    }
+
+    /// To first order; `None` without an uncertain key.
+    pub fn propagated(&self, output: usize) -> Option<Propagated> {
+        (!self.uncertainties.is_empty()).then(|| self.sensitivity.propagated(output, self.uncertainties))
+    }
+
+    fn output(&self, output: usize) -> OutputObject {
+        let sensitivity = self.sensitivity;
+        let (of, Estimate { value, error }) = (sensitivity.outputs[output], sensitivity.values[output]);
+        let propagated = self.propagated(output);
+        let deviation = propagated.as_ref().map(|found| found.deviation);
+        OutputObject {
+            name: of.name(),
+            unit: of.unit(sensitivity.problem()),
+            value: finite(value),
+            error: finite(error),
+            uncertainty: deviation.and_then(|found| finite(found.value)),
+            uncertainty_error: deviation.and_then(|found| finite(found.error)),
+            uncertainty_without: propagated.as_ref().map_or_else(Vec::new, |found| found.unknown.clone()),
+            monte_carlo: self.carlo.and_then(|carlo| carlo.spread(output)).map(Into::into),
+            by: (0..sensitivity.columns.len()).map(|column| self.row(output, column, propagated.as_ref())).collect(),
+        }
+    }
+
+    fn row(&self, output: usize, column: usize, propagated: Option<&Propagated>) -> Row {
+        let sensitivity = self.sensitivity;
+        let Column { parameter, at, step, sides, slopes } = &sensitivity.columns[column];
+        let slope = slopes.as_ref().ok().map(|slopes| slopes[output]);
+        let part = |of: fn(&Slope) -> f64| slope.as_ref().map(of).and_then(finite);
+        let relative = sensitivity.columns[column].scale().and_then(|_| sensitivity.elasticity(output, column));
+        let contribution =
+            propagated.and_then(|found| found.parts.iter().find(|(other, _)| other.key == parameter.key));
+        Row {
+            output: sensitivity.outputs[output].name(),
+            key: parameter.key,
+            key_unit: parameter.unit,
+            at: *at,
+            derivative: part(|slope| slope.value),
+            derivative_error: part(Slope::error),
+            step_error: part(|slope| slope.step_error),
+            grid_error: part(Slope::grid_error),
+            left_out_error: part(|slope| slope.left_out),
+            elasticity: relative.and_then(|found| finite(found.value)),
+            elasticity_error: relative.and_then(|found| finite(found.error)),
+            step: *step,
+            sides: match sides {
+                Sides::Both => "both",
+                Sides::Above => "above",
+                Sides::Below => "below",
+            },
+            uncertainty: self.uncertainties.deviation(parameter),
+            contribution: contribution.and_then(|(_, part)| finite(part.value)),
+            variance_share: propagated.and_then(|found| found.share(parameter)),
+            why: slopes.as_ref().err().cloned(),
+        }
+    }
+
+    /// The rows of the CSV, result by result.
+    pub fn rows(&self) -> impl Iterator<Item = Row> {
+        (0..self.sensitivity.outputs.len()).flat_map(|output| self.output(output).by)
+    }
+
+    /// Writes the random draws as CSV: the keys, then the results.
+    ///
+    /// # Errors
+    /// What `out` says.
+    pub fn write_draws(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut writer = csv::Writer::from_writer(out);
+        let keys = self.uncertainties.iter().map(|(parameter, ..)| parameter.key);
+        writer.write_record(keys.chain(self.sensitivity.outputs.iter().map(|output| output.name())))?;
+        for draw in self.carlo.iter().flat_map(|carlo| &carlo.draws) {
+            let number = |value: &f64| finite(*value).map_or_else(String::new, |value| format!("{value:e}"));
+            writer.write_record(draw.values.iter().chain(&draw.results).map(number))?;
+        }
+        writer.flush()
+    }
+
+    fn figure_of(&self, caption: String, fidelity: &str) -> Figure {
+        let mut provenance = Provenance::named(&self.sensitivity.scene().name);
+        provenance.fidelity = fidelity.to_owned();
+        Figure { caption, provenance, ..Figure::default() }
+    }
+
+    /// A tornado for each result: elasticities, or what each uncertain key contributes. Keys that hardly matter are left out.
+    pub fn tornado(&self, fidelity: &str) -> Figure {
+        let certain = self.uncertainties.is_empty();
+        let what = if certain {
+            "Change of each result for 1 % more of each parameter"
+        } else {
+            "Part of each uncertain parameter in the uncertainty of each result, standard deviations"
+        };
+        let mut figure = self.figure_of(format!("{what}, with the error of the derivative."), fidelity);
+        for (output, of) in self.sensitivity.outputs.iter().enumerate() {
+            let (shown, smaller) = self.sensitivity.tornado(output, self.uncertainties);
+            let unit = of.unit(self.sensitivity.problem());
+            let axis = if certain {
+                Axis::new(format!("{}, % for 1 % more", of.words()), "")
+            } else {
+                Axis::new(format!("{}, standard deviation", of.words()), unit)
+            };
+            let mut names: Vec<(f64, String)> = Vec::new();
+            let mut panel = Panel::default();
+            for (row, (parameter, bar)) in shown.iter().enumerate() {
+                let y = -(row as f64);
+                names.push((y, parameter.words()));
+                let colour = if bar.value < 0.0 { Colour::CONTACT } else { Colour::FILM };
+                let ends = [bar.value.min(0.0), bar.value.max(0.0)].map(|x| [x, y - 0.36, y + 0.36]);
+                panel = panel.layer(Band { opacity: 0.8, ..Band::new("", ends, colour) });
+                let error = [bar.value - bar.error, bar.value + bar.error].map(|x| [x, y]);
+                panel = panel.layer(Line::new("", error, Style { width: 0.8, ..Style::default() }));
+            }
+            if smaller > 0 {
+                panel.title = format!("{smaller} more below {} % of the longest", significant(100.0 * LEAST, 1));
+            }
+            let ends = shown.iter().flat_map(|(_, bar)| [-1.0, 1.0].map(|sign| bar.value + sign * bar.error));
+            let room = 1.03;
+            panel.x = axis.including(ends.map(|end| room * end).chain([0.0]));
+            panel.y = Axis { names, ..Axis::default().fixed(0.6 - shown.len() as f64, 0.6) };
+            panel.legend = Legend::None;
+            panel.height = 4.2 * shown.len().max(2) as f64;
+            figure = figure.panel(panel.layer(Mark::vertical(0.0, "")));
+        }
+        figure
+    }
+
+    /// How the random draws of each result are distributed, beside the normal distribution of the first order; `None` without draws.
+    pub fn histogram(&self, fidelity: &str) -> Option<Figure> {
+        let carlo = self.carlo?;
+        let caption = format!(
+            "Results of {} random draws, and the normal distribution of the linear estimate.",
+            carlo.draws.len()
+        );
+        let mut figure = self.figure_of(caption, fidelity);
+        figure.provenance.note = format!("{} draws, seed {}", carlo.draws.len(), carlo.seed);
+        for (output, of) in self.sensitivity.outputs.iter().enumerate() {
+            let Some(spread) = carlo.spread(output) else { continue };
+            let (from, width, bins) = &spread.bins;
+            let bars = bins.iter().enumerate().flat_map(|(bin, count)| {
+                let left = from + bin as f64 * width;
+                [left, left + width].map(|x| [x, 0.0, *count as f64])
+            });
+            let unit = of.unit(self.sensitivity.problem());
+            let mut panel = Panel::new("", Axis::new(of.words(), unit), Axis::new("draws", "").including([0.0]))
+                .height(32.0)
+                .layer(Band { opacity: 0.5, ..Band::new("Monte Carlo", bars, Colour::FILM) });
+            let linear = self.sensitivity.propagated(output, self.uncertainties).deviation.value;
+            if linear > 0.0 && *width > 0.0 {
+                let (middle, area) = (self.sensitivity.values[output].value, spread.count as f64 * width);
+                let density = |i: u32| {
+                    let away = f64::from(i) / 20.0 - 3.5;
+                    [
+                        middle + away * linear,
+                        area / (linear * std::f64::consts::TAU.sqrt()) * (-0.5 * away * away).exp(),
+                    ]
+                };
+                panel = panel.layer(Line::new(
+                    "linear",
+                    (0..=140).map(density),
+                    Style::solid(Colour::CONTACT).dash(Dash::Dashed),
+                ));
+            }
+            let numerical = self.sensitivity.values[output];
+            panel = panel.layer(Mark::vertical(numerical.value, ""));
+            panel.title = format!(
+                "± {} by the parameters, ± {} numerical",
+                significant(spread.deviation, 2),
+                significant(numerical.error, 2)
+            );
+            figure = figure.panel(panel);
+        }
+        Some(figure)
+    }
+}

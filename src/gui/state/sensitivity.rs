@@ -1,0 +1,187 @@
+//! What the results depend on, as the window has it: what was found, of which scene, and the uncertainties that were typed.
+
+use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
+use crate::fidelity::Fidelity;
+use crate::job::sensitivity::Finding;
+use crate::scene::Scene;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Random scenes that are solved unless another number is chosen.
+const DRAWS: usize = 500;
+/// Where their random numbers begin: the same draws every time.
+pub const SEED: u64 = 1;
+
+/// Derivatives, uncertainties and random scenes.
+#[derive(Debug)]
+pub struct SensitivityState {
+    derivatives: Option<Finding<Result<Arc<Sensitivity>, String>>>,
+    drawing: Option<Finding<MonteCarlo>>,
+    share: f64,
+    failure: Option<String>,
+    fidelity: Fidelity,
+    found: Option<Arc<Sensitivity>>,
+    /// What was typed for each key: not empty.
+    typed: BTreeMap<&'static str, String>,
+    /// What is wrong with it.
+    refused: BTreeMap<&'static str, String>,
+    /// Those that make sense, of the scene that was solved.
+    uncertainties: Option<Uncertainties>,
+    carlo: Option<MonteCarlo>,
+    /// Which of the results is looked at.
+    pub output: usize,
+    /// How many random scenes are asked for.
+    pub draws: usize,
+}
+
+impl Default for SensitivityState {
+    fn default() -> Self {
+        Self {
+            derivatives: None,
+            drawing: None,
+            share: 0.0,
+            failure: None,
+            fidelity: Fidelity::default(),
+            found: None,
+            typed: BTreeMap::new(),
+            refused: BTreeMap::new(),
+            uncertainties: None,
+            carlo: None,
+            output: 0,
+            draws: DRAWS,
+        }
+    }
+}
+
+impl SensitivityState {
+    /// `task` computes the derivatives at this fidelity. What was found before stays until it has.
+    pub fn begin(&mut self, task: std::io::Result<Finding<Result<Arc<Sensitivity>, String>>>, fidelity: Fidelity) {
+        (self.share, self.failure, self.drawing) = (0.0, None, None);
+        match task {
+            Ok(task) => (self.derivatives, self.fidelity) = (Some(task), fidelity),
+            Err(error) => self.failure = Some(format!("no thread can be started: {error}")),
+        }
+    }
+
+    /// `task` solves random scenes.
+    pub fn begin_drawing(&mut self, task: std::io::Result<Finding<MonteCarlo>>) {
+        (self.share, self.failure) = (0.0, None);
+        match task {
+            Ok(task) => self.drawing = Some(task),
+            Err(error) => self.failure = Some(format!("no thread can be started: {error}")),
+        }
+    }
+
+    /// Takes what was found since the last time.
+    pub fn drain(&mut self) {
+        if let Some(task) = &self.derivatives {
+            let news = task.drain();
+            self.share = news.messages.last().copied().unwrap_or(self.share);
+            if let Some(end) = news.end {
+                self.derivatives = None;
+                match end {
+                    Ok(Some(Ok(found))) => {
+                        (self.found, self.carlo) = (Some(found), None);
+                        self.judge();
+                    }
+                    Ok(Some(Err(why))) | Err(why) => self.failure = Some(why),
+                    Ok(None) => {}
+                }
+            }
+        }
+        if let Some(task) = &self.drawing {
+            let news = task.drain();
+            self.share = news.messages.last().copied().unwrap_or(self.share);
+            if let Some(end) = news.end {
+                self.drawing = None;
+                match end {
+                    Ok(Some(carlo)) => self.carlo = Some(carlo),
+                    Ok(None) => {}
+                    Err(why) => self.failure = Some(why),
+                }
+            }
+        }
+    }
+
+    /// Ends what goes on; what was found stays.
+    pub fn cancel(&mut self) {
+        self.derivatives.iter().for_each(|task| task.cancel());
+        self.drawing.iter().for_each(|task| task.cancel());
+    }
+
+    /// The share of the work that is done, while it goes on.
+    pub fn running(&self) -> Option<f64> {
+        (self.derivatives.is_some() || self.drawing.is_some()).then_some(self.share)
+    }
+
+    /// Why nothing came of the last work.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
+    }
+
+    /// Results and derivatives.
+    pub fn found(&self) -> Option<&Arc<Sensitivity>> {
+        self.found.as_ref()
+    }
+
+    /// The fidelity they were asked for.
+    pub fn fidelity(&self) -> Fidelity {
+        self.fidelity
+    }
+
+    /// Whether they are of another scene than this.
+    pub fn stale(&self, scene: &Scene) -> bool {
+        let other = |of: &Scene| !of.same_model(scene) || of.numerics() != scene.numerics();
+        self.found.as_ref().is_some_and(|found| other(found.scene()))
+    }
+
+    /// Takes what is typed as the uncertainty of a key. Random scenes of others are dropped.
+    pub fn type_uncertainty(&mut self, key: &'static str, text: String) {
+        if text.trim().is_empty() {
+            self.typed.remove(key)
+        } else {
+            self.typed.insert(key, text)
+        };
+        self.judge();
+        (self.carlo, self.drawing) = (None, None);
+    }
+
+    /// What was typed for a key.
+    pub fn typed(&self, key: &str) -> &str {
+        self.typed.get(key).map_or("", String::as_str)
+    }
+
+    /// What is wrong with that.
+    pub fn refused(&self, key: &str) -> Option<&str> {
+        self.refused.get(key).map(String::as_str)
+    }
+
+    /// The uncertainties that make sense; none may be among them. `None` before anything was found.
+    pub fn uncertainties(&self) -> Option<&Uncertainties> {
+        self.uncertainties.as_ref()
+    }
+
+    /// Random scenes of these.
+    pub fn carlo(&self) -> Option<&MonteCarlo> {
+        self.carlo.as_ref()
+    }
+
+    /// Finds out which of the typed uncertainties make sense for the scene that was solved.
+    fn judge(&mut self) {
+        self.refused.clear();
+        let Some(found) = &self.found else { return };
+        let mut given: Vec<(&str, Uncertainty)> = Vec::new();
+        for (key, text) in &self.typed {
+            let alone = text.parse::<Uncertainty>().map_err(|error| error.to_string()).and_then(|amount| {
+                Uncertainties::new(found.scene(), &[(*key, amount)]).map_err(|error| error.to_string())?;
+                Ok((*key, amount))
+            });
+            match alone {
+                Ok(one) => given.push(one),
+                // A key that this scene does not have is not shown either.
+                Err(why) => drop(self.refused.insert(key, why)),
+            }
+        }
+        self.uncertainties = Uncertainties::new(found.scene(), &given).ok();
+    }
+}

@@ -1,0 +1,375 @@
+//! What the results depend on: how much each changes with every parameter, and how uncertain it is if the parameters are.
+
+use crate::analysis::sensitivity::{LEAST, Sensitivity, Uncertainties};
+use crate::digits::{percent, significant};
+use crate::gui::command::{Command, SensitivityCommand};
+use crate::gui::derived::format::{digits, uncertain};
+use crate::gui::derived::words::{explanation, label};
+use crate::gui::state::dialogs::Export;
+use crate::gui::state::sensitivity::SensitivityState;
+use crate::gui::ui::chart::{axes, between, chart, framed, line, place, title, upright};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::hint::{Hint, text_width};
+use crate::scene::Parameter;
+use eframe::egui::{self, RichText, TextStyle, Ui};
+use egui_plot::{GridMark, LineStyle};
+
+/// Height of a bar with the space to the next, in heights of the text; and of the histogram.
+const BAR: f32 = 1.35;
+const HISTOGRAM: f32 = 11.0;
+/// Half the thickness of a bar, of the space from one to the next.
+const HALF: f64 = 0.36;
+/// Around the bars, a share of their range.
+const MARGIN: f64 = 0.03;
+/// Random scenes that can be asked for.
+const DRAWS: std::ops::RangeInclusive<usize> = 10..=100_000;
+
+/// Shows the tab.
+pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
+    egui::ScrollArea::vertical().id_salt("sensitivity").auto_shrink(false).show(ui, |ui| {
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        let state = &cx.state.sensitivity;
+        buttons(ui, state, cx);
+        if let Some(failure) = state.failure() {
+            cx.say(ui, format!("Nothing was found: {failure}"), cx.colours.alarm);
+        }
+        let (Some(found), Some(uncertainties)) = (state.found(), state.uncertainties()) else {
+            introduction(ui, cx);
+            return;
+        };
+        if state.stale(cx.state.document.scene()) {
+            let text = format!("Computed for “{}” before the scene changed; compute again", found.scene().name);
+            cx.say(ui, text, cx.colours.alarm);
+        }
+        for warning in found.warnings() {
+            cx.say(ui, warning.as_str(), cx.colours.alarm);
+        }
+        let output = state.output.min(found.outputs.len() - 1);
+        choose(ui, found, output, cx);
+        result(ui, state, found, (output, uncertainties), cx);
+        tornado(ui, found, output, uncertainties, cx);
+        monte_carlo(ui, state, found, (output, uncertainties), cx);
+        table(ui, state, found, (output, uncertainties), cx);
+        let whole = found.whole();
+        if !whole.is_empty() {
+            let names: Vec<&str> = whole.iter().filter_map(|key| Some(label(Parameter::find(key)?))).collect();
+            cx.note(ui, format!("Whole numbers have no derivative; sweep them: {}.", names.join(", ")));
+        }
+        ui.add_space(8.0);
+    });
+}
+
+fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        if let Some(share) = state.running() {
+            if ui.button("Cancel").hint("Ends it; what was found before stays").clicked() {
+                cx.push(SensitivityCommand::Cancel);
+            }
+            let text = format!("{:.0} %", 100.0 * share);
+            ui.add(egui::ProgressBar::new(share as f32).desired_width(140.0).text(text));
+        } else {
+            let hover = "Solves the scene with every parameter a little changed, in the background; a second or so";
+            let button = ui.button("Compute sensitivities").hint(hover);
+            if button.clicked() {
+                cx.push(SensitivityCommand::Start);
+            }
+        }
+        if state.found().is_some() && ui.button("Export…").hint(Export::Sensitivity.about()).clicked() {
+            cx.push(Command::Export(Export::Sensitivity));
+        }
+    });
+}
+
+fn introduction(ui: &mut Ui, cx: &DrawContext<'_>) {
+    ui.add_space(8.0);
+    for text in [
+        "Which parameters matter, and how well do they have to be known?",
+        "Every parameter is changed a little, up and down, and the scene solved each time. Give parameters an uncertainty, and see how \
+         uncertain the results are. Nothing is computed before you ask.",
+    ] {
+        cx.note(ui, text);
+        ui.add_space(4.0);
+    }
+}
+
+/// Which of the results is looked at.
+fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        for (i, output) in found.outputs.iter().enumerate() {
+            let button = ui.selectable_label(i == present, output.words());
+            if glossary::here(ui, button, output.words()).clicked() {
+                cx.push(SensitivityCommand::Look(i));
+            }
+        }
+    });
+}
+
+/// The result with both of its uncertainties, apart from each other.
+fn result(
+    ui: &mut Ui,
+    state: &SensitivityState,
+    found: &Sensitivity,
+    of: (usize, &Uncertainties),
+    cx: &DrawContext<'_>,
+) {
+    let (output, uncertainties) = of;
+    let value = found.values[output];
+    if !value.value.is_finite() {
+        cx.note(ui, "This scene has no such result");
+        return;
+    }
+    let unit = found.outputs[output].unit(found.problem());
+    let unit = if unit.is_empty() { String::new() } else { format!("\u{a0}{unit}") };
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(format!("{}{unit}", digits(value.value, 4))).strong());
+        if !uncertainties.is_empty() {
+            let spread = found.propagated(output, uncertainties);
+            let text = format!("± {} by the parameters", digits(spread.deviation.value, 2));
+            let shown = ui.label(RichText::new(text).color(cx.colours.accent));
+            glossary::here(ui, shown, "Uncertainty of a parameter");
+            if !spread.unknown.is_empty() {
+                cx.say(ui, format!("without {}", spread.unknown.join(", ")), cx.colours.alarm);
+            }
+        }
+        if value.error.is_finite() {
+            let shown =
+                ui.label(RichText::new(format!("± {} numerical", digits(value.error, 2))).color(cx.colours.quiet));
+            glossary::here(ui, shown, "Stated error");
+        }
+        if let Some(spread) = state.carlo().and_then(|carlo| carlo.spread(output)) {
+            let [low, _, high] = spread.quantiles;
+            let text = format!(
+                "random scenes: {} ± {}, 90 % of them from {} to {}",
+                digits(spread.mean, 4),
+                digits(spread.deviation, 2),
+                digits(low, 4),
+                digits(high, 4)
+            );
+            let shown = ui.label(RichText::new(text).color(cx.colours.film));
+            glossary::here(ui, shown, "Random scenes");
+        }
+    });
+}
+
+fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
+    let (bars, smaller) = found.tornado(output, uncertainties);
+    let unit = found.outputs[output].unit(found.problem());
+    ui.add_space(4.0);
+    if uncertainties.is_empty() {
+        title(ui, "Change for 1 % more of each parameter, %", "Elasticity");
+    } else {
+        let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
+        title(ui, &format!("Part of each parameter in the uncertainty{unit}"), "Uncertainty of a parameter");
+    }
+    if bars.is_empty() {
+        cx.note(ui, "It depends on none of them");
+        return;
+    }
+    let names: Vec<&str> = bars.iter().map(|(parameter, _)| label(parameter)).collect();
+    let (count, em) = (bars.len() as f64, ui.text_style_height(&TextStyle::Body));
+    let gutter = names.iter().map(|name| text_width(ui, name)).fold(0.0, f32::max) + 0.8 * em;
+    let height = BAR * em * count as f32 + 1.6 * em;
+    let ends = bars.iter().flat_map(|(_, bar)| [bar.value - bar.error, bar.value + bar.error]);
+    let [low, high] = ends.fold([0.0_f64; 2], |[low, high], end| [low.min(end), high.max(end)]);
+    let room = MARGIN * (high - low);
+    let name = "Tornado chart";
+    let whole = place(ui, height);
+    let rows: Vec<GridMark> = (0..bars.len()).map(|row| GridMark { value: -(row as f64), step_size: 1.0 }).collect();
+    let named = names.clone();
+    let plot = chart(ui, name, height)
+        .y_axis_min_width(gutter)
+        .y_grid_spacer(move |_| rows.clone())
+        .y_axis_formatter(move |mark, _| {
+            let row = (-mark.value).round();
+            named.get(row.max(0.0) as usize).filter(|_| row >= 0.0).map_or_else(String::new, |name| (*name).to_owned())
+        })
+        .allow_zoom(false)
+        .allow_drag(false);
+    let strong = ui.visuals().strong_text_color();
+    let quiet = cx.colours.quiet;
+    let (up, down) = (cx.colours.film, cx.colours.contact);
+    let drawn = bars.clone();
+    let shown = framed(ui, (name, plot), [[low - room, high + room], [0.6 - count, 0.6]], move |plot| {
+        for (row, (_, bar)) in drawn.iter().enumerate() {
+            let y = -(row as f64);
+            let colour = if bar.value < 0.0 { down } else { up };
+            let ends = [bar.value.min(0.0), bar.value.max(0.0)].map(|x| [x, y - HALF, y + HALF]);
+            plot.add(between(&ends, colour));
+            let error = [[bar.value - bar.error, y], [bar.value + bar.error, y]];
+            plot.line(line(&error, strong, 1.5, LineStyle::Solid));
+        }
+        plot.vline(upright(0.0, quiet, 1.0));
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    let word = if uncertainties.is_empty() { "Elasticity" } else { "Uncertainty of a parameter" };
+    axes(ui, whole, *shown.transform.frame(), Some(word), word);
+    if smaller > 0 {
+        cx.note(ui, format!("{smaller} more are below {} % of the longest", significant(100.0 * LEAST, 1)));
+    }
+}
+
+fn monte_carlo(
+    ui: &mut Ui,
+    state: &SensitivityState,
+    found: &Sensitivity,
+    of: (usize, &Uncertainties),
+    cx: &DrawContext<'_>,
+) {
+    let (output, uncertainties) = of;
+    ui.add_space(6.0);
+    ui.horizontal_wrapped(|ui| {
+        let words = ui.label("Random scenes");
+        let words = glossary::here(ui, words, "Random scenes");
+        let mut draws = state.draws;
+        let field = egui::DragValue::new(&mut draws).range(DRAWS).speed(10.0);
+        if ui.add(field).labelled_by(words.id).hint("How many are solved").changed() {
+            cx.push(SensitivityCommand::Draws(draws));
+        }
+        let can = !uncertainties.is_empty() && state.running().is_none();
+        let button = ui.add_enabled(can, egui::Button::new("Draw and solve"));
+        let button = button.on_disabled_hover_text("Give a parameter an uncertainty in the table below first");
+        if button
+            .hint("Draws every uncertain parameter at random and solves the scene, again and again (Monte Carlo)")
+            .clicked()
+        {
+            cx.push(SensitivityCommand::Draw);
+        }
+    });
+    let Some(carlo) = state.carlo() else { return };
+    if !carlo.failures.is_empty() {
+        let text = format!(
+            "{} could not be solved and are missing, the first because {}",
+            carlo.failures.len(),
+            carlo.failures[0]
+        );
+        cx.say(ui, text, cx.colours.alarm);
+    }
+    if carlo.redrawn > 0 {
+        cx.note(
+            ui,
+            format!(
+                "{} were outside of what is allowed and were drawn again, which makes the spread smaller",
+                carlo.redrawn
+            ),
+        );
+    }
+    let Some(spread) = carlo.spread(output) else { return };
+    let (from, width, bins) = &spread.bins;
+    let (value, linear) = (found.values[output].value, found.propagated(output, uncertainties).deviation.value);
+    let bars: Vec<[f64; 3]> = bins
+        .iter()
+        .enumerate()
+        .flat_map(|(bin, count)| [0.0, 1.0].map(|end| [from + (bin as f64 + end) * width, 0.0, *count as f64]))
+        .collect();
+    let area = spread.count as f64 * width / (linear * std::f64::consts::TAU.sqrt());
+    let normal = |i: i32| {
+        let away = f64::from(i) / 20.0;
+        [value + away * linear, area * (-0.5 * away * away).exp()]
+    };
+    let curve: Vec<[f64; 2]> = if linear > 0.0 { (-70..=70).map(normal).collect() } else { Vec::new() };
+    let ends = bars.iter().map(|bar| bar[0]).chain(curve.iter().map(|point| point[0]));
+    let [low, high] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let top = bars.iter().map(|bar| bar[2]).chain(curve.iter().map(|point| point[1])).fold(0.0, f64::max);
+    let name = "Histogram of the random scenes";
+    title(ui, name, "Random scenes");
+    let height = HISTOGRAM * ui.text_style_height(&TextStyle::Body);
+    let whole = place(ui, height);
+    let word = found.outputs[output].words();
+    let plot = chart(ui, name, height).x_axis_label(found.outputs[output].label(found.problem()));
+    let (film, contact, quiet) = (cx.colours.film, cx.colours.contact, cx.colours.quiet);
+    let shown = framed(ui, (name, plot), [[low, high], [0.0, 1.08 * top]], move |plot| {
+        for bar in bars.chunks_exact(2) {
+            plot.add(between(bar, film.gamma_multiply(0.7)));
+        }
+        plot.line(line(&curve, contact, 2.0, LineStyle::dashed_dense()));
+        plot.vline(upright(value, quiet, 1.5));
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    axes(ui, whole, *shown.transform.frame(), Some(word), "Random scenes");
+    cx.note(ui, "Dashed: the normal distribution that the derivatives give. The line: the result of the scene itself.");
+}
+
+/// Every parameter: how much the result changes with it, and its uncertainty, to type.
+fn table(
+    ui: &mut Ui,
+    state: &SensitivityState,
+    found: &Sensitivity,
+    of: (usize, &Uncertainties),
+    cx: &DrawContext<'_>,
+) {
+    let (output, uncertainties) = of;
+    let propagated = found.propagated(output, uncertainties);
+    let magnitude = |column: usize| {
+        let relative = found.columns[column].scale().is_some();
+        (relative, found.elasticity(output, column).map_or(0.0, |found| found.value.abs()))
+    };
+    let mut order: Vec<usize> = (0..found.columns.len()).collect();
+    order.sort_by(|a, b| {
+        let (a, b) = (magnitude(*a), magnitude(*b));
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    let em = ui.text_style_height(&TextStyle::Body);
+    ui.add_space(6.0);
+    let grid = egui::Grid::new("sensitivities").num_columns(5).striped(true).spacing([14.0, 4.0]);
+    egui::ScrollArea::horizontal().id_salt("sensitivities").auto_shrink(true).show(ui, |ui| {
+        grid.show(ui, |ui| {
+            for (head, word) in [
+                ("Parameter", "Parameter"),
+                ("Value", "Parameter"),
+                ("% for 1 % more", "Elasticity"),
+                ("Uncertainty", "Uncertainty of a parameter"),
+                ("Share", "Share of the variance"),
+            ] {
+                let shown = ui.label(RichText::new(head).color(cx.colours.quiet));
+                glossary::here(ui, shown, word);
+            }
+            ui.end_row();
+            for column in order {
+                let by = &found.columns[column];
+                let parameter = by.parameter;
+                ui.label(label(parameter)).hint(explanation(found.scene(), parameter, None));
+                ui.label(format!("{} {}", digits(by.at, 4), parameter.unit).trim_end().to_owned());
+                match (&by.slopes, found.elasticity(output, column)) {
+                    (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
+                    (Ok(_), None) => drop(ui.label("–")),
+                    (Ok(_), Some(found)) if by.scale().is_some() => drop(ui.label(uncertain(found.value, found.error))),
+                    (Ok(_), Some(found)) => {
+                        let text = format!("{} per {}", uncertain(100.0 * found.value, 100.0 * found.error), parameter.unit);
+                        ui.label(text).hint("Per cent of the result for one unit of the parameter, which is zero or has no natural zero");
+                    }
+                }
+                field(ui, state, parameter, 6.0 * em, cx);
+                ui.label(propagated.share(parameter).map_or_else(String::new, percent));
+                ui.end_row();
+            }
+        })
+    });
+}
+
+fn field(ui: &mut Ui, state: &SensitivityState, parameter: &'static Parameter, width: f32, cx: &DrawContext<'_>) {
+    let mut text = state.typed(parameter.key).to_owned();
+    let refused = state.refused(parameter.key);
+    let editor = egui::TextEdit::singleline(&mut text)
+        .id(egui::Id::unique(("uncertainty", parameter.key)))
+        .desired_width(width)
+        .hint_text("none")
+        .text_color_opt(refused.map(|_| cx.colours.alarm));
+    let about = refused.map_or_else(
+        || {
+            format!(
+                "A standard deviation in {} or in per cent, as 20%; with ± in front limits, as ±10%",
+                match parameter.unit {
+                    "" => "plain numbers",
+                    unit => unit,
+                }
+            )
+        },
+        str::to_owned,
+    );
+    let name = format!("Uncertainty of {}", label(parameter));
+    if ui.add(editor).accessible_name(name).hint(about).changed() {
+        cx.push(SensitivityCommand::Uncertainty(parameter.key, text));
+    }
+}

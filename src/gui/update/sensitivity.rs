@@ -1,0 +1,37 @@
+//! Derivatives and random scenes: computed.
+
+use super::updater::Updater;
+use crate::gui::command::SensitivityCommand;
+use crate::gui::state::sensitivity::SEED;
+use crate::job::sensitivity::{monte_carlo, sensitivity};
+use crate::solve::Settings;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Progress is drawn at most this often.
+const REDRAW: Duration = Duration::from_millis(100);
+
+impl Updater {
+    /// Does what is asked about what the results depend on.
+    pub(super) fn sensitivity(&mut self, command: SensitivityCommand) {
+        let wake = self.wake(REDRAW);
+        let document = &self.state.document;
+        let (scene, fidelity) = (document.scene().clone(), document.target());
+        let state = &mut self.state.sensitivity;
+        match command {
+            SensitivityCommand::Start => {
+                let settings = Settings { fidelity, ..Settings::default() };
+                state.begin(sensitivity(scene, settings, wake), fidelity);
+            }
+            SensitivityCommand::Cancel => state.cancel(),
+            SensitivityCommand::Look(output) => state.output = output,
+            SensitivityCommand::Uncertainty(key, text) => state.type_uncertainty(key, text),
+            SensitivityCommand::Draws(draws) => state.draws = draws,
+            SensitivityCommand::Draw => {
+                let (Some(found), Some(uncertainties)) = (state.found(), state.uncertainties()) else { return };
+                let task = monte_carlo(Arc::clone(found), uncertainties.clone(), (state.draws, SEED), wake);
+                state.begin_drawing(task);
+            }
+        }
+    }
+}

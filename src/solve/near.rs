@@ -1,0 +1,140 @@
+//! Solves of problems that are near each other, for differences between them.
+//!
+//! Two solves to an accuracy of half a per cent differ by up to as much, even if the problems hardly do: each chooses its own grids, terms
+//! and harmonics, and stops as soon as its cycle repeats well enough. Here one problem is solved first, and all others by its plan: on
+//! the same grids, which move with what is varied, with the same terms left out, and, where it can, until the cycle repeats much more
+//! exactly than an accuracy asks for. The error of the grid is then nearly the same in all of them, and cancels in a difference.
+
+use super::{Method, Record, Settings, SolveError, motor_plan, of_motor, of_plate, perform, plate_plan};
+use crate::control::Cancel;
+use crate::ladder::Nested;
+use crate::memory;
+use crate::motor::{self, Warm};
+use crate::plan::Plan;
+use crate::plate;
+use crate::problem::{Problem, Scenario};
+use crate::solution::{Outcome, Solution, Status};
+
+/// What a cycle has to repeat to, relative: the change of the trapped gas, and of the load.
+const TOLERANCE: f64 = 1e-6;
+const REPEATING: f64 = 1e-6;
+
+/// A solved problem, near which others can be solved.
+#[derive(Debug)]
+pub struct Centre {
+    plan: Plan,
+    warm: Warm,
+    /// The problem.
+    pub problem: Problem,
+    /// Its solution.
+    pub solved: Nested<Solution>,
+}
+
+impl Centre {
+    /// Solves `problem` as exactly as `settings` ask for, of which method and record have no effect; `last` is one to start from.
+    ///
+    /// # Errors
+    /// As [`super::solve`].
+    pub fn new(
+        problem: &Problem,
+        settings: &Settings,
+        last: Option<&Self>,
+        cancel: &Cancel,
+    ) -> Result<Self, SolveError> {
+        let settings = Settings { record: Record::Numbers, method: Method::Auto, ..*settings };
+        let spec = settings.fidelity.spec();
+        let cold = Warm::default();
+        let warm = last.map_or(&cold, |last| &last.warm);
+        // First to find the grids that the accuracy needs; then by them, until the cycle repeats.
+        match &problem.scenario {
+            Scenario::Motor(motor) => {
+                let plan = motor_plan(motor, problem, &settings, &spec)?;
+                let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
+                let (mut found, mut warm, mut plan) = motor::periodic_near(warm, motor, &plan, cancel)?;
+                if settled(found.fine.status) {
+                    let (again, state, exact) = motor::periodic_near(&warm, motor, &tight(&plan), cancel)?;
+                    if settled(again.fine.status) && alike(&plan, &exact) {
+                        (found, warm, plan) = (again, state, exact);
+                    }
+                }
+                let of = |found| {
+                    let mut solution = performed(problem, of_motor(found, motor, &plan, cancel));
+                    solution.warnings.extend(motor.compliance_not_covered());
+                    solution
+                };
+                let solved = found.map(of);
+                Ok(Self { plan, warm, problem: problem.clone(), solved })
+            }
+            Scenario::Plate(plate) => {
+                let plan = plate_plan(plate, problem, &settings, &spec);
+                let _taken = memory::take(memory::plate(plate, &plan), cancel)?;
+                let (mut found, mut plan) = plate::periodic_near(plate, &plan, cancel).map_err(SolveError::Plate)?;
+                if settled(found.fine.status) {
+                    let (again, exact) =
+                        plate::periodic_near(plate, &tight(&plan), cancel).map_err(SolveError::Plate)?;
+                    if settled(again.fine.status) && alike(&plan, &exact) {
+                        (found, plan) = (again, exact);
+                    }
+                }
+                let solved = found.map(|found| of_plate(found, &plan, cancel));
+                Ok(Self { plan, warm: cold, problem: problem.clone(), solved })
+            }
+        }
+    }
+
+    /// Whether its cycle repeats: if it does not, a difference from it means nothing.
+    pub fn is_settled(&self) -> bool {
+        settled(self.solved.fine.status)
+    }
+
+    /// Bound of what the plan leaves out of the model, as a share of the headline; a rotor that floats carries its load whatever that is.
+    pub fn left_out(&self) -> f64 {
+        match &self.solved.fine.outcome {
+            Outcome::Motor(result) if result.levitated => 0.0,
+            _ => self.plan.left_out,
+        }
+    }
+
+    /// Solves a problem of the same kind near this one, by its plan and from its state: the result does not depend on what else was solved.
+    /// `None` if it has no periodic state on all of these grids: it is then not near.
+    ///
+    /// # Errors
+    /// As [`super::solve`].
+    pub fn solve(&self, problem: &Problem, cancel: &Cancel) -> Result<Option<Nested<Solution>>, SolveError> {
+        match &problem.scenario {
+            Scenario::Motor(motor) => {
+                let settings = Settings { record: Record::Numbers, ..Settings::default() };
+                let own = motor_plan(motor, problem, &settings, &settings.fidelity.spec())?;
+                let plan = self.plan.near(&own.rotor);
+                let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
+                let (found, _, used) = motor::periodic_near(&self.warm, motor, &plan, cancel)?;
+                let near = settled(found.fine.status) && alike(&plan, &used);
+                Ok(near.then(|| found.map(|found| performed(problem, of_motor(found, motor, &plan, cancel)))))
+            }
+            Scenario::Plate(plate) => {
+                let _taken = memory::take(memory::plate(plate, &self.plan), cancel)?;
+                let (found, used) = plate::periodic_near(plate, &self.plan, cancel).map_err(SolveError::Plate)?;
+                let near = settled(found.fine.status) && alike(&self.plan, &used);
+                Ok(near.then(|| found.map(|found| of_plate(found, &self.plan, cancel))))
+            }
+        }
+    }
+}
+
+fn tight(plan: &Plan) -> Plan {
+    Plan { tolerance: plan.tolerance.min(TOLERANCE), accuracy: REPEATING, ..plan.clone() }
+}
+
+fn settled(status: Status) -> bool {
+    matches!(status, Status::Converged | Status::NotResolved { .. })
+}
+
+/// Whether both have the same grids.
+fn alike(asked: &Plan, used: &Plan) -> bool {
+    asked.grids == used.grids && asked.spectral == used.spectral
+}
+
+fn performed(problem: &Problem, mut solution: Solution) -> Solution {
+    perform(problem, &mut solution);
+    solution
+}
