@@ -3,6 +3,7 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use squeezefilm::budget::What;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::export::files::{self, Control, Solved};
 use squeezefilm::export::json::Summary;
@@ -10,7 +11,9 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::memory;
 use squeezefilm::paper;
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{Numerics, Problem, Scenario, Time};
+use squeezefilm::problem::{Numerics, Problem, RotorCompliance, Scenario, Time};
+use squeezefilm::rotor;
+use squeezefilm::rotor::ring::{Band, MATERIALS, Part, Section};
 use squeezefilm::scene::presets;
 use squeezefilm::solve::{Method, Record, Settings, SolveError, check, solve};
 use squeezefilm::startup::{self, startup};
@@ -32,6 +35,45 @@ fn compare(what: &str, run: impl FnOnce() -> u64) -> f64 {
     let ratio = bytes as f64 / most as f64;
     println!("{what}: estimated {:.2} MB, allocated {:.2} MB, ratio {ratio:.2}", bytes as f64 / 1e6, most as f64 / 1e6);
     ratio
+}
+
+/// Rings: the preset's, one rectangle, and one whose mesh is as large as it may be.
+fn rings() -> Vec<(&'static str, Section, Band)> {
+    let part = |name: &str, [inner, outer, bottom, top]: [f64; 4]| {
+        let [inner_radius, outer_radius, bottom, top] = [inner, outer, bottom, top].map(|mm| 1e-3 * mm);
+        Part { name: name.to_owned(), inner_radius, outer_radius, bottom, top, material: MATERIALS[0] }
+    };
+    let Scenario::Motor(motor) = problem("ring-rotor", &[]).scenario else { unreachable!("the preset is a motor") };
+    let RotorCompliance::Ring(preset) = &motor.rotor else { unreachable!("its rotor is a ring") };
+    let band = motor.wave().band;
+    let block = Section::new(vec![part("block", [20.0, 32.0, 0.0, 8.0])], Vec::new()).unwrap();
+    let rib = |i: usize| part(&format!("rib {i}"), [20.0 + i as f64, 20.4 + i as f64, -0.1 * i as f64, 1.0]);
+    let ribs = [part("plate", [20.0, 32.0, 1.0, 2.0])].into_iter().chain((0..10).map(rib)).collect();
+    let ribs = Section::new(ribs, Vec::new()).unwrap();
+    let lowest = Band { radius: 29.2e-3, width: 0.3e-3 };
+    vec![("ring-rotor", preset.clone(), band), ("block", block, band), ("ribs", ribs, lowest)]
+}
+
+#[test]
+fn a_ring_takes_what_is_estimated() {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    for (name, section, band) in rings() {
+        let need = [rotor::need(&section, band).unwrap(), rotor::need_of_frequencies(&section).unwrap()];
+        let compliances = || {
+            section.compliances(band, 7, 200, &Cancel::new()).unwrap();
+            need[0].bytes
+        };
+        let frequencies = || {
+            section.natural_frequencies(&[7], 1, &Cancel::new()).unwrap();
+            need[1].bytes / rotor::RESONANCES as u64
+        };
+        println!("{:?}", need.map(|need| need.what));
+        // What is allocated is counted thread by thread.
+        let ratio = one.install(|| compare(&format!("{name}, compliances"), compliances));
+        assert!(ALLOWED.contains(&ratio), "{name}: {ratio}");
+        let ratio = one.install(|| compare(&format!("{name}, frequencies"), frequencies));
+        assert!(ALLOWED.contains(&ratio), "{name}: {ratio}");
+    }
 }
 
 /// What a solve that ended with so many steps a cycle on its finest grid was estimated to need.
@@ -151,7 +193,8 @@ fn what_needs_too_much_is_refused_before_it_is_allocated() {
     assert!(allocated.bytes_max < 1_000_000, "{allocated:?}");
     let Some(SolveError::Memory(excess)) = told else { panic!("{told:?}") };
     assert_eq!(check(&problem, &settings), Err(SolveError::Memory(excess)));
-    assert_eq!((excess.need.along, excess.need.across, excess.need.teeth), (2001, 501, 64));
+    let What::Film { along, across, teeth, .. } = excess.need.what else { panic!("{excess:?}") };
+    assert_eq!((along, across, teeth), (2001, 501, 64));
     assert!(excess.need.bytes > excess.allowed && excess.allowed == memory::allowed(), "{excess:?}");
     let message = excess.to_string();
     for words in ["2001 × 501 film nodes on 64 teeth", "numerics.steps_per_cycle", "--memory", "allowed"] {

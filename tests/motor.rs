@@ -220,7 +220,7 @@ fn a_compliance_table_of_the_beam_is_the_beam() {
     // Interpolated in (ln k, ln C) between rows 3 % apart: a few parts in 1e4.
     let at = |k: f64| {
         let wave = Wave { length: std::f64::consts::TAU / k, ..beam.wave() };
-        (k, beam.rotor.resolve(&wave, 1).unwrap().harmonic(1))
+        (k, beam.rotor.resolve(&wave, 1, &Cancel::new()).unwrap().harmonic(1))
     };
     let rows = (0..400).map(|i| at(50.0 * 1.03f64.powi(i))).collect();
     let table = Motor { rotor: RotorCompliance::Table(rows), ..beam.clone() };
@@ -335,7 +335,7 @@ fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_kn
     let rotor = decisions.iter().find(|decision| matches!(decision.chosen, Choice::Rotor { .. })).unwrap();
     assert!(rotor.effect > 0.0 && rotor.effect < 5e-3, "{rotor:?}");
     let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
-    let found = motor.compliances(200).unwrap();
+    let found = motor.compliances(200, &Cancel::new()).unwrap();
     let first = std::f64::consts::TAU / motor.wavelength();
     let rows = (1..=200).map(|n| (first * n as f64, found.harmonic(n))).collect();
     let table = Problem {
