@@ -65,7 +65,7 @@ fn contact_solve(bencher: Bencher<'_, '_>) {
     let positions: Vec<f64> = nodes().map(|(tooth, xi)| tooth as f64 * motor.pitch() + xi).collect();
     let stator: Vec<f64> = nodes().zip(&positions).map(|((_, xi), x)| motor.stator_displacement(*x, xi, 0.0)).collect();
     let lengths: Vec<f64> = (0..motor.teeth).flat_map(|_| x.lengths.iter().copied()).collect();
-    let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics);
+    let harmonics = plan.harmonics(grid);
     let modes = Modes::new(&plan.rotor, harmonics, &positions);
     let widths = vec![motor.contact_width; positions.len()];
     let trapped = vec![motor.contact_width * motor.min_spacing; positions.len()];

@@ -62,6 +62,10 @@ pub struct Found<L> {
     pub levels: Vec<L>,
     /// The headline on each.
     pub headlines: Vec<Mean>,
+    /// Those grids.
+    pub grids: Vec<Grid>,
+    /// Whether across them a field is a polynomial.
+    pub spectral: bool,
     /// The coarsest grid with one node less across, and by how much that changed the headline there; `None` with finite volumes.
     pub narrower: Option<(L, f64)>,
 }
@@ -70,6 +74,43 @@ impl<L> Found<L> {
     /// Estimated error of the headline of a polynomial with so many nodes across, absolute.
     pub fn width_error(&self) -> f64 {
         self.narrower.as_ref().map_or(0.0, |(_, change)| WIDTH_SHARE * change)
+    }
+
+    /// `plan`, which this was found by, on exactly these grids: none is added or left out.
+    pub fn pinned(&self, plan: &Plan) -> Plan {
+        let plan = if plan.spectral && !self.spectral { plan.volumes() } else { plan.clone() };
+        let (most_grids, most_across) = (self.grids.len(), self.grids.first().map_or(0, |grid| grid.across));
+        Plan { grids: self.grids.clone(), most_grids, most_across, ..plan }
+    }
+
+    /// What all grids give, as `given` says, and what all but the finest.
+    pub fn nested<T>(&mut self, given: impl Fn(&Self) -> T) -> Nested<T> {
+        let fine = given(self);
+        if self.levels.len() < 2 {
+            return Nested { fine, coarse: None };
+        }
+        let finest = (self.levels.pop(), self.headlines.pop(), self.grids.pop());
+        let coarse = Some(given(self));
+        self.levels.extend(finest.0);
+        self.headlines.extend(finest.1);
+        self.grids.extend(finest.2);
+        Nested { fine, coarse }
+    }
+}
+
+/// What a solve by all of its grids gives, and what it would without the finest: the less these differ, the more exact are both.
+#[derive(Clone, Debug)]
+pub struct Nested<T> {
+    /// By all grids.
+    pub fine: T,
+    /// By all but the finest; `None` of a single grid.
+    pub coarse: Option<T>,
+}
+
+impl<T> Nested<T> {
+    /// The same of what `made` makes of each.
+    pub fn map<U>(self, mut made: impl FnMut(T) -> U) -> Nested<U> {
+        Nested { fine: made(self.fine), coarse: self.coarse.map(made) }
     }
 }
 
@@ -97,7 +138,9 @@ pub fn climb_once<S: Scene>(
     last: Option<&Found<S::Level>>,
     cancel: &Cancel,
 ) -> Result<Found<S::Level>, S::Error> {
-    let mut found = Found { status: Status::Converged, levels: Vec::new(), headlines: Vec::new(), narrower: None };
+    let (status, spectral) = (Status::Converged, plan.spectral);
+    let mut found =
+        Found { status, levels: Vec::new(), headlines: Vec::new(), grids: Vec::new(), spectral, narrower: None };
     let mut across = plan.grids.first().map_or(0, |grid| grid.across);
     if plan.spectral && plan.grids.len() > 1 {
         let first = last.map_or(across, |last| scene.across(&last.levels[0])).max(2);
@@ -126,9 +169,11 @@ pub fn climb_once<S: Scene>(
             // A coarse grid without a periodic state says nothing about the next one.
             found.headlines.clear();
             found.levels.clear();
+            found.grids.clear();
         } else {
             found.headlines.push(scene.headline(&level));
             found.levels.push(level);
+            found.grids.push(grid);
         }
         let next = grid.finer(plan.spectral);
         let worthwhile = || next.work() * plan.target_error.sqrt() <= scene.most_work() && !scene.settled(&found);
@@ -170,11 +215,13 @@ fn settle_across<S: Scene>(
         found.status = status;
         found.headlines = vec![scene.headline(&level)];
         found.levels = vec![level];
+        found.grids = vec![Grid { across, ..coarsest }];
         found.narrower = Some((narrower, change));
         return Ok(across);
     }
     found.status = status;
     found.headlines = vec![scene.headline(&narrower)];
     found.levels = vec![narrower];
+    found.grids = vec![Grid { across: across - 1, ..coarsest }];
     Ok(across)
 }

@@ -7,7 +7,6 @@
 //! a sweep do not depend on how many threads share the budget. It is a quarter of the machine's memory unless [`allow`] says
 //! otherwise, because results are kept, and drawn, beside it.
 
-use crate::contact::cutoff;
 use crate::control::Cancel;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor, Plate};
@@ -162,7 +161,7 @@ fn level(motor: &Motor, plan: &Plan, grid: &Grid) -> u64 {
     let film = Film::of_motor(plan, grid);
     let (teeth, steps) = (motor.teeth as u64, grid.steps as u64);
     let (stored, instants) = if plan.every_tooth { (teeth, steps) } else { (1, steps / teeth) };
-    let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics) as u64;
+    let harmonics = plan.harmonics(grid) as u64;
     let nodes = teeth * film.along;
     let films = stored * film.cycle(steps) + if plan.trapped { film.step() + steps * film.unknowns() } else { 0 };
     let lines = (6 + u64::from(plan.shear)) * stored * steps * film.along;

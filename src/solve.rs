@@ -1,4 +1,6 @@
-//! One call for either scene: problem and settings in, solution out.
+//! One call for either scene: problem and settings in, solution out. [`near`]: solves whose differences mean something.
+
+pub mod near;
 
 use crate::control::{Cancel, Observer};
 use crate::drive::{Scaled, braking};
@@ -149,33 +151,14 @@ pub fn solve_from(
             let plan = motor_plan(motor, problem, settings, &spec)?;
             let mut found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let other = touching(&mut found, motor, &plan, observer, cancel);
-            let teeth = if plan.every_tooth { motor.teeth } else { 1 };
-            let result = &found.result;
-            Solution {
-                accuracy: accuracy(&plan, result.alpha_error, motor::unit(result.alpha), cancel),
-                warnings: warnings(&found.status).into_iter().chain(other.as_ref().map(bistable)).collect(),
-                status: found.status,
-                outcome: Outcome::Motor(found.result),
-                performance: None,
-                stats: found.stats,
-                model: model(&plan, teeth),
-                recording: found.recording,
-            }
+            let mut solution = of_motor(found, motor, &plan, cancel);
+            solution.warnings.extend(other.as_ref().map(bistable));
+            solution
         }
         (Scenario::Plate(plate), Method::Auto) => {
             let plan = plate_plan(plate, problem, settings, &spec);
             let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
-            let result = &found.result;
-            Solution {
-                accuracy: accuracy(&plan, result.film_load_error, result.film_load.abs(), cancel),
-                warnings: warnings(&found.status),
-                status: found.status,
-                outcome: Outcome::Plate(found.result),
-                performance: None,
-                stats: found.stats,
-                model: model(&plan, 1),
-                recording: found.recording,
-            }
+            of_plate(found, &plan, cancel)
         }
         (Scenario::Motor(motor), Method::Paper) => {
             paper::solve(motor, &problem.numerics, observer, cancel).map_err(MotorError::from)?
@@ -188,6 +171,42 @@ pub fn solve_from(
     if taken.bytes() > memory::REFINED {
         *warm = Warm::default();
     }
+    perform(problem, &mut solution);
+    if settings.record == Record::Numbers {
+        solution.recording = Recording::default();
+    }
+    Ok(solution)
+}
+
+fn of_motor(found: motor::Periodic, motor: &Motor, plan: &Plan, cancel: &Cancel) -> Solution {
+    let teeth = if plan.every_tooth { motor.teeth } else { 1 };
+    Solution {
+        accuracy: accuracy(plan, found.result.alpha_error, motor::unit(found.result.alpha), cancel),
+        warnings: warnings(&found.status),
+        status: found.status,
+        outcome: Outcome::Motor(found.result),
+        performance: None,
+        stats: found.stats,
+        model: model(plan, teeth),
+        recording: found.recording,
+    }
+}
+
+fn of_plate(found: plate::Periodic, plan: &Plan, cancel: &Cancel) -> Solution {
+    Solution {
+        accuracy: accuracy(plan, found.result.film_load_error, found.result.film_load.abs(), cancel),
+        warnings: warnings(&found.status),
+        status: found.status,
+        outcome: Outcome::Plate(found.result),
+        performance: None,
+        stats: found.stats,
+        model: model(plan, 1),
+        recording: found.recording,
+    }
+}
+
+/// Adds torque, power and efficiency of a motor whose fields are kept.
+fn perform(problem: &Problem, solution: &mut Solution) {
     if let (Scenario::Motor(motor), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome)
         && solution.recording.frames > 0
     {
@@ -195,10 +214,6 @@ pub fn solve_from(
         solution.warnings.extend(braking(motor, result, &found));
         solution.performance = Some(found);
     }
-    if settings.record == Record::Numbers {
-        solution.recording = Recording::default();
-    }
-    Ok(solution)
 }
 
 /// How exact a headline with this error is, relative to `unit`, and why it is no more so.

@@ -17,3 +17,4 @@ pub mod table1;
 pub mod torque;
 pub mod tradeoff;
 pub mod validity;
+pub mod variation;

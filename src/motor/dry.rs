@@ -5,7 +5,7 @@
 //! another grid changes.
 
 use super::MotorError;
-use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
+use crate::contact::{Contact, Instant, Modes, Shape};
 use crate::control::Cancel;
 use crate::film::grid::{Axis, Start};
 use crate::plan::Plan;
@@ -24,7 +24,7 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
         let nodes = teeth * nx;
         let positions: Vec<f64> = (0..nodes).map(|i| (i / nx) as f64 * motor.pitch() + axis.nodes[i % nx]).collect();
         let lengths = (0..nodes).map(|i| axis.lengths[i % nx]).collect();
-        let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics);
+        let harmonics = plan.harmonics(grid);
         let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let nothing = vec![0.0; nodes];
         let mut contact =

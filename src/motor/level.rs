@@ -3,7 +3,7 @@
 mod startup;
 
 use super::ending::{MotorError, Stop, unit};
-use crate::contact::{Contact, Instant, Modes, Shape, cutoff};
+use crate::contact::{Contact, Instant, Modes, Shape};
 use crate::control::{Cancel, Reporter};
 use crate::estimate::Mean;
 use crate::film::cycle::{FilmCycle, shifted};
@@ -116,7 +116,7 @@ impl Level {
                 })
                 .collect()
         });
-        let harmonics = cutoff(&plan.rotor, grid.harmonic_fraction, plan.most_harmonics);
+        let harmonics = plan.harmonics(grid);
         let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let gas = &motor.gas;
         let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load);

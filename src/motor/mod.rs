@@ -18,7 +18,7 @@ pub use ending::{MotorError, unit};
 
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
-use crate::ladder::{Found, Scene, climb, climb_once};
+use crate::ladder::{Found, Nested, Scene, climb, climb_once};
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
@@ -103,13 +103,34 @@ pub fn periodic_from(
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search = Search { motor, plan, observer, cancel, stats: &mut stats };
+    let mut search = Search { motor, plan, warm_rounds: WARM_ROUNDS, observer, cancel, stats: &mut stats };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
     let result = finish(motor, plan, &found, stats);
     if found.status == Status::Converged {
         warm.found = Some(found);
     }
     Ok(result)
+}
+
+/// As [`periodic`] by this plan alone, started from `near`, which stays as it is: what all grids give, and what all but the finest; the
+/// state; and the plan pinned to the grids that converged.
+///
+/// # Errors
+/// As [`periodic`].
+pub fn periodic_near(
+    near: &Warm,
+    motor: &Motor,
+    plan: &Plan,
+    cancel: &Cancel,
+) -> Result<(Nested<Periodic>, Warm, Plan), MotorError> {
+    let mut stats = Stats::default();
+    let last = near.found.as_ref().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
+    let warm_rounds = plan.round_limit;
+    let mut search = Search { motor, plan, warm_rounds, observer: &mut (), cancel, stats: &mut stats };
+    let mut found = climb(&mut search, plan, last, cancel)?;
+    let pinned = found.pinned(plan);
+    let nested = found.nested(|found| finish(motor, &pinned, found, stats));
+    Ok((nested, Warm { found: Some(found) }, pinned))
 }
 
 /// The state in which teeth touch of a motor that may float as well, followed from heavier loads under which it cannot; `None` if
@@ -126,7 +147,14 @@ pub fn touching(
     for heavier in HEAVIER {
         let plan = if heavier > 1.0 { &unrefined } else { plan };
         let motor = Motor { load: heavier * motor.load, ..motor.clone() };
-        let mut search = Search { motor: &motor, plan, observer: &mut *observer, cancel, stats: &mut stats };
+        let mut search = Search {
+            motor: &motor,
+            plan,
+            warm_rounds: WARM_ROUNDS,
+            observer: &mut *observer,
+            cancel,
+            stats: &mut stats,
+        };
         let found = climb_once(&mut search, plan, last.as_ref(), cancel).ok()?;
         let floats = |level: &Level| level.alpha(&motor) > NEARLY_FLOATS;
         if found.status != Status::Converged || found.levels.last().is_some_and(floats) {
@@ -141,6 +169,8 @@ pub fn touching(
 struct Search<'a> {
     motor: &'a Motor,
     plan: &'a Plan,
+    /// Rounds that a start from another motor's state is given.
+    warm_rounds: usize,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
     stats: &'a mut Stats,
@@ -168,7 +198,7 @@ impl Scene for Search<'_> {
             None => level.start(motor),
         }
         let cancel = if number < plan.grids.len() { self.cancel.clone() } else { self.cancel.within_budget() };
-        let mut rounds = if similar { WARM_ROUNDS } else { limit };
+        let mut rounds = if similar { self.warm_rounds } else { limit };
         let mut softened = false;
         let anew = || {
             let mut level = Level::new(motor, plan, grid);

@@ -9,6 +9,7 @@ pub use grid::Grid;
 pub use motor::ROTOR_EFFECT;
 pub use reduction::wedge_bound;
 
+use crate::contact::cutoff;
 use crate::fidelity::Fidelity;
 use crate::problem::{Flow, Named, Numerics, Teeth, Time, Wedge, Width};
 use crate::rotor::{Compliances, RESONANCES};
@@ -165,6 +166,8 @@ pub struct Plan {
     pub rotor: Compliances,
     /// Rotor harmonics kept at most.
     pub most_harmonics: usize,
+    /// The rotor whose harmonics are counted in place of `rotor`'s, so that a similar one keeps as many.
+    pub counted: Option<Compliances>,
     /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
     pub accuracy: f64,
     /// The error of α that the fidelity aims at, relative, whether or not the grids were asked for.
@@ -198,6 +201,17 @@ const THINNEST_LAYER: f64 = 0.03;
 const ROUND_LIMIT: usize = 300;
 
 impl Plan {
+    /// Rotor harmonics that are kept on a grid.
+    pub fn harmonics(&self, grid: &Grid) -> usize {
+        cutoff(self.counted.as_ref().unwrap_or(&self.rotor), grid.harmonic_fraction, self.most_harmonics)
+    }
+
+    /// This plan for a scene near its own, whose rotor is `rotor`: nothing else differs.
+    pub fn near(&self, rotor: &Compliances) -> Self {
+        let counted = self.counted.clone().or_else(|| Some(self.rotor.clone()));
+        Self { rotor: rotor.clone(), counted, ..self.clone() }
+    }
+
     /// The same plan with finite volumes across.
     pub fn volumes(&self) -> Self {
         let (across, clustering_across) = self.robust;

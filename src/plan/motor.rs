@@ -97,6 +97,7 @@ impl Plan {
             left_out: decisions.iter().filter(moving).map(|decision| decision.effect).sum(),
             rotor,
             most_harmonics: spec.most_harmonics,
+            counted: None,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,
             most_grids: if custom(numerics) { GRIDS } else { GRIDS + MORE_GRIDS },

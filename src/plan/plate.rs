@@ -101,6 +101,7 @@ impl Plan {
             left_out,
             rotor: Compliances::default(),
             most_harmonics: spec.most_harmonics,
+            counted: None,
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,
             most_grids: if custom(numerics) { GRIDS } else { GRIDS + more_grids },

@@ -12,7 +12,7 @@ pub use transient::Transient;
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, Mean, extrapolate_means};
 use crate::film::cycle::Interrupted;
-use crate::ladder::{Found, Scene, climb};
+use crate::ladder::{Found, Nested, Scene, climb};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -51,23 +51,41 @@ pub fn periodic(
     let turned = plate.turned();
     let plate = if plan.turned { &turned } else { plate };
     let mut stats = Stats::default();
-    let mut search = Search { plate, plan, observer, cancel, stats: &mut stats };
-    let found = climb(&mut search, plan, None, cancel)?;
+    let found = climb(&mut Search { plate, plan, observer, cancel, stats: &mut stats }, plan, None, cancel)?;
+    Ok(finish(plate, plan, &found, stats))
+}
+
+/// As [`periodic`]: what all grids give, and what all but the finest; and the plan pinned to the grids that converged.
+///
+/// # Errors
+/// As [`periodic`].
+pub fn periodic_near(plate: &Plate, plan: &Plan, cancel: &Cancel) -> Result<(Nested<Periodic>, Plan), Interrupted> {
+    let turned = plate.turned();
+    let plate = if plan.turned { &turned } else { plate };
+    let mut stats = Stats::default();
+    let mut found =
+        climb(&mut Search { plate, plan, observer: &mut (), cancel, stats: &mut stats }, plan, None, cancel)?;
+    let pinned = found.pinned(plan);
+    Ok((found.nested(|found| finish(plate, &pinned, found, stats)), pinned))
+}
+
+/// The numbers, their error and the fields of a plate, turned as the plan says, from what each grid gave, coarse to fine.
+fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, mut stats: Stats) -> Periodic {
     let loads = found.headlines.iter().map(|mean| mean.all).collect();
     let Some((level, coarser)) = found.levels.split_last() else {
         let (result, recording) = (PlateResult::default(), Recording::default());
-        return Ok(Periodic { status: found.status, result, loads, stats, recording });
+        return Periodic { status: found.status, result, loads, stats, recording };
     };
     stats.film_nodes = level.cycle.grid().len();
     stats.steps_per_cycle = level.steps();
     let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
     let mut recording = level.recording(plate, &coarser, plan.maps || plan.turned);
-    let estimate = stated(plate, plan, &found);
+    let estimate = stated(plate, plan, found);
     let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error).max(0.0);
     recording.judge_series(elsewhere / gas_force(plate, estimate.value));
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
-    let [least, most, highest] = width_errors(plate, &found);
+    let [least, most, highest] = width_errors(plate, found);
     result.film_load_range_error[0] += least;
     result.film_load_range_error[1] += most;
     result.max_pressure_error += highest;
@@ -82,7 +100,7 @@ pub fn periodic(
     if plan.turned {
         level.turn(&mut recording, plan.maps);
     }
-    Ok(Periodic { status, result, loads, stats, recording })
+    Periodic { status, result, loads, stats, recording }
 }
 
 /// Least and greatest mean load \[N\] that the equations allow: Z is nowhere less than the least gap and nowhere more than the greatest

@@ -1,0 +1,426 @@
+//! Derivatives of any numbers of a solution by the keys of its scene, from solves near it.
+//!
+//! ```text
+//! D(h) = (f(p + h) − f(p − h))/2h = f′ + O(h²),      h = 1 % of p
+//! ```
+//!
+//! All solves are by the plan of the one in the middle and start from its state ([`crate::solve::near`]), so that what the accuracy leaves
+//! open is nearly the same in all of them; how well their cycles repeat changes D by less than a millionth. What does change it are
+//! contact edges that pass a node of the grid: f has ripples as fine as the grid, which a very short step would differentiate. The error of
+//! a derivative is therefore taken from two steps, |D(h) − D(2h)|, and from two ladders of grids, the difference to the D of the same
+//! solves without their finest grid; their sum is stated (measured in `docs/theory.md`).
+//!
+//! Where p is at an end of its range, or a rule between keys has no room on one side, D is one-sided, (4 f(h) − f(2h) − 3 f(0))/2h,
+//! and its error the difference to (f(h) − f(0))/h.
+
+use super::attempt::caught;
+use crate::control::Cancel;
+use crate::ladder::Nested;
+use crate::problem::Problem;
+use crate::scene::{Parameter, ParameterKind, Scene, SceneError, Value};
+use crate::solution::{Solution, Status};
+use crate::solve::near::Centre;
+use rayon::prelude::*;
+
+/// The step, as a share of the scale of a key.
+const STEP: f64 = 0.01;
+/// The scale of a key that is zero, as a share of its slider.
+const SCALE_AT_ZERO: f64 = 0.1;
+/// Steps away from the middle at which is solved: on both sides, or on one.
+const BOTH: [i32; 4] = [-2, -1, 1, 2];
+const ABOVE: [i32; 2] = [1, 2];
+const BELOW: [i32; 2] = [-1, -2];
+
+/// A scene and the keys that are varied in it.
+#[derive(Clone, Debug)]
+pub struct Variation {
+    scene: Scene,
+    parameters: Vec<&'static Parameter>,
+}
+
+/// Why keys cannot be varied.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum VariationError {
+    /// An unknown key, or one that the scene does not have.
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// A key that has no derivative.
+    #[error("{}: it accepts {}, and only a number that is not whole has a derivative: vary it in a sweep; allowed here: {}", parameter.key, parameter.accepts(), allowed.join(", "))]
+    NotANumber {
+        /// The key.
+        parameter: &'static Parameter,
+        /// The keys that have one.
+        allowed: Vec<&'static str>,
+    },
+    /// A key without a value.
+    #[error("{key}: it is not given in this scene; allowed here: {}", allowed.join(", "))]
+    Absent {
+        /// The key.
+        key: &'static str,
+        /// The keys that are given.
+        allowed: Vec<&'static str>,
+    },
+    /// A key named twice.
+    #[error("{key}: given twice: the keys have to differ")]
+    Twice {
+        /// The key.
+        key: &'static str,
+    },
+}
+
+/// What a derivative was taken over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// Steps to both sides.
+    Both,
+    /// Steps to greater values: there is no room below.
+    Above,
+    /// Steps to smaller values.
+    Below,
+}
+
+/// A derivative, in the unit of the number over that of the key.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slope {
+    /// The derivative; not finite where the number is not known.
+    pub value: f64,
+    /// Its estimated error by the length of the step, absolute.
+    pub step_error: f64,
+    /// Its estimated error by the grids, absolute.
+    pub grid_error: f64,
+}
+
+impl Slope {
+    /// Its whole estimated error, absolute.
+    pub fn error(&self) -> f64 {
+        self.step_error + self.grid_error
+    }
+}
+
+/// The derivatives of all numbers by one key.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The key.
+    pub parameter: &'static Parameter,
+    /// Its value in the middle, in its unit.
+    pub at: f64,
+    /// The step h, in its unit.
+    pub step: f64,
+    /// On which sides of the middle was solved.
+    pub sides: Sides,
+    /// One for each number; or why there are none.
+    pub slopes: Result<Vec<Slope>, String>,
+}
+
+/// Numbers of a solution, and their derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jacobian {
+    /// The numbers in the middle.
+    pub numbers: Vec<f64>,
+    /// By each key, in the order of the variation.
+    pub columns: Vec<Column>,
+}
+
+impl Variation {
+    /// Of keys of `scene` by name.
+    ///
+    /// # Errors
+    /// [`VariationError`], which names the key and what is allowed.
+    pub fn new<S: AsRef<str>>(scene: &Scene, keys: &[S]) -> Result<Self, VariationError> {
+        let all = Self::all(scene).parameters;
+        let allowed = || all.iter().map(|parameter| parameter.key).collect();
+        let mut parameters: Vec<&'static Parameter> = Vec::new();
+        for key in keys.iter().map(AsRef::as_ref) {
+            // Setting it tells what is wrong with it.
+            let value = Parameter::find(key).and_then(Parameter::range).map_or(0.0, |range| range.min);
+            let set = scene.clone().set_value(key, Value::Number(value));
+            let Some(parameter) = Parameter::find(key) else {
+                set?;
+                continue;
+            };
+            if !matches!(parameter.kind, ParameterKind::Number { .. }) || parameter.table() == "numerics" {
+                return Err(VariationError::NotANumber { parameter, allowed: allowed() });
+            }
+            if !all.contains(&parameter) {
+                set?;
+                return Err(VariationError::Absent { key: parameter.key, allowed: allowed() });
+            }
+            if parameters.contains(&parameter) {
+                return Err(VariationError::Twice { key: parameter.key });
+            }
+            parameters.push(parameter);
+        }
+        Ok(Self { scene: scene.clone(), parameters })
+    }
+
+    /// Of all keys of `scene` whose values are numbers, not whole ones, and that its results can depend on. What follows from other keys is
+    /// not among them, and neither are numerics.
+    pub fn all(scene: &Scene) -> Self {
+        let acts = |parameter: &&'static Parameter| {
+            matches!(parameter.kind, ParameterKind::Number { .. })
+                && parameter.table() != "numerics"
+                && scene.heeds(parameter.key)
+                && scene.get(parameter.key).is_some()
+        };
+        Self { scene: scene.clone(), parameters: scene.parameters().filter(acts).collect() }
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The keys.
+    pub fn parameters(&self) -> &[&'static Parameter] {
+        &self.parameters
+    }
+
+    /// The values of the keys in the scene, each in its unit.
+    pub fn values(&self) -> Vec<f64> {
+        let number = |parameter: &&Parameter| self.scene.get(parameter.key).and_then(|value| value.as_number());
+        self.parameters.iter().map(|parameter| number(parameter).unwrap_or(f64::NAN)).collect()
+    }
+
+    /// The scene with other values of the keys, in their units.
+    ///
+    /// # Errors
+    /// A value out of the range of its key, or a broken rule between keys.
+    pub fn scene_at(&self, values: &[f64]) -> Result<Scene, SceneError> {
+        let mut scene = self.scene.clone();
+        for (parameter, value) in self.parameters.iter().zip(values) {
+            scene.set_value(parameter.key, Value::Number(*value))?;
+        }
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// What is to be solved at these values.
+    ///
+    /// # Errors
+    /// As [`Self::scene_at`].
+    pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
+        Problem::new(&self.scene_at(values)?)
+    }
+
+    /// The derivatives, at `values`, of the numbers that `numbers` reads from a problem and its solution, which has no pressure maps.
+    /// `centre` is the problem solved at these values. The solves run on rayon's pool, and the result does not depend on the number of threads;
+    /// `solved` is told after each of how many. `None` if cancelled.
+    pub fn jacobian(
+        &self,
+        values: &[f64],
+        centre: &Centre,
+        numbers: &(dyn Fn(&Problem, &Solution) -> Vec<f64> + Sync),
+        cancel: &Cancel,
+        solved: &(dyn Fn(usize) + Sync),
+    ) -> Option<Jacobian> {
+        let middle = read(&centre.problem, &centre.solved, numbers);
+        let plans: Vec<_> = (0..self.parameters.len()).map(|column| self.steps(values, column)).collect();
+        let jobs: Vec<(usize, usize)> = plans
+            .iter()
+            .enumerate()
+            .flat_map(|(column, plan)| (0..plan.points.len()).map(move |i| (column, i)))
+            .collect();
+        let of = |(column, i): &(usize, usize)| {
+            let problem = &plans[*column].points[*i];
+            let found = caught(|| centre.solve(problem, cancel));
+            solved(jobs.len());
+            match found {
+                Ok(Ok(Some(found))) => match found.fine.status {
+                    Status::Converged | Status::NotResolved { .. } => Ok(read(problem, &found, numbers)),
+                    Status::NotConverged { .. } => Err("a solve beside it does not converge".to_owned()),
+                    Status::Cancelled => Err("cancelled".to_owned()),
+                },
+                Ok(Ok(None)) => Err("a solve beside it has no periodic state on the same grids".to_owned()),
+                Ok(Err(error)) => Err(error.to_string()),
+                Err(panic) => Err(format!("the solver failed: {panic}")),
+            }
+        };
+        let mut found: Vec<Result<Nested<Vec<f64>>, String>> = jobs.par_iter().map(of).collect();
+        if cancel.is_cancelled() {
+            return None;
+        }
+        let columns = plans.into_iter().enumerate().map(|(column, plan)| {
+            let points: Result<Vec<_>, String> = found.drain(..plan.points.len()).collect();
+            let slopes = match (plan.refused, points) {
+                (Some(why), _) => Err(why),
+                (None, points) => points.map(|points| slopes(plan.sides, plan.step, &middle, &points)),
+            };
+            Column {
+                parameter: self.parameters[column],
+                at: values[column],
+                step: plan.step,
+                sides: plan.sides,
+                slopes,
+            }
+        });
+        let columns = columns.collect();
+        Some(Jacobian { numbers: middle.fine, columns })
+    }
+
+    /// Where to solve for the derivative by one key.
+    fn steps(&self, values: &[f64], column: usize) -> Steps {
+        let step = STEP * scale(self.parameters[column], values[column]);
+        let at = |steps: i32| {
+            let mut moved = values.to_vec();
+            moved[column] += f64::from(steps) * step;
+            self.problem(&moved)
+        };
+        let mut refused = None;
+        for (sides, steps) in [(Sides::Both, &BOTH[..]), (Sides::Above, &ABOVE), (Sides::Below, &BELOW)] {
+            match steps.iter().map(|steps| at(*steps)).collect() {
+                Ok(points) => return Steps { step, sides, points, refused: None },
+                Err(error) => refused = Some(error.to_string()),
+            }
+        }
+        Steps { step, sides: Sides::Both, points: Vec::new(), refused }
+    }
+}
+
+/// The problems beside the middle.
+struct Steps {
+    step: f64,
+    sides: Sides,
+    points: Vec<Problem>,
+    refused: Option<String>,
+}
+
+/// What a change of a key is relative to, in its unit: its value, of a temperature from absolute zero; of a key that is zero, a share of what
+/// is worth a slider.
+fn scale(parameter: &Parameter, value: f64) -> f64 {
+    match parameter.kind {
+        _ if parameter.unit == "°C" => value + 273.15,
+        ParameterKind::Number { slider, .. } if value == 0.0 => SCALE_AT_ZERO * (slider.max - slider.min),
+        _ => value.abs(),
+    }
+}
+
+fn read(
+    problem: &Problem,
+    solved: &Nested<Solution>,
+    numbers: &(dyn Fn(&Problem, &Solution) -> Vec<f64> + Sync),
+) -> Nested<Vec<f64>> {
+    Nested {
+        fine: numbers(problem, &solved.fine),
+        coarse: solved.coarse.as_ref().map(|coarse| numbers(problem, coarse)),
+    }
+}
+
+/// The slopes of all numbers, from those in the middle and at the points of the sides.
+fn slopes(sides: Sides, step: f64, middle: &Nested<Vec<f64>>, points: &[Nested<Vec<f64>>]) -> Vec<Slope> {
+    // D(h), and what the length of the step is judged by.
+    let derivative = |middle: f64, at: &[f64]| match (sides, at) {
+        (Sides::Both, [b2, b1, a1, a2]) => ((a1 - b1) / (2.0 * step), (a2 - b2) / (4.0 * step)),
+        (sides, [one, two]) => {
+            let step = if sides == Sides::Below { -step } else { step };
+            ((4.0 * one - two - 3.0 * middle) / (2.0 * step), (one - middle) / step)
+        }
+        _ => (f64::NAN, f64::NAN),
+    };
+    let number = |i: usize| {
+        let at: Vec<f64> = points.iter().map(|point| point.fine[i]).collect();
+        let (value, longer) = derivative(middle.fine[i], &at);
+        let coarse = middle.coarse.as_ref().and_then(|middle| {
+            let at: Option<Vec<f64>> = points.iter().map(|point| Some(point.coarse.as_ref()?[i])).collect();
+            Some(derivative(middle[i], &at?).0)
+        });
+        let grid_error = coarse.map_or(f64::INFINITY, |coarse| (value - coarse).abs());
+        Slope { value, step_error: (value - longer).abs(), grid_error }
+    };
+    (0..middle.fine.len()).map(number).collect()
+}
+
+impl Column {
+    /// What 1 % of the key changes, as a share of one: the change of the key that the elasticity is relative to, in its unit. `None` of a
+    /// key that has no natural zero, or is zero.
+    pub fn scale(&self) -> Option<f64> {
+        let relative = self.parameter.unit == "°C" || self.at != 0.0;
+        relative.then(|| scale(self.parameter, self.at))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fidelity::Fidelity;
+    use crate::scene::presets;
+    use crate::solution::Outcome;
+    use crate::solve::Settings;
+
+    fn headline(_: &Problem, solution: &Solution) -> Vec<f64> {
+        vec![match solution.outcome {
+            Outcome::Motor(result) => result.alpha,
+            Outcome::Plate(result) => result.film_load,
+        }]
+    }
+
+    fn jacobian(scene: &Scene, keys: &[&str]) -> Jacobian {
+        let variation = Variation::new(scene, keys).unwrap();
+        let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
+        let centre = Centre::new(&Problem::new(scene).unwrap(), &settings, None, &Cancel::new()).unwrap();
+        variation.jacobian(&variation.values(), &centre, &headline, &Cancel::new(), &|_| ()).unwrap()
+    }
+
+    #[test]
+    fn keys_that_have_no_derivative_are_refused_by_name() {
+        let error = |keys: &[&str]| Variation::new(&Scene::motor(), keys).unwrap_err().to_string();
+        assert!(error(&["film.min_spacing"]).contains("did you mean film.min_spacing_nm?"));
+        assert!(error(&["motor.waves"]).contains("a whole number from 1 to 100"));
+        assert!(error(&["film.gas"]).starts_with("film.gas: it accepts one of"));
+        assert!(error(&["numerics.tolerance"]).contains("numerics.tolerance"));
+        assert!(
+            error(&["stator.tooth_radius_m"])
+                .contains("not given in this scene; allowed here: motor.contact_radius_mm")
+        );
+        assert!(error(&["plate.length_mm"]).contains("plate"));
+        assert!(error(&["film.viscosity_upa_s", "film.viscosity_upa_s"]).contains("given twice"));
+        assert!(error(&["film.temperature_c"]).contains("film.gas"));
+    }
+
+    #[test]
+    fn all_keys_are_those_that_act() {
+        let keys = |scene: &Scene| -> Vec<&str> { Variation::all(scene).parameters().iter().map(|p| p.key).collect() };
+        let mut scene = Scene::motor();
+        assert!(keys(&scene).contains(&"film.viscosity_upa_s") && !keys(&scene).contains(&"motor.load_n"));
+        scene.set_all([("film.gas", "air"), ("film.altitude_m", "2000"), ("motor.load_n", "20")]).unwrap();
+        let now = keys(&scene);
+        for (key, acts) in [
+            ("film.viscosity_upa_s", false),
+            ("film.temperature_c", true),
+            ("film.ambient_pressure_kpa", false),
+            ("film.altitude_m", true),
+            ("motor.load_per_wave_n", false),
+            ("motor.load_n", true),
+        ] {
+            assert_eq!(now.contains(&key), acts, "{key}");
+        }
+        assert!(!keys(&Scene::plate()).contains(&"film.min_spacing_nm"));
+    }
+
+    #[test]
+    fn at_an_end_of_a_range_there_is_one_side() {
+        let mut scene = presets::find("plate-crossover").unwrap();
+        let key = "film.ambient_pressure_kpa";
+        scene.set(key, "1000").unwrap();
+        let found = &jacobian(&scene, &[key]).columns[0];
+        let one_sided = found.slopes.as_ref().unwrap()[0];
+        assert_eq!(found.sides, Sides::Below);
+        scene.set(key, "960").unwrap();
+        let before = jacobian(&scene, &[key]).columns[0].slopes.as_ref().unwrap()[0];
+        scene.set(key, "920").unwrap();
+        let earlier = jacobian(&scene, &[key]).columns[0].slopes.as_ref().unwrap()[0];
+        let continued = 2.0 * before.value - earlier.value;
+        let tolerance = one_sided.step_error + (continued - before.value).abs();
+        assert!((one_sided.value - continued).abs() < tolerance, "{one_sided:?} {before:?} {earlier:?}");
+        assert!(one_sided.step_error < 0.05 * one_sided.value.abs(), "{one_sided:?}");
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_no_bit() {
+        let keys = ["film.min_spacing_nm", "motor.load_per_wave_n", "rotor.decay_length_mm"];
+        let by = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| jacobian(&presets::find("fundamental").unwrap(), &keys))
+        };
+        assert_eq!(by(1), by(2));
+    }
+}
