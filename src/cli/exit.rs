@@ -2,6 +2,7 @@
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::compare::CompareError;
+use crate::analysis::fit::FitError;
 use crate::analysis::sweep::SweepError;
 use crate::atomic::WriteError;
 use crate::export::animation::AnimationError;
@@ -71,6 +72,9 @@ pub(super) enum CliError {
     /// A sweep that cannot be made.
     #[error(transparent)]
     Sweep(#[from] SweepError),
+    /// A fit that cannot be made.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// A comparison that cannot be made.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -147,10 +151,12 @@ impl CliError {
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
+            Self::Fit(error) if !error.is_bad_input() => Exit::Other,
             Self::Solve(error) if error.is_bad_input() => Exit::BadInput,
             Self::Output(_) if self.is_silent() => Exit::Unread,
             Self::Scene(_)
             | Self::Sweep(_)
+            | Self::Fit(_)
             | Self::Compare(_)
             | Self::Resume { .. }
             | Self::Busy { .. }
