@@ -148,7 +148,8 @@ fn a_bound_in_the_way_is_told() {
 #[test]
 fn what_cannot_be_told_apart_is_told() {
     let start = scene("plate-crossover", &[]);
-    let amplitudes = [0.2, 0.4, 0.6].map(|amplitude| (amplitude, load(&start, &[("plate.amplitude_um", format!("{amplitude}"))])));
+    let amplitudes =
+        [0.2, 0.4, 0.6].map(|amplitude| (amplitude, load(&start, &[("plate.amplitude_um", format!("{amplitude}"))])));
     let rows = amplitudes.map(|(amplitude, load)| format!("{amplitude},{load}\n")).concat();
     let measured = table(&start, &format!("plate.amplitude_um,film_load_n\n{rows}"));
     // The film knows the squeeze number, which is proportional to their product.
@@ -204,7 +205,11 @@ fn a_row_that_cannot_be_solved_is_left_out_and_reported() {
     let found = fitted(&start, &PLATE, &table(&start, &text), &DRAFT, 1);
     let last = found.rows.last().unwrap();
     assert!(last.residual.is_none() && last.computed.is_err(), "{last:?}");
-    assert!(found.warnings.iter().any(|text| text.contains("1 of 9 measurements were left out")), "{:?}", found.warnings);
+    assert!(
+        found.warnings.iter().any(|text| text.contains("1 of 9 measurements were left out")),
+        "{:?}",
+        found.warnings
+    );
     assert!(found.rows[..8].iter().all(|row| row.residual.is_some()));
 }
 
@@ -213,12 +218,18 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
     let problem = Problem::new(&scene("fundamental", &[])).unwrap();
     for (text, words) in [
         ("film.min_spacing_nm\n100\n", "table.csv:1: no column holds what was measured; allowed: alpha, film_load_n"),
-        ("film.min_spacing,alpha\n100,0.2\n", "table.csv:1: column film.min_spacing: unknown; allowed: keys of the scene"),
+        (
+            "film.min_spacing,alpha\n100,0.2\n",
+            "table.csv:1: column film.min_spacing: unknown; allowed: keys of the scene",
+        ),
         ("alpha,alpha\n1,2\n", "table.csv:1: column alpha: given twice"),
         ("alpha\n0.2\nhigh\n", "table.csv:3: column alpha: high is not a number"),
         ("alpha\n0.2\ninf\n", "table.csv:3: column alpha: inf is not a number"),
         ("alpha,alpha_error\n0.2,0\n", "table.csv:2: column alpha_error: \"0\": expected a number above 0"),
-        ("alpha,film_load_n,alpha_error\n0.2,0.5,0.1\n", "table.csv:1: give the errors of all that was measured, or of none"),
+        (
+            "alpha,film_load_n,alpha_error\n0.2,0.5,0.1\n",
+            "table.csv:1: give the errors of all that was measured, or of none",
+        ),
         ("torque_nm\n0.2\n", "table.csv:1: torque_nm and rotor_speed_rpm go together"),
         ("torque_nm,rotor_speed_rpm\n0.2,\n", "table.csv:2: column rotor_speed_rpm: empty"),
         ("alpha,weight\n0.2,-1\n", "table.csv:2: column weight: \"-1\": expected a number above 0"),
@@ -239,11 +250,17 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
     let error = model().under(&measured).unwrap_err().to_string();
     assert!(error.contains("every line of the table of measurements sets it"), "{error}");
     let one = table(&motor, "alpha\n0.2\n");
-    let two = Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]), &DRAFT).unwrap();
+    let two =
+        Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]), &DRAFT).unwrap();
     let error = fit(&two.under(&one).unwrap(), &one, 1, &Cancel::new(), &|_, _| ()).unwrap_err().to_string();
     assert!(error.starts_with("1 measurements cannot determine 2 keys"), "{error}");
-    for (size, words) in [("alpha=x", "expected a number above 0"), ("film_load_n=1%", "no such number; allowed: alpha"), ("-1%", "above 0")] {
-        let error = size.parse::<ErrorSize>().and_then(|size| one.clone().with_errors(&[size])).unwrap_err().to_string();
+    for (size, words) in [
+        ("alpha=x", "expected a number above 0"),
+        ("film_load_n=1%", "no such number; allowed: alpha"),
+        ("-1%", "above 0"),
+    ] {
+        let error =
+            size.parse::<ErrorSize>().and_then(|size| one.clone().with_errors(&[size])).unwrap_err().to_string();
         assert!(error.contains(words), "{size}: {error}");
     }
     assert!(one.without(&["nobody".to_owned()]).unwrap_err().to_string().contains("no line has this name"));
@@ -329,7 +346,8 @@ fn the_command_writes_what_it_prints_and_a_preset_that_solves() {
     let (data, out) = (folder.path().join("loads.csv"), folder.path().join("out"));
     std::fs::write(&data, plate_loads(&exact_loads(), 5)).unwrap();
     let [data, out_text] = [&data, &out].map(|path| path.to_str().unwrap());
-    let mut arguments = vec!["fit", "plate-crossover", "--data", data, "--out", out_text, "--json", "--fidelity", "draft"];
+    let mut arguments =
+        vec!["fit", "plate-crossover", "--data", data, "--out", out_text, "--json", "--fidelity", "draft"];
     arguments.extend(PLATE.iter().flat_map(|vary| ["--vary", vary]));
     let output = run(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

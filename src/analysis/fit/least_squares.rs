@@ -18,8 +18,6 @@ use basin::{
 };
 use std::sync::Mutex;
 
-/// Half the distance in x between the two points of a derivative.
-const STEP: f64 = 0.01;
 /// The search ends when a step makes χ² smaller by less than this share …
 const LEAST_GAIN: f64 = 1e-5;
 /// … or after so many steps.
@@ -127,34 +125,17 @@ impl Search<'_> {
         Ok(solved.iter().map(|solved| residuals(self.measured, &in_order(self.measured, solved), self.used)).collect())
     }
 
-    /// Of each unknown that is free ∂residual/∂x, by central differences within the bounds; with only one neighbour that can be
-    /// solved by that one.
+    /// Of each unknown ∂residual/∂x; zeros where it is fixed. Those of a condition whose neighbours cannot be solved are zeros as well: it
+    /// then does not steer the search.
     fn derivatives(&self, x: &[f64]) -> Result<Vec<Vec<f64>>, Stopped> {
-        let free: Vec<usize> = (0..x.len()).filter(|k| self.lower[*k] < self.upper[*k]).collect();
-        let mut points = vec![x.to_vec()];
-        for k in &free {
-            for step in [-STEP, STEP] {
-                let mut point = x.to_vec();
-                point[*k] = (x[*k] + step).clamp(0.0, 1.0);
-                points.push(point);
-            }
-        }
-        let solved = self.residuals(&points)?;
-        let mut columns = vec![vec![0.0; self.used.len()]; x.len()];
-        for (k, pair) in free.iter().zip(solved[1..].chunks(2)) {
-            let place = |i: usize| points[i][*k];
-            let first = 1 + 2 * free.iter().position(|other| other == k).unwrap_or(0);
-            for row in 0..self.used.len() {
-                let known = [(place(first), pair[0][row]), (place(first + 1), pair[1][row]), (x[*k], solved[0][row])];
-                let known: Vec<(f64, f64)> = known.into_iter().filter(|(_, value)| value.is_finite()).collect();
-                if let [(from, low), (to, high), ..] = known[..]
-                    && from != to
-                {
-                    columns[*k][row] = (high - low) / (to - from);
-                }
-            }
-        }
-        Ok(columns)
+        let free: Vec<bool> = self.lower.iter().zip(&self.upper).map(|(lower, upper)| lower < upper).collect();
+        let slopes = self.model.slopes(x, &free, self.cancel).ok_or(Stopped)?;
+        let rows = in_order(self.measured, &slopes);
+        let column = |k: usize| {
+            let entry = |i: &usize| rows[*i].get(k).copied().unwrap_or(0.0) / self.measured.measurements[*i].error;
+            self.used.iter().map(entry).collect()
+        };
+        Ok((0..x.len()).map(column).collect())
     }
 }
 
@@ -197,8 +178,8 @@ fn sum_of_squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()
 }
 
-/// What is computed for each measurement, from what is computed under each condition.
-fn in_order(measured: &Measured, solved: &[Vec<Computed>]) -> Vec<Computed> {
+/// What belongs to each measurement, from what was asked of each condition.
+fn in_order<T: Clone>(measured: &Measured, solved: &[Vec<T>]) -> Vec<T> {
     let mut next = vec![0; solved.len()];
     let computed = measured.measurements.iter().map(|one| {
         next[one.condition] += 1;

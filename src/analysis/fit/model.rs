@@ -3,8 +3,9 @@
 use super::error::FitError;
 use super::measured::{Measured, What};
 use super::unknown::{Bounds, MOST_UNKNOWNS, Unknown};
-use crate::analysis::attempt::{RunStatus, attempt_from};
+use crate::analysis::attempt::{RunStatus, attempt_from, caught};
 use crate::analysis::quantity::Numbers;
+use crate::analysis::variation::Variation;
 use crate::control::Cancel;
 use crate::drive::Scaled;
 use crate::estimate::Estimate;
@@ -12,7 +13,8 @@ use crate::motor::Warm;
 use crate::problem::{Problem, Scenario, rpm};
 use crate::scene::Scene;
 use crate::solution::{Outcome, Solution};
-use crate::solve::{Record, Settings, check};
+use crate::solve::near::Centre;
+use crate::solve::{Method, Record, Settings, check};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -78,7 +80,10 @@ impl<'a> Model<'a> {
         for unknown in &self.unknowns {
             let key = unknown.parameter.key;
             if measured.measurements.iter().all(|one| sets(&measured.conditions[one.condition], key)) {
-                return Err(FitError::Twice { key, why: "every line of the table of measurements sets it: nothing is left to choose" });
+                return Err(FitError::Twice {
+                    key,
+                    why: "every line of the table of measurements sets it: nothing is left to choose",
+                });
             }
         }
         let condition = |changes: &Vec<(String, String)>| -> Result<Condition, FitError> {
@@ -182,6 +187,64 @@ impl<'a> Model<'a> {
             Ok((problem, solution)) => read(&problem, &solution, asked),
             Err(reason) => asked.iter().map(|_| Err(reason.clone())).collect(),
         }
+    }
+
+    /// ∂/∂x of what is asked of each condition at `x`, by the unknowns that are free: `[condition][asked][unknown]`. Zeros by the others,
+    /// and nothing at all of a condition that has no derivatives. They are those of `Method::Auto`; for the paper's, whose contact moves
+    /// from node to node of a fixed mesh, they are scaled by the ratio of the two results. `None` if cancelled.
+    pub(super) fn slopes(&self, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<Vec<f64>>>> {
+        let of = |condition: usize| {
+            self.slopes_of(condition, x, free, cancel).unwrap_or_else(|| vec![Vec::new(); self.asked[condition].len()])
+        };
+        let found: Vec<_> = (0..self.conditions.len()).into_par_iter().map(of).collect();
+        (!cancel.is_cancelled()).then_some(found)
+    }
+
+    fn slopes_of(&self, condition: usize, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<f64>>> {
+        let Condition { scene, chosen } = &self.conditions[condition];
+        let asked = &self.asked[condition];
+        let varied: Vec<usize> = (0..x.len()).filter(|k| free[*k] && chosen[*k]).collect();
+        let mut slopes = vec![vec![0.0; x.len()]; asked.len()];
+        if varied.is_empty() {
+            return Some(slopes);
+        }
+        let mut scene = scene.clone();
+        for k in (0..x.len()).filter(|k| chosen[*k]) {
+            self.unknowns[k].set(&mut scene, x[k]).ok()?;
+        }
+        let keys: Vec<&str> = varied.iter().map(|k| self.unknowns[*k].parameter.key).collect();
+        let variation = Variation::new(&scene, &keys).ok()?;
+        let values = variation.values();
+        let problem = variation.problem(&values).ok()?;
+        let centre = caught(|| Centre::new(&problem, &self.settings, None, cancel)).ok()?.ok()?;
+        let numbers = |problem: &Problem, solution: &Solution| -> Vec<f64> {
+            read(problem, solution, asked)
+                .into_iter()
+                .map(|found| found.map_or(f64::NAN, |found| found.value))
+                .collect()
+        };
+        let count = |_| {
+            self.solves.fetch_add(1, Ordering::Relaxed);
+        };
+        let found = variation.jacobian(&values, &centre, &numbers, cancel, &count)?;
+        let ratios: Vec<f64> = match self.settings.method {
+            Method::Auto => vec![1.0; asked.len()],
+            Method::Paper => {
+                let own = self.solve(condition, x, &self.settings, cancel);
+                own.iter()
+                    .zip(&found.numbers)
+                    .map(|(own, ours)| own.as_ref().map_or(0.0, |own| own.value / ours))
+                    .collect()
+            }
+        };
+        for (k, column) in varied.iter().zip(&found.columns) {
+            let Ok(column) = &column.slopes else { continue };
+            for (row, slope) in column.iter().enumerate() {
+                let slope = slope.value * self.unknowns[*k].slope(x[*k]) * ratios[row];
+                slopes[row][*k] = if slope.is_finite() { slope } else { 0.0 };
+            }
+        }
+        Some(slopes)
     }
 }
 

@@ -22,6 +22,8 @@ pub enum Tab {
     Tradeoff,
     /// A motor's rotor by itself.
     Rotor,
+    /// Keys chosen to agree with measurements.
+    Fit,
 }
 
 impl Tab {
@@ -35,6 +37,7 @@ impl Tab {
         (Self::Startup, "Start-up"),
         (Self::Hold, "Hold"),
         (Self::Rotor, "Rotor"),
+        (Self::Fit, "Fit"),
     ];
 
     /// Its label, of a scene that is a plate or a motor.
