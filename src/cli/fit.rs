@@ -199,8 +199,14 @@ fn with_unit(number: String, parameter: &Parameter) -> String {
     format!("{number} {}", parameter.unit).trim_end().to_owned()
 }
 
+/// As few digits as say it.
+fn plain(value: f64) -> String {
+    let text = short(value, 5);
+    if text.contains('e') { format!("{value:e}") } else { text }
+}
+
 fn bounds((from, to): (f64, f64), parameter: &Parameter) -> String {
-    with_unit(format!("{} … {}", short(from, 5), short(to, 5)), parameter)
+    with_unit(format!("{} … {}", plain(from), plain(to)), parameter)
 }
 
 fn at_bound(at: Option<Bound>) -> &'static str {
@@ -227,7 +233,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
         columns.row([
             parameter.key.to_owned(),
             with_unit(value, parameter),
-            short(found.unknown.start, 5),
+            plain(found.unknown.start),
             bounds((found.unknown.from, found.unknown.to), parameter),
             at_bound(found.at).to_owned(),
         ]);

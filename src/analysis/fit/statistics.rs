@@ -23,6 +23,9 @@ impl Certainty {
         let jacobian = DMatrix::from_fn(rows, unknowns, |row, unknown| columns[unknown][row]);
         let nothing =
             || Self { covariance: DMatrix::zeros(unknowns, unknowns), undetermined: Vec::new(), conditioning: 0.0 };
+        if jacobian.is_empty() {
+            return nothing();
+        }
         let Some(decomposed) = jacobian.try_svd(false, true, f64::EPSILON, 0) else { return nothing() };
         let Some(directions) = decomposed.v_t else { return nothing() };
         let values = decomposed.singular_values;
