@@ -277,7 +277,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
 fn summary(fitted: &Fitted, measured: &Measured) -> String {
     let used = fitted.rows.iter().filter(|row| row.residual.is_some()).count();
     let counts = format!("{used} measurements, {} degrees of freedom", fitted.degrees_of_freedom);
-    match fitted.error_scale {
+    let agreement = match fitted.error_scale {
         _ if fitted.errors_known => {
             format!("χ² = {} of {counts}, with the errors that were given.", significant(fitted.chi_squared, 4))
         }
@@ -288,11 +288,18 @@ fn summary(fitted: &Fitted, measured: &Measured) -> String {
             let size =
                 if most < 1.01 * least { percent(least) } else { format!("{} to {}", percent(least), percent(most)) };
             format!(
-                "{counts}. No errors were given: the residuals say that one standard error of a measurement is {size} of its value, and all \
-                 standard errors rest on that."
+                "{counts}. No errors were given: the residuals say that one standard error of a measurement is {size} of its value, \
+                 and all standard errors rest on that."
             )
         }
         None => format!("{counts}. No errors were given, and nothing tells how large they are."),
+    };
+    match fitted.numerical_error {
+        Some(worst) => format!(
+            "{agreement} The numerical error of what is computed is at most {} standard errors of a measurement.",
+            significant(worst, 2)
+        ),
+        None => agreement,
     }
 }
 

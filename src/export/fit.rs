@@ -30,6 +30,8 @@ pub struct Object<'a> {
     pub errors_known: bool,
     /// What the errors were multiplied by.
     pub error_scale: Option<f64>,
+    /// Greatest numerical error of what is computed, in standard errors of its measurement.
+    pub numerical_error: Option<f64>,
     /// Covariance of the unknowns in their units, row by row; null at a bound, and where the measurements do not tell.
     pub covariance: Vec<Vec<Option<f64>>>,
     /// Correlation of the unknowns, likewise.
@@ -161,6 +163,7 @@ impl<'a> Object<'a> {
             degrees_of_freedom: fitted.degrees_of_freedom,
             errors_known: fitted.errors_known,
             error_scale: fitted.error_scale,
+            numerical_error: fitted.numerical_error,
             covariance: matrix(&fitted.covariance),
             correlation: matrix(&fitted.correlation),
             minima: minima.collect(),
@@ -263,7 +266,9 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
         ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), end| (least.min(end), most.max(end)));
     let mut dots = Points::new("", all().map(|(one, _, computed)| [computed, one.value]), Colour::FILM, solid);
     dots.errors = all().map(|(_, row, _)| row.error).collect();
-    Panel::new("", Axis::new(format!("{label}, computed"), unit), Axis::new("measured", unit))
+    let room = 0.04 * (most - least);
+    let axis = |label: String| Axis::new(label, unit).including([least - room, most + room]);
+    Panel::new("", axis(format!("{label}, computed")), axis("measured".to_owned()))
         .layer(Line::new("", [[least, least], [most, most]], Style::quiet()))
         .layer(dots)
 }

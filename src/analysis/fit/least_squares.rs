@@ -8,7 +8,7 @@ use super::starts::spread;
 use super::statistics::Certainty;
 use super::unknown::{Bound, Unknown};
 use crate::control::Cancel;
-use crate::digits::{percent, short, significant};
+use crate::digits::{short, significant};
 use crate::fidelity::Fidelity;
 use crate::scene::Scene;
 use crate::solve::{Method, Settings};
@@ -49,6 +49,8 @@ pub struct Fitted {
     pub error_scale: Option<f64>,
     /// Whether the errors of the measurements were given.
     pub errors_known: bool,
+    /// Greatest numerical error of what is computed, in standard errors of its measurement; `None` if none is known.
+    pub numerical_error: Option<f64>,
     /// Covariance of the unknowns in their units, row by row; not a number where one is at a bound.
     pub covariance: Vec<Vec<f64>>,
     /// Correlation of the unknowns, likewise.
@@ -395,8 +397,13 @@ fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reache
             FittedRow { computed: computed.clone(), residual, error }
         })
         .collect();
+    let off = rows.iter().filter(|row| row.residual.is_some()).filter_map(|row| {
+        let computed = row.computed.as_ref().ok()?;
+        Some(computed.error / row.error).filter(|off| off.is_finite())
+    });
     let mut fitted = Fitted {
         warnings: Vec::new(),
+        numerical_error: off.reduce(f64::max),
         scene: model.fitted(&x, "fitted")?,
         solves: model.solves(),
         errors_known: measured.errors_known,
@@ -489,19 +496,10 @@ fn warnings(
         ),
         _ => {}
     }
-    // How far the solver itself is off, in standard errors.
-    let numerical = fitted.rows.iter().zip(&measured.measurements).filter_map(|(row, one)| {
-        row.residual?;
-        let computed = row.computed.as_ref().ok()?;
-        computed.error.is_finite().then_some((computed.error / row.error, computed.error / one.value.abs()))
-    });
-    let worst = numerical.fold((0.0, 0.0), |worst: (f64, f64), one| if one.0 > worst.0 { one } else { worst });
-    if worst.0 > 0.5 && fitted.degrees_of_freedom > 0 {
+    if let Some(worst) = fitted.numerical_error.filter(|worst| *worst > 0.5 && fitted.degrees_of_freedom > 0) {
         warnings.push(format!(
-            "the numerical error of what is computed is up to {} standard errors of a measurement ({} of its value): ask for more \
-             accuracy",
-            significant(worst.0, 2),
-            percent(worst.1)
+            "the numerical error of what is computed is up to {} standard errors of a measurement: ask for more accuracy",
+            significant(worst, 2)
         ));
     }
     if fitted.minima.len() > 1 {

@@ -115,18 +115,26 @@ impl FitState {
         self.form.len() < MOST_UNKNOWNS
     }
 
-    /// Changes the form.
-    pub fn edit(&mut self, change: impl FnOnce(&mut Vec<AxisForm>)) {
-        change(&mut self.form);
+    /// Changes a line of the form.
+    pub fn edit(&mut self, line: usize, change: impl FnOnce(&mut AxisForm)) {
+        self.form.get_mut(line).map(change);
         self.judged = None;
     }
 
-    /// One more key: the first that is not there.
+    /// One more line: the first key that is not there.
     pub fn add(&mut self, scene: &Scene) {
         let taken = |key: &str| self.form.iter().any(|axis| axis.key == key);
         let next = scene.parameters().find(|parameter| chooses(scene, parameter) && !taken(parameter.key));
-        let next = next.map(|parameter| AxisForm::around(scene, parameter.key, 2));
-        self.edit(|form| form.extend(next));
+        self.form.extend(next.map(|parameter| AxisForm::around(scene, parameter.key, 2)));
+        self.judged = None;
+    }
+
+    /// One line less.
+    pub fn remove(&mut self, line: usize) {
+        if line < self.form.len() {
+            self.form.remove(line);
+        }
+        self.judged = None;
     }
 
     /// The bounds that the form says.

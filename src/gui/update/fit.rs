@@ -29,16 +29,13 @@ impl Updater {
             FitCommand::Forget => state.fit.forget(),
             FitCommand::Key(line, key) => {
                 let axis = AxisForm::around(scene, key, 2);
-                state.fit.edit(|form| form.get_mut(line).into_iter().for_each(|line| *line = axis.clone()));
+                state.fit.edit(line, |line| *line = axis);
             }
-            FitCommand::From(line, text) => state.fit.edit(|form| form[line].from = text),
-            FitCommand::To(line, text) => state.fit.edit(|form| form[line].to = text),
-            FitCommand::Log(line, log) => state.fit.edit(|form| form[line].log = log),
-            FitCommand::Add => {
-                let scene = scene.clone();
-                state.fit.add(&scene);
-            }
-            FitCommand::Remove(line) => state.fit.edit(|form| drop(form.remove(line))),
+            FitCommand::From(line, text) => state.fit.edit(line, |line| line.from = text),
+            FitCommand::To(line, text) => state.fit.edit(line, |line| line.to = text),
+            FitCommand::Log(line, log) => state.fit.edit(line, |line| line.log = log),
+            FitCommand::Add => state.fit.add(scene),
+            FitCommand::Remove(line) => state.fit.remove(line),
             FitCommand::Start => self.start_fit(),
             FitCommand::Cancel => state.fit.cancel(),
             FitCommand::Take => {
