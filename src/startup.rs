@@ -349,7 +349,8 @@ impl<'a> SceneTransient<'a> {
                 Self::Motor(Box::new(motor::Transient::at_rest(motor, plan, width_error, stats)?))
             }
             Scenario::Plate(plate) => {
-                let transient = plate::Transient::at_rest(plate, plan, width_error, stats).map_err(SolveError::Plate)?;
+                let transient =
+                    plate::Transient::at_rest(plate, plan, width_error, stats).map_err(SolveError::Plate)?;
                 Self::Plate(Box::new(transient))
             }
         })

@@ -48,7 +48,7 @@ impl Centre {
         // First to find the grids that the accuracy needs; then by them, until the cycle repeats.
         match &problem.scenario {
             Scenario::Motor(motor) => {
-                let plan = motor_plan(motor, problem, &settings, &spec)?;
+                let plan = motor_plan(motor, problem, &settings, &spec, cancel)?;
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
                 let (mut found, mut warm, mut plan) = motor::periodic_near(warm, motor, &plan, cancel)?;
                 if settled(found.fine.status) {
@@ -104,7 +104,7 @@ impl Centre {
         match &problem.scenario {
             Scenario::Motor(motor) => {
                 let settings = Settings { record: Record::Numbers, ..Settings::default() };
-                let own = motor_plan(motor, problem, &settings, &settings.fidelity.spec())?;
+                let own = motor_plan(motor, problem, &settings, &settings.fidelity.spec(), cancel)?;
                 let plan = self.plan.near(&own.rotor);
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
                 let (found, _, used) = motor::periodic_near(&self.warm, motor, &plan, cancel)?;
