@@ -17,6 +17,8 @@ pub struct Balance {
     pub load: Option<f64>,
     /// Least film thickness \[m\].
     pub min_spacing: f64,
+    /// Whether a gap that is open bears no contact. (Asperities do.)
+    pub exclusive: bool,
 }
 
 /// Largest factor by which extrapolation changes an absolute pressure.
@@ -45,7 +47,8 @@ impl LineLoads {
                     let (thick, touching) = (self.film_thickness[k], self.contact[k] > 0.0);
                     if touching {
                         out.contact[k] = (self.contact[k] + between(&missing.contact)).max(0.0);
-                    } else {
+                    }
+                    if !touching || !balance.exclusive {
                         let thicker = (thick + between(&missing.thickness)).max(0.5 * thick);
                         out.film_thickness[k] = thicker.max(balance.min_spacing);
                     }
@@ -118,7 +121,7 @@ impl LineLoads {
 
     /// Teeth that touch in each frame.
     pub fn touching_teeth(&self) -> Vec<usize> {
-        self.series(|nodes| usize::from(self.contact[nodes].iter().any(|c| *c > 0.0)), Add::add)
+        self.series(|nodes| usize::from(self.contact[nodes].iter().any(|c| *c > self.touching_from)), Add::add)
     }
 
     /// Of line loads on one line \[N\].
