@@ -10,7 +10,9 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::cycle::FilmCycle;
 use squeezefilm::film::grid::{Axis, FilmGrid, Start};
 use squeezefilm::film::stepper::FilmState;
-use squeezefilm::problem::{Gas, Problem, RotorCompliance};
+use squeezefilm::motor;
+use squeezefilm::plan::Plan;
+use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance, Scenario};
 use squeezefilm::rotor::ring::Band;
 use squeezefilm::rotor::{Compliances, Wave};
 use squeezefilm::scene::{Scene, presets};
@@ -257,4 +259,105 @@ fn solved(preset: &str, changes: &[(&str, &str)]) -> (Scene, Solution, MotorResu
         Outcome::Motor(result) => (scene, solution, result),
         Outcome::Plate(_) => panic!("a motor"),
     }
+}
+
+#[test]
+fn both_presets_are_solved_and_film_and_contact_carry_the_load() {
+    for preset in ["asperities", "rough-flow"] {
+        let (_, solution, result) = solved(preset, &[]);
+        // Chosen so: near the fundamental case.
+        assert!((result.alpha - 0.246).abs() < 0.025, "{preset}: {}", result.alpha);
+        assert!((2.0..6.0).contains(&result.teeth_in_contact) && !result.levitated);
+        let recording = &solution.recording;
+        for frame in 0..recording.frames {
+            let total = recording.film_load[frame] + recording.contact_load[frame];
+            assert!((total / 2.45 - 1.0).abs() < 5e-3, "{preset} {frame}: {total}");
+        }
+        assert!(recording.contact.iter().all(|c| *c > 0.0 || *c == 0.0) && recording.touching_from > 0.0);
+    }
+}
+
+#[test]
+fn rougher_faces_stay_further_apart_and_hold_less_pressure() {
+    let at = |rms: &str| solved("asperities", &[("surface.rms_nm", rms)]).2;
+    let (fine, coarse, rough) = (at("50"), at("100"), at("200"));
+    assert!(fine.alpha > coarse.alpha + 0.05 && coarse.alpha > rough.alpha + 0.05);
+    assert!(fine.min_gap < coarse.min_gap && coarse.min_gap < rough.min_gap);
+    // Greenwood and Tripp's summits on both faces are fewer that meet: at this density, softer.
+    let (_, _, tripp) = solved("asperities", &[("surface.contact_law", "greenwood-tripp")]);
+    assert!(tripp.min_gap < coarse.min_gap);
+}
+
+#[test]
+fn every_tooth_by_itself_gives_the_same() {
+    let one = solved("asperities", &[("numerics.tolerance", "1e-6")]).2;
+    let all = solved("asperities", &[("numerics.tolerance", "1e-6"), ("numerics.teeth", "all")]).2;
+    assert!((one.alpha - all.alpha).abs() < 1e-5, "{} {}", one.alpha, all.alpha);
+}
+
+#[test]
+fn under_a_light_load_the_rotor_floats_over_the_asperities() {
+    let result = solved("asperities", &[("motor.load_per_wave_n", "0.1"), ("surface.rms_nm", "50")]).2;
+    assert!(result.levitated && result.teeth_in_contact == 0.0, "{result:?}");
+    assert!((result.alpha - 1.0).abs() < 1e-2 + result.alpha_error, "{result:?}");
+}
+
+/// A motor on summits so stiff and so far apart that they all carry at one height has the film share of the hard stop there.
+#[test]
+fn a_motor_on_stiff_asperities_is_the_one_with_the_hard_stop() {
+    let Scenario::Motor(hard) = Problem::new(&presets::find("fundamental").unwrap()).unwrap().scenario else {
+        panic!()
+    };
+    let alpha = |motor: &Motor| {
+        let plan = Plan::motor(motor, Fidelity::Draft, &Numerics::default()).unwrap();
+        let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).unwrap();
+        assert_eq!(found.status, Status::Converged);
+        found.result.alpha
+    };
+    let exact = alpha(&hard);
+    let mut last = f64::INFINITY;
+    for u in [9.0, 18.0, 36.0] {
+        let rms = hard.min_spacing / u;
+        // Three of nine teeth carry it.
+        let pressure = hard.load / (3.0 * hard.tooth_width * hard.contact_width);
+        let soft = asperities(rms, 1.0, "greenwood-williamson", "gaussian").pressure(hard.min_spacing).0;
+        let stiff = asperities(rms, pressure / soft, "greenwood-williamson", "gaussian");
+        let motor = Motor { surface: Surface { asperities: Some(stiff), flow: None }, ..hard.clone() };
+        let off = (alpha(&motor) / exact - 1.0).abs();
+        assert!(off < 0.7 * last, "{u}: {off} {last}");
+        last = off;
+    }
+    assert!(last < 0.02, "{last}");
+}
+
+#[test]
+fn flow_factors_matter_where_gas_has_time_to_leave_and_vanish_with_the_roughness() {
+    let at = |changes: &[(&str, &str)]| solved("rough-flow", changes).2.alpha;
+    let slow = |lay: &str| at(&[("stator.frequency_khz", "3"), ("surface.lay", lay)]);
+    let (across, even, along) = (slow("0.2"), slow("1"), slow("5"));
+    // Grooves along the wave are walls to what leaves at the sides.
+    assert!(across < 0.9 * even && even < 0.95 * along, "{across} {even} {along}");
+    let smooth = solved("fundamental", &[]).2.alpha;
+    let fine = [("surface.flow_factors", "patir-cheng"), ("surface.rms_nm", "10")];
+    assert!((solved("fundamental", &fine).2.alpha / smooth - 1.0).abs() < 1e-4);
+    let rough = [("surface.flow_factors", "patir-cheng"), ("surface.rms_nm", "100")];
+    assert!((solved("fundamental", &rough).2.alpha / smooth - 1.0).abs() > 0.01);
+}
+
+#[test]
+fn what_a_surface_rules_out_is_refused_by_name() {
+    let mut scene = presets::find("asperities").unwrap();
+    let message = scene.set("film.min_spacing_nm", "100").unwrap_err().to_string();
+    assert!(message.contains("surface.model") && message.contains("minimum-spacing"), "{message}");
+    let message = presets::find("fundamental").unwrap().set("surface.rms_nm", "100").unwrap_err().to_string();
+    assert!(message.contains("surface.model") && message.contains("asperities"), "{message}");
+    let paper = Settings { method: Method::Paper, ..Settings::default() };
+    let refused = solve(&Problem::new(&scene).unwrap(), &paper, &mut (), &Cancel::new()).unwrap_err();
+    assert!(matches!(refused, SolveError::PaperSurface) && refused.is_bad_input());
+    let mut scene = presets::find("rough-flow").unwrap();
+    let message = scene.set("numerics.time", "trapped").unwrap_err().to_string();
+    assert!(message.contains("surface.flow_factors"), "{message}");
+    // Back to the hard stop: what belongs to asperities is gone, and the roughness of the flow stays.
+    scene.set("surface.model", "minimum-spacing").unwrap();
+    assert!(scene.get("surface.summit_radius_um").is_none() && scene.get("surface.rms_nm").is_some());
 }

@@ -16,6 +16,7 @@ pub mod npz;
 pub mod reproduce;
 pub mod stability;
 pub mod startup;
+pub mod surface;
 pub mod sweep;
 pub mod table1;
 pub mod torque;

@@ -121,7 +121,7 @@ pub static PARAMETERS: &[Parameter] = &[
     number("surface.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 60.0,
         "Contact modulus E* of both faces together, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂").when(ASPERITIES),
     choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "How roughness changes the flow of the gas"),
-    number("surface.lay", "", Motor, (1.0 / 9.0, 9.0), (1.0 / 9.0, 9.0), Log, 1.0,
+    number("surface.lay", "", Motor, (0.112, 9.0), (0.112, 9.0), Log, 1.0,
         "How much longer the asperities are along the wave than across it").when(ROUGH_FLOW),
     number("surface.stator_share", "", Motor, (0.0, 1.0), (0.0, 1.0), Linear, 0.5,
         "Share of the variance of the heights that is the stator's").when(ROUGH_FLOW),

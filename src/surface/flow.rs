@@ -48,6 +48,9 @@ impl Factors {
 /// Least h/σ for which the factors were computed.
 pub const LEAST_RATIO: f64 = 0.5;
 
+/// Least and greatest lay for which they were.
+pub const ROWS_LAY: [f64; 2] = [1.0 / 9.0, 9.0];
+
 /// One lay of the tables.
 struct Row {
     lay: f64,

@@ -16,6 +16,8 @@ pub mod flow;
 mod gaussian;
 mod greenwood_tripp;
 mod greenwood_williamson;
+pub mod height_map;
+pub mod texture;
 
 /// All contact laws that a scene can name.
 pub static LAWS: &[&Law] = &[&greenwood_williamson::LAW, &greenwood_tripp::LAW];

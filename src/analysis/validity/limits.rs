@@ -2,6 +2,7 @@
 
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
 use crate::problem::{Gas, Motor, Plate, Slip};
+use crate::surface::flow::LEAST_RATIO;
 use std::f64::consts::{PI, TAU};
 
 /// Greatest Re.
@@ -22,6 +23,10 @@ const MACH: f64 = 1.0;
 const RESONANCE: f64 = 0.3;
 /// Yield stress of aluminium 6061-T6 \[MPa\].
 const YIELD_MPA: f64 = 276.0;
+/// Greatest rms roughness over the separation of the faces.
+const ROUGHNESS: f64 = 1.0 / LEAST_RATIO;
+/// Least separation, over the rms roughness, that is told.
+const LEAST_TOLD: f64 = 0.01;
 /// Greatest gap over the shorter side.
 const THINNESS: f64 = 0.025;
 /// By how much the gas beyond the edges lengthens a side, over the gap.
@@ -30,8 +35,17 @@ const ELONGATION: f64 = 1.3;
 pub(super) const AMPLITUDE: f64 = 0.9;
 
 /// The names of all limits in JSON.
-pub const NAMES: [&str; 8] =
-    ["gas-inertia", "isothermal", "slip-law", "sound", "rotor-resonance", "contact-stress", "thinness", "amplitude"];
+pub const NAMES: [&str; 9] = [
+    "gas-inertia",
+    "isothermal",
+    "slip-law",
+    "sound",
+    "rotor-resonance",
+    "contact-stress",
+    "roughness",
+    "thinness",
+    "amplitude",
+];
 
 /// One limit that a scene exceeds.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -225,6 +239,22 @@ pub(super) fn stress(pressure: f64) -> Option<Excess> {
         rounded(value)
     );
     excess("contact-stress", value, YIELD_MPA, "MPa", text)
+}
+
+/// `closed`: the least film thickness \[m\].
+pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<Excess> {
+    let surface = &motor.surface;
+    let rms = surface.asperities.map(|asperities| asperities.summits().rms).or(surface.flow.map(|flow| flow.rms))?;
+    let separation =
+        surface.asperities.map_or(closed, |asperities| asperities.separation(closed)).max(LEAST_TOLD * rms);
+    let value = rms / separation;
+    let text = format!(
+        "The mean planes of the faces come within {} nm, for a roughness of {} nm rms: summits no longer give way one by one, and flow \
+         factors are not known below half of it.",
+        rounded(separation * 1e9),
+        rounded(rms * 1e9)
+    );
+    excess("roughness", value, ROUGHNESS, "", text)
 }
 
 pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
