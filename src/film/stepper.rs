@@ -26,7 +26,7 @@
 //! Newton's method on P, unknown nodes ordered y fastest, block LU. No allocation after construction.
 
 use super::grid::{Axis, FilmGrid, Start};
-use super::slip::{Mobility, SlipLaw};
+use super::slip::{Mobility, SlipLaw, Work};
 use crate::numerics::rows::{Coupling, RowSolver, with_columns};
 use crate::numerics::vectorised;
 use crate::problem::Gas;
@@ -156,6 +156,24 @@ impl Face {
             weights: [0.5 * before, 0.5 * behind],
             choke: [choke(before, behind), choke(behind, before)],
         }
+    }
+}
+
+/// A step to be taken by the law of the film.
+struct Step<'a> {
+    film: &'a mut Film,
+    h: &'a [f64],
+    speed: Option<&'a [f64]>,
+    dt: f64,
+    state: &'a mut FilmState,
+    guess: Option<&'a [f64]>,
+}
+
+impl Work for Step<'_> {
+    type Output = Result<StepCost, FilmError>;
+
+    fn with<L: Mobility>(self, law: L) -> Self::Output {
+        self.film.step_with(law, self.h, self.speed, self.dt, self.state, self.guess)
     }
 }
 
@@ -322,12 +340,7 @@ impl Film {
         if let Some(roughness) = &self.roughness {
             self.flow.iter_mut().zip(h).for_each(|(flow, h)| *flow = roughness.at(*h));
         }
-        match self.law {
-            SlipLaw::Affine(law) => self.step_with(law, h, speed, dt, state, guess),
-            SlipLaw::SecondOrder(law) => self.step_with(law, h, speed, dt, state, guess),
-            SlipLaw::FukuiKaneko(law) => self.step_with(law, h, speed, dt, state, guess),
-            SlipLaw::Accommodated(law) => self.step_with(law, h, speed, dt, state, guess),
-        }
+        self.law.lend(Step { film: self, h, speed, dt, state, guess })
     }
 
     fn step_with<L: Mobility>(

@@ -1,9 +1,9 @@
 //! Each limit of the model: its number, how great that may be, and what it means in a sentence.
 
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
-use crate::problem::{Gas, Motor, Plate, Slip};
+use crate::problem::{Gas, Motor, Named, Plate, Slip};
 use crate::surface::flow::LEAST_RATIO;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Greatest Re.
 const INERTIA: f64 = 0.1;
@@ -126,12 +126,10 @@ impl Film<'_> {
     pub(super) fn slip(&self) -> Option<Excess> {
         let gas = self.gas;
         let value = gas.mean_free_path / self.closed;
-        let (limit, law) = match gas.slip {
-            Slip::None => (0.01, "flow without slip"),
-            Slip::FirstOrder => (0.1, "first-order slip"),
-            Slip::SecondOrder => (0.6, "second-order slip"),
-            // The fit begins at D = 0.01.
-            Slip::FukuiKaneko => (50.0 * PI.sqrt(), ""),
+        let limit = SlipLaw::of(gas).knudsen_limit();
+        let law = match gas.slip {
+            Slip::None => "flow without slip".to_owned(),
+            slip => format!("{} slip", slip.name()),
         };
         let text = if gas.slip == Slip::FukuiKaneko {
             format!(
