@@ -12,6 +12,7 @@ pub mod regime;
 pub mod reproduce;
 pub mod rotor;
 pub mod stability;
+pub mod surface;
 pub mod sweep;
 pub mod table1;
 pub mod torque;

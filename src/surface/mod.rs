@@ -69,7 +69,8 @@ pub struct Heights {
     pub moment: fn(Order, f64) -> (f64, f64),
 }
 
-/// Below this separation over σ the pressure goes on along its tangent: every summit is pressed in there, and no law holds.
+/// Below this separation over σ every summit is pressed in, and no law holds: the faces meet as a whole, and are as stiff as a layer of the
+/// contact modulus σ thick.
 pub const DEEPEST: f64 = -4.0;
 
 /// Asperity contact of two faces: pressure and mean gap over the separation of the mean planes.
@@ -106,7 +107,8 @@ impl Asperities {
         let (log, slope) = (self.heights.moment)(self.law.order, u.max(DEEPEST));
         let value = self.stiffness * log.exp();
         let below = (DEEPEST - u).max(0.0);
-        (value * (1.0 - slope * below), value * slope / self.summits.rms)
+        let bulk = if below > 0.0 { self.summits.modulus } else { 0.0 };
+        (value * (1.0 - slope * below) + bulk * below, (value * slope - bulk) / self.summits.rms)
     }
 
     /// Mean gap h = ⟨max(d + heights, 0)⟩ \[m\], of Gaussian heights, and dh/dd. Mean planes that have passed each other leave the
@@ -148,9 +150,9 @@ impl Asperities {
     pub fn separation_under(&self, pressure: f64) -> f64 {
         let rms = self.summits.rms;
         let (mut low, mut high) = (DEEPEST, 40.0);
-        let (deepest, slope) = self.pressure(DEEPEST * rms);
+        let deepest = self.pressure(DEEPEST * rms).0;
         if pressure >= deepest {
-            return DEEPEST * rms + (pressure - deepest) / slope;
+            return DEEPEST * rms + (pressure - deepest) / self.pressure((DEEPEST - 1.0) * rms).1;
         }
         while high - low > 1e-14 * high.abs().max(1.0) {
             let middle = 0.5 * (low + high);

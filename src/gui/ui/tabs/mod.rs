@@ -6,6 +6,7 @@ pub mod hold;
 pub mod labels;
 pub mod rotor;
 pub mod startup;
+mod surface;
 pub mod sweep;
 pub mod torque;
 pub mod tradeoff;
