@@ -42,7 +42,8 @@ fn a_random_face_of_one_wavelength_has_its_known_moments_and_summits() {
     let k = TAU / 16e-6;
     let face = waves(256, k, 1.0);
     let texture = Texture::of(&face.levelled(1));
-    assert!((texture.rms / 50e-9 - 1.0).abs() < 0.03, "{}", texture.rms);
+    // 16 wavelengths by 16 of it: as many independent heights as that leaves.
+    assert!((texture.rms / 50e-9 - 1.0).abs() < 0.06, "{}", texture.rms);
     assert!(texture.skewness.abs() < 0.1 && (texture.kurtosis - 3.0).abs() < 0.2, "{texture:?}");
     // Along a line, ⟨cos²⟩ = 1/2 and ⟨cos⁴⟩ = 3/8 of k² and k⁴; differences over a step Δ see sin(kΔ/2)/(kΔ/2) of a wave.
     let [m0, m2, m4] = texture.moments;
@@ -50,7 +51,7 @@ fn a_random_face_of_one_wavelength_has_its_known_moments_and_summits() {
     assert!((m4 / (0.375 * k.powi(4) * m0) - 1.0).abs() < 0.08, "{m4}");
     let pair = Pair::of(&texture, &texture);
     // Two of them: variances add. η = (¾k²)/(6π√3), R = 3√π/(8√m₄).
-    assert!((pair.rms / (2f64.sqrt() * 50e-9) - 1.0).abs() < 0.03);
+    assert!((pair.rms / (2f64.sqrt() * texture.rms) - 1.0).abs() < 1e-12);
     assert!((pair.summit_density / (0.75 * k * k / (6.0 * PI * 3f64.sqrt())) - 1.0).abs() < 0.08);
     assert!((pair.summit_radius / (0.375 * PI.sqrt() / (2.0 * 0.375 * k.powi(4) * m0).sqrt()) - 1.0).abs() < 0.05);
     assert!((pair.bandwidth - 1.5).abs() < 0.06, "{}", pair.bandwidth);

@@ -355,7 +355,8 @@ fn what_a_surface_rules_out_is_refused_by_name() {
     let refused = solve(&Problem::new(&scene).unwrap(), &paper, &mut (), &Cancel::new()).unwrap_err();
     assert!(matches!(refused, SolveError::PaperSurface) && refused.is_bad_input());
     let mut scene = presets::find("rough-flow").unwrap();
-    let message = scene.set("numerics.time", "trapped").unwrap_err().to_string();
+    scene.set("numerics.time", "trapped").unwrap();
+    let message = Problem::new(&scene).unwrap_err().to_string();
     assert!(message.contains("surface.flow_factors"), "{message}");
     // Back to the hard stop: what belongs to asperities is gone, and the roughness of the flow stays.
     scene.set("surface.model", "minimum-spacing").unwrap();

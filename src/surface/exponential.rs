@@ -1,7 +1,7 @@
 //! Heights of summits that fall off as e^{−s}: what Greenwood and Williamson (1966) take for the highest tenth or so of real ones, because
 //! the real area of contact and the number of contacts are then proportional to the load. Fₙ(u) = Γ(n + 1) e^{−u}.
 
-use super::{Heights, Order};
+use super::law::{Heights, Order};
 
 pub(super) static HEIGHTS: Heights = Heights {
     name: "exponential",

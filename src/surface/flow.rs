@@ -14,7 +14,7 @@
 //! the lays of the table they are interpolated over ln γ. They depend on the gap alone and leave the film's law of Z what it is: that slip and
 //! roughness change the flow independently is an assumption (`docs/theory.md`).
 
-use super::Asperities;
+use super::asperities::Asperities;
 
 /// The roughness that the gas flows past, of a motor's two faces together.
 #[derive(Clone, Copy, Debug, PartialEq)]

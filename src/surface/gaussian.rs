@@ -2,7 +2,7 @@
 //!
 //! ln Fₙ is a cubic in u between nodes, by value and slope, F′ₙ = −n Fₙ₋₁; off by 10⁻¹⁰. It is made when it is first asked for.
 
-use super::{DEEPEST, Heights, Order};
+use super::law::{DEEPEST, Heights, Order};
 use crate::numerics::gauss_legendre;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;

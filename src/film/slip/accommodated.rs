@@ -1,7 +1,7 @@
 //! The linearised Boltzmann equation between walls that reflect some molecules as a mirror does.
 
-use super::Mobility;
 use super::fukui_kaneko::{FIT_ENDS, FukuiKaneko, flow_rate};
+use super::mobility::Mobility;
 use super::specular::Specular;
 use crate::problem::{Gas, Slip};
 

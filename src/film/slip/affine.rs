@@ -1,6 +1,6 @@
 //! No slip, and slip of first order (Burgdorfer 1959).
 
-use super::Mobility;
+use super::mobility::Mobility;
 use crate::problem::{Gas, Slip};
 
 /// ψ = Z + s: no slip (s = 0) and first order (s = 6 λ_a).

@@ -1,6 +1,6 @@
 //! The linearised Boltzmann equation between walls that reflect diffusely (Fukui and Kaneko 1990).
 
-use super::Mobility;
+use super::mobility::Mobility;
 use crate::numerics::gauss_legendre;
 use crate::problem::{Gas, Slip};
 use std::sync::LazyLock;

@@ -1,6 +1,6 @@
 //! Slip of second order (Hsia and Domoto 1983).
 
-use super::Mobility;
+use super::mobility::Mobility;
 use crate::problem::{Gas, Slip};
 
 /// ψ = Z + 6 λ_a + 6 λ_a²/Z (Hsia and Domoto 1983).
