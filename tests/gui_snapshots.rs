@@ -324,6 +324,10 @@ fn a_rotor_looks_as_it_did() {
     until(&mut window, "the rotor is computed", computed);
     window.snapshot("rotor-beam-small-light");
     results.extend_harness(&mut window);
+    let mut window = self::window("rough-flow", USUAL, &[ROTOR]);
+    until(&mut window, "the rotor is computed", computed);
+    window.snapshot("rotor-rough-faces");
+    results.extend_harness(&mut window);
 }
 
 /// A path to type, and what cannot be opened, in a small window with large text.

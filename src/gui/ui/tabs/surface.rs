@@ -58,7 +58,7 @@ fn flow(ui: &mut Ui, curves: &SurfaceCurves, height: f32, cx: &DrawContext<'_>) 
     let name = "Flow over that between smooth faces";
     title(ui, name, "Flow factors");
     let styles = [(cx.colours.film, SOLID), (cx.colours.rotor, LineStyle::dashed_loose())];
-    legend(ui, &[("along the wave", styles[0].0, styles[0].1), ("across", styles[1].0, styles[1].1)]);
+    legend(ui, &[("along the wave", styles[0].0, styles[0].1), ("across the wave", styles[1].0, styles[1].1)]);
     let of = |i: usize| -> Vec<[f64; 2]> { curves.flow.iter().map(|row| [row[0] * 1e9, row[i]]).collect() };
     let lines = [of(1), of(2)];
     let values = || lines.iter().flatten();
