@@ -18,9 +18,9 @@ struct Table {
 const STEP: f64 = 1.0 / 64.0;
 const LAST: f64 = 38.0;
 
-static ONE: LazyLock<Table> = LazyLock::new(|| Table::new(1.0));
-static THREE_HALVES: LazyLock<Table> = LazyLock::new(|| Table::new(1.5));
-static FIVE_HALVES: LazyLock<Table> = LazyLock::new(|| Table::new(2.5));
+static ONE: LazyLock<Table> = LazyLock::new(|| Table::new(2));
+static THREE_HALVES: LazyLock<Table> = LazyLock::new(|| Table::new(3));
+static FIVE_HALVES: LazyLock<Table> = LazyLock::new(|| Table::new(5));
 
 fn moment(order: Order, u: f64) -> (f64, f64) {
     match order {
@@ -37,21 +37,22 @@ pub(super) fn mean_excess(u: f64) -> (f64, f64) {
     (value, value * slope)
 }
 
-/// ∫₀^∞ tⁿ e^{−ut − t²/2} dt, n > −1: Fₙ(u) √(2π) e^{u²/2}. With t = x² the integrand is smooth for half an odd n.
-fn scaled(order: f64, u: f64) -> f64 {
-    const PANELS: usize = 6;
+/// ∫₀^∞ tⁿ e^{−ut − t²/2} dt, n > −1, given 2n: Fₙ(u) √(2π) e^{u²/2}. With t = x² the integrand is smooth for an odd 2n too.
+fn scaled(twice: i32, u: f64) -> f64 {
+    const PANELS: usize = 4;
     let furthest = ((u.min(0.0).powi(2) + 80.0 + u.max(0.0).powi(2)).sqrt() - u).sqrt();
     let at = |panel: usize| furthest * panel as f64 / PANELS as f64;
-    let integrand = |x: f64| 2.0 * x.powf(2.0 * order + 1.0) * (-(u + 0.5 * x * x) * x * x).exp();
+    let integrand = |x: f64| 2.0 * x.powi(twice + 1) * (-(u + 0.5 * x * x) * x * x).exp();
     (0..PANELS).map(|panel| gauss_legendre(at(panel), at(panel + 1), integrand)).sum()
 }
 
 impl Table {
-    fn new(order: f64) -> Self {
+    /// Of n, given 2n.
+    fn new(twice: i32) -> Self {
         let node = |i: usize| {
             let u = DEEPEST + i as f64 * STEP;
-            let whole = scaled(order, u);
-            (whole.ln() - 0.5 * (u * u + TAU.ln()), -order * scaled(order - 1.0, u) / whole * STEP)
+            let whole = scaled(twice, u);
+            (whole.ln() - 0.5 * (u * u + TAU.ln()), -0.5 * f64::from(twice) * scaled(twice - 2, u) / whole * STEP)
         };
         Self { nodes: (0..=((LAST - DEEPEST) / STEP) as usize).map(node).collect() }
     }
