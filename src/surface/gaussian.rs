@@ -39,7 +39,7 @@ pub(super) fn mean_excess(u: f64) -> (f64, f64) {
 
 /// ∫₀^∞ tⁿ e^{−ut − t²/2} dt, n > −1, given 2n: Fₙ(u) √(2π) e^{u²/2}. With t = x² the integrand is smooth for an odd 2n too.
 fn scaled(twice: i32, u: f64) -> f64 {
-    const PANELS: usize = 4;
+    const PANELS: usize = 6;
     let furthest = ((u.min(0.0).powi(2) + 80.0 + u.max(0.0).powi(2)).sqrt() - u).sqrt();
     let at = |panel: usize| furthest * panel as f64 / PANELS as f64;
     let integrand = |x: f64| 2.0 * x.powi(twice + 1) * (-(u + 0.5 * x * x) * x * x).exp();
