@@ -27,7 +27,7 @@ pub struct Dimensionless {
     pub bearing_to_squeeze: f64,
     /// Thickness of the layer at the edges into which the ambient pressure reaches in a cycle, sqrt(2D/ω) \[m\], with
     /// D = H² p_a Q / (12 μ) and Q = 1 + 6 m for first-order slip. The other laws: 1 without slip, 1 + 6 m + 6 m² for
-    /// second order; Fukui and Kaneko's is estimated by the first-order one.
+    /// second order; Fukui and Kaneko's is estimated by the first-order one. Between rough faces D is that across the width.
     pub boundary_layer: f64,
 }
 
@@ -44,7 +44,14 @@ impl Dimensionless {
     pub fn of_motor(motor: &Motor) -> Self {
         let omega = std::f64::consts::TAU * motor.frequency;
         let fastest = motor.rotor_speed.abs() + omega * motor.tangential_amplitude;
-        Self::from_scales(&motor.gas, omega, fastest, motor.tooth_width, motor.min_spacing)
+        let smooth = Self::from_scales(&motor.gas, omega, fastest, motor.tooth_width, motor.min_spacing);
+        match &motor.surface.flow {
+            None => smooth,
+            Some(roughness) => {
+                let layer = roughness.at(motor.min_spacing).across.sqrt() * smooth.boundary_layer;
+                Self { boundary_layer: layer, ..smooth }
+            }
+        }
     }
 
     /// The numbers of a plate.

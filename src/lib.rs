@@ -50,6 +50,7 @@
 //! | [`budget`] | the memory that all solves of the process share |
 //! | [`atomic`] | files that appear whole or not at all; locks between processes |
 //! | [`gas`] | gases by name: viscosity, mean free path; the standard atmosphere |
+//! | [`surface`] | rough faces: what their asperities carry, how gas flows between them |
 //! | [`problem`] | what is to be solved: checked, in SI units |
 //! | [`scene`] | what a person edits: files, units, ranges, presets |
 //! | [`dimensionless`] | σ, Λ and Kn without solving |
@@ -103,3 +104,4 @@ pub mod scene;
 pub mod solution;
 pub mod solve;
 pub mod startup;
+pub mod surface;

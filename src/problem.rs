@@ -6,6 +6,7 @@
 
 use crate::gas::species::IdealGas;
 use crate::rotor::ring::Section;
+use crate::surface::Surface;
 use serde::{Deserialize, Serialize};
 
 /// A key whose value is one of a few names.
@@ -132,8 +133,11 @@ pub struct Motor {
     pub contact_width: f64,
     /// The rotor's compliance.
     pub rotor: RotorCompliance,
-    /// Minimum spacing H_m left by roughness \[m\]; the film thickness is gap + H_m.
+    /// Minimum spacing H_m left by roughness \[m\]; the film thickness is gap + H_m. Of faces that meet on asperities, the mean gap when the
+    /// load presses all tooth tops evenly: what stands for H_m where a closed film is estimated.
     pub min_spacing: f64,
+    /// How the faces meet.
+    pub surface: Surface,
     /// The gas.
     pub gas: Gas,
     /// Whether the scene asks for the wedge (sliding) term.
@@ -160,6 +164,22 @@ impl Motor {
     /// one way: with N = L that of the motor without air, with N = (1 − α) L the paper's maximum operating torque.
     pub fn friction_torque(&self, load: f64) -> f64 {
         self.dry_friction * f64::from(self.waves) * load * self.contact_radius
+    }
+
+    /// By how much the film is thicker than the gap that is shown \[m\]: H_m; nothing over asperities, where the gap is the mean one.
+    pub fn spacing(&self) -> f64 {
+        if self.surface.asperities.is_some() { 0.0 } else { self.min_spacing }
+    }
+
+    /// Least film thickness that there can be \[m\].
+    pub fn least_thickness(&self) -> f64 {
+        self.surface.asperities.map_or(self.min_spacing, |asperities| asperities.least_gap())
+    }
+
+    /// Contact load on one metre of a tooth from which on it counts as touching \[N/m\]: none with a hard stop. Asperities always carry
+    /// something; what is less than a thousandth of the load spread evenly over the tooth tops does not count.
+    pub fn touching_from(&self) -> f64 {
+        if self.surface.asperities.is_some() { 1e-3 * self.load / (self.teeth as f64 * self.tooth_width) } else { 0.0 }
     }
 
     /// Greatest tangential speed of the stator's surface V₀ = 2πf B_S \[m/s\].

@@ -15,6 +15,7 @@ use crate::plate;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
 use crate::solution::{Accuracy, Model, Outcome, Solution, Status, StoppedBy};
+use crate::surface::Surface;
 
 /// How to solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,6 +70,11 @@ pub enum SolveError {
     /// The paper has no plate.
     #[error("method = paper is for motors: it has no plate scene; allowed here: auto")]
     PaperPlate,
+    /// The paper has a hard stop and smooth walls.
+    #[error(
+        "method = paper is for faces that meet at a minimum spacing, without flow factors; surface.model and surface.flow_factors need method = auto"
+    )]
+    PaperSurface,
     /// It needs more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] Excess),
@@ -78,7 +84,7 @@ impl SolveError {
     /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]).
     pub fn is_bad_input(&self) -> bool {
         match self {
-            Self::PaperPlate | Self::Memory(_) => true,
+            Self::PaperPlate | Self::PaperSurface | Self::Memory(_) => true,
             Self::Motor(MotorError::Rotor(rotor)) => !rotor.is_cancelled(),
             Self::Motor(_) | Self::Plate(_) => false,
         }
@@ -88,7 +94,7 @@ impl SolveError {
 /// Whether `problem` may be solved so: whether the method has such a scene, the rotor has a compliance, and the memory is allowed.
 ///
 /// # Errors
-/// [`SolveError::PaperPlate`], [`MotorError::Rotor`] or [`SolveError::Memory`].
+/// [`SolveError::PaperPlate`], [`SolveError::PaperSurface`], [`MotorError::Rotor`] or [`SolveError::Memory`].
 pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
     Ok(memory::check(need(problem, settings, &Cancel::new())?)?)
 }
@@ -100,6 +106,9 @@ fn need(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<memor
             memory::motor(motor, &motor_plan(motor, problem, settings, &spec, cancel)?)
         }
         (Scenario::Plate(plate), Method::Auto) => memory::plate(plate, &plate_plan(plate, problem, settings, &spec)),
+        (Scenario::Motor(motor), Method::Paper) if motor.surface != Surface::default() => {
+            return Err(SolveError::PaperSurface);
+        }
         (Scenario::Motor(motor), Method::Paper) => {
             let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
             // Resolved before anything is taken, and kept.

@@ -354,6 +354,10 @@ fn a_rotor_looks_as_it_did() {
     until(&mut window, "the rotor is computed", computed);
     window.snapshot("rotor-beam-small-light");
     results.extend_harness(&mut window);
+    let mut window = self::window("rough-flow", USUAL, &[ROTOR]);
+    until(&mut window, "the rotor is computed", computed);
+    window.snapshot("rotor-rough-faces");
+    results.extend_harness(&mut window);
 }
 
 /// A fit with its residuals, in a small window and light too; and measured torques over the curve.

@@ -624,6 +624,14 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     hovers(faults, &mut window, "Take these values", "one edit, which can be undone");
     drop(window);
 
+    let mut window = self::window("rough-flow");
+    solved(&mut window);
+    quiet(&mut window);
+    ctrl(&mut window, Key::Num8);
+    until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
+    explains(faults, &window, "Rough faces", &["Compliance", "Asperities", "Flow factors", "along the wave"]);
+    drop(window);
+
     let mut window = self::window("plate-trapped");
     solved(&mut window);
     quiet(&mut window);

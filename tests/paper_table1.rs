@@ -22,6 +22,7 @@ fn fundamental() -> Motor {
         contact_width: 0.3e-3,
         rotor: RotorCompliance::Beam { decay_length: 4.0e-3, point_compliance: 0.64e-6, local_compliance: 1.05e-10 },
         min_spacing: 200e-9,
+        surface: Default::default(),
         gas: Gas::default(),
         shear: true,
     }

@@ -551,7 +551,7 @@ fn set_refuses_and_changes_nothing() {
         ("film.spacing_nm", "3", "unknown key film.spacing_nm: did you mean film.min_spacing_nm?"),
         ("plate.length_mm", "1", "plate.length_mm belongs to scene = \"plate\", and this is scene = \"motor\""),
         ("plate.x", "1", "plate.x belongs to scene = \"plate\", and this is scene = \"motor\""),
-        ("qqq.x", "1", "unknown key qqq.x: known are motor, stator, rotor, film, numerics"),
+        ("qqq.x", "1", "unknown key qqq.x: known are motor, stator, rotor, film, surface, numerics"),
         ("film", "1", "unknown key film: known are film.min_spacing_nm, film.gas, film.ambient"),
         ("scene", "plate", "scene cannot be changed: start from another preset"),
         (
@@ -827,6 +827,9 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         }
         if scene.get("film.shear") == Some(Value::Flag(false)) && is_motor {
             scene.set("numerics.wedge", "off").unwrap();
+        }
+        if scene.get("surface.flow_factors") == Some(Value::Text("patir-cheng".to_owned())) {
+            scene.set("numerics.time", "march").unwrap();
         }
         // A section may be too stiff or too soft for any rotor.
         if scene.check().is_err_and(|error| error.faults().iter().any(|fault| fault.what.key() == Some("rotor.model")))

@@ -14,6 +14,7 @@ pub mod reproduce;
 pub mod rotor;
 pub mod sensitivity;
 pub mod stability;
+pub mod surface;
 pub mod sweep;
 pub mod table1;
 pub mod torque;

@@ -221,8 +221,9 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
         violations.push(Violation::Pressure(pressure));
     }
     let thickness = least(&[least(&recording.film_thickness), result.min_gap]);
-    if thickness < motor.min_spacing * (1.0 - ROUND_OFF) || thickness.is_nan() {
-        violations.push(Violation::Overlap { thickness, spacing: motor.min_spacing });
+    let spacing = motor.least_thickness();
+    if thickness < spacing * (1.0 - ROUND_OFF) || thickness.is_nan() {
+        violations.push(Violation::Overlap { thickness, spacing });
     }
     let contact = least(&recording.contact);
     if contact < -ROUND_OFF * motor.load / motor.wavelength() || contact.is_nan() {

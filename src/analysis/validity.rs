@@ -12,6 +12,7 @@
 //! | `sound` | sliding speed over that of sound | 1 | shear heats the gas by 4 % |
 //! | `rotor-resonance` | harmonic's frequency over the lowest natural one of its shape | 0.3 | a rotor with mass yields a tenth more |
 //! | `contact-stress` | greatest contact pressure | 276 MPa | aluminium 6061-T6 yields |
+//! | `roughness` | rms roughness over the separation of the mean planes, closed | 2 | Patir and Cheng's factors end there |
 //! | `thinness` | h/s | 0.025 | the gas beyond the edges adds 3 % to s, 10 % to the damping |
 //! | `amplitude` | amplitude/mean gap of a plate | 0.9 | 1 % of the gap is 7 % of the load |
 //!
@@ -29,7 +30,7 @@ pub use limits::{Excess, NAMES, mach};
 use crate::plan::Choice;
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::solution::{Outcome, Solution};
-use limits::{Film, nearness, resonance, sliding, stress};
+use limits::{Film, nearness, resonance, roughness, sliding, stress};
 use std::f64::consts::TAU;
 
 /// The limits that a scene exceeds; none if the model is within its depth. Without a solution: what the scene alone tells,
@@ -81,6 +82,7 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
         sliding(motor),
         natural.and_then(|natural| resonance(motor, &natural)),
         stress(contact / motor.contact_width),
+        roughness(motor, closed),
         film.thinness(),
     ];
     found.into_iter().flatten().collect()

@@ -18,6 +18,7 @@ mod solve;
 mod stability;
 mod startup;
 mod summary;
+mod surface;
 mod sweep;
 mod table1;
 mod terminal;
@@ -63,6 +64,7 @@ enum Command {
     Animate(animate::Arguments),
     Presets(presets::Arguments),
     New(new::Arguments),
+    Surface(surface::Arguments),
 }
 
 const AFTER: &str = "\
@@ -78,6 +80,7 @@ Examples:
   squeezefilm startup fundamental
   squeezefilm animate fundamental --out wave.gif
   squeezefilm new my.toml
+  squeezefilm surface rotor.csv stator.csv
   squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
   squeezefilm presets fundamental --set film.slip=none | squeezefilm solve -
 
@@ -124,6 +127,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Animate(arguments)) => animate::run(&arguments),
         Some(Command::Presets(arguments)) => presets::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),
+        Some(Command::Surface(arguments)) => surface::run(&arguments, &command_line(words)),
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),

@@ -118,7 +118,10 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
         Some(false) => ["levitated", "no", "teeth touch the rotor"],
         None => ["levitated", "unknown", ""],
     });
-    let spacing = format!("the minimum spacing of {} nm included", as_given(motor.min_spacing * 1e9));
+    let spacing = match motor.surface.asperities {
+        Some(asperities) => format!("mean gap over asperities of {} nm rms", as_given(asperities.summits().rms * 1e9)),
+        None => format!("the minimum spacing of {} nm included", as_given(motor.min_spacing * 1e9)),
+    };
     extremes(columns, summary, &spacing, motor.gas.ambient_pressure);
 }
 

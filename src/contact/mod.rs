@@ -1,7 +1,7 @@
 //! Unilateral contact between the teeth and the elastic rotor at one instant, with the film's trapped gas in between.
 //!
 //! Unknown at every node: gap g_i ≥ 0 and contact line load c_i ≥ 0 with c_i g_i = 0, and the rigid offset z₀ from the
-//! load balance Σ Δx_i q_i = L. The line load is q = c + film, the film's is that of a fixed amount of trapped gas ζ
+//! load balance Σ Δx_i q_i = L. (Of faces that meet on asperities: see below.) The line load is q = c + film, the film's is that of a fixed amount of trapped gas ζ
 //! (Z integrated across the width), p_a (ζ/h − w), h = g + H_m: it stiffens as the gap closes, so that the load
 //! balance always has a solution.
 //!
@@ -17,13 +17,20 @@
 //! the last, its saddle point: see `modes`). Newton's method (semi-smooth,
 //! since φ has a corner where contact begins) with a line search on the slope converges from anywhere; once no node
 //! changes sides the remaining error is round-off. Complementarity holds exactly by construction.
+//!
+//! **Asperities** in place of the hard stop make c = w p(g) a smooth function that falls with g, now the separation of the mean planes, and h the
+//! mean gap over them. g = s + C_∞ q(g) then is a scalar equation whose left side less its right side rises with g: it has one root, found to working
+//! precision. q is still a function of s that falls, and the rest of the problem what it was.
 
 mod modes;
+mod rough;
 
 pub use modes::{Modes, Shape, cutoff};
 
 use crate::numerics::dot;
+use crate::surface::Asperities;
 use nalgebra::{Cholesky, DMatrix, DVector};
+use rough::Rough;
 
 /// What does not change from one instant to the next.
 #[derive(Clone, Debug)]
@@ -35,6 +42,8 @@ pub struct Contact {
     ambient: Vec<f64>,
     ambient_pressure: f64,
     min_spacing: f64,
+    /// In place of the hard stop at the minimum spacing.
+    asperities: Option<Rough>,
     load: f64,
     /// Imbalance, relative to the sum of all forces, that is accepted.
     tolerance: f64,
@@ -95,6 +104,7 @@ impl Contact {
             lengths,
             ambient_pressure,
             min_spacing,
+            asperities: None,
             load,
             tolerance: ROUND_OFF,
             noise: 0.0,
@@ -103,6 +113,12 @@ impl Contact {
             force: vec![0.0; nodes],
             stiffness: vec![0.0; nodes],
         }
+    }
+
+    /// The same with asperities in place of the hard stop, if there are any, on a contact `width` \[m\] wide.
+    pub fn on(self, asperities: Option<Asperities>, width: f64) -> Self {
+        let nodes = self.nodes();
+        Self { asperities: asperities.map(|law| Rough::new(law, width, nodes)), ..self }
     }
 
     /// The same teeth and rotor without a film: dry contact.
@@ -211,18 +227,29 @@ impl Contact {
         result
     }
 
-    /// Line load, its stiffness −dq/ds and whether the node is in contact, at a node with s \[m\] and trapped gas p_aζ.
+    /// Line load and its stiffness −dq/ds at node `i` with s \[m\] and trapped gas p_aζ.
     #[inline]
-    fn node(&self, s: f64, gas: f64, ambient: f64) -> (f64, f64, bool) {
-        let local = self.modes.local_compliance();
-        let closed = self.min_spacing;
-        let film_closed = gas / closed - ambient;
-        if s + local * film_closed < 0.0 {
-            return (-s / local, 1.0 / local, true);
+    fn node(&self, i: usize, s: f64, gas: f64) -> (f64, f64) {
+        let (local, ambient) = (self.modes.local_compliance(), self.ambient[i]);
+        if let Some(rough) = &self.asperities {
+            let found = rough.node(i, local, s, gas, ambient);
+            return (found.force, found.stiffness);
         }
-        let h = free_height(s + closed - local * ambient, local * gas);
-        let spring = gas / (h * h);
-        (gas / h - ambient, spring / (1.0 + local * spring), false)
+        match self.gap(s, gas, ambient) {
+            None => (-s / local, 1.0 / local),
+            Some(h) => {
+                let spring = gas / (h * h);
+                (gas / h - ambient, spring / (1.0 + local * spring))
+            }
+        }
+    }
+
+    /// Film thickness at a node with s \[m\] and trapped gas p_aζ; `None` if it touches.
+    #[inline]
+    fn gap(&self, s: f64, gas: f64, ambient: f64) -> Option<f64> {
+        let (local, closed) = (self.modes.local_compliance(), self.min_spacing);
+        let touches = s + local * (gas / closed - ambient) < 0.0;
+        (!touches).then(|| free_height(s + closed - local * ambient, local * gas))
     }
 
     /// Gradient of the energy (balance of every mode and of the load) at `amplitudes`; leaves s, force and stiffness of
@@ -233,7 +260,11 @@ impl Contact {
         self.noise = 0.0;
         for i in 0..self.s.len() {
             self.s[i] -= stator[i];
-            let (q, stiffness, _) = self.node(self.s[i], self.ambient_pressure * trapped[i], self.ambient[i]);
+            let gas = self.ambient_pressure * trapped[i];
+            let (q, stiffness) = match &mut self.asperities {
+                Some(rough) => rough.next(i, self.modes.local_compliance(), self.s[i], gas, self.ambient[i]),
+                None => self.node(i, self.s[i], gas),
+            };
             self.force[i] = q * self.lengths[i];
             self.stiffness[i] = stiffness * self.lengths[i];
             total += self.force[i].abs();
@@ -284,9 +315,7 @@ impl Contact {
         let base: Vec<f64> = self.s.iter().zip(stator).map(|(u, w)| u - w).collect();
         let force = |z0: f64| -> f64 {
             (0..base.len())
-                .map(|i| {
-                    self.lengths[i] * self.node(base[i] + z0, self.ambient_pressure * trapped[i], self.ambient[i]).0
-                })
+                .map(|i| self.lengths[i] * self.node(i, base[i] + z0, self.ambient_pressure * trapped[i]).0)
                 .sum()
         };
         // Where the rotor would just touch, and a step to either side that is doubled until it brackets.
@@ -319,16 +348,16 @@ impl Contact {
         out.contact.resize(nodes, 0.0);
         let local = self.modes.local_compliance();
         for i in 0..nodes {
-            let (gas, ambient) = (self.ambient_pressure * trapped[i], self.ambient[i]);
-            let (q, _, touching) = self.node(self.s[i], gas, ambient);
-            if touching {
-                out.film_thickness[i] = self.min_spacing;
-                out.contact[i] = (q - self.rest[i] / local - (gas / self.min_spacing - ambient)).max(0.0);
+            let (s, gas, ambient) = (self.s[i], self.ambient_pressure * trapped[i], self.ambient[i]);
+            (out.film_thickness[i], out.contact[i]) = if let Some(rough) = &self.asperities {
+                let found = rough.node(i, local, s, gas, ambient);
+                (found.thickness, (found.contact - found.stiffness * self.rest[i]).max(0.0))
+            } else if let Some(h) = self.gap(s, gas, ambient) {
+                (h.max(self.min_spacing), 0.0)
             } else {
-                let h = free_height(self.s[i] + self.min_spacing - local * ambient, local * gas);
-                out.film_thickness[i] = h.max(self.min_spacing);
-                out.contact[i] = 0.0;
-            }
+                let film = gas / self.min_spacing - ambient;
+                (self.min_spacing, (-s / local - self.rest[i] / local - film).max(0.0))
+            };
         }
     }
 }

@@ -53,7 +53,7 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
                     table.row([time, phase, *x, *length, thickness * 1e9, film].map(Number))?;
                     continue;
                 };
-                let (stator, gap) = (recording.stator[line + i], thickness - motor.min_spacing);
+                let (stator, gap) = (recording.stator[line + i], thickness - motor.spacing());
                 let surfaces = [stator, thickness, gap, stator + gap].map(|height| height * 1e9);
                 let forces = [recording.contact[line + i], film];
                 let before = [Number(time), Number(phase), Whole(tooth), Number(middle + x), Number(*length)];

@@ -18,6 +18,7 @@ pub mod reproduce;
 pub mod sensitivity;
 pub mod stability;
 pub mod startup;
+pub mod surface;
 pub mod sweep;
 pub mod table1;
 pub mod torque;

@@ -41,7 +41,7 @@ pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dy
             let shape = [frames, teeth, nodes];
             archive.numbers("tooth_middle_m", &[teeth], (0..teeth).map(|tooth| tooth as f64 * recording.pitch))?;
             archive.numbers("stator_nm", &shape, lines(recording, &recording.stator, 1e9))?;
-            let gap = lines(recording, &recording.film_thickness, 1e9).map(|h| h - motor.min_spacing * 1e9);
+            let gap = lines(recording, &recording.film_thickness, 1e9).map(|h| h - motor.spacing() * 1e9);
             archive.numbers("gap_nm", &shape, gap)?;
             archive.numbers("contact_n_per_m", &shape, lines(recording, &recording.contact, 1.0))?;
             archive.numbers("contact_load_n", &[frames], recording.contact_load.iter().copied())?;

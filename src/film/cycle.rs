@@ -17,6 +17,7 @@ use super::stepper::{Film, FilmError, FilmState, StepCost};
 use crate::control::Cancel;
 use crate::numerics::rows::{Coupling, RowSolver};
 use crate::problem::Gas;
+use crate::surface::flow::Roughness;
 
 /// Why a cycle ended early.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -105,6 +106,11 @@ impl FilmCycle {
     /// Lets nothing flow along x ([`Film::close_along`]).
     pub fn close_along(&mut self) {
         self.film.close_along();
+    }
+
+    /// Takes the faces for rough from now on ([`Film::roughen`]).
+    pub fn roughen(&mut self, roughness: Option<Roughness>) {
+        self.film.roughen(roughness);
     }
 
     /// Unknown P of step `m`.

@@ -9,6 +9,9 @@
 //! the pressures on either side. The wedge flux Z U/2 is central, plus the diffusion (Pe/2 coth Pe/2 − 1) of exponential
 //! fitting, evaluated at the start of the step: O(Δ²), and upwind where sliding dominates.
 //!
+//! Between rough faces (`surface::flow`) a face carries the mean of the factors of its two nodes, functions of their gaps alone: what is said
+//! here of fluxes and pressures holds with them.
+//!
 //! **Time.** BDF2 (L-stable), written for W = Z + θ/2 (Z − Z_old) so that mass is conserved whatever θ is:
 //!
 //! ```text
@@ -23,10 +26,11 @@
 //! Newton's method on P, unknown nodes ordered y fastest, block LU. No allocation after construction.
 
 use super::grid::{Axis, FilmGrid, Start};
-use super::slip::{Mobility, SlipLaw};
+use super::slip::{Mobility, SlipLaw, Work};
 use crate::numerics::rows::{Coupling, RowSolver, with_columns};
 use crate::numerics::vectorised;
 use crate::problem::Gas;
+use crate::surface::flow::{Factors, Roughness};
 
 /// The film's state between steps, at unknown nodes `[ix][iy]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,6 +98,9 @@ pub struct Film {
     tolerance: f64,
     /// Nothing flows along x.
     closed_along: bool,
+    /// The faces, if they are not smooth, and what they make of the flow at each node along x.
+    roughness: Option<Roughness>,
+    flow: Vec<Factors>,
     /// P at every node, edges included, `[ix][iy]`.
     pressure: Vec<f64>,
     theta: Vec<f64>,
@@ -139,15 +146,34 @@ struct Face {
 impl Face {
     /// The face after node `face`.
     #[inline(always)]
-    fn after(grid: &FilmGrid, mobility: f64, face: usize, h: &[f64], dt: f64) -> Self {
+    fn after(grid: &FilmGrid, flow: &[Factors], mobility: f64, face: usize, h: &[f64], dt: f64) -> Self {
         let spacing = grid.x.nodes[face + 1] - grid.x.nodes[face];
+        let factor = 0.5 * (flow[face].along + flow[face + 1].along);
         let [before, behind] = [h[face], h[face + 1]];
         let choke = |own: f64, other: f64| (0.5 * (own - other) / own).max(0.0);
         Self {
-            coefficient: dt * mobility * before * behind / spacing,
+            coefficient: factor * (dt * mobility * before * behind / spacing),
             weights: [0.5 * before, 0.5 * behind],
             choke: [choke(before, behind), choke(behind, before)],
         }
+    }
+}
+
+/// A step to be taken by the law of the film.
+struct Step<'a> {
+    film: &'a mut Film,
+    h: &'a [f64],
+    speed: Option<&'a [f64]>,
+    dt: f64,
+    state: &'a mut FilmState,
+    guess: Option<&'a [f64]>,
+}
+
+impl Work for Step<'_> {
+    type Output = Result<StepCost, FilmError>;
+
+    fn with<L: Mobility>(self, law: L) -> Self::Output {
+        self.film.step_with(law, self.h, self.speed, self.dt, self.state, self.guess)
     }
 }
 
@@ -212,6 +238,8 @@ impl Film {
             columns,
             tolerance: NEWTON_TOLERANCE,
             closed_along: false,
+            roughness: None,
+            flow: vec![Factors::SMOOTH; grid.x.len()],
             pressure: vec![1.0; grid.len()],
             theta: vec![1.0; unknowns],
             fitting: vec![0.0; grid.len()],
@@ -237,6 +265,12 @@ impl Film {
     /// Lets nothing flow along x from now on: every node along is a strip of its own.
     pub fn close_along(&mut self) {
         self.closed_along = true;
+    }
+
+    /// Takes the faces for rough from now on.
+    pub fn roughen(&mut self, roughness: Option<Roughness>) {
+        self.roughness = roughness;
+        self.flow.fill(Factors::SMOOTH);
     }
 
     /// Sets P at the nodes on the ambient edges, which is 1 otherwise: `edge(ix)` at all y of an end, and at the side of
@@ -303,12 +337,10 @@ impl Film {
         state: &mut FilmState,
         guess: Option<&[f64]>,
     ) -> Result<StepCost, FilmError> {
-        match self.law {
-            SlipLaw::Affine(law) => self.step_with(law, h, speed, dt, state, guess),
-            SlipLaw::SecondOrder(law) => self.step_with(law, h, speed, dt, state, guess),
-            SlipLaw::FukuiKaneko(law) => self.step_with(law, h, speed, dt, state, guess),
-            SlipLaw::Accommodated(law) => self.step_with(law, h, speed, dt, state, guess),
+        if let Some(roughness) = &self.roughness {
+            self.flow.iter_mut().zip(h).for_each(|(flow, h)| *flow = roughness.at(*h));
         }
+        self.law.lend(Step { film: self, h, speed, dt, state, guess })
     }
 
     fn step_with<L: Mobility>(
@@ -392,7 +424,8 @@ impl Film {
             if axis.start == Start::Mirror { 2.0 * ends } else { ends }
         };
         let mode = length(&self.grid.x).powi(-2) + length(&self.grid.y).powi(-2);
-        self.mobility * h * self.law.at(h).0 * std::f64::consts::PI.powi(2) * mode
+        let flow = self.roughness.as_ref().map_or(Factors::SMOOTH, |roughness| roughness.at(h));
+        flow.along.max(flow.across) * self.mobility * h * self.law.at(h).0 * std::f64::consts::PI.powi(2) * mode
     }
 
     /// The slip law.
@@ -412,8 +445,9 @@ impl Film {
     fn fit<L: Mobility>(&mut self, law: L, h: &[f64], speed: &[f64], dt: f64) {
         let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
         for face in 0..nx - 1 {
-            let Face { coefficient, weights: [west, east], .. } = Face::after(&self.grid, self.mobility, face, h, dt);
-            let drift = 0.25 * dt * (west + east) * (speed[face] + speed[face + 1]);
+            let Face { coefficient, weights: [west, east], .. } =
+                Face::after(&self.grid, &self.flow, self.mobility, face, h, dt);
+            let drift = 0.25 * dt * self.dragged(face) * (west + east) * (speed[face] + speed[face + 1]);
             for j in 0..ny {
                 let trapped = west * self.pressure[face * ny + j] + east * self.pressure[(face + 1) * ny + j];
                 let diffusion = coefficient * law.at(trapped).0;
@@ -432,9 +466,15 @@ impl Film {
         let (nx, ny) = (self.grid.x.len(), self.grid.y.len());
         for face in 0..nx - 1 {
             let face_gap = 0.5 * (h[face] + h[face + 1]);
-            let drift = 0.125 * dt * face_gap * (speed[face] + speed[face + 1]);
+            let drift = 0.125 * dt * self.dragged(face) * face_gap * (speed[face] + speed[face + 1]);
             self.fitting[face * ny..(face + 1) * ny].fill(drift.abs());
         }
+    }
+
+    /// Factor of the wedge flux through the face after node `face`.
+    #[inline(always)]
+    fn dragged(&self, face: usize) -> f64 {
+        0.5 * (self.flow[face].dragged + self.flow[face + 1].dragged)
     }
 
     /// Δt·div flux and its Jacobian, the residual of the step, and the matrix of Newton's method with the diagonal raised
@@ -458,16 +498,18 @@ impl Film {
         };
         for face in first..ux.end {
             // The face after node `face`; the one before it was made in the last turn.
-            let mut between = Face::after(&self.grid, self.mobility, face, h, dt);
+            let mut between = Face::after(&self.grid, &self.flow, self.mobility, face, h, dt);
             if self.closed_along {
                 between.coefficient = 0.0;
             }
             let west = &self.pressure[face * ny + y0..][..b];
             let east = &self.pressure[(face + 1) * ny + y0..][..b];
+            let dragged = self.dragged(face);
             let [before, after] = &mut self.faces;
             after.between::<L, B>(law, between, west, east);
             if let (Some(speed), false) = (speed, self.closed_along) {
-                let drift = 0.125 * dt * (between.weights[0] + between.weights[1]) * (speed[face] + speed[face + 1]);
+                let gaps = between.weights[0] + between.weights[1];
+                let drift = 0.125 * dt * dragged * gaps * (speed[face] + speed[face + 1]);
                 after.slide::<B>(drift, &self.fitting[face * ny + y0..][..b], west, east);
             }
             if face >= ux.start {
@@ -486,7 +528,7 @@ impl Film {
                         *outflow += entry * potential;
                     }
                 }
-                let scale = dt * self.mobility * gap;
+                let scale = self.flow[face].across * (dt * self.mobility * gap);
                 let own = west;
                 let residual = &mut self.residual[nodes.clone()];
                 let flown = &mut self.divergence[nodes.clone()];

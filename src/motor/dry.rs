@@ -28,7 +28,8 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
         let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let nothing = vec![0.0; nodes];
         let mut contact =
-            Contact::new(modes, lengths, &nothing, motor.gas.ambient_pressure, motor.min_spacing, motor.load);
+            Contact::new(modes, lengths, &nothing, motor.gas.ambient_pressure, motor.min_spacing, motor.load)
+                .on(motor.surface.asperities, motor.contact_width);
         let (mut shape, mut fields) = (Shape::unknown(), Instant::default());
         let mut load = vec![0.0; steps * nx];
         let instants = steps / teeth;
@@ -56,6 +57,7 @@ pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Optio
             pitch: motor.pitch(),
             x: axis.nodes,
             node_length: axis.lengths,
+            touching_from: motor.touching_from(),
             film: vec![0.0; load.len()],
             contact: load,
             ..LineLoads::default()

@@ -119,11 +119,13 @@ impl Level {
         let harmonics = plan.harmonics(grid);
         let modes = Modes::new(&plan.rotor, harmonics, &positions);
         let gas = &motor.gas;
-        let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load);
+        let contact = Contact::new(modes, lengths, &widths, gas.ambient_pressure, motor.min_spacing, motor.load)
+            .on(motor.surface.asperities, motor.contact_width);
         let unknowns = film_grid.unknowns();
         let closed_along = plan.flow == Flow::Across;
         let trapped_film = plan.trapped.then(|| TrappedFilm::new(film_grid.clone(), gas, closed_along));
         let mut film = FilmCycle::new(film_grid, gas, steps);
+        film.roughen(motor.surface.flow);
         if closed_along {
             film.close_along();
         }
@@ -640,6 +642,7 @@ impl Level {
             pitch: motor.pitch(),
             x: x.nodes.clone(),
             node_length: x.lengths.clone(),
+            touching_from: motor.touching_from(),
             contact: self.contact_load.clone(),
             film: (0..self.line.len()).map(|i| self.film_line_load(i)).collect(),
             film_thickness: self.film_thickness.clone(),
@@ -662,10 +665,14 @@ impl Level {
                 stator[to..to + nx].copy_from_slice(&self.stator[from..from + nx]);
             }
         }
-        let balance = Balance { load: Some(motor.load), min_spacing: motor.min_spacing };
+        let balance = Balance {
+            load: Some(motor.load),
+            min_spacing: motor.least_thickness(),
+            exclusive: motor.surface.asperities.is_none(),
+        };
         let mut pressure = self.films.iter().filter(|_| maps).map(|film| film.full_pressure(self.ambient_pressure));
         let base = Recording {
-            touching: Touching { min_spacing: motor.min_spacing, compliance: plan.rotor.beyond(plan.most_harmonics) },
+            touching: Touching { min_spacing: motor.spacing(), compliance: plan.rotor.beyond(plan.most_harmonics) },
             rotor: plan.rotor.clone(),
             period: motor.period(),
             stator,

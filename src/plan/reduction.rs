@@ -79,6 +79,8 @@ pub(super) fn time(
     spec: &Spec,
 ) -> Decision {
     let layer = numbers.boundary_layer;
+    // Of what stays where the flow depends on the gap in another way than between smooth faces nothing is known.
+    let rough = if motor.surface.flow.is_some() { 1.0 } else { 0.0 };
     Reduction {
         choices: [Time::March, Time::Trapped].map(Choice::Time),
         asked: match numerics.time {
@@ -90,7 +92,8 @@ pub(super) fn time(
             + leaks(motor, layer, motor.contact_width)
             + 2.0 * unevenness(motor) * end_share(motor)
             + yielding(motor, rotor, layer)
-            + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 },
+            + if motor.shear { wedge_effect(numbers, motor) } else { 0.0 }
+            + rough,
         unresolved: 0.0,
         number: layer / motor.tooth_width.min(motor.contact_width),
     }
@@ -151,14 +154,19 @@ fn leaks(motor: &Motor, layer: f64, length: f64) -> f64 {
 fn wedge_effect(numbers: &Dimensionless, motor: &Motor) -> f64 {
     let shifted = (0.5 * motor.tangential_amplitude / numbers.boundary_layer).powi(2).min(1.0);
     let oscillating = sliding_effect(numbers.bearing_to_squeeze, motor) + WEDGE_EFFECT * shifted * end_share(motor);
-    (oscillating + carried(numbers, motor, motor.rotor_speed)).min(1.0)
+    (dragged(motor) * (oscillating + carried(numbers, motor, motor.rotor_speed))).min(1.0)
 }
 
 /// Bound of what the wedge changes, relative to α, if the rotor's speed changes by `speed` \[m/s\].
 pub fn wedge_bound(motor: &Motor, speed: f64) -> f64 {
     let omega = TAU * motor.frequency;
     let sliding = sliding_effect(speed.abs() / (2.0 * omega * motor.tooth_width), motor);
-    (sliding + carried(&Dimensionless::of_motor(motor), motor, speed)).min(1.0)
+    (dragged(motor) * (sliding + carried(&Dimensionless::of_motor(motor), motor, speed))).min(1.0)
+}
+
+/// How much more gas sliding drags into a closed film of rough faces than of smooth ones, or 1 if it is less.
+fn dragged(motor: &Motor) -> f64 {
+    motor.surface.flow.map_or(1.0, |roughness| roughness.at(motor.min_spacing).dragged.max(1.0))
 }
 
 fn sliding_effect(bearing_to_squeeze: f64, motor: &Motor) -> f64 {

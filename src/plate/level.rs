@@ -326,6 +326,7 @@ impl Level {
             pitch: plate.length,
             x: grid.x.nodes.clone(),
             node_length: grid.x.lengths.iter().map(|length| grid.x.copies() * length).collect(),
+            touching_from: 0.0,
             contact: vec![0.0; frames * nx],
             film,
             film_thickness: self.frames.gap.iter().flat_map(|h| std::iter::repeat_n(*h, nx)).collect(),
@@ -348,7 +349,7 @@ impl Level {
             half_length: true,
             ..Recording::default()
         };
-        let balance = Balance { load: None, min_spacing: 0.0 };
+        let balance = Balance { load: None, min_spacing: 0.0, exclusive: true };
         base.of_lines(lines, coarser, &balance, pressure, grid.y.unknown())
     }
 

@@ -17,8 +17,12 @@ pub struct Balance {
     pub load: Option<f64>,
     /// Least film thickness \[m\].
     pub min_spacing: f64,
+    /// Whether a gap that is open bears no contact. (Asperities do.)
+    pub exclusive: bool,
 }
 
+/// Least share of the load on asperities for them to take what extrapolation leaves of the balance.
+const LEAST_HELD: f64 = 1e-3;
 /// Largest factor by which extrapolation changes an absolute pressure.
 const LARGEST_FACTOR: f64 = 2.0;
 
@@ -45,7 +49,8 @@ impl LineLoads {
                     let (thick, touching) = (self.film_thickness[k], self.contact[k] > 0.0);
                     if touching {
                         out.contact[k] = (self.contact[k] + between(&missing.contact)).max(0.0);
-                    } else {
+                    }
+                    if !touching || !balance.exclusive {
                         let thicker = (thick + between(&missing.thickness)).max(0.5 * thick);
                         out.film_thickness[k] = thicker.max(balance.min_spacing);
                     }
@@ -59,7 +64,7 @@ impl LineLoads {
             }
         }
         if let Some(load) = balance.load {
-            out.restore(load);
+            out.restore(load, balance);
         }
         for (line, peak) in out.peak.chunks_exact_mut(nodes).enumerate() {
             for (i, peak) in peak.iter_mut().enumerate().filter(|(i, _)| self.ambient[*i] > 0.0) {
@@ -71,7 +76,9 @@ impl LineLoads {
     }
 
     /// Makes film and contact carry `load` at every instant.
-    fn restore(&mut self, load: f64) {
+    fn restore(&mut self, load: f64, balance: &Balance) {
+        // Asperities out of reach still carry something, and not what the balance lacks.
+        let (least, kept) = if balance.exclusive { (0.0, 0.0) } else { (LEAST_HELD * load, 1.0) };
         let nodes = self.x.len();
         let instants = self.frames * self.stored_teeth / self.teeth;
         for frame in 0..instants {
@@ -84,9 +91,10 @@ impl LineLoads {
                     ambient += self.ambient[i] * self.node_length[i];
                 }
             }
-            let held = contact > 0.0 && film < load;
-            let contact_factor = if held { (load - film) / contact } else { 0.0 };
-            let film_factor = if held || film + ambient <= 0.0 { 1.0 } else { (load + ambient) / (film + ambient) };
+            let held = contact > least && film < load;
+            let contact_factor = if held { (load - film) / contact } else { kept };
+            let lacking = load - kept * contact;
+            let film_factor = if held || film + ambient <= 0.0 { 1.0 } else { (lacking + ambient) / (film + ambient) };
             for line in &lines {
                 for i in 0..nodes {
                     self.contact[line + i] *= contact_factor;
@@ -118,7 +126,7 @@ impl LineLoads {
 
     /// Teeth that touch in each frame.
     pub fn touching_teeth(&self) -> Vec<usize> {
-        self.series(|nodes| usize::from(self.contact[nodes].iter().any(|c| *c > 0.0)), Add::add)
+        self.series(|nodes| usize::from(self.contact[nodes].iter().any(|c| *c > self.touching_from)), Add::add)
     }
 
     /// Of line loads on one line \[N\].

@@ -99,6 +99,8 @@ pub struct LineLoads {
     pub x: Vec<f64>,
     /// Length of tooth that each node stands for \[m\], `nodes`: forces are line load × length.
     pub node_length: Vec<f64>,
+    /// Contact line load \[N/m\] above which a node counts as touching: 0 where contact and gap exclude each other.
+    pub touching_from: f64,
     /// Contact line load \[N/m\], `[tooth][frame][node]` over the stored teeth.
     pub contact: Vec<f64>,
     /// Film's net gauge line load \[N/m\], likewise (of a strip: gauge pressure × 1 m of width); zero without film.

@@ -45,7 +45,7 @@ static HARMONIC: Parameter = Parameter {
 const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about: &'static str) -> Parameter {
     let range = Range::new(min, max);
     let kind = ParameterKind::Number { range, slider: range, scale: Scale::Log, default: max };
-    Parameter { key, unit, belongs: Belongs::Motor, when: None, instead_of: None, absent: None, kind, about }
+    Parameter { key, unit, belongs: Belongs::Motor, when: &[], instead_of: None, absent: None, kind, about }
 }
 
 /// Checks one row against the ranges of its columns and the row `before`.

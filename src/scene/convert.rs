@@ -9,6 +9,8 @@ use super::values::{Kind, Scene};
 use crate::gas::species::IdealGas;
 use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
 use crate::rotor::ring::{MATERIALS, Part, RingError, Section, Support};
+use crate::surface::flow::Roughness;
+use crate::surface::{Asperities, Summits, Surface};
 use serde::Deserialize;
 use serde::de::value::{Error, StrDeserializer};
 
@@ -42,6 +44,10 @@ impl Problem {
                 None => IdealGas::UNNAMED,
             },
         };
+        let surface = match scene.kind() {
+            Kind::Motor => scene.surface()?,
+            Kind::Plate => Surface::default(),
+        };
         let scenario = match scene.kind() {
             Kind::Motor => Scenario::Motor(Motor {
                 contact_radius: si("motor.contact_radius_mm")?,
@@ -69,7 +75,15 @@ impl Problem {
                     "ring" => RotorCompliance::Ring(scene.section()?),
                     _ => return Err(scene.unknown_key("rotor.model")),
                 },
-                min_spacing: si("film.min_spacing_nm")?,
+                min_spacing: match surface.asperities {
+                    Some(asperities) => {
+                        let tops =
+                            si("rotor.contact_width_mm")? * si("stator.tooth_width_mm")? * si("stator.teeth_per_wave")?;
+                        asperities.mean_gap(asperities.separation_under(si("motor.load_per_wave_n")? / tops)).0
+                    }
+                    None => si("film.min_spacing_nm")?,
+                },
+                surface,
                 gas,
                 shear: scene.flag("film.shear")?,
             }),
@@ -87,6 +101,35 @@ impl Problem {
 }
 
 impl Scene {
+    /// How the faces of a motor meet.
+    fn surface(&self) -> Result<Surface, What> {
+        let asperities = match self.text("surface.model")? {
+            "asperities" => {
+                let summits = Summits {
+                    rms: self.si("surface.rms_nm")?,
+                    radius: self.si("surface.summit_radius_um")?,
+                    density: self.si("surface.summit_density_per_mm2")?,
+                    modulus: self.si("surface.elastic_modulus_gpa")?,
+                };
+                let law = Surface::law(self.text("surface.contact_law")?);
+                let heights = Surface::heights(self.text("surface.summit_heights")?);
+                let (law, heights) = law.zip(heights).ok_or_else(|| self.unknown_key("surface.contact_law"))?;
+                Some(Asperities::new(summits, law, heights))
+            }
+            _ => None,
+        };
+        let flow = match self.text("surface.flow_factors")? {
+            "patir-cheng" => Some(Roughness {
+                rms: self.si("surface.rms_nm")?,
+                lay: self.number("surface.lay")?,
+                stator_share: self.number("surface.stator_share")?,
+                asperities,
+            }),
+            _ => None,
+        };
+        Ok(Surface { asperities, flow })
+    }
+
     /// The cross-section of the ring, checked.
     pub(super) fn section(&self) -> Result<Section, What> {
         let records = |key: &'static str| match self.get(key) {

@@ -12,15 +12,19 @@ use super::section::{PART, PARTS, SUPPORT, SUPPORTS};
 use crate::problem::{Flow, Slip, Teeth, Time, Wedge, Width};
 use std::fmt::Write as _;
 
-const BEAM: Model = ("rotor.model", &["beam"]);
-const SECTION: Model = ("rotor.model", &["section"]);
-const BENDING: Model = ("rotor.model", &["beam", "section"]);
-const TABLE: Model = ("rotor.model", &["table"]);
-const GREENS: Model = ("rotor.model", &["green"]);
-const RING: Model = ("rotor.model", &["ring"]);
-const BOLTZMANN: Model = ("film.slip", &["fukui-kaneko"]);
-const CUSTOM: Model = ("film.gas", &["custom"]);
-const NAMED: Model = ("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"]);
+const BEAM: &[Model] = &[("rotor.model", &["beam"])];
+const SECTION: &[Model] = &[("rotor.model", &["section"])];
+const BENDING: &[Model] = &[("rotor.model", &["beam", "section"])];
+const TABLE: &[Model] = &[("rotor.model", &["table"])];
+const GREENS: &[Model] = &[("rotor.model", &["green"])];
+const RING: &[Model] = &[("rotor.model", &["ring"])];
+const BOLTZMANN: &[Model] = &[("film.slip", &["fukui-kaneko"])];
+const CUSTOM: &[Model] = &[("film.gas", &["custom"])];
+const NAMED: &[Model] = &[("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"])];
+const HARD: &[Model] = &[("surface.model", &["minimum-spacing"])];
+const ASPERITIES: &[Model] = &[("surface.model", &["asperities"])];
+const ROUGH_FLOW: &[Model] = &[("surface.flow_factors", &["patir-cheng"])];
+const ROUGH: &[Model] = &[ASPERITIES[0], ROUGH_FLOW[0]];
 const LEFT_OPEN: &str = "left to the fidelity";
 
 /// Every key of a scene file except `schema` and `scene`, in the order they are written. Of a number: key, unit, scenes
@@ -90,7 +94,7 @@ pub static PARAMETERS: &[Parameter] = &[
     number("plate.frequency_khz", "kHz", Plate, (0.001, 10000.0), (0.01, 1000.0), Log, 30.0, "Frequency of the vibration"),
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
-        "Spacing that roughness leaves where the faces touch; unused by a plate"),
+        "Spacing that roughness leaves where the faces touch; unused by a plate").when(HARD),
     choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
         "The gas, whose viscosity and mean free path follow; of a custom one they are given"),
     number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
@@ -104,6 +108,23 @@ pub static PARAMETERS: &[Parameter] = &[
     number("film.accommodation", "", Any, (0.3, 1.0), (0.5, 1.0), Linear, 1.0,
         "Share of the molecules that the walls reflect diffusely, the others specularly").when(BOLTZMANN),
     flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); unused by a plate"),
+
+    choice("surface.model", Motor, &["minimum-spacing", "asperities"], "minimum-spacing",
+        "How the faces meet: at a hard stop that leaves a minimum spacing, or on asperities that give way"),
+    choice("surface.contact_law", Motor, &["greenwood-williamson", "greenwood-tripp"], "greenwood-williamson",
+        "What the asperities carry: those of one face against a plane, or of both faces").when(ASPERITIES),
+    choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "How the heights of the summits are distributed").when(ASPERITIES),
+    number("surface.rms_nm", "nm", Motor, (10.0, 5000.0), (20.0, 1000.0), Log, 100.0,
+        "Standard deviation of the heights of both faces together").when(ROUGH),
+    number("surface.summit_radius_um", "µm", Motor, (0.1, 1e4), (1.0, 1000.0), Log, 50.0, "Radius of a summit").when(ASPERITIES),
+    number("surface.summit_density_per_mm2", "1/mm²", Motor, (1.0, 1e7), (100.0, 1e6), Log, 1e4, "Summits on an area").when(ASPERITIES),
+    number("surface.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 60.0,
+        "Contact modulus E* of both faces together, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂").when(ASPERITIES),
+    choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "How roughness changes the flow of the gas"),
+    number("surface.lay", "", Motor, (0.112, 9.0), (0.112, 9.0), Log, 1.0,
+        "How much longer the asperities are along the wave than across it").when(ROUGH_FLOW),
+    number("surface.stator_share", "", Motor, (0.0, 1.0), (0.0, 1.0), Linear, 0.5,
+        "Share of the variance of the heights that is the stator's").when(ROUGH_FLOW),
 
     whole("numerics.film_nodes_along", Any, (5, 2001), 101,
         "Film nodes along a tooth or plate, both ends counted").absent(LEFT_OPEN),
@@ -128,7 +149,7 @@ pub static PARAMETERS: &[Parameter] = &[
 impl Parameter {
     /// Whether other keys belong to one of its values, as those of a beam to `rotor.model = "beam"`.
     pub(super) fn selects(&self) -> bool {
-        PARAMETERS.iter().any(|parameter| parameter.when.is_some_and(|(selector, _)| selector == self.key))
+        PARAMETERS.iter().any(|parameter| parameter.when.iter().any(|(selector, _)| *selector == self.key))
     }
 
     /// Its place when several keys are set at once: what chooses a model decides which keys there are, what replaces another one
@@ -149,8 +170,8 @@ impl Parameter {
         PARAMETERS.iter().filter(move |other| other.key != self.key && first(other) == first(self))
     }
 
-    const fn when(self, model: Model) -> Self {
-        Self { when: Some(model), ..self }
+    const fn when(self, models: &'static [Model]) -> Self {
+        Self { when: models, ..self }
     }
 
     const fn instead_of(self, key: &'static str) -> Self {
@@ -205,7 +226,7 @@ const fn text(key: &'static str, default: &'static str, about: &'static str) -> 
 }
 
 const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Parameter {
-    Parameter { key, unit: "", belongs, when: None, instead_of: None, absent: None, kind, about }
+    Parameter { key, unit: "", belongs, when: &[], instead_of: None, absent: None, kind, about }
 }
 
 /// The tables of a scene file, in the order they are written.
@@ -245,10 +266,17 @@ mod tests {
     #[test]
     fn a_model_that_has_keys_of_its_own_can_be_chosen() {
         for p in PARAMETERS {
-            let Some((selector, models)) = p.when else { continue };
-            let selector = Parameter::find(selector).unwrap();
-            let ParameterKind::Choice { options, .. } = selector.kind else { panic!("{}", selector.key) };
-            assert!(models.iter().all(|model| options.contains(model)) && selector.belongs == p.belongs, "{}", p.key);
+            for (selector, models) in p.when {
+                let selector = Parameter::find(selector).unwrap();
+                let ParameterKind::Choice { options, .. } = selector.kind else { panic!("{}", selector.key) };
+                assert!(models.iter().all(|model| options.contains(model)), "{}", p.key);
+                // A plate keeps what a motor's model chooses, and does not heed it.
+                assert!(
+                    selector.belongs == p.belongs || p.belongs == IdleOnPlate && selector.belongs == Motor,
+                    "{}",
+                    p.key
+                );
+            }
         }
     }
 
@@ -265,11 +293,22 @@ mod tests {
     #[test]
     fn the_gases_of_the_key_are_those_that_there_are() {
         let names: Vec<_> = crate::gas::GASES.iter().map(|gas| gas.name).collect();
-        assert_eq!(names, NAMED.1);
+        assert_eq!(names, NAMED[0].1);
         let ParameterKind::Choice { options, .. } = Parameter::find("film.gas").unwrap().kind else {
             panic!("a choice")
         };
-        assert_eq!([CUSTOM.1, NAMED.1].concat(), options);
+        assert_eq!([CUSTOM[0].1, NAMED[0].1].concat(), options);
+    }
+
+    #[test]
+    fn the_surface_laws_of_the_keys_are_those_that_there_are() {
+        let options = |key| match Parameter::find(key).unwrap().kind {
+            ParameterKind::Choice { options, .. } => options.to_vec(),
+            _ => panic!("a choice"),
+        };
+        let laws: Vec<_> = crate::surface::LAWS.iter().map(|law| law.name).collect();
+        let heights: Vec<_> = crate::surface::HEIGHTS.iter().map(|heights| heights.name).collect();
+        assert_eq!((options("surface.contact_law"), options("surface.summit_heights")), (laws, heights));
     }
 
     #[test]

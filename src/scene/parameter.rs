@@ -143,8 +143,8 @@ pub struct Parameter {
     pub unit: &'static str,
     /// The scenes that have it.
     pub belongs: Belongs,
-    /// A key of some models among several.
-    pub when: Option<Model>,
+    /// The models that have it, of which a scene needs one; empty: every scene has it.
+    pub when: &'static [Model],
     /// An optional key that, where it is given, replaces another one.
     pub instead_of: Option<&'static str>,
     /// For a key that may be left out for good: what its absence means. `None`: absence means the default.
@@ -157,7 +157,8 @@ pub struct Parameter {
 
 /// The units of the field: how a key ends, what people are shown, and how many make one SI unit (`rpm`: one turn a
 /// second). The longer endings come before those that they end in.
-const UNITS: [(&str, &str, Per); 14] = [
+const UNITS: [(&str, &str, Per); 15] = [
+    ("_per_mm2", "1/mm²", Per::Times(1e6)),
     ("_m2_per_n", "m²/N", Per::One),
     ("_um_per_n", "µm/N", Per::Over(1e6)),
     ("_mm_per_s", "mm/s", Per::Over(1e3)),

@@ -50,6 +50,8 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     "tooth-radius-10m",
     "levitating",
     "ring-rotor",
+    "asperities",
+    "rough-flow",
     "motor-60mm-helium",
     "plate-viscous",
     "plate-crossover",

@@ -25,6 +25,7 @@ const KINDS: &[Kind] = &[
     &[("rpm", 1.0)],
     &[("°C", 1.0)],
     &[("mm/s", 1e-3), ("m/s", 1.0)],
+    &[("1/um2", 1e12), ("1/mm2", 1e6), ("1/m2", 1.0)],
 ];
 
 /// Longest text that is read: no parameter needs more, and parentheses cannot be nested deeper.

@@ -4,7 +4,7 @@
 use super::error::{SceneError, What};
 use super::parameter::{Parameter, Range};
 use super::value::show_number;
-use super::values::Scene;
+use super::values::{Kind, Scene};
 
 /// Narrowest tooth, as a share of the pitch; the widest is the pitch itself.
 const NARROWEST_TOOTH: f64 = 0.01;
@@ -24,6 +24,7 @@ static RULES: &[Rule] = &[
     },
     Rule { keys: &["rotor.part", "rotor.support"], check: ring_hangs_together },
     Rule { keys: &["numerics.wedge", "film.shear"], check: wedge_is_there },
+    Rule { keys: &["numerics.time", "surface.flow_factors"], check: gas_has_time },
     Rule {
         keys: &["stator.tooth_width_mm", "motor.contact_radius_mm", "motor.waves", "stator.teeth_per_wave"],
         check: tooth_fits_the_pitch,
@@ -101,6 +102,18 @@ fn wedge_is_there(scene: &Scene) -> Result<(), What> {
     let ruled_out = scene.text("numerics.wedge")? == "on" && !scene.flag("film.shear")?;
     unless(ruled_out, "numerics.wedge", || {
         "numerics.wedge = \"on\" solves the wedge term, and film.shear = false says that there is none: change one of the two"
+            .to_owned()
+    })
+}
+
+fn gas_has_time(scene: &Scene) -> Result<(), What> {
+    if scene.kind() != Kind::Motor {
+        return Ok(());
+    }
+    let flows = scene.text("numerics.time")? == "trapped" && scene.text("surface.flow_factors")? != "none";
+    unless(flows, "numerics.time", || {
+        "numerics.time = \"trapped\" is known for smooth faces only, and surface.flow_factors are those of rough ones: change one of the \
+         two"
             .to_owned()
     })
 }

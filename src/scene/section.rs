@@ -88,7 +88,7 @@ const fn part(name: &'static str, [inner, outer, bottom, top]: [f64; 4], materia
 }
 
 const fn column(key: &'static str, unit: &'static str, kind: ParameterKind, about: &'static str) -> Parameter {
-    Parameter { key, unit, belongs: Belongs::Motor, when: None, instead_of: None, absent: None, kind, about }
+    Parameter { key, unit, belongs: Belongs::Motor, when: &[], instead_of: None, absent: None, kind, about }
 }
 
 const fn length(key: &'static str, min: f64, about: &'static str) -> Parameter {

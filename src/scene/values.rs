@@ -3,7 +3,7 @@
 use super::error::{SCHEMA, SceneError, What};
 use super::keys::{PARAMETERS, tables};
 use super::nearest::nearest_key;
-use super::parameter::{Belongs, Parameter, ParameterKind};
+use super::parameter::{Belongs, Model, Parameter, ParameterKind};
 use super::value::{Value, show_text};
 use crate::problem::Numerics;
 use std::collections::BTreeMap;
@@ -96,8 +96,8 @@ impl Scene {
         // Most keys that it has not are known without the words of why.
         let other =
             matches!((parameter.belongs, self.kind), (Belongs::Motor, Kind::Plate) | (Belongs::Plate, Kind::Motor));
-        let chosen = |(selector, needs): (&str, &[&str])| self.text(selector).is_ok_and(|model| needs.contains(&model));
-        !other && parameter.when.is_none_or(chosen) && self.applies(parameter).is_ok()
+        let chosen = |(selector, needs): &Model| self.text(selector).is_ok_and(|model| needs.contains(&model));
+        !other && (parameter.when.is_empty() || parameter.when.iter().any(chosen)) && self.applies(parameter).is_ok()
     }
 
     /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics
@@ -152,12 +152,16 @@ impl Scene {
             (Belongs::Plate, Kind::Motor) => return elsewhere("scene", &["plate"], self.scene()),
             _ => {}
         }
-        if let Some((selector, needs)) = parameter.when {
+        let mut fault = Ok(());
+        for (selector, needs) in parameter.when {
             let chosen = self.text(selector)?;
-            if !needs.contains(&chosen) {
-                return elsewhere(selector, needs, chosen);
+            if needs.contains(&chosen) {
+                fault = Ok(());
+                break;
             }
+            fault = fault.and(elsewhere(selector, needs, chosen));
         }
+        fault?;
         let replaces =
             |other: &&Parameter| other.instead_of == Some(parameter.key) && self.values.contains_key(other.key);
         match PARAMETERS.iter().find(replaces) {
@@ -211,7 +215,7 @@ impl Scene {
         }
         // A table that is given chooses the model that it belongs to.
         let table = matches!(parameter.kind, ParameterKind::Rows { .. } | ParameterKind::Records { .. });
-        if let (true, Some((selector, model))) = (table, parameter.when) {
+        if let (true, Some((selector, model))) = (table, parameter.when.first()) {
             self.assign(self.parameter(selector)?, Value::Text(model.concat()))?;
         }
         self.put(parameter, Some(value));

@@ -3,6 +3,7 @@
 use crate::fidelity::Fidelity;
 use crate::problem::{Numerics, Problem, Scenario};
 use crate::solve::{Method, Settings};
+use crate::surface::Surface;
 
 /// Accuracies between those that have names, in millionths.
 const BETWEEN: [u32; 3] = [10_000, 2_000, 500];
@@ -77,7 +78,7 @@ pub fn without_grid(numerics: &Numerics) -> Numerics {
 }
 
 /// What is worth measuring for a scene: every fidelity and some accuracies between them, some grids, the scene's own if it has one,
-/// and for a motor the paper's method on three meshes.
+/// and for a motor with a hard stop the paper's method on three meshes.
 pub fn candidates(problem: &Problem) -> Vec<Candidate> {
     let (scene, free) = (&problem.numerics, without_grid(&problem.numerics));
     let auto = |fidelity| Settings { fidelity, ..Settings::default() };
@@ -105,7 +106,7 @@ pub fn candidates(problem: &Problem) -> Vec<Candidate> {
         let name = "the scene's own grid".to_owned();
         all.push(Candidate::new(name, Family::Grid, Settings::default(), *scene, scene));
     }
-    if matches!(problem.scenario, Scenario::Motor(_)) {
+    if matches!(&problem.scenario, Scenario::Motor(motor) if motor.surface == Surface::default()) {
         for (name, along, across, contact) in PAPER_MESHES {
             let numerics = Numerics {
                 film_nodes_along: Some(along),

@@ -1,8 +1,9 @@
 //! Each limit of the model: its number, how great that may be, and what it means in a sentence.
 
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
-use crate::problem::{Gas, Motor, Plate, Slip};
-use std::f64::consts::{PI, TAU};
+use crate::problem::{Gas, Motor, Named, Plate, Slip};
+use crate::surface::flow::LEAST_RATIO;
+use std::f64::consts::TAU;
 
 /// Greatest Re.
 const INERTIA: f64 = 0.1;
@@ -22,6 +23,10 @@ const MACH: f64 = 1.0;
 const RESONANCE: f64 = 0.3;
 /// Yield stress of aluminium 6061-T6 \[MPa\].
 const YIELD_MPA: f64 = 276.0;
+/// Greatest rms roughness over the separation of the faces.
+const ROUGHNESS: f64 = 1.0 / LEAST_RATIO;
+/// Least separation, over the rms roughness, that is told.
+const LEAST_TOLD: f64 = 0.01;
 /// Greatest gap over the shorter side.
 const THINNESS: f64 = 0.025;
 /// By how much the gas beyond the edges lengthens a side, over the gap.
@@ -30,8 +35,17 @@ const ELONGATION: f64 = 1.3;
 pub(super) const AMPLITUDE: f64 = 0.9;
 
 /// The names of all limits in JSON.
-pub const NAMES: [&str; 8] =
-    ["gas-inertia", "isothermal", "slip-law", "sound", "rotor-resonance", "contact-stress", "thinness", "amplitude"];
+pub const NAMES: [&str; 9] = [
+    "gas-inertia",
+    "isothermal",
+    "slip-law",
+    "sound",
+    "rotor-resonance",
+    "contact-stress",
+    "roughness",
+    "thinness",
+    "amplitude",
+];
 
 /// One limit that a scene exceeds.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -112,12 +126,10 @@ impl Film<'_> {
     pub(super) fn slip(&self) -> Option<Excess> {
         let gas = self.gas;
         let value = gas.mean_free_path / self.closed;
-        let (limit, law) = match gas.slip {
-            Slip::None => (0.01, "flow without slip"),
-            Slip::FirstOrder => (0.1, "first-order slip"),
-            Slip::SecondOrder => (0.6, "second-order slip"),
-            // The fit begins at D = 0.01.
-            Slip::FukuiKaneko => (50.0 * PI.sqrt(), ""),
+        let limit = SlipLaw::of(gas).knudsen_limit();
+        let law = match gas.slip {
+            Slip::None => "flow without slip".to_owned(),
+            slip => format!("{} slip", slip.name()),
         };
         let text = if gas.slip == Slip::FukuiKaneko {
             format!(
@@ -225,6 +237,22 @@ pub(super) fn stress(pressure: f64) -> Option<Excess> {
         rounded(value)
     );
     excess("contact-stress", value, YIELD_MPA, "MPa", text)
+}
+
+/// `closed`: the least film thickness \[m\].
+pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<Excess> {
+    let surface = &motor.surface;
+    let rms = surface.asperities.map(|asperities| asperities.summits().rms).or(surface.flow.map(|flow| flow.rms))?;
+    let separation =
+        surface.asperities.map_or(closed, |asperities| asperities.separation(closed)).max(LEAST_TOLD * rms);
+    let value = rms / separation;
+    let text = format!(
+        "The mean planes of the faces come within {} nm, for a roughness of {} nm rms: summits no longer give way one by one, and flow \
+         factors are not known below half of it.",
+        rounded(separation * 1e9),
+        rounded(rms * 1e9)
+    );
+    excess("roughness", value, ROUGHNESS, "", text)
 }
 
 pub(super) fn nearness(plate: &Plate) -> Option<Excess> {

@@ -171,6 +171,19 @@ fn sound() {
 }
 
 #[test]
+fn faces_that_are_pressed_into_each_other() {
+    // 2.45 N on 9 × 1.7353 mm × 0.3 mm: 0.5229 MPa; K = 4/3 · 60 GPa · 10⁴/mm² · √(50 µm) · (0.1 µm)^{3/2}.
+    let at = |modulus: &str| motor(&[("surface.model", "asperities"), ("surface.elastic_modulus_gpa", modulus)]);
+    assert!(!names(&at("60")).contains(&"roughness"));
+    // Summits of rubber carry it below the mean plane only.
+    check(&at("0.03"), "roughness", 100.0, 2.0);
+    // With a hard stop the flow factors judge the spacing itself.
+    let flows = |rms: &str| motor(&[("surface.flow_factors", "patir-cheng"), ("surface.rms_nm", rms)]);
+    assert!(!names(&flows("399")).contains(&"roughness"));
+    check(&flows("500"), "roughness", 2.5, 2.0);
+}
+
+#[test]
 fn sliding_faster_than_sound() {
     // 0.5 m · 10 000 rpm = 523.6 m/s, and 0.19 m/s of the stator; 343.2 m/s.
     let turning = |rpm: &str| motor(&[("motor.contact_radius_mm", "500"), ("motor.rotor_speed_rpm", rpm)]);

@@ -115,9 +115,8 @@ pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
 }
 
 fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
-    let underside = |run: &MotorRun<'_>, i: usize| {
-        run.recording.stator[i] + run.recording.film_thickness[i] - run.scene.min_spacing
-    };
+    let underside =
+        |run: &MotorRun<'_>, i: usize| run.recording.stator[i] + run.recording.film_thickness[i] - run.scene.spacing();
     let all = runs.iter().flat_map(|run| {
         (0..run.recording.stator.len()).flat_map(move |i| [run.recording.stator[i], underside(run, i)])
     });

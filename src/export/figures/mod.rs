@@ -20,6 +20,7 @@ pub mod exact;
 pub mod motor;
 pub mod plate;
 mod series;
+pub mod surface;
 pub mod torque;
 mod unit;
 

@@ -47,7 +47,7 @@ fn x_axis(recording: &Recording) -> Axis {
 
 /// Teeth of the stator, underside of the rotor, and where they touch.
 pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
-    let underside = |i: usize| recording.stator[i] + recording.film_thickness[i] - motor.min_spacing;
+    let underside = |i: usize| recording.stator[i] + recording.film_thickness[i] - motor.spacing();
     let all = || 0..recording.stator.len().min(recording.film_thickness.len());
     let [low, high] = with_margin(span(all().flat_map(|i| [recording.stator[i], underside(i)]), 0.0), 0.08);
     let (unit, scale) = prefixed(high.max(-low), "m");
@@ -64,7 +64,7 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
             teeth.push([x, f64::MIN / 2.0, top]);
             outline.push([x, top]);
             rotor.push([x, underside(line + i) * scale]);
-            touching.push(if recording.contact[line + i] > 0.0 { [x, top] } else { gap });
+            touching.push(if recording.contact[line + i] > motor.touching_from() { [x, top] } else { gap });
         }
         teeth.push([f64::NAN; 3]);
         outline.push(gap);
@@ -87,7 +87,7 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
         .layer(Line::new("stator", outline, Style { width: 0.8, ..Style::solid(Colour::STATOR) }))
         .layer(Line::new("rotor", rotor, Style { width: 1.2, ..Style::solid(Colour::BLACK) }));
     // Wherever in the cycle: the legend is the same at every instant.
-    if recording.contact.iter().any(|load| *load > 0.0) {
+    if recording.contact.iter().any(|load| *load > motor.touching_from()) {
         panel = panel.layer(Line::new("in contact", touching, thick));
     }
     panel.legend = Legend::Above;

@@ -14,8 +14,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// What is varied at first, along x and y: the first that a scene has.
-const FIRST: [&[&str]; 2] =
-    [&["plate.frequency_khz", "film.min_spacing_nm"], &["plate.mean_gap_um", "motor.load_per_wave_n"]];
+const FIRST: [&[&str]; 2] = [
+    &["plate.frequency_khz", "film.min_spacing_nm", "surface.rms_nm"],
+    &["plate.mean_gap_um", "motor.load_per_wave_n"],
+];
 /// Points of a line, and along each side of a map.
 const LINE: usize = 25;
 const SIDE: usize = 12;

@@ -16,6 +16,7 @@ use eframe::egui::{self, RichText, TextStyle};
 /// What the eye meets first.
 const MAIN: &[&str] = &[
     "film.min_spacing_nm",
+    "surface.rms_nm",
     "stator.tooth_width_mm",
     "stator.frequency_khz",
     "plate.mean_gap_um",
@@ -30,6 +31,7 @@ const GROUPS: &[(&str, &str, bool)] = &[
     ("plate", "Plate", true),
     ("rotor", "Rotor", false),
     ("film", "Film", false),
+    ("surface", "Surface", false),
     ("numerics", "Numerics", false),
 ];
 

@@ -8,6 +8,7 @@ pub mod labels;
 pub mod rotor;
 pub mod sensitivity;
 pub mod startup;
+mod surface;
 pub mod sweep;
 pub mod torque;
 pub mod tradeoff;

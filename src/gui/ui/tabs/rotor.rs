@@ -1,6 +1,7 @@
 //! The rotor by itself: compliance by harmonic and Green's function of several models, and the section of a ring, to scale, with its
-//! mesh and as the present load bends it. The edges of its parts can be dragged.
+//! mesh and as the present load bends it. The edges of its parts can be dragged. Below, the faces if they are rough (`surface`).
 
+use super::surface;
 use crate::analysis::rotor::{Bent, Curve, RotorCurves};
 use crate::digits::percent;
 use crate::gui::command::Command;
@@ -68,6 +69,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             let bent = found.and_then(|found| found.bent.as_ref()).filter(|_| cx.state.rotor.is_of(&motor));
             section(ui, &parts, [motor.contact_radius, motor.contact_width], bent, tall(2), cx);
         }
+        surface::show(ui, &motor, tall(1), cx);
     });
 }
 

@@ -24,6 +24,7 @@ const TABLES: &[(&str, &str)] = &[
     ("rotor", "Rotor"),
     ("plate", "Plate"),
     ("film", "Film"),
+    ("surface", "Surface"),
     ("numerics", "Numerics"),
 ];
 

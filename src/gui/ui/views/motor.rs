@@ -134,7 +134,7 @@ fn readout(shown: &MotorFrame<'_>) -> Readout {
     let thickness = at(&lines.film_thickness);
     let width = shown.motor.contact_width;
     values.push(format!("tooth {tooth}"));
-    values.push(format!("gap {} µm", number((thickness - shown.motor.min_spacing).max(0.0) * 1e6)));
+    values.push(format!("gap {} µm", number((thickness - shown.motor.spacing()).max(0.0) * 1e6)));
     values.push(format!("film thickness {} µm", number(thickness * 1e6)));
     values.push(format!("contact {} kPa", number(at(&lines.contact) / width / 1e3)));
     values.push(format!("film {} kPa gauge", number(at(&lines.film) / width / 1e3)));

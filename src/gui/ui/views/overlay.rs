@@ -295,7 +295,7 @@ fn draw_surfaces(
 ) -> Axes {
     let heights = runs.iter().map(|run| {
         let scales = &run.of.curves.scales;
-        [scales.stator[0], (scales.rotor[1] - run.motor.min_spacing).max(scales.stator[1])]
+        [scales.stator[0], (scales.rotor[1] - run.motor.spacing()).max(scales.stator[1])]
     });
     let [low, high] = common(heights);
     let margin = 0.08 * (high - low).max(1e-9);
@@ -323,7 +323,7 @@ fn draw_surfaces(
             let top = run.lines.stator[line.clone()].iter().enumerate();
             painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));
             let rotor = line.clone().enumerate().map(|(i, k)| {
-                let height = run.lines.stator[k] + run.lines.film_thickness[k] - run.motor.min_spacing;
+                let height = run.lines.stator[k] + run.lines.film_thickness[k] - run.motor.spacing();
                 at(tooth, i, height)
             });
             underside.extend(rotor);
@@ -394,7 +394,7 @@ fn motor_values(ui: &mut Ui, runs: &[MotorNow<'_>], x: f64, along: &Along) {
                 None => drop(ui.weak("groove")),
                 Some(node) => {
                     let at = |field: &[f64]| sample::between(&field[run.lines.of(tooth)], node);
-                    let gap = at(&run.lines.film_thickness) - run.motor.min_spacing;
+                    let gap = at(&run.lines.film_thickness) - run.motor.spacing();
                     ui.label(number(gap.max(0.0) * 1e9));
                     for field in [&run.lines.contact, &run.lines.film] {
                         ui.label(number(at(field) / run.motor.contact_width / 1e3));

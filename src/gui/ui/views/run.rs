@@ -148,7 +148,7 @@ mod tests {
             let lines = Lines::at(recording, place);
             let grooves = lines.grooves(recording, 3);
             let last = recording.x.len() - 1;
-            let height = |k: usize| lines.stator[k] + lines.film_thickness[k] - motor.min_spacing;
+            let height = |k: usize| lines.stator[k] + lines.film_thickness[k] - motor.spacing();
             for (tooth, groove) in grooves.iter().enumerate() {
                 let ends = [lines.of(tooth).start + last, lines.of((tooth + 1) % recording.teeth).start].map(height);
                 // Harmonics of the wave through what is known on the teeth, but for what is pressed in locally: what is between them

@@ -43,7 +43,7 @@ pub(super) fn draw(
 
     let [_, gap_chart, loads_chart] = places;
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
-    let minimum = shown.motor.min_spacing;
+    let minimum = shown.motor.spacing();
     let text = style.text;
     let spacing = [Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text }];
     let [low, high] = curves.thickness.range();

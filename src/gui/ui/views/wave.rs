@@ -22,7 +22,7 @@ const ABOVE: f32 = 0.16;
 
 /// Draws the wave into `rect`. Returns the axes, whose y is height \[m\].
 pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &MotorFrame<'_>) -> Axes {
-    let minimum = shown.motor.min_spacing;
+    let minimum = shown.motor.spacing();
     let low = shown.scales.stator[0];
     let high = (shown.scales.rotor[1] - minimum).max(low);
     let span = if high > low { high - low } else { 1e-7 };
@@ -98,7 +98,7 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'
     let recording = shown.recording;
     let nodes = recording.x.len();
     let lines = &shown.lines;
-    let height = |index: usize| lines.stator[index] + lines.film_thickness[index] - shown.motor.min_spacing;
+    let height = |index: usize| lines.stator[index] + lines.film_thickness[index] - shown.motor.spacing();
     // The film, where there is any.
     let film = style.palette.film.gamma_multiply(0.25);
     let mut underside = Vec::with_capacity(recording.teeth * (nodes + GROOVE));
@@ -169,7 +169,7 @@ fn touching(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFram
         let middle = tooth as f64 * recording.pitch;
         let mut run: Vec<Pos2> = Vec::new();
         for i in 0..=nodes {
-            if i < nodes && shown.lines.contact[line + i] > 0.0 {
+            if i < nodes && shown.lines.contact[line + i] > shown.motor.touching_from() {
                 run.push(axes.at(middle + recording.x[i], shown.lines.stator[line + i]));
                 continue;
             }

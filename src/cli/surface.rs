@@ -1,0 +1,145 @@
+//! `squeezefilm surface`: what a measured face comes to.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::options::{FigureOptions, OutputOptions};
+use super::solve::written;
+use super::terminal;
+use crate::atomic::Staged;
+use crate::digits::significant;
+use crate::export::figures::surface::figure;
+use crate::export::json;
+use crate::export::surface::{Face, Object, preset};
+use crate::input::read_text;
+use crate::surface::height_map::HeightMap;
+use crate::surface::texture::{Pair, Texture};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm surface face.csv
+  squeezefilm surface rotor.csv stator.csv --degree 2 --out results";
+
+const FILES: &str = "\
+A file is a grid of heights, with lines \"# dx_um = 0.5\", \"# dy_um = 0.5\" and \"# height = nm\" before them and a line of numbers for
+each y; or a profile, with a line \"x_um,z_nm\" and a pair on each line. Units are m, mm, um and nm. x is along the wave.
+
+Files of --out:
+  surface.json      what --json prints
+  face-1.svg        heights and autocorrelation of the first file; and face-1.png, face-2.…
+  surface.toml      lines for a preset";
+
+/// Largest file \[MB\].
+const LARGEST: u64 = 256;
+
+/// Statistics of measured faces, and the spacing, asperities and flow factors that follow
+///
+/// The heights are levelled first. From two files, the rotor's face and the stator's, or from one that both are like, follow H_m as
+/// the paper takes it (the mean of both peak-to-valley heights), the summits (McCool 1987) and the lay, as lines for a preset.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// Measured heights: of the rotor's face and of the stator's, or of one that both are like
+    #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
+    files: Vec<PathBuf>,
+
+    /// Degree of the polynomial that is taken off: 1 levels, 2 takes off roundness as well
+    #[arg(long, value_name = "DEGREE", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=2))]
+    degree: u8,
+
+    #[command(flatten)]
+    output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let folder = arguments.output.folder()?;
+    let faces = arguments.files.iter().map(|file| face(file, arguments.degree)).collect::<Result<Vec<_>, _>>()?;
+    let (Some((_, rotor)), Some((_, stator))) = (faces.first(), faces.last()) else { return Ok(Exit::BadInput) };
+    let pair = Pair::of(rotor, stator);
+    let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let told =
+        arguments.files.iter().zip(&faces).map(|(file, (map, texture))| Face::of(&name(file), map, texture)).collect();
+    let object = Object::new(told, &pair);
+    terminal::result(arguments.output.json, || json::document(&object, command), || text(&object));
+    if let Some(folder) = folder {
+        let mut staged = Staged::new(folder)?;
+        staged.add("surface.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        staged.add("surface.toml", |out| out.write_all(preset(&pair).as_bytes()))?;
+        for (number, ((map, texture), face)) in faces.iter().zip(&object.faces).enumerate() {
+            arguments.figures.stage(&mut staged, &format!("face-{}", number + 1), &figure(&face.file, map, texture))?;
+        }
+        terminal::note(&written(folder, &staged.commit()?));
+    }
+    Ok(Exit::Solved)
+}
+
+fn face(file: &Path, degree: u8) -> Result<(HeightMap, Texture), CliError> {
+    let fault = |reason: String| CliError::Answers(format!("{}: {reason}", file.display()));
+    let text = read_text(file, LARGEST).map_err(|error| fault(error.to_string()))?;
+    let map = HeightMap::read(&text).map_err(|error| fault(error.to_string()))?.levelled(usize::from(degree));
+    let texture = Texture::of(&map);
+    if texture.rms > 0.0 && texture.moments.iter().all(|moment| *moment > 0.0) {
+        Ok((map, texture))
+    } else {
+        Err(fault("nothing is left of the heights once they are level".to_owned()))
+    }
+}
+
+fn text(object: &Object) -> String {
+    let mut columns = Columns::new();
+    let names = object.faces.iter().map(|face| face.file.clone());
+    columns.row(std::iter::once(String::new()).chain(names).chain([String::new()]));
+    let mut row = |name: &str, value: &dyn Fn(&Face) -> String, note: &str| {
+        columns.row(std::iter::once(name.to_owned()).chain(object.faces.iter().map(value)).chain([note.to_owned()]));
+    };
+    let lengths = |lengths: [Option<f64>; 2]| match lengths.map(|length| length.map(|length| significant(length, 3))) {
+        [Some(x), Some(y)] => format!("{x}, {y} µm"),
+        [Some(x), None] => format!("{x} µm"),
+        _ => "longer than half the face".to_owned(),
+    };
+    row("points", &|face| format!("{} × {}", face.points[0], face.points[1]), "along x, the wave, and y");
+    row("Sa", &|face| format!("{} nm", significant(face.sa_nm, 4)), "mean magnitude of the heights, level");
+    row("Sq", &|face| format!("{} nm", significant(face.sq_nm, 4)), "their standard deviation");
+    row("Sz", &|face| format!("{} nm", significant(face.sz_nm, 4)), "peak to valley");
+    row(
+        "Ssk, Sku",
+        &|face| format!("{:.2}, {:.2}", face.ssk, face.sku),
+        "skewness and kurtosis; 0 and 3 if normally distributed",
+    );
+    row(
+        "correlation length",
+        &|face| lengths(face.correlation_length_um),
+        "along x and y, where the autocorrelation falls to ½",
+    );
+    row("", &|face| lengths(face.correlation_length_fifth_um), "where it falls to 0.2 (ISO 25178-2)");
+    row(
+        "lay  γ",
+        &|face| face.lay.map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3)),
+        "along x over across",
+    );
+    let mut text = columns.text("  ", &[]);
+    let (number, same) = (object.faces.len(), "Both faces are taken to be like it. ");
+    text.push_str(&paragraph(
+        &format!(
+            "{}Summits follow from slopes and curvatures between neighbouring points: they are those of this resolution. Bandwidth m₀m₄/m₂² = {}.",
+            if number == 1 { same } else { "" },
+            significant(object.bandwidth, 3)
+        ),
+        "\n",
+        "",
+    ));
+    let mut factors = Columns::new();
+    factors.row(
+        ["h/σ".to_owned()].into_iter().chain(object.flow_factors.iter().map(|at| significant(at.gap_over_rms, 2))),
+    );
+    factors
+        .row(["φ along x".to_owned()].into_iter().chain(object.flow_factors.iter().map(|at| significant(at.along, 3))));
+    factors.row(
+        ["φ along y".to_owned()].into_iter().chain(object.flow_factors.iter().map(|at| significant(at.across, 3))),
+    );
+    text + &factors.text("  ", &[1, 2, 3, 4]) + "\n" + &object.preset
+}

@@ -1,0 +1,102 @@
+//! A node that meets the rotor on asperities.
+//!
+//! Its separation d solves d = s + C_∞ q(d), q = w p(d) + p_a ζ/h(d) − B, all of which falls with d: one root. With R(d) the part of the
+//! equation that asperities have no share in, it is C_∞ w p(d) = R(d). Where both sides are positive, Newton's method on their
+//! logarithms is quick, because ln p is nearly a parabola or a straight line; elsewhere on the difference; always within a bracket.
+
+use crate::surface::Asperities;
+
+/// Asperities at the nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Rough {
+    law: Asperities,
+    /// w \[m\].
+    width: f64,
+    /// Where the search of each node starts: the separation found last \[m\].
+    last: Vec<f64>,
+}
+
+/// What is found at a node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    /// q \[N/m\].
+    pub(super) force: f64,
+    /// −dq/ds \[N/m²\].
+    pub(super) stiffness: f64,
+    /// h \[m\].
+    pub(super) thickness: f64,
+    /// c \[N/m\].
+    pub(super) contact: f64,
+    /// d \[m\].
+    pub(super) separation: f64,
+}
+
+const ITERATION_LIMIT: usize = 200;
+/// Separation over σ beyond which asperities carry nothing that counts beside a load.
+const OUT_OF_REACH: f64 = 38.0;
+
+impl Rough {
+    pub(super) fn new(law: Asperities, width: f64, nodes: usize) -> Self {
+        Self { law, width, last: vec![0.0; nodes] }
+    }
+
+    /// Line load and its stiffness, as of [`Rough::node`], where the next search of the node starts.
+    pub(super) fn next(&mut self, i: usize, local: f64, s: f64, gas: f64, ambient: f64) -> (f64, f64) {
+        let found = self.node(i, local, s, gas, ambient);
+        self.last[i] = found.separation;
+        (found.force, found.stiffness)
+    }
+
+    /// Node `i` with s \[m\], trapped gas `gas` p_aζ and what is subtracted from its force, `ambient` B \[N/m\], on the local compliance C_∞.
+    pub(super) fn node(&self, i: usize, local: f64, s: f64, gas: f64, ambient: f64) -> Found {
+        let rms = self.law.summits().rms;
+        // Contact and film's force, each with its slope, and h.
+        let forces = |d: f64| {
+            let ((pressure, softer), (h, wider)) = (self.law.pressure(d), self.law.mean_gap(d));
+            ([self.width * pressure, self.width * softer], [gas / h - ambient, -gas / (h * h) * wider], h)
+        };
+        let mut low = s - local * ambient;
+        let far = s.max(OUT_OF_REACH * rms);
+        let ([contact, _], [film, _], _) = forces(far);
+        let mut high = far + local * (contact + film).max(0.0);
+        let mut d = self.last[i].clamp(low, high);
+        for _ in 0..ITERATION_LIMIT {
+            let ([contact, softer], [film, thinner], _) = forces(d);
+            let (rest, rises) = (d - s - local * film, 1.0 - local * thinner);
+            let pressed = local * contact;
+            let missing = rest - pressed;
+            if missing < 0.0 {
+                low = d
+            } else {
+                high = d
+            }
+            let by_difference = -missing / (rises - local * softer);
+            let by_logarithm = (pressed / rest).ln() / (rises / rest - softer / contact);
+            let step =
+                if rest > 0.0 && pressed > 0.0 && by_logarithm.is_finite() { by_logarithm } else { by_difference };
+            let mut next = d + step;
+            if !(low..=high).contains(&next) {
+                next = d + by_difference;
+            }
+            if !(low..=high).contains(&next) {
+                next = 0.5 * (low + high);
+            }
+            let moved = (next - d).abs();
+            d = next;
+            if moved <= 2.0 * f64::EPSILON * (d.abs() + s.abs().min(rms)) || missing == 0.0 {
+                break;
+            }
+        }
+        let ([contact, softer], [film, thinner], thickness) = forces(d);
+        let slope = softer + thinner;
+        let stiffness = -slope / (1.0 - local * slope);
+        // Where a last bit of d makes more of the force than of the deflection, the deflection is the better measure.
+        let (force, contact) = if -local * slope > 1.0 {
+            let force = (d - s) / local;
+            (force, (force - film).max(0.0))
+        } else {
+            (contact + film, contact)
+        };
+        Found { force, stiffness, thickness, contact, separation: d }
+    }
+}

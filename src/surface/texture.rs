@@ -1,0 +1,179 @@
+//! What a measured face amounts to: heights, lengths, spectral moments, and the keys of a preset that follow.
+//!
+//! Sa, Sq, Sz, Ssk and Sku are those of ISO 25178-2 of the levelled heights. The correlation length along an axis is where the
+//! autocorrelation first falls to ½; the lay γ is the ratio of both (Peklenik 1968, as in Patir and Cheng 1978). Summits follow from
+//! the mean squares of height, slope and curvature along a line, m₀, m₂, m₄ (J. I. McCool, ASME J. Tribol. 109, 1987), those of two faces
+//! together being the sums:
+//!
+//! ```text
+//! η = (m₄/m₂)/(6π√3)      R = 3√π/(8√m₄)      bandwidth m₀m₄/m₂²
+//! ```
+
+use super::flow::{ROWS_LAY, pressure_factor};
+use super::height_map::HeightMap;
+use serde::Serialize;
+use std::f64::consts::PI;
+
+/// A face's statistics, in SI units.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Texture {
+    /// Mean magnitude Sa \[m\].
+    pub mean: f64,
+    /// Standard deviation Sq \[m\].
+    pub rms: f64,
+    /// Peak to valley Sz \[m\].
+    pub peak_to_valley: f64,
+    /// Skewness Ssk.
+    pub skewness: f64,
+    /// Kurtosis Sku; 3 if normally distributed.
+    pub kurtosis: f64,
+    /// Lengths along x and y at which the autocorrelation falls to ½ \[m\]; `None` where it does not, and along y of a profile.
+    pub correlation: [Option<f64>; 2],
+    /// The same for 0.2, which ISO 25178-2 takes.
+    pub correlation_fifth: [Option<f64>; 2],
+    /// m₀ \[m²\], m₂, m₄ \[1/m²\], mean of both directions.
+    pub moments: [f64; 3],
+    /// Autocorrelation along x and y: `(lag [m], value)`, up to half the face.
+    #[serde(skip)]
+    pub autocorrelation: [Vec<(f64, f64)>; 2],
+}
+
+/// Points of an autocorrelation that is kept beyond its fall to 0.2.
+const TAIL: usize = 3;
+/// Most lags of an autocorrelation.
+const MOST_LAGS: usize = 2000;
+
+impl Texture {
+    /// Of a levelled face.
+    pub fn of(face: &HeightMap) -> Self {
+        let count = face.heights.len() as f64;
+        let middle = face.heights.iter().sum::<f64>() / count;
+        let power = |n: i32| face.heights.iter().map(|z| (z - middle).powi(n)).sum::<f64>() / count;
+        let rms = power(2).sqrt();
+        let (low, high) =
+            face.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(*z), h.max(*z)));
+        let directions = if face.ny > 1 { 2 } else { 1 };
+        let autocorrelation =
+            [0, 1].map(|axis| if axis < directions { autocorrelation(face, axis, middle) } else { Vec::new() });
+        let falls = |to: f64| [0, 1].map(|axis| falls_to(&autocorrelation[axis], to));
+        let moments = |of: fn(&HeightMap, usize) -> f64| {
+            (0..directions).map(|axis| of(face, axis)).sum::<f64>() / directions as f64
+        };
+        Self {
+            mean: face.heights.iter().map(|z| (z - middle).abs()).sum::<f64>() / count,
+            rms,
+            peak_to_valley: high - low,
+            skewness: power(3) / rms.powi(3),
+            kurtosis: power(4) / rms.powi(4),
+            correlation: falls(0.5),
+            correlation_fifth: falls(0.2),
+            moments: [power(2), moments(slope), moments(curvature)],
+            autocorrelation,
+        }
+    }
+
+    /// γ: how much longer asperities are along x than along y.
+    pub fn lay(&self) -> Option<f64> {
+        let [x, y] = self.correlation;
+        Some(x? / y?)
+    }
+}
+
+/// Steps of `stride` points that lead from point to point along an axis, in every line of it: `(first point, points, stride)`.
+fn lines(face: &HeightMap, axis: usize) -> Vec<(usize, usize, usize)> {
+    match axis {
+        0 => (0..face.ny).map(|iy| (iy * face.nx, face.nx, 1)).collect(),
+        _ => (0..face.nx).map(|ix| (ix, face.ny, face.nx)).collect(),
+    }
+}
+
+/// Mean of `of` over all places along an axis that have `reach` points behind them.
+fn mean_along(face: &HeightMap, axis: usize, reach: usize, of: impl Fn(usize, usize) -> f64) -> f64 {
+    let (mut sum, mut count) = (0.0, 0);
+    for (first, points, stride) in lines(face, axis) {
+        for i in 0..points.saturating_sub(reach) {
+            sum += of(first + i * stride, stride);
+            count += 1;
+        }
+    }
+    sum / f64::from(count.max(1))
+}
+
+fn slope(face: &HeightMap, axis: usize) -> f64 {
+    let z = &face.heights;
+    mean_along(face, axis, 1, |k, stride| (z[k + stride] - z[k]).powi(2)) / face.spacing[axis].powi(2)
+}
+
+fn curvature(face: &HeightMap, axis: usize) -> f64 {
+    let z = &face.heights;
+    mean_along(face, axis, 2, |k, stride| (z[k + 2 * stride] - 2.0 * z[k + stride] + z[k]).powi(2))
+        / face.spacing[axis].powi(4)
+}
+
+fn autocorrelation(face: &HeightMap, axis: usize, middle: f64) -> Vec<(f64, f64)> {
+    let z = &face.heights;
+    let points = if axis == 0 { face.nx } else { face.ny };
+    let (mut found, mut beyond): (Vec<(f64, f64)>, usize) = (Vec::new(), 0);
+    let whole = mean_along(face, axis, 0, |k, _| (z[k] - middle).powi(2));
+    for lag in 0..(points / 2).min(MOST_LAGS) {
+        let value = mean_along(face, axis, lag, |k, stride| (z[k] - middle) * (z[k + lag * stride] - middle)) / whole;
+        found.push((lag as f64 * face.spacing[axis], value));
+        beyond += usize::from(value < 0.2 || beyond > 0);
+        // Past its fall, as far again is enough to look at.
+        if beyond > found.len() / 2 + TAIL {
+            break;
+        }
+    }
+    found
+}
+
+/// Where it first falls to `level`, between two lags.
+fn falls_to(autocorrelation: &[(f64, f64)], level: f64) -> Option<f64> {
+    autocorrelation.windows(2).find(|pair| pair[1].1 < level).map(|pair| {
+        let [(a, high), (b, low)] = [pair[0], pair[1]];
+        a + (b - a) * (high - level) / (high - low)
+    })
+}
+
+/// Two faces that meet, and the keys that follow.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Pair {
+    /// H_m as the paper takes it: the mean of the peak-to-valley roughness of both \[m\].
+    pub min_spacing: f64,
+    /// √(σ₁² + σ₂²) \[m\].
+    pub rms: f64,
+    /// R \[m\].
+    pub summit_radius: f64,
+    /// η \[1/m²\].
+    pub summit_density: f64,
+    /// Bandwidth m₀m₄/m₂²: at least 1.5 for an isotropic face of random heights.
+    pub bandwidth: f64,
+    /// γ along x, within what flow factors are known for; 1 if it is not known.
+    pub lay: f64,
+    /// The stator's share of the variance.
+    pub stator_share: f64,
+}
+
+impl Pair {
+    /// The rotor's face and the stator's.
+    pub fn of(rotor: &Texture, stator: &Texture) -> Self {
+        let [m0, m2, m4] = [0, 1, 2].map(|n| rotor.moments[n] + stator.moments[n]);
+        // Each face's lay counts as its variance does.
+        let lays = [rotor, stator].map(|face| face.lay().map_or(0.0, f64::ln) * face.moments[0] / m0);
+        let [shortest, longest] = ROWS_LAY;
+        Self {
+            min_spacing: 0.5 * (rotor.peak_to_valley + stator.peak_to_valley),
+            rms: m0.sqrt(),
+            summit_radius: 0.375 * PI.sqrt() / m4.sqrt(),
+            summit_density: m4 / m2 / (6.0 * PI * 3f64.sqrt()),
+            bandwidth: m0 * m4 / (m2 * m2),
+            lay: lays.iter().sum::<f64>().exp().clamp(shortest, longest),
+            stator_share: stator.moments[0] / m0,
+        }
+    }
+
+    /// φ along the wave and across it where the faces are `ratio` times the rms roughness apart.
+    pub fn flow_factors(&self, ratio: f64) -> [f64; 2] {
+        [self.lay, 1.0 / self.lay].map(|lay| pressure_factor(ratio, lay))
+    }
+}
