@@ -311,7 +311,7 @@ fn what_lessons_compute_by_hand_is_right() {
     let viscous = presets::find("plate-viscous").unwrap();
     let of = |key: &str| viscous.get(key).unwrap().as_number().unwrap();
     let speed = std::f64::consts::TAU * 1e3 * of("plate.frequency_khz") * 0.1e-6;
-    let force = 1e-6 * of("film.viscosity_upas") * (1e-3 * of("plate.length_mm")).powi(2) * speed
+    let force = 1e-6 * of("film.viscosity_upa_s") * (1e-3 * of("plate.length_mm")).powi(2) * speed
         / (1e-6 * of("plate.mean_gap_um")).powi(3);
     assert!((force / (1e3 * of("film.ambient_pressure_kpa")) / 0.0025 - 1.0).abs() < 0.02, "{force}");
     // Lesson 5: hits on walls, v/2h a second, and on molecules, v/λ.
