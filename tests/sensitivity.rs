@@ -5,6 +5,7 @@
 use serde_json::Value;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
+use squeezefilm::analysis::variation::Sides;
 use squeezefilm::control::Cancel;
 use squeezefilm::estimate::Estimate;
 use squeezefilm::fidelity::Fidelity;
@@ -60,7 +61,7 @@ fn derivatives_are_as_exact_as_they_say() {
     ];
     for preset in ["fundamental", "min-spacing-100nm"] {
         let exact: Vec<[f64; 3]> = keys.iter().map(|key| independent(preset, key, 0.02)).collect();
-        for (fidelity, most) in [(Fidelity::Draft, 0.25), (Fidelity::Standard, 0.1), (Fidelity::Fine, 0.04)] {
+        for (fidelity, most) in [(Fidelity::Draft, 0.25), (Fidelity::Standard, 0.15), (Fidelity::Fine, 0.04)] {
             let found = sensitivity(&presets::find(preset).unwrap(), &keys, fidelity);
             for (column, key) in keys.iter().enumerate() {
                 for (output, quantity) in MOTOR_QUANTITIES.iter().enumerate() {
@@ -106,6 +107,17 @@ fn a_trapped_plate_has_the_derivatives_of_its_formula() {
             keys[column]
         );
     }
+}
+
+#[test]
+fn where_a_ring_does_not_reach_there_is_one_side() {
+    let scene = presets::find("ring-rotor").unwrap();
+    let found = sensitivity(&scene, &["rotor.contact_width_mm", "motor.contact_radius_mm"], Fidelity::Draft);
+    assert_eq!(found.columns[0].sides, Sides::Below);
+    let Estimate { value, error } = found.elasticity(0, 0).unwrap();
+    assert!((value - 1.2).abs() < 0.2 && error < 0.1, "{value} ± {error}");
+    let why = found.columns[1].slopes.as_ref().unwrap_err();
+    assert!(why.contains("is not within the lowest face of the section"), "{why}");
 }
 
 #[test]
@@ -253,7 +265,7 @@ fn text_object_and_files_agree() {
         let uncertainty = output["uncertainty"].as_f64().unwrap();
         assert!(deviation == 40.0 && (uncertainty / (slope * deviation).abs() - 1.0).abs() < 1e-12);
         assert_eq!((&by[0]["uncertainty"], &by[1]["variance_share"]), (&Value::Null, &1.0.into()));
-        assert!(output["monte_carlo"]["count"] == 20 && output["error"].as_f64().unwrap() < 0.2 * uncertainty);
+        assert!(output["monte_carlo"]["count"] == 20 && output["error"].as_f64().unwrap() < uncertainty);
     }
     let draws = std::fs::read_to_string(folder.path().join("monte-carlo.csv")).unwrap();
     assert_eq!(draws.lines().next(), Some("film.min_spacing_nm,alpha,stall_torque_nm,no_load_speed_rpm"));

@@ -20,6 +20,7 @@ use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError, Value};
 use crate::solution::Solution;
 use crate::solve::near::Centre;
+use crate::solve::{Settings, check};
 use rayon::prelude::*;
 
 /// The step, as a share of the scale of a key.
@@ -271,16 +272,19 @@ impl Variation {
     /// Where to solve for the derivative by one key.
     fn steps(&self, values: &[f64], column: usize) -> Steps {
         let step = STEP * scale(self.parameters[column], values[column]);
-        let at = |steps: i32| {
+        let at = |steps: i32| -> Result<Problem, String> {
             let mut moved = values.to_vec();
             moved[column] += f64::from(steps) * step;
-            self.problem(&moved)
+            let problem = self.problem(&moved).map_err(|error| error.to_string())?;
+            // A ring may not reach under the contact there.
+            check(&problem, &Settings::default()).map_err(|error| error.to_string())?;
+            Ok(problem)
         };
         let mut refused = None;
         for (sides, steps) in [(Sides::Both, &BOTH[..]), (Sides::Above, &ABOVE), (Sides::Below, &BELOW)] {
             match steps.iter().map(|steps| at(*steps)).collect() {
                 Ok(points) => return Steps { step, sides, points, refused: None },
-                Err(error) => refused = Some(error.to_string()),
+                Err(why) => refused = Some(why),
             }
         }
         Steps { step, sides: Sides::Both, points: Vec::new(), refused }

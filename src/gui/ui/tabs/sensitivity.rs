@@ -1,7 +1,7 @@
 //! What the results depend on: how much each changes with every parameter, and how uncertain it is if the parameters are.
 
 use crate::analysis::sensitivity::{LEAST, Sensitivity, Uncertainties};
-use crate::digits::{percent, significant};
+use crate::digits::{as_given, percent, significant};
 use crate::gui::command::{Command, SensitivityCommand};
 use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::derived::words::{explanation, label};
@@ -123,7 +123,13 @@ fn result(
     let unit = found.outputs[output].unit(found.problem());
     let unit = if unit.is_empty() { String::new() } else { format!("\u{a0}{unit}") };
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(format!("{}{unit}", digits(value.value, 4))).strong());
+        let known = value.error.is_finite();
+        let text = if known { uncertain(value.value, value.error) } else { digits(value.value, 4) };
+        ui.label(RichText::new(format!("{text}{unit}")).strong());
+        if known {
+            let shown = ui.label(RichText::new("numerical").color(cx.colours.quiet));
+            glossary::here(ui, shown, "Stated error");
+        }
         if !uncertainties.is_empty() {
             let spread = found.propagated(output, uncertainties);
             let text = format!("± {} by the parameters", digits(spread.deviation.value, 2));
@@ -132,11 +138,6 @@ fn result(
             if !spread.unknown.is_empty() {
                 cx.say(ui, format!("without {}", spread.unknown.join(", ")), cx.colours.alarm);
             }
-        }
-        if value.error.is_finite() {
-            let shown =
-                ui.label(RichText::new(format!("± {} numerical", digits(value.error, 2))).color(cx.colours.quiet));
-            glossary::here(ui, shown, "Stated error");
         }
         if let Some(spread) = state.carlo().and_then(|carlo| carlo.spread(output)) {
             let [low, _, high] = spread.quantiles;
@@ -330,7 +331,7 @@ fn table(
                 let by = &found.columns[column];
                 let parameter = by.parameter;
                 ui.label(label(parameter)).hint(explanation(found.scene(), parameter, None));
-                ui.label(format!("{} {}", digits(by.at, 4), parameter.unit).trim_end().to_owned());
+                ui.label(format!("{} {}", as_given(by.at), parameter.unit).trim_end().to_owned());
                 match (&by.slopes, found.elasticity(output, column)) {
                     (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
                     (Ok(_), None) => drop(ui.label("–")),
