@@ -344,6 +344,11 @@ fn every_key_at_either_end_of_its_range() {
                         scene.set_value(follower, Value::Number(share)).unwrap();
                     }
                 }
+                // Between rough faces the limit of trapped gas is not known, and refused.
+                if preset == "rough-flow" && end == Value::Text("trapped".to_owned()) {
+                    assert!(scene.check().is_err());
+                    continue;
+                }
                 scenes.push((format!("{preset} --set {}={end:?}", key.key), scene));
             }
         }
