@@ -601,7 +601,8 @@ fn thousands_of_rough_motors() {
     let all = proptest::collection::vec(0.0f64..1.0, PARAMETERS.len());
     let (astray, faults) = survey(thousands(1000, 9, all, random_rough), Fidelity::Draft);
     println!("{}", faults.join("\n"));
-    assert!(faults.is_empty() && astray <= 14, "{astray} not converged, {} faults", faults.len());
+    // 1 and none when this was written.
+    assert!(faults.is_empty() && astray <= 3, "{astray} not converged, {} faults", faults.len());
 }
 
 /// Every key of a plate over its whole range.
