@@ -830,3 +830,36 @@ fn the_window_without_a_display_names_the_headless_command() {
     }
     refused(&["gui", "levitatin"], 2, &["levitating"]);
 }
+
+#[test]
+fn measured_faces_are_read_and_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let face = |size: usize| {
+        let height = |i: usize| 40.0 * (0.7 * (i % size) as f64).sin() + 30.0 * (0.5 * (i / size) as f64).cos();
+        let row = |iy: usize| (0..size).map(|ix| height(iy * size + ix).to_string()).collect::<Vec<_>>().join(",");
+        let rows: String = (0..size).map(|iy| row(iy) + "\n").collect();
+        format!("# dx_um = 0.5\n# dy_um = 0.5\n# height = nm\n{rows}")
+    };
+    fs::write(at("rotor.csv"), face(64)).unwrap();
+    fs::write(at("stator.csv"), face(48)).unwrap();
+    let output = run(&["surface", &at("rotor.csv"), &at("stator.csv"), "--json", "--out", &at("out"), "--quiet"]);
+    assert_eq!((output.status.code(), err(&output)), (Some(0), ""));
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["faces"].as_array().unwrap().len(), 2);
+    let sizes = [0, 1].map(|face| told["faces"][face]["sz_nm"].as_f64().unwrap());
+    assert!((told["min_spacing_nm"].as_f64().unwrap() - 0.5 * (sizes[0] + sizes[1])).abs() < 1e-9, "{told}");
+    for name in ["surface.json", "surface.toml", "face-1.svg", "face-2.png"] {
+        assert!(Path::new(&at("out")).join(name).is_file(), "{name}");
+    }
+    assert!(out(&run(&["surface", &at("stator.csv")])).contains("Both faces are taken to be like it"));
+    fs::write(at("bare.csv"), "1,2\n3,4\n").unwrap();
+    refused(&["surface", &at("bare.csv")], 2, &["bare.csv", "unit of the heights", "# height = nm"]);
+    refused(&["surface", &at("absent.csv")], 2, &["absent.csv", "cannot be read"]);
+    fs::write(
+        at("flat.csv"),
+        format!("# dx_um = 1\n# dy_um = 1\n# height = nm\n{}", (["0"; 20].join(",") + "\n").repeat(20)),
+    )
+    .unwrap();
+    refused(&["surface", &at("flat.csv")], 2, &["flat.csv", "nothing is left"]);
+}

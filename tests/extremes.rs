@@ -344,6 +344,11 @@ fn every_key_at_either_end_of_its_range() {
                         scene.set_value(follower, Value::Number(share)).unwrap();
                     }
                 }
+                // Between rough faces the limit of trapped gas is not known, and refused.
+                if preset == "rough-flow" && end == Value::Text("trapped".to_owned()) {
+                    assert!(scene.check().is_err());
+                    continue;
+                }
                 scenes.push((format!("{preset} --set {}={end:?}", key.key), scene));
             }
         }
@@ -596,7 +601,8 @@ fn thousands_of_rough_motors() {
     let all = proptest::collection::vec(0.0f64..1.0, PARAMETERS.len());
     let (astray, faults) = survey(thousands(1000, 9, all, random_rough), Fidelity::Draft);
     println!("{}", faults.join("\n"));
-    assert!(faults.is_empty() && astray <= 14, "{astray} not converged, {} faults", faults.len());
+    // 1 and none when this was written.
+    assert!(faults.is_empty() && astray <= 3, "{astray} not converged, {} faults", faults.len());
 }
 
 /// Every key of a plate over its whole range.

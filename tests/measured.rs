@@ -55,7 +55,7 @@ fn a_random_face_of_one_wavelength_has_its_known_moments_and_summits() {
     assert!((pair.summit_density / (0.75 * k * k / (6.0 * PI * 3f64.sqrt())) - 1.0).abs() < 0.08);
     assert!((pair.summit_radius / (0.375 * PI.sqrt() / (2.0 * 0.375 * k.powi(4) * m0).sqrt()) - 1.0).abs() < 0.05);
     assert!((pair.bandwidth - 1.5).abs() < 0.06, "{}", pair.bandwidth);
-    assert!((pair.stator_share - 0.5).abs() < 1e-12 && (pair.lay - 1.0).abs() < 0.1, "{pair:?}");
+    assert!((pair.stator_share - 0.5).abs() < 1e-12 && (pair.lay - 1.0).abs() < 0.2, "{pair:?}");
     // The autocorrelation of waves of all directions is the Bessel function J₀(k lag), which is ½ at k lag = 1.521.
     let [x, y] = texture.correlation;
     assert!((x.unwrap() * k - 1.521).abs() < 0.1 && (y.unwrap() * k - 1.521).abs() < 0.1, "{x:?} {y:?}");
