@@ -9,6 +9,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::print_stderr, reason = "says that it was skipped")]
 
+mod window;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
@@ -28,6 +30,7 @@ use squeezefilm::solve::Method;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
+use window::drop_file;
 
 const USUAL: [f32; 2] = [1400.0, 900.0];
 const SMALL: [f32; 2] = [1024.0, 700.0];
@@ -350,6 +353,37 @@ fn a_rotor_looks_as_it_did() {
     let mut window = self::window("fundamental", SMALL, &[ROTOR, THEME]);
     until(&mut window, "the rotor is computed", computed);
     window.snapshot("rotor-beam-small-light");
+    results.extend_harness(&mut window);
+}
+
+/// A fit with its residuals, in a small window and light too; and measured torques over the curve.
+#[test]
+fn measurements_look_as_they_did() {
+    if !can_draw() {
+        return;
+    }
+    const FIT: (Modifiers, Key) = (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
+    let folder = tempfile::tempdir().unwrap();
+    let (loads, torques) = (folder.path().join("loads.csv"), folder.path().join("torques.csv"));
+    let rows = "row,stator.frequency_khz,film_load_n\nlow,20,0.550\n,40,0.600\n,60,0.615\nhigh,100,0.630\n";
+    std::fs::write(&loads, rows).unwrap();
+    std::fs::write(&torques, "rotor_speed_rpm,torque_nm\n0,0.27\n20,0.255\n40,0.24\n50,0.21\n55,0.12\n").unwrap();
+    let mut results = SnapshotResults::new();
+    for (name, size, keys) in [("fit-dark", USUAL, &[FIT][..]), ("fit-small-light", SMALL, &[FIT, THEME][..])] {
+        let mut window = window("fundamental", size, keys);
+        drop_file(&mut window, &loads);
+        window.get_by_label("Add a key…").click();
+        settle(&mut window);
+        window.get_by_label("Fit the scene").click();
+        window::until(&mut window, "the fit", |app| app.state().fit.found().is_some());
+        settle(&mut window);
+        window.snapshot(name);
+        results.extend_harness(&mut window);
+    }
+    let mut window = window("fundamental", USUAL, &[TORQUE]);
+    drop_file(&mut window, &torques);
+    settle(&mut window);
+    window.snapshot("torque-measured");
     results.extend_harness(&mut window);
 }
 

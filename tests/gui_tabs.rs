@@ -31,7 +31,7 @@ use squeezefilm::scene::{Value, presets};
 use squeezefilm::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use window::{Memory, Window, begin_export, click, open, reopen, solved};
+use window::{Memory, Window, begin_export, click, drop_file, open, reopen, solved};
 
 /// One of each family, twice each.
 fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
@@ -70,6 +70,11 @@ fn type_into(window: &mut Window, field: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, field).type_text(text);
     window.step();
     window.key_press(Key::Enter);
+    window.run_steps(3);
+}
+
+fn show_fit(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
     window.run_steps(3);
 }
 
@@ -602,6 +607,18 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Sensitivity", &words);
     explains(faults, &window, "Sensitivity, table", &["Parameter", "Share of the variance"]);
     hovers(faults, &mut window, "Decay length", "rotor.decay_length_mm");
+    show_fit(&mut window);
+    explains(faults, &window, "Fit, before", &[]);
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("loads.csv");
+    std::fs::write(&table, LOADS).unwrap();
+    drop_file(&mut window, &table);
+    explains(faults, &window, "Fit, form", &[]);
+    click(&mut window, "Fit the scene");
+    until(&mut window, "the fit", |app| app.state().fit.found().is_some());
+    let words = ["Standard error", "Measured", "Computed", "Residual", "Measured over computed"];
+    explains(faults, &window, "Fit", &words);
+    hovers(faults, &mut window, "Take these values", "one edit, which can be undone");
     drop(window);
 
     let mut window = self::window("plate-trapped");
@@ -624,6 +641,64 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Hold", &held);
     hovers(faults, &mut window, "Leak time takes", "until about a third is left");
     assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// Film loads of the paper's motor at other frequencies, as Table I has them.
+const LOADS: &str = "stator.frequency_khz,film_load_n\n20,0.550\n40,0.600\n60,0.615\n100,0.630\n";
+
+#[test]
+fn a_fit_gives_values_that_are_taken_and_taken_back() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    show_fit(&mut window);
+    assert!(shows(&window, "Which values of some parameters agree best"));
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("loads.csv");
+    std::fs::write(&table, LOADS).unwrap();
+    drop_file(&mut window, &table);
+    assert!(shows(&window, "loads.csv: 4 measurements under 4 conditions"));
+    // What is wrong with a bound is said at the bound.
+    type_into(&mut window, "Lower bound of parameter 1", "3");
+    assert!(shows(&window, "film.min_spacing_nm = 3 is out of range"));
+    type_into(&mut window, "Lower bound of parameter 1", "100");
+    type_into(&mut window, "Upper bound of parameter 1", "400");
+    click(&mut window, "Fit the scene");
+    until(&mut window, "the fit", |app| app.state().fit.found().is_some());
+    let spacing = |window: &Window| window.state().state().document.scene().get("film.min_spacing_nm").unwrap();
+    assert_eq!(spacing(&window), Value::Number(200.0));
+    let found = window.state().state().fit.found().unwrap().1.unknowns[0].value;
+    assert!((190.0..230.0).contains(&found), "{found}");
+    click(&mut window, "Take these values");
+    assert_eq!(spacing(&window), Value::Number(found));
+    // It is of the scene as it now is, until that changes.
+    assert!(!shows(&window, "before the scene changed"));
+    ctrl(&mut window, Key::Z);
+    assert_eq!(spacing(&window), Value::Number(200.0));
+    type_into(&mut window, "Minimum spacing H_m in nm", "100");
+    assert!(shows(&window, "before the scene changed; fit again"));
+    let bad = folder.path().join("bad.csv");
+    std::fs::write(&bad, "film.min_spacing,alpha\n1,2\n").unwrap();
+    drop_file(&mut window, &bad);
+    assert!(shows(&window, "bad.csv:1: column film.min_spacing: unknown"));
+}
+
+#[test]
+fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    ctrl(&mut window, Key::Num4);
+    until(&mut window, "torque over speed", |app| {
+        app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
+    });
+    assert!(!shows(&window, "measured"));
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("torque.csv");
+    let rows = "rotor_speed_rpm,torque_nm,film.min_spacing_nm\n0,0.26,\n20,0.24,\n40,0.2,100\n";
+    std::fs::write(&table, rows).unwrap();
+    drop_file(&mut window, &table);
+    assert_eq!(window.state().state().view.tab, Tab::Torque);
+    assert_eq!(window.state().state().fit.torques(), (vec![[0.0, 0.26], [20.0, 0.24]], 1));
+    assert!(shows(&window, "measured") && shows(&window, "1 measured torques are not drawn"));
 }
 
 #[test]

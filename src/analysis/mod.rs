@@ -7,6 +7,7 @@ pub mod attempt;
 pub mod compare;
 pub mod decision;
 pub mod exact;
+pub mod fit;
 pub mod quantity;
 pub mod regime;
 pub mod reproduce;

@@ -2,6 +2,7 @@
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::compare::CompareError;
+use crate::analysis::fit::FitError;
 use crate::analysis::sensitivity::SensitivityError;
 use crate::analysis::sweep::SweepError;
 use crate::atomic::WriteError;
@@ -75,6 +76,9 @@ pub(super) enum CliError {
     /// A sensitivity that cannot be told.
     #[error(transparent)]
     Sensitivity(#[from] SensitivityError),
+    /// A fit that cannot be made.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// A comparison that cannot be made.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -151,12 +155,14 @@ impl CliError {
     /// The exit status it leads to.
     pub(super) fn exit(&self) -> Exit {
         match self {
+            Self::Fit(error) if !error.is_bad_input() => Exit::Other,
             Self::Solve(error) if error.is_bad_input() => Exit::BadInput,
             Self::Sensitivity(SensitivityError::Solve(error)) if !error.is_bad_input() => Exit::Other,
             Self::Output(_) if self.is_silent() => Exit::Unread,
             Self::Scene(_)
             | Self::Sweep(_)
             | Self::Sensitivity(_)
+            | Self::Fit(_)
             | Self::Compare(_)
             | Self::Resume { .. }
             | Self::Busy { .. }

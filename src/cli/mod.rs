@@ -4,6 +4,7 @@ mod animate;
 mod columns;
 mod compare;
 mod exit;
+mod fit;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;
@@ -51,6 +52,7 @@ enum Command {
     Gui(gui::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
+    Fit(fit::Arguments),
     Compare(compare::Arguments),
     Table1(table1::Arguments),
     Reproduce(reproduce::Arguments),
@@ -70,6 +72,7 @@ Examples:
   squeezefilm solve levitating --out results
   squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:20:log
   squeezefilm compare fundamental min-spacing-100nm --out results
+  squeezefilm fit my.toml --data measured.csv --vary film.min_spacing_nm=20:1000
   squeezefilm reproduce
   squeezefilm sensitivity fundamental --uncertainty film.min_spacing_nm=20%
   squeezefilm startup fundamental
@@ -110,6 +113,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         None => Ok(exit::Exit::Solved),
         Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
         Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
+        Some(Command::Fit(arguments)) => fit::run(&arguments, &command_line(words)),
         Some(Command::Compare(arguments)) => compare::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),
         Some(Command::Reproduce(arguments)) => reproduce::run(&arguments, &command_line(words)),

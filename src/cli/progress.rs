@@ -49,6 +49,11 @@ impl Bar {
         self.bar.set_message(format!("{}{point}", self.left(share)));
     }
 
+    /// What has been reached of work whose length is not known.
+    pub(super) fn count(&self, reached: &str) {
+        self.bar.set_message(reached.to_owned());
+    }
+
     /// For work of which a share is done; with the time left.
     pub(super) fn share() -> Self {
         Self::new(PARTS, "{spinner} {bar:20} {wide_msg}", "")

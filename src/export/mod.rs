@@ -8,6 +8,7 @@ pub mod exact;
 pub mod figure;
 pub mod figures;
 pub mod files;
+pub mod fit;
 pub mod html;
 pub mod json;
 

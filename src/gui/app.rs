@@ -125,7 +125,7 @@ impl eframe::App for App {
         let dropped = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_path_buf()).collect());
         let dropped: Vec<PathBuf> = dropped;
         let named = dropped.into_iter().filter(|path| !path.as_os_str().is_empty());
-        commands.extend(named.map(|path| Command::Proceed(Next::File(path))));
+        commands.extend(named.map(Command::opened));
         commands.into_iter().for_each(|command| self.updater.carry_out(command));
         let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
         let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;

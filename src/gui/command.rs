@@ -83,6 +83,8 @@ pub enum Command {
     Sweep(SweepCommand),
     /// About what the results depend on.
     Sensitivity(SensitivityCommand),
+    /// About measurements, and fits to them.
+    Fit(FitCommand),
     /// About the plate that is held.
     Hold(HoldCommand),
     /// About the start-up.
@@ -195,6 +197,35 @@ pub enum SweepCommand {
     Open(usize),
 }
 
+/// About measurements, and fits to them.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FitCommand {
+    /// Asks for a table of measurements.
+    Choose,
+    /// Reads this table.
+    Load(PathBuf),
+    /// Forgets the table.
+    Forget,
+    /// Chooses this key in this line of the form, between bounds round its present value.
+    Key(usize, &'static str),
+    /// From this.
+    From(usize, String),
+    /// Up to this.
+    To(usize, String),
+    /// By equal ratios.
+    Log(usize, bool),
+    /// One more line.
+    Add,
+    /// One line less.
+    Remove(usize),
+    /// Begins.
+    Start,
+    /// Ends it.
+    Cancel,
+    /// Gives the scene the values that were found: one edit.
+    Take,
+}
+
 /// About the start-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartupCommand {
@@ -282,7 +313,7 @@ macro_rules! commands_of {
 }
 
 commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold(HoldCommand), Lesson(LessonCommand));
-commands_of!(Proceed(Next), Sensitivity(SensitivityCommand));
+commands_of!(Proceed(Next), Sensitivity(SensitivityCommand), Fit(FitCommand));
 
 impl Command {
     /// The parameter that it edits.
@@ -293,10 +324,17 @@ impl Command {
         }
     }
 
+    /// What is done with a file that is opened, or dropped on the window: a CSV file is a table of measurements, anything else a preset.
+    pub fn opened(path: PathBuf) -> Self {
+        let table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+        if table { Self::Fit(FitCommand::Load(path)) } else { Self::Proceed(Next::File(path)) }
+    }
+
     /// What is done with the path that was chosen for `purpose`.
     pub fn with_path(purpose: Purpose, path: PathBuf) -> Self {
         match purpose {
-            Purpose::Open => Self::Proceed(Next::File(path)),
+            Purpose::Open => Self::opened(path),
+            Purpose::Measurements => Self::Fit(FitCommand::Load(path)),
             Purpose::Lessons => Self::Lesson(LessonCommand::LoadFolder(path)),
             Purpose::Save(then) => Self::SavePath(path, then),
             Purpose::Picture(picture) => Self::WritePicture(picture, path),

@@ -181,6 +181,8 @@ pub enum Purpose {
     Export(Export),
     /// Open a folder of lessons.
     Lessons,
+    /// Open a table of measurements.
+    Measurements,
 }
 
 impl Purpose {

@@ -24,6 +24,8 @@ pub enum Tab {
     Rotor,
     /// What the results depend on, and how uncertain they are.
     Sensitivity,
+    /// Keys chosen to agree with measurements.
+    Fit,
 }
 
 impl Tab {
@@ -38,6 +40,7 @@ impl Tab {
         (Self::Hold, "Hold"),
         (Self::Rotor, "Rotor"),
         (Self::Sensitivity, "Sensitivity"),
+        (Self::Fit, "Fit"),
     ];
 
     /// Its label, of a scene that is a plate or a motor.

@@ -5,6 +5,7 @@ use super::dialogs::Export;
 use super::document::{Document, absolute};
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
+use super::fit::FitState;
 use super::hold::HoldState;
 use super::lessons::{LessonState, OnScreen};
 use super::modal::Modal;
@@ -48,6 +49,8 @@ pub struct State {
     pub pins: Pins,
     /// The sweep.
     pub sweep: SweepState,
+    /// Measurements, and the fit to them.
+    pub fit: FitState,
     /// Torque over speed.
     pub torque: TorqueState,
     /// The rotor by itself.
@@ -90,6 +93,7 @@ impl State {
             exports: ExportState::default(),
             pins: Pins::default(),
             sweep: SweepState::default(),
+            fit: FitState::default(),
             torque: TorqueState::default(),
             rotor: RotorState::default(),
             sensitivity: SensitivityState::default(),
@@ -170,7 +174,8 @@ impl State {
         let swept = self.sweep.swept().filter(|swept| swept.running());
         let sweep = swept.map(|swept| format!("A sweep: {} of {} points", swept.rows().len(), swept.sweep().len()));
         let building = self.sweep.building().then(|| "A sweep: its points are being made".to_owned());
-        export.into_iter().chain(sweep).chain(building).collect()
+        let fit = self.fit.running().then(|| "A fit".to_owned());
+        export.into_iter().chain(sweep).chain(building).chain(fit).collect()
     }
 
     /// What a new file of the scene is called at first.

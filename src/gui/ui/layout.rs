@@ -103,6 +103,7 @@ fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         (Tab::Startup, _) => tabs::startup::show(ui, cx),
         (Tab::Hold, _) => tabs::hold::show(ui, cx),
         (Tab::Rotor, _) => tabs::rotor::show(ui, cx),
+        (Tab::Fit, _) => tabs::fit::show(ui, cx),
         (Tab::Tradeoff, _) => tabs::tradeoff::show(ui, cx),
         (Tab::Sensitivity, _) => tabs::sensitivity::show(ui, cx),
     }

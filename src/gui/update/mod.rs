@@ -2,6 +2,7 @@
 
 pub mod dialogs;
 mod exports;
+mod fit;
 mod lessons;
 mod live;
 mod pictures;

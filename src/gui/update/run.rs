@@ -58,6 +58,7 @@ impl Updater {
             Command::Show(tab) => state.view.tab = tab,
             Command::Pin(command) => self.pin(command),
             Command::Sweep(command) => self.sweep(command),
+            Command::Fit(command) => self.fit(command),
             Command::Hold(command) => self.hold(command),
             Command::Startup(command) => self.start_up(command),
             Command::Sensitivity(command) => self.sensitivity(command),
@@ -144,6 +145,10 @@ impl Updater {
         if state.view.tab == Tab::Sweep {
             state.sweep.review(state.document.scene());
         }
+        state.fit.drain();
+        if state.view.tab == Tab::Fit {
+            state.fit.review(state.document.scene());
+        }
         state.torque.drain();
         state.rotor.drain();
         state.sensitivity.drain();
@@ -164,7 +169,7 @@ impl Updater {
             Answer::Cancelled => {}
             Answer::NoDialog => {
                 let path = match &purpose {
-                    Purpose::Open | Purpose::Lessons => String::new(),
+                    Purpose::Open | Purpose::Lessons | Purpose::Measurements => String::new(),
                     Purpose::Save(_) => self.state.suggested_name(),
                     Purpose::Picture(_) => Picture::FILE_NAME.to_owned(),
                     Purpose::Export(export) => export.file_name().to_owned(),

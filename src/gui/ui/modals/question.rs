@@ -91,6 +91,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
             [Purpose::Open] => "Open a preset",
             [Purpose::Save(_)] => "Save the preset",
             [Purpose::Lessons] => "Open a folder of lessons",
+            [Purpose::Measurements] => "Open a table of measurements",
             [Purpose::Picture(_)] => "Save a picture of the window",
             [Purpose::Export(export)] => export.title(),
             _ => "Open or save a preset",
@@ -116,7 +117,10 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     let path = expanded(&typed);
     let named = !typed.trim().is_empty();
-    let writes = prompt.purposes.iter().any(|purpose| !matches!(purpose, Purpose::Open | Purpose::Lessons));
+    let writes = prompt
+        .purposes
+        .iter()
+        .any(|purpose| !matches!(purpose, Purpose::Open | Purpose::Lessons | Purpose::Measurements));
     let replaces = writes && named && cx.state.document.path() != Some(path.as_path()) && path.is_file();
     if replaces && !prompt.purposes.contains(&Purpose::Open) {
         cx.say(ui, "There is such a file already", cx.colours.alarm);
@@ -126,7 +130,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
         let mut answer = None;
         for (i, purpose) in prompt.purposes.iter().enumerate() {
             let text = match purpose {
-                Purpose::Open | Purpose::Lessons => "Open",
+                Purpose::Open | Purpose::Lessons | Purpose::Measurements => "Open",
                 _ if replaces => "Replace",
                 Purpose::Save(_) | Purpose::Picture(_) | Purpose::Export(_) => "Save",
             };

@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod exact;
+pub mod fit;
 pub mod hold;
 pub mod labels;
 pub mod rotor;

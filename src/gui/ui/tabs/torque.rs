@@ -5,7 +5,7 @@ use crate::analysis::torque::TorqueCurves;
 use crate::digits::significant;
 use crate::estimate::Estimate;
 use crate::gui::derived::format::{digits, uncertain};
-use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, title};
+use crate::gui::ui::chart::{SOLID, axes, chart, dots, framed, legend, line, place, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::job::SolvedScene;
@@ -25,6 +25,8 @@ const ALL: f64 = 104.0;
 const HEADROOM: f64 = 1.08;
 /// Significant digits of numbers without an error.
 const DIGITS: usize = 4;
+/// Radius of a measured point.
+const MEASURED: f32 = 3.5;
 /// Width of the lines.
 const WIDTH: f32 = 2.0;
 /// Titles of the charts, and what the glossary explains them under.
@@ -57,6 +59,8 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         return;
     }
     let (film, dry, heat) = (cx.colours.film, cx.colours.contact, cx.colours.rotor);
+    let (measured, elsewhere) = cx.state.fit.torques();
+    let entry = ("measured", cx.colours.stator, SOLID);
     legend(
         ui,
         &[
@@ -64,7 +68,8 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
             ("without film", dry, LineStyle::dashed_loose()),
             ("friction heat, with film", heat, LineStyle::dashed_dense()),
             ("rotor speed of the scene", cx.colours.accent, SOLID),
-        ],
+            entry,
+        ][..if measured.is_empty() { 4 } else { 5 }],
     );
     let em = ui.text_style_height(&TextStyle::Body);
     let mut pointed = None;
@@ -96,7 +101,8 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         title(ui, name, word);
         let tall = (SHARES[i] * height).max(LEAST_LINES[i] * em);
         let top = if i == 2 { Some(ALL) } else { None };
-        pointed = panel(ui, (name, word), tall, lines, top, bottom, merit, cx).or(pointed);
+        let points = if i == 0 { &measured[..] } else { &[] };
+        pointed = panel(ui, (name, word), tall, (lines, points), top, bottom, merit, cx).or(pointed);
     };
     let first = ui.scope(|ui| one(ui, 0, side_by_side));
     cx.mark(ui, "torque", first.response.rect);
@@ -110,6 +116,9 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
         one(ui, 2, true);
     }
     readout(ui, merit, pointed, cx);
+    if elsewhere > 0 {
+        cx.note(ui, format!("{elsewhere} measured torques are not drawn: they were measured on another scene."));
+    }
     ui.add_space(6.0);
     table(ui, motor, merit, cx);
     ui.add_space(6.0);
@@ -122,7 +131,7 @@ fn panel(
     ui: &mut egui::Ui,
     (name, word): (&str, &str),
     height: f32,
-    lines: &[(Vec<[f64; 2]>, Color32, LineStyle)],
+    (lines, measured): (&[(Vec<[f64; 2]>, Color32, LineStyle)], &[[f64; 2]]),
     top: Option<f64>,
     bottom: bool,
     merit: &TorqueCurves,
@@ -130,7 +139,8 @@ fn panel(
 ) -> Option<f64> {
     let fastest = merit.rpm(merit.surface_speed);
     let present = merit.rpm(merit.with_film.present.speed);
-    let greatest = lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point[1])).fold(0.0, f64::max);
+    let drawn = lines.iter().flat_map(|(points, ..)| points).chain(measured);
+    let greatest = drawn.map(|point| point[1]).fold(0.0, f64::max);
     let top = top.unwrap_or(if greatest > 0.0 { HEADROOM * greatest } else { 1.0 });
     let (group, whole) = (egui::Id::unique("torque charts"), place(ui, height));
     let mut plot =
@@ -145,6 +155,7 @@ fn panel(
         for (points, colour, style) in lines {
             plot.line(line(points, *colour, WIDTH, *style));
         }
+        plot.points(dots(measured.to_vec(), cx.colours.stator, MEASURED));
         plot.pointer_coordinate().map(|at| at.x)
     });
     let response = shown.response;

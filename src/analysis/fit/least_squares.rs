@@ -1,0 +1,514 @@
+//! The values of the unknowns that agree best with what was measured, and how sure they are.
+
+use super::Told;
+use super::error::FitError;
+use super::measured::Measured;
+use super::model::{Computed, Model};
+use super::starts::spread;
+use super::statistics::Certainty;
+use super::unknown::{Bound, Unknown};
+use crate::control::Cancel;
+use crate::digits::{short, significant};
+use crate::fidelity::Fidelity;
+use crate::scene::Scene;
+use crate::solve::{Method, Settings};
+use basin::{
+    BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, DenseMatrix, Executor,
+    Jacobian, Residual, TerminationCode, TrustRegionReflective,
+};
+use std::sync::Mutex;
+
+/// The search ends when a step makes χ² smaller by less than this share …
+const LEAST_GAIN: f64 = 1e-5;
+/// … or after so many steps.
+const MOST_STEPS: u64 = 60;
+/// Steps that may fail to make χ² smaller before the search ends.
+const MOST_ATTEMPTS: usize = 8;
+/// An unknown this close in x to a bound that χ² falls towards is at the bound.
+const AT_BOUND: f64 = 5e-3;
+/// Starts that are refined, beside that of the scene's own values.
+const REFINED: usize = 3;
+/// From this correlation on two unknowns are told to be hard to tell apart.
+const ALIKE: f64 = 0.98;
+/// Minima whose unknowns differ by less than this in x are the same.
+const SAME: f64 = 0.02;
+
+/// The best agreement found.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// The unknowns, in the order in which they were given.
+    pub unknowns: Vec<FittedUnknown>,
+    /// The measurements beside what is computed.
+    pub rows: Vec<FittedRow>,
+    /// Σ ((computed − measured)/error)².
+    pub chi_squared: f64,
+    /// Measurements less unknowns that are not at a bound.
+    pub degrees_of_freedom: usize,
+    /// What the errors that were given, or taken, have to be multiplied by for χ² to be as large as its degrees of freedom; 1 where the
+    /// errors are known; `None` without degrees of freedom.
+    pub error_scale: Option<f64>,
+    /// Whether the errors of the measurements were given.
+    pub errors_known: bool,
+    /// Greatest numerical error of what is computed, in standard errors of its measurement; `None` if none is known.
+    pub numerical_error: Option<f64>,
+    /// Covariance of the unknowns in their units, row by row; not a number where one is at a bound.
+    pub covariance: Vec<Vec<f64>>,
+    /// Correlation of the unknowns, likewise.
+    pub correlation: Vec<Vec<f64>>,
+    /// Whether the search ended at a minimum.
+    pub converged: bool,
+    /// The minima that several starts led to, the best first.
+    pub minima: Vec<Minimum>,
+    /// How many solves it took.
+    pub solves: usize,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// The scene with these values.
+    pub scene: Scene,
+}
+
+/// An unknown and what was found for it.
+#[derive(Clone, Debug)]
+pub struct FittedUnknown {
+    /// The key and its bounds.
+    pub unknown: Unknown,
+    /// The value, in the unit of the key.
+    pub value: f64,
+    /// Its standard error; `None` at a bound, and where the measurements do not tell.
+    pub error: Option<f64>,
+    /// The bound it is at.
+    pub at: Option<Bound>,
+}
+
+/// A measurement beside what is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FittedRow {
+    /// What is computed with its numerical error, or why nothing is: then the measurement was left out.
+    pub computed: Computed,
+    /// (computed − measured)/error, with the errors scaled by [`Fitted::error_scale`].
+    pub residual: Option<f64>,
+    /// The standard error of the measurement, scaled likewise.
+    pub error: f64,
+}
+
+/// A minimum that some starts led to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Minimum {
+    /// χ² there.
+    pub chi_squared: f64,
+    /// The values of the unknowns.
+    pub values: Vec<f64>,
+    /// How many starts led there.
+    pub starts: usize,
+}
+
+/// The problem as the library wants it.
+struct Search<'a> {
+    model: &'a Model<'a>,
+    measured: &'a Measured,
+    /// The measurements that count.
+    used: &'a [usize],
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    cancel: &'a Cancel,
+    told: Told<'a>,
+    /// Points tried, and the least χ² among them.
+    tried: &'a Mutex<(usize, f64)>,
+}
+
+/// The caller cancelled.
+#[derive(Debug)]
+struct Stopped;
+
+impl Search<'_> {
+    /// (computed − measured)/error of the measurements that count, at several points; not a number where nothing is computed.
+    fn residuals(&self, points: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Stopped> {
+        let solved = self.model.at(points, self.model.settings(), self.cancel).ok_or(Stopped)?;
+        Ok(solved.iter().map(|solved| residuals(self.measured, &in_order(self.measured, solved), self.used)).collect())
+    }
+
+    /// Of each unknown ∂residual/∂x; zeros where it is fixed. Those of a condition whose neighbours cannot be solved are zeros as well: it
+    /// then does not steer the search.
+    fn derivatives(&self, x: &[f64]) -> Result<Vec<Vec<f64>>, Stopped> {
+        let free: Vec<bool> = self.lower.iter().zip(&self.upper).map(|(lower, upper)| lower < upper).collect();
+        let slopes = self.model.slopes(x, &free, self.cancel).ok_or(Stopped)?;
+        let rows = in_order(self.measured, &slopes);
+        let column = |k: usize| {
+            let entry = |i: &usize| rows[*i].get(k).copied().unwrap_or(0.0) / self.measured.measurements[*i].error;
+            self.used.iter().map(entry).collect()
+        };
+        Ok((0..x.len()).map(column).collect())
+    }
+}
+
+impl Constraints for Search<'_> {
+    type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
+
+    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new().with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
+    }
+}
+
+impl Residual for Search<'_> {
+    type Param = Vec<f64>;
+    type Output = Vec<f64>;
+    type Error = Stopped;
+
+    fn residual(&self, x: &Vec<f64>) -> Result<Vec<f64>, Stopped> {
+        let found = self.residuals(std::slice::from_ref(x))?.swap_remove(0);
+        let chi_squared = sum_of_squares(&found);
+        let mut tried = self.tried.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        tried.0 += 1;
+        tried.1 = tried.1.min(chi_squared);
+        (self.told)(tried.0, tried.1);
+        Ok(found)
+    }
+}
+
+impl Jacobian for Search<'_> {
+    type Jacobian = DenseMatrix;
+
+    fn jacobian(&self, x: &Vec<f64>) -> Result<DenseMatrix, Stopped> {
+        let columns = self.derivatives(x)?;
+        let rows = self.used.len();
+        let flat: Vec<f64> = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
+        Ok(DenseMatrix::from_row_slice(rows, columns.len(), &flat))
+    }
+}
+
+fn sum_of_squares(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|residual| residual * residual).sum()
+}
+
+/// What belongs to each measurement, from what was asked of each condition.
+fn in_order<T: Clone>(measured: &Measured, solved: &[Vec<T>]) -> Vec<T> {
+    let mut next = vec![0; solved.len()];
+    let computed = measured.measurements.iter().map(|one| {
+        next[one.condition] += 1;
+        solved[one.condition][next[one.condition] - 1].clone()
+    });
+    computed.collect()
+}
+
+fn residuals(measured: &Measured, computed: &[Computed], used: &[usize]) -> Vec<f64> {
+    let residual = |i: &usize| {
+        let one = &measured.measurements[*i];
+        computed[*i].as_ref().map_or(f64::NAN, |found| (found.value - one.value) / one.error)
+    };
+    used.iter().map(residual).collect()
+}
+
+/// Chooses the unknowns of `model` so that it agrees with `measured`. The search begins at the scene's own values; with `starts` above 1
+/// also at the best of as many points, spread over the bounds and solved as drafts. A measurement that cannot be computed at the start is
+/// left out, and reported. `None` if cancelled.
+///
+/// # Errors
+/// Fewer measurements that can be computed than unknowns, or what the library that searches refuses.
+pub fn fit(
+    model: &Model<'_>,
+    measured: &Measured,
+    starts: usize,
+    cancel: &Cancel,
+    told: Told<'_>,
+) -> Result<Option<Fitted>, FitError> {
+    let own = model.start();
+    let Some(first) = model.at(std::slice::from_ref(&own), model.settings(), cancel) else { return Ok(None) };
+    let first = in_order(measured, &first[0]);
+    let used: Vec<usize> = (0..first.len()).filter(|i| first[*i].is_ok()).collect();
+    let unknowns = model.unknowns().len();
+    if used.len() < unknowns {
+        let fault = first.iter().find_map(|found| found.as_ref().err());
+        let left_out = fault.map_or_else(String::new, |why| {
+            format!(" ({} of {} could not be computed at the start: {why})", first.len() - used.len(), first.len())
+        });
+        return Err(FitError::TooFew { measurements: used.len(), unknowns, left_out });
+    }
+    let tried = Mutex::new((0, f64::INFINITY));
+    let search = |fixed: &[Option<Bound>]| Search {
+        model,
+        measured,
+        used: &used,
+        lower: fixed.iter().map(|at| if *at == Some(Bound::Upper) { 1.0 } else { 0.0 }).collect(),
+        upper: fixed.iter().map(|at| if *at == Some(Bound::Lower) { 0.0 } else { 1.0 }).collect(),
+        cancel,
+        told,
+        tried: &tried,
+    };
+    let free = vec![None; unknowns];
+    let Some(mut places) = coarse(model, measured, &used, starts, cancel) else { return Ok(None) };
+    places.insert(0, own);
+    let mut found: Vec<(f64, Vec<f64>, bool)> = Vec::new();
+    for place in places {
+        match descend(search(&free), place)? {
+            None => return Ok(None),
+            Some(end) => found.push(end),
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let minima = distinct(model, &found);
+    let (_, mut x, mut converged) = found.swap_remove(0);
+    // What χ² falls towards a bound with is put there, and the rest is looked for again.
+    let mut at = free.clone();
+    loop {
+        let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
+        let Ok(now) = search(&at).residuals(std::slice::from_ref(&x)) else { return Ok(None) };
+        let mut more = false;
+        for k in (0..unknowns).filter(|k| at[*k].is_none()).collect::<Vec<_>>() {
+            let slope: f64 = columns[k].iter().zip(&now[0]).map(|(derivative, residual)| derivative * residual).sum();
+            let bound = if x[k] < AT_BOUND && slope > 0.0 {
+                Bound::Lower
+            } else if x[k] > 1.0 - AT_BOUND && slope < 0.0 {
+                Bound::Upper
+            } else {
+                continue;
+            };
+            x[k] = if bound == Bound::Lower { 0.0 } else { 1.0 };
+            at[k] = Some(bound);
+            more = true;
+        }
+        if !more {
+            break;
+        }
+        if at.iter().any(Option::is_none) {
+            match descend(search(&at), x)? {
+                None => return Ok(None),
+                Some(end) => (_, x, converged) = end,
+            }
+        }
+    }
+    let Ok(columns) = search(&at).derivatives(&x) else { return Ok(None) };
+    let Some(last) = model.at(std::slice::from_ref(&x), model.settings(), cancel) else { return Ok(None) };
+    let computed = in_order(measured, &last[0]);
+    Ok(Some(judge(model, measured, &used, Reached { x, at, columns, computed, minima, converged })?))
+}
+
+/// The best few of the points that are spread over the bounds, by drafts.
+fn coarse(
+    model: &Model<'_>,
+    measured: &Measured,
+    used: &[usize],
+    starts: usize,
+    cancel: &Cancel,
+) -> Option<Vec<Vec<f64>>> {
+    let points = spread(model.unknowns().len(), starts.saturating_sub(1));
+    let draft = Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..*model.settings() };
+    let solved = model.at(&points, &draft, cancel)?;
+    let mut judged: Vec<(f64, Vec<f64>)> = solved
+        .iter()
+        .zip(points)
+        .map(|(solved, point)| (sum_of_squares(&residuals(measured, &in_order(measured, solved), used)), point))
+        .filter(|(chi_squared, _)| chi_squared.is_finite())
+        .collect();
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(judged.into_iter().take(REFINED).map(|(_, point)| point).collect())
+}
+
+/// From a point to the minimum that it leads to: χ² there, the point, and whether it is one. `None` if cancelled.
+fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>, bool)>, FitError> {
+    let solver = TrustRegionReflective::new()
+        .with_max_inner_attempts(MOST_ATTEMPTS)
+        .with_initial_radius(0.5)
+        .with_relative_cost_change_tolerance(LEAST_GAIN);
+    match Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run() {
+        Ok(ended) => {
+            // Where differences of solves are all noise no step gains anything: that is a minimum as well.
+            let converged = ended.report.termination.code() != TerminationCode::MaxIter;
+            Ok(Some((2.0 * ended.cost(), ended.param().clone(), converged)))
+        }
+        Err(ConstraintSolveError::Evaluation(Stopped)) => Ok(None),
+        Err(error) => Err(FitError::Search(format!("{error:?}"))),
+    }
+}
+
+/// The minima that differ, best first.
+fn distinct(model: &Model<'_>, found: &[(f64, Vec<f64>, bool)]) -> Vec<Minimum> {
+    let mut minima: Vec<(&[f64], Minimum)> = Vec::new();
+    for (chi_squared, x, _) in found.iter().filter(|found| found.0.is_finite()) {
+        let same = |other: &&mut (&[f64], Minimum)| other.0.iter().zip(x).all(|(a, b)| (a - b).abs() < SAME);
+        match minima.iter_mut().find(same) {
+            Some((_, minimum)) => minimum.starts += 1,
+            None => {
+                let values = model.unknowns().iter().zip(x).map(|(unknown, x)| unknown.value(*x)).collect();
+                minima.push((x, Minimum { chi_squared: *chi_squared, values, starts: 1 }));
+            }
+        }
+    }
+    minima.into_iter().map(|(_, minimum)| minimum).collect()
+}
+
+/// Where the search ended.
+struct Reached {
+    x: Vec<f64>,
+    at: Vec<Option<Bound>>,
+    /// Of each unknown ∂residual/∂x; zeros at a bound.
+    columns: Vec<Vec<f64>>,
+    computed: Vec<Computed>,
+    minima: Vec<Minimum>,
+    converged: bool,
+}
+
+/// What there is to say of the minimum.
+fn judge(model: &Model<'_>, measured: &Measured, used: &[usize], reached: Reached) -> Result<Fitted, FitError> {
+    let Reached { x, at, columns, computed, minima, converged } = reached;
+    let count = x.len();
+    let free: Vec<usize> = (0..count).filter(|k| at[*k].is_none()).collect();
+    let certainty = Certainty::of(&free.iter().map(|k| columns[*k].clone()).collect::<Vec<_>>());
+    let raw = residuals(measured, &computed, used);
+    let chi_squared = sum_of_squares(&raw);
+    let degrees_of_freedom = used.len() - free.len();
+    let scatter = (degrees_of_freedom > 0).then(|| (chi_squared / degrees_of_freedom as f64).sqrt());
+    let error_scale = if measured.errors_known { Some(1.0) } else { scatter };
+    let scale = error_scale.unwrap_or(1.0);
+    let slope: Vec<f64> = model.unknowns().iter().zip(&x).map(|(unknown, x)| unknown.slope(*x)).collect();
+    let mut covariance = vec![vec![f64::NAN; count]; count];
+    let mut correlation = covariance.clone();
+    let lost = |k: usize| certainty.undetermined.iter().any(|direction| direction[k].abs() > 0.3);
+    for (i, row) in free.iter().enumerate() {
+        for (j, column) in free.iter().enumerate() {
+            let of = |i: usize, j: usize| certainty.covariance[(i, j)];
+            if let (Some(scale), false) = (error_scale, lost(i) || lost(j)) {
+                covariance[*row][*column] = of(i, j) * scale * scale * slope[*row] * slope[*column];
+            }
+            let size = (of(i, i) * of(j, j)).sqrt();
+            correlation[*row][*column] = if size > 0.0 { of(i, j) / size } else { f64::NAN };
+        }
+    }
+    let unknowns: Vec<FittedUnknown> = (0..count)
+        .map(|k| {
+            let unknown = model.unknowns()[k].clone();
+            let error = covariance[k][k].sqrt();
+            FittedUnknown {
+                value: unknown.value(x[k]),
+                error: Some(error).filter(|error| error.is_finite()),
+                at: at[k],
+                unknown,
+            }
+        })
+        .collect();
+    let rows: Vec<FittedRow> = measured
+        .measurements
+        .iter()
+        .zip(&computed)
+        .enumerate()
+        .map(|(i, (one, computed))| {
+            let error = one.error * scale;
+            let counts = used.contains(&i);
+            let residual = computed.as_ref().ok().filter(|_| counts).map(|found| (found.value - one.value) / error);
+            FittedRow { computed: computed.clone(), residual, error }
+        })
+        .collect();
+    let off = rows.iter().filter(|row| row.residual.is_some()).filter_map(|row| {
+        let computed = row.computed.as_ref().ok()?;
+        Some(computed.error / row.error).filter(|off| off.is_finite())
+    });
+    let mut fitted = Fitted {
+        warnings: Vec::new(),
+        numerical_error: off.reduce(f64::max),
+        scene: model.fitted(&x, "fitted")?,
+        solves: model.solves(),
+        errors_known: measured.errors_known,
+        unknowns,
+        rows,
+        chi_squared,
+        degrees_of_freedom,
+        error_scale,
+        covariance,
+        correlation,
+        converged,
+        minima,
+    };
+    fitted.warnings = warnings(&fitted, measured, &free, &certainty, scatter);
+    Ok(fitted)
+}
+
+/// What the user should know of a fit.
+fn warnings(
+    fitted: &Fitted,
+    measured: &Measured,
+    free: &[usize],
+    certainty: &Certainty,
+    scatter: Option<f64>,
+) -> Vec<String> {
+    let key = |k: usize| fitted.unknowns[k].unknown.parameter.key;
+    let mut warnings = Vec::new();
+    if !fitted.converged {
+        warnings.push(format!("the search was ended after {MOST_STEPS} steps, before χ² stopped falling"));
+    }
+    let left_out = fitted.rows.iter().filter(|row| row.residual.is_none()).count();
+    if left_out > 0 {
+        warnings.push(format!(
+            "{left_out} of {} measurements were left out: they could not be computed",
+            fitted.rows.len()
+        ));
+    }
+    for found in &fitted.unknowns {
+        if let Some(at) = found.at {
+            let parameter = found.unknown.parameter;
+            warnings.push(format!(
+                "{} is at its {} bound, {} {}: χ² would fall further beyond it; the errors of the others take it for known",
+                parameter.key,
+                at.name(),
+                short(found.value, 6),
+                parameter.unit
+            ));
+        }
+    }
+    for direction in &certainty.undetermined {
+        let keys: Vec<&str> =
+            direction.iter().zip(free).filter(|(part, _)| part.abs() > 0.3).map(|(_, k)| key(*k)).collect();
+        warnings.push(format!(
+            "the measurements do not determine {}: leave out one, or measure something else",
+            keys.join(" and ")
+        ));
+    }
+    for (i, a) in free.iter().enumerate() {
+        for b in &free[i + 1..] {
+            let correlation = fitted.correlation[*a][*b];
+            if correlation.abs() > ALIKE {
+                warnings.push(format!(
+                    "{} and {} can hardly be told apart: their correlation is {correlation:.3}",
+                    key(*a),
+                    key(*b)
+                ));
+            }
+        }
+    }
+    for found in &fitted.unknowns {
+        let width = found.unknown.to - found.unknown.from;
+        if let Some(error) = found.error.filter(|error| *error > 0.5 * width) {
+            let parameter = found.unknown.parameter;
+            warnings.push(format!(
+                "{} is hardly determined: its standard error, {} {}, is more than half of the range between its bounds",
+                parameter.key,
+                significant(error, 2),
+                parameter.unit
+            ));
+        }
+    }
+    match scatter {
+        Some(scatter) if measured.errors_known && scatter > 2.0 => warnings.push(format!(
+            "the residuals are {} times as large as the errors of the measurements allow: the errors are too small, or the model does \
+             not describe the measurements",
+            significant(scatter, 2)
+        )),
+        None if !measured.errors_known => warnings.push(
+            "as many unknowns as measurements: without their errors nothing is known of how sure the values are".to_owned(),
+        ),
+        _ => {}
+    }
+    if let Some(worst) = fitted.numerical_error.filter(|worst| *worst > 0.5 && fitted.degrees_of_freedom > 0) {
+        warnings.push(format!(
+            "the numerical error of what is computed is up to {} standard errors of a measurement: ask for more accuracy",
+            significant(worst, 2)
+        ));
+    }
+    if fitted.minima.len() > 1 {
+        warnings.push(format!(
+            "{} starts led to {} different minima; the next best has χ² {} times as large",
+            fitted.minima.iter().map(|minimum| minimum.starts).sum::<usize>(),
+            fitted.minima.len(),
+            significant(fitted.minima[1].chi_squared / fitted.minima[0].chi_squared, 3)
+        ));
+    }
+    warnings
+}

@@ -1,0 +1,406 @@
+//! Tables of measurements: CSV, one measurement or several in a line.
+
+use super::error::FitError;
+use crate::analysis::quantity::Quantity;
+use crate::input::read_text;
+use crate::problem::{Numerics, Problem};
+use crate::scene::table1::published;
+use crate::scene::{Parameter, Scene, SceneError, presets, show_text};
+use crate::solve::Method;
+use std::path::Path;
+use std::str::FromStr;
+
+/// Largest table of measurements that is read \[MB\].
+pub const LARGEST_TABLE: u64 = 10;
+/// The name of the table that is part of the program: Table I of Maeno and Bogy (1992).
+pub const TABLE1: &str = "table1";
+/// Most lines of a table.
+const MOST_LINES: usize = 10_000;
+
+/// The column of the rotor's speed, which goes with [`TORQUE`].
+const SPEED: &str = "rotor_speed_rpm";
+/// The column of the torque at that speed.
+const TORQUE: &str = "torque_nm";
+/// The column that says how much a line counts.
+const WEIGHT: &str = "weight";
+/// Columns that name a line.
+const LABELS: [&str; 3] = ["row", "name", "note"];
+
+/// A number that was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum What {
+    /// A number of a solve.
+    Number(Quantity),
+    /// The torque of the whole ring \[N m\] at a speed of its rotor, the pressures being those of the scene's own speed.
+    Torque {
+        /// The speed \[rpm\].
+        speed_rpm: f64,
+    },
+}
+
+impl What {
+    /// Its name in files, with its unit.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Number(quantity) => quantity.name(),
+            Self::Torque { .. } => TORQUE,
+        }
+    }
+
+    /// What it is, with its unit: `film load, N`.
+    pub fn label(self, problem: &Problem) -> String {
+        match self {
+            Self::Number(quantity) => quantity.label(problem),
+            Self::Torque { .. } => "torque, N·m".to_owned(),
+        }
+    }
+}
+
+/// One measured number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    /// The name of its line, or its number in the file.
+    pub label: String,
+    /// Which of the conditions it was measured under.
+    pub condition: usize,
+    /// What was measured.
+    pub what: What,
+    /// The value, in the unit of its name.
+    pub value: f64,
+    /// Its standard error; if [`Measured::errors_known`] is false, only the ratios of errors count.
+    pub error: f64,
+}
+
+/// What was measured, and under which conditions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Name of the table.
+    pub name: String,
+    /// Keys and values, as `--set` takes them, that each condition changes of the scene; no two are the same.
+    pub conditions: Vec<Vec<(String, String)>>,
+    /// The measurements, line by line.
+    pub measurements: Vec<Measurement>,
+    /// Whether the sizes of the errors were given.
+    pub errors_known: bool,
+}
+
+/// How large the errors are: `1%`, `0.005`, `film_load_n=1%`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorSize {
+    /// The name of what was measured; `None`: of everything.
+    name: Option<String>,
+    size: f64,
+    /// A share of the measured value.
+    relative: bool,
+}
+
+impl FromStr for ErrorSize {
+    type Err = FitError;
+
+    fn from_str(text: &str) -> Result<Self, FitError> {
+        let fault = || FitError::Option {
+            option: "error",
+            found: show_text(text),
+            expected: "a number above 0, or a share, as in 0.005, 1% or film_load_n=1%",
+        };
+        let (name, size) = match text.split_once('=') {
+            Some((name, size)) => (Some(name.trim().to_owned()), size.trim()),
+            None => (None, text.trim()),
+        };
+        let (number, relative) = size.strip_suffix('%').map_or((size, false), |number| (number.trim(), true));
+        let number: f64 = number.parse().map_err(|_| fault())?;
+        if !(number > 0.0 && number.is_finite()) {
+            return Err(fault());
+        }
+        Ok(Self { name, size: if relative { number / 100.0 } else { number }, relative })
+    }
+}
+
+/// What a column holds.
+#[derive(Clone, Copy)]
+enum Column {
+    Key,
+    Value(Option<Quantity>),
+    Error(Option<Quantity>),
+    Speed,
+    Weight,
+    Label,
+}
+
+/// Numbers that can be measured: those of a solve but for what it cost and its own errors.
+pub(super) fn measurable(problem: &Problem) -> Vec<Quantity> {
+    let all: Vec<Quantity> = Quantity::of(problem).collect();
+    let is_error = |quantity: &Quantity| all.iter().any(|other| other.error() == Some(*quantity));
+    let other = |quantity: &Quantity| matches!(quantity, Quantity::Residual | Quantity::Tolerance);
+    all.iter().copied().filter(|quantity| !quantity.is_count() && !is_error(quantity) && !other(quantity)).collect()
+}
+
+/// Names of measurable numbers, divided by commas.
+pub(super) fn names(problem: &Problem) -> String {
+    measurable(problem).into_iter().map(|quantity| quantity.column(problem)).collect::<Vec<_>>().join(", ")
+}
+
+/// The measurable number of a name.
+pub(super) fn named(problem: &Problem, name: &str) -> Option<Quantity> {
+    measurable(problem).into_iter().find(|quantity| quantity.name() == name || quantity.column(problem) == name)
+}
+
+impl Measured {
+    /// The table of a `--data` argument, [`TABLE1`] or the path of a CSV file, for a fit of `scene`.
+    ///
+    /// # Errors
+    /// The file cannot be read, or [`FitError::Table`].
+    pub fn find(name_or_path: &str, scene: &Scene, method: Method) -> Result<Self, FitError> {
+        if name_or_path == TABLE1 {
+            return Ok(Self::table1(method)?);
+        }
+        let path = Path::new(name_or_path);
+        let text = read_text(path, LARGEST_TABLE).map_err(|source| FitError::File { path: path.to_owned(), source })?;
+        Self::from_csv(&text, &show_text(name_or_path), &Problem::new(scene)?)
+    }
+
+    /// The published film loads of Table I, each under the changes of its row. How exact they are is not known: the errors are taken
+    /// to be one share of every load. With `Method::Auto` the rows are converged, so that that of the doubled mesh has no change.
+    ///
+    /// # Errors
+    /// A fault in a built-in preset; a test reads them all.
+    pub fn table1(method: Method) -> Result<Self, SceneError> {
+        let fundamental = presets::find("fundamental")?;
+        let mut measured =
+            Self { name: "Table I".to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: false };
+        for row in published() {
+            let mut scene = presets::find(&row.preset)?;
+            if method == Method::Auto {
+                scene.set_numerics(&Numerics::default())?;
+            }
+            let changed = scene
+                .changed(&fundamental)
+                .filter_map(|parameter| Some((parameter.key.to_owned(), scene.get(parameter.key)?.to_string())));
+            let condition = measured.condition(changed.collect());
+            let what = What::Number(Quantity::FilmLoad);
+            let value = row.published_load_n;
+            measured.measurements.push(Measurement { label: row.row, condition, what, value, error: value });
+        }
+        Ok(measured)
+    }
+
+    /// Reads a table. Its first line names the columns:
+    ///
+    /// * a key of the scene, as `film.min_spacing_nm`: the condition of the line; an empty cell leaves it as the scene has it;
+    /// * a number of a solve, as `film_load_n`, or `torque_nm` with `rotor_speed_rpm`: measured; an empty cell was not measured;
+    /// * such a name with `_error` behind it: the standard error of that; `weight`: how much the line counts, if errors are not known;
+    /// * `row`, `name` or `note`: words.
+    ///
+    /// # Errors
+    /// [`FitError::Table`], which names line, column, value and what is allowed.
+    pub fn from_csv(text: &str, origin: &str, problem: &Problem) -> Result<Self, FitError> {
+        let fault = |line: Option<u64>, what: String| FitError::Table { origin: origin.to_owned(), line, what };
+        let mut reader =
+            csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
+        let head = reader.headers().map_err(|error| fault(Some(1), error.to_string()))?.clone();
+        let columns = head.iter().map(|name| column(problem, name).map_err(|what| fault(Some(1), what)));
+        let columns = columns.collect::<Result<Vec<Column>, _>>()?;
+        for (i, name) in head.iter().enumerate() {
+            if head.iter().take(i).any(|other| other == name) {
+                return Err(fault(Some(1), format!("column {name}: given twice")));
+            }
+        }
+        let place = |wanted: &dyn Fn(&Column) -> bool| columns.iter().position(wanted);
+        let speed = place(&|column| matches!(column, Column::Speed));
+        let weight = place(&|column| matches!(column, Column::Weight));
+        let values: Vec<usize> = (0..columns.len()).filter(|i| matches!(columns[*i], Column::Value(_))).collect();
+        if values.is_empty() {
+            let allowed = names(problem);
+            return Err(fault(
+                Some(1),
+                format!("no column holds what was measured; allowed: {allowed}, {TORQUE} with {SPEED}"),
+            ));
+        }
+        let torque = values.iter().any(|i| matches!(columns[*i], Column::Value(None)));
+        if torque != speed.is_some() {
+            return Err(fault(Some(1), format!("{TORQUE} and {SPEED} go together; of each speed its torque")));
+        }
+        let error_of = |value: usize| {
+            let Column::Value(of) = columns[value] else { return None };
+            place(&|column| matches!(column, Column::Error(other) if *other == of))
+        };
+        let known: Vec<bool> = values.iter().map(|value| error_of(*value).is_some()).collect();
+        let errors = place(&|column| matches!(column, Column::Error(_))).is_some();
+        if errors && (known.contains(&false) || weight.is_some()) {
+            return Err(fault(
+                Some(1),
+                "give the errors of all that was measured, or of none; a weight only where there are none".to_owned(),
+            ));
+        }
+        let mut measured =
+            Self { name: origin.to_owned(), conditions: Vec::new(), measurements: Vec::new(), errors_known: errors };
+        for record in reader.records().take(MOST_LINES + 1) {
+            let record = record.map_err(|error| fault(error.position().map(csv::Position::line), error.to_string()))?;
+            let line = record.position().map(csv::Position::line);
+            if measured.measurements.len() >= MOST_LINES {
+                return Err(fault(line, format!("more than {MOST_LINES} measurements")));
+            }
+            let cell = |i: usize| record.get(i).unwrap_or_default();
+            let number = |i: usize| -> Result<Option<f64>, FitError> {
+                let text = cell(i);
+                match text.parse::<f64>() {
+                    _ if text.is_empty() => Ok(None),
+                    Ok(number) if number.is_finite() => Ok(Some(number)),
+                    _ => Err(fault(line, format!("column {}: {} is not a number", &head[i], show_text(text)))),
+                }
+            };
+            let above_zero = |i: usize| match number(i)? {
+                Some(number) if number > 0.0 => Ok(number),
+                _ => Err(fault(
+                    line,
+                    format!("column {}: \"{}\": expected a number above 0", &head[i], show_text(cell(i))),
+                )),
+            };
+            let changes: Vec<(String, String)> = (0..columns.len())
+                .filter(|i| matches!(columns[*i], Column::Key) && !cell(*i).is_empty())
+                .map(|i| (head[i].to_owned(), cell(i).to_owned()))
+                .collect();
+            let named = (0..columns.len()).find(|i| matches!(columns[*i], Column::Label) && !cell(*i).is_empty());
+            let label = match (named, line) {
+                (Some(named), _) => show_text(cell(named)),
+                (None, Some(line)) => format!("line {line}"),
+                (None, None) => String::new(),
+            };
+            let counts = weight.map_or(Ok(1.0), &above_zero)?;
+            for i in &values {
+                let Some(value) = number(*i)? else { continue };
+                let what = match (columns[*i], speed) {
+                    (Column::Value(Some(quantity)), _) => What::Number(quantity),
+                    (_, Some(speed)) => match number(speed)? {
+                        Some(speed_rpm) => What::Torque { speed_rpm },
+                        None => return Err(fault(line, format!("column {SPEED}: empty, where there is a {TORQUE}"))),
+                    },
+                    _ => continue,
+                };
+                let error = error_of(*i).map_or(Ok(1.0 / f64::sqrt(counts)), &above_zero)?;
+                let condition = measured.condition(changes.clone());
+                measured.measurements.push(Measurement { label: label.clone(), condition, what, value, error });
+            }
+        }
+        if measured.measurements.is_empty() {
+            return Err(fault(None, "no measurements".to_owned()));
+        }
+        if !errors {
+            measured.scale_errors();
+        }
+        Ok(measured)
+    }
+
+    /// Without errors, all of one column are taken to be equal, and in proportion to what it holds.
+    fn scale_errors(&mut self) {
+        let sizes: Vec<f64> = self
+            .measurements
+            .iter()
+            .map(|one| {
+                let alike = self.measurements.iter().filter(|other| other.what.name() == one.what.name());
+                let (sum, count) =
+                    alike.fold((0.0, 0.0), |(sum, count), other| (sum + other.value * other.value, count + 1.0));
+                if sum > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
+            })
+            .collect();
+        self.measurements.iter_mut().zip(sizes).for_each(|(one, size)| one.error *= size);
+    }
+
+    /// With errors of these sizes, the last that applies. Those of all measurements have to be given, unless the table has them.
+    ///
+    /// # Errors
+    /// A name that was not measured, a share of a value that is 0, or a measurement without an error.
+    pub fn with_errors(mut self, sizes: &[ErrorSize]) -> Result<Self, FitError> {
+        if sizes.is_empty() {
+            return Ok(self);
+        }
+        let mut names: Vec<&str> = self.measurements.iter().map(|one| one.what.name()).collect();
+        names.dedup();
+        for name in sizes.iter().filter_map(|size| size.name.as_deref()) {
+            if !names.contains(&name) {
+                names.sort_unstable();
+                names.dedup();
+                return Err(FitError::Number { option: "error", found: show_text(name), allowed: names.join(", ") });
+            }
+        }
+        for one in &mut self.measurements {
+            let applies = |size: &&ErrorSize| size.name.as_deref().is_none_or(|name| name == one.what.name());
+            match sizes.iter().rev().find(applies) {
+                Some(size) => one.error = if size.relative { size.size * one.value.abs() } else { size.size },
+                None if self.errors_known => {}
+                None => one.error = 0.0,
+            }
+            if one.error <= 0.0 {
+                let what = format!(
+                    "{}: {} = {} has no error: give one, absolute if the value is 0",
+                    one.label,
+                    one.what.name(),
+                    one.value
+                );
+                return Err(FitError::Table { origin: self.name.clone(), line: None, what });
+            }
+        }
+        self.errors_known = true;
+        Ok(self)
+    }
+
+    /// Without the lines of these names.
+    ///
+    /// # Errors
+    /// A name that no line has.
+    pub fn without(mut self, labels: &[String]) -> Result<Self, FitError> {
+        for label in labels {
+            let before = self.measurements.len();
+            self.measurements.retain(|one| one.label != *label);
+            if self.measurements.len() == before {
+                let what = format!("skip {}: no line has this name", show_text(label));
+                return Err(FitError::Table { origin: self.name.clone(), line: None, what });
+            }
+        }
+        Ok(self)
+    }
+
+    /// The place of a condition, which is added if it is new.
+    fn condition(&mut self, changes: Vec<(String, String)>) -> usize {
+        match self.conditions.iter().position(|other| *other == changes) {
+            Some(place) => place,
+            None => {
+                self.conditions.push(changes);
+                self.conditions.len() - 1
+            }
+        }
+    }
+}
+
+/// What a column of this name holds, or what is wrong with it.
+fn column(problem: &Problem, name: &str) -> Result<Column, String> {
+    if Parameter::find(name).is_some() {
+        return Ok(Column::Key);
+    }
+    if let Some(quantity) = named(problem, name) {
+        return Ok(Column::Value(Some(quantity)));
+    }
+    match name {
+        TORQUE => return Ok(Column::Value(None)),
+        SPEED => return Ok(Column::Speed),
+        WEIGHT => return Ok(Column::Weight),
+        name if LABELS.contains(&name) => return Ok(Column::Label),
+        _ => {}
+    }
+    let of = |stem: &str| if stem == TORQUE { Some(None) } else { named(problem, stem).map(Some) };
+    let error = name.strip_suffix("_error").and_then(of).or_else(|| {
+        // As the program writes it: film_load_error_n.
+        let found =
+            measurable(problem).into_iter().find(|quantity| quantity.error().is_some_and(|error| error.name() == name));
+        found.map(Some)
+    });
+    error.map(Column::Error).ok_or_else(|| {
+        format!(
+            "column {}: unknown; allowed: keys of the scene (film.min_spacing_nm), what was measured ({}, {TORQUE} with {SPEED}), \
+             each with _error behind it for its standard error, {WEIGHT}, {}",
+            show_text(name),
+            names(problem),
+            LABELS.join(", ")
+        )
+    })
+}

@@ -1,0 +1,36 @@
+//! Keys of a scene chosen so that what is computed agrees with what was measured, or so that one number is as large or as small as it
+//! can be.
+//!
+//! [`Measured`] holds the measurements: each belongs to a [condition](Measured::conditions), the values of some keys, and each
+//! condition is solved once, however many measurements share it. [`Unknown`]s are the keys that are chosen, each within its bounds; the
+//! search runs in x from 0 to 1 between them, linear or logarithmic. Where a condition sets such a key, its value is known and is not
+//! chosen. A [`Model`] is both together with the scene.
+//!
+//! [`fit()`] minimises χ² = Σ ((computed − measured)/error)² by trust-region reflective least squares (the step of Levenberg and
+//! Marquardt within bounds; Branch, Coleman and Li, SIAM J. Sci. Comput. 21, 1999) of the crate `basin`. Derivatives are differences
+//! of solves on one grid ([`super::variation`]). At the minimum, with J = ∂(computed/error)/∂x of the unknowns that are not at a bound, the covariance is
+//! (JᵀJ)⁻¹, times χ²/(measurements − unknowns) where the sizes of the errors are not known.
+//!
+//! [`optimise`] looks for the greatest or least value of one number within limits on others by COBYLA (Powell 1994) of the same
+//! crate, which needs no derivatives.
+
+mod error;
+mod least_squares;
+mod measured;
+mod model;
+mod optimum;
+mod starts;
+mod statistics;
+mod unknown;
+
+pub use error::FitError;
+pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
+pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, TABLE1, What};
+pub use model::{Computed, Model};
+pub use optimum::{FLAT, Goal, Limit, Optimum, Scan, optimise};
+pub use starts::MOST_STARTS;
+pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};
+
+/// Tells how far a fit or an optimisation is: how many points have been tried, and the best so far (of a fit χ², of an optimum the
+/// number that is sought; not a number before there is one).
+pub type Told<'a> = &'a (dyn Fn(usize, f64) + Sync);

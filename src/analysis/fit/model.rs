@@ -1,0 +1,286 @@
+//! A scene with its unknowns, solved under every condition of a table.
+
+use super::error::FitError;
+use super::measured::{Measured, What};
+use super::unknown::{Bounds, MOST_UNKNOWNS, Unknown};
+use crate::analysis::attempt::{RunStatus, attempt_from, caught};
+use crate::analysis::quantity::Numbers;
+use crate::analysis::variation::Variation;
+use crate::control::Cancel;
+use crate::drive::Scaled;
+use crate::estimate::Estimate;
+use crate::motor::Warm;
+use crate::problem::{Problem, Scenario, rpm};
+use crate::scene::Scene;
+use crate::solution::{Outcome, Solution};
+use crate::solve::near::Centre;
+use crate::solve::{Method, Record, Settings, check};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A number computed with its estimated numerical error, or why there is none.
+pub type Computed = Result<Estimate, String>;
+
+/// A scene, the keys that are chosen, and the conditions under which it is solved.
+#[derive(Debug)]
+pub struct Model<'a> {
+    scene: &'a Scene,
+    settings: Settings,
+    unknowns: Vec<Unknown>,
+    conditions: Vec<Condition>,
+    /// Of each condition, what is asked of it.
+    asked: Vec<Vec<What>>,
+    solves: AtomicUsize,
+}
+
+/// The scene under one condition.
+#[derive(Debug)]
+struct Condition {
+    scene: Scene,
+    /// Of each unknown, whether it is chosen there: where the table sets the key, its value is known.
+    chosen: Vec<bool>,
+}
+
+impl<'a> Model<'a> {
+    /// Checks the keys that are chosen, and every condition of a table: its keys, and that it can be solved at the values from which the
+    /// search starts.
+    ///
+    /// # Errors
+    /// [`FitError`], which names the key, the value and what is allowed.
+    pub fn new(scene: &'a Scene, bounds: &[Bounds], settings: &Settings) -> Result<Self, FitError> {
+        if !(1..=MOST_UNKNOWNS).contains(&bounds.len()) {
+            return Err(FitError::Count { found: bounds.len(), most: MOST_UNKNOWNS });
+        }
+        let unknowns = bounds.iter().map(|bounds| Unknown::new(scene, bounds)).collect::<Result<Vec<_>, _>>()?;
+        for (i, unknown) in unknowns.iter().enumerate() {
+            if unknowns[..i].iter().any(|other| other.parameter.key == unknown.parameter.key) {
+                return Err(FitError::Twice {
+                    key: unknown.parameter.key,
+                    why: "given twice: the keys have to differ",
+                });
+            }
+        }
+        check(&Problem::new(scene)?, &Settings { record: Record::Numbers, ..*settings })?;
+        Ok(Self {
+            scene,
+            settings: *settings,
+            conditions: vec![Condition { scene: scene.clone(), chosen: vec![true; unknowns.len()] }],
+            unknowns,
+            asked: vec![Vec::new()],
+            solves: AtomicUsize::new(0),
+        })
+    }
+
+    /// Under the conditions of a table, to compute what it holds.
+    ///
+    /// # Errors
+    /// Every line sets a key that is to be chosen, or one sets a key that the scene does not take.
+    pub fn under(mut self, measured: &Measured) -> Result<Self, FitError> {
+        let sets = |changes: &[(String, String)], key: &str| changes.iter().any(|(other, _)| other == key);
+        for unknown in &self.unknowns {
+            let key = unknown.parameter.key;
+            if measured.measurements.iter().all(|one| sets(&measured.conditions[one.condition], key)) {
+                return Err(FitError::Twice {
+                    key,
+                    why: "every line of the table of measurements sets it: nothing is left to choose",
+                });
+            }
+        }
+        let condition = |changes: &Vec<(String, String)>| -> Result<Condition, FitError> {
+            let mut scene = self.scene.clone();
+            scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))).map_err(|error| {
+                FitError::Table { origin: measured.name.clone(), line: None, what: error.to_string() }
+            })?;
+            let chosen = self.unknowns.iter().map(|unknown| !sets(changes, unknown.parameter.key)).collect();
+            Ok(Condition { scene, chosen })
+        };
+        self.conditions = measured.conditions.iter().map(condition).collect::<Result<_, _>>()?;
+        self.asked = vec![Vec::new(); self.conditions.len()];
+        for one in &measured.measurements {
+            self.asked[one.condition].push(one.what);
+        }
+        Ok(self)
+    }
+
+    /// Asked for these numbers of the scene itself.
+    pub(super) fn asking(mut self, numbers: Vec<What>) -> Self {
+        self.asked = vec![numbers];
+        self
+    }
+
+    /// The scene whose keys are chosen.
+    pub fn scene(&self) -> &Scene {
+        self.scene
+    }
+
+    /// The keys that are chosen.
+    pub fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    /// How it is solved.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// How many solves there have been.
+    pub fn solves(&self) -> usize {
+        self.solves.load(Ordering::Relaxed)
+    }
+
+    /// The values from which the search starts, from 0 to 1.
+    pub(super) fn start(&self) -> Vec<f64> {
+        self.unknowns.iter().map(|unknown| unknown.place(unknown.start)).collect()
+    }
+
+    /// The scene with the values at `x`, under one condition.
+    fn scene_at(&self, condition: &Condition, x: &[f64]) -> Result<Problem, String> {
+        let mut scene = condition.scene.clone();
+        for ((unknown, x), _) in self.unknowns.iter().zip(x).zip(&condition.chosen).filter(|(_, chosen)| **chosen) {
+            unknown.set(&mut scene, *x).map_err(|error| error.to_string())?;
+        }
+        Problem::new(&scene).map_err(|error| error.to_string())
+    }
+
+    /// The scene itself with the values at `x`, named as one that was fitted.
+    pub(super) fn fitted(&self, x: &[f64], word: &str) -> Result<Scene, FitError> {
+        let mut scene = self.scene.clone();
+        for (unknown, x) in self.unknowns.iter().zip(x) {
+            unknown.set(&mut scene, *x)?;
+        }
+        scene.name = format!("{}, {word}", self.scene.name);
+        scene.retitle(self.scene);
+        Ok(scene)
+    }
+
+    /// What is asked of each condition, at each of several points, all in parallel: `[point][condition][asked]`. `None` if cancelled.
+    pub(super) fn at(
+        &self,
+        points: &[Vec<f64>],
+        settings: &Settings,
+        cancel: &Cancel,
+    ) -> Option<Vec<Vec<Vec<Computed>>>> {
+        let tasks: Vec<(usize, usize)> = (0..points.len())
+            .flat_map(|point| (0..self.conditions.len()).map(move |condition| (point, condition)))
+            .collect();
+        let solved =
+            tasks.into_par_iter().map(|(point, condition)| self.solve(condition, &points[point], settings, cancel));
+        let mut solved = solved.collect::<Vec<_>>().into_iter();
+        let rows = points.iter().map(|_| solved.by_ref().take(self.conditions.len()).collect::<Vec<_>>()).collect();
+        (!cancel.is_cancelled()).then_some(rows)
+    }
+
+    fn solve(&self, condition: usize, x: &[f64], settings: &Settings, cancel: &Cancel) -> Vec<Computed> {
+        let asked = &self.asked[condition];
+        let fields = asked.iter().any(|what| matches!(what, What::Torque { .. }));
+        let record = if fields { Record::Everything } else { Record::Numbers };
+        let settings = Settings { record, ..*settings };
+        self.solves.fetch_add(1, Ordering::Relaxed);
+        let solved = self.scene_at(&self.conditions[condition], x).and_then(|problem| {
+            let solution = attempt_from(&mut Warm::default(), &problem, &settings, &mut (), cancel)?;
+            match RunStatus::from(solution.status) {
+                RunStatus::Converged => Ok((problem, solution)),
+                status => Err(status.to_string()),
+            }
+        });
+        match solved {
+            Ok((problem, solution)) => read(&problem, &solution, asked),
+            Err(reason) => asked.iter().map(|_| Err(reason.clone())).collect(),
+        }
+    }
+
+    /// ∂/∂x of what is asked of each condition at `x`, by the unknowns that are free: `[condition][asked][unknown]`. Zeros by the others,
+    /// and nothing at all of a condition that has no derivatives. They are those of `Method::Auto`; for the paper's, whose contact moves
+    /// from node to node of a fixed mesh, they are scaled by the ratio of the two results. `None` if cancelled.
+    pub(super) fn slopes(&self, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<Vec<f64>>>> {
+        let of = |condition: usize| {
+            self.slopes_of(condition, x, free, cancel).unwrap_or_else(|| vec![Vec::new(); self.asked[condition].len()])
+        };
+        let found: Vec<_> = (0..self.conditions.len()).into_par_iter().map(of).collect();
+        (!cancel.is_cancelled()).then_some(found)
+    }
+
+    fn slopes_of(&self, condition: usize, x: &[f64], free: &[bool], cancel: &Cancel) -> Option<Vec<Vec<f64>>> {
+        let Condition { scene, chosen } = &self.conditions[condition];
+        let asked = &self.asked[condition];
+        let varied: Vec<usize> = (0..x.len()).filter(|k| free[*k] && chosen[*k]).collect();
+        let mut slopes = vec![vec![0.0; x.len()]; asked.len()];
+        if varied.is_empty() {
+            return Some(slopes);
+        }
+        let mut scene = scene.clone();
+        for k in (0..x.len()).filter(|k| chosen[*k]) {
+            self.unknowns[k].set(&mut scene, x[k]).ok()?;
+        }
+        let keys: Vec<&str> = varied.iter().map(|k| self.unknowns[*k].parameter.key).collect();
+        let variation = Variation::new(&scene, &keys).ok()?;
+        let values = variation.values();
+        let problem = variation.problem(&values).ok()?;
+        let centre = caught(|| Centre::new(&problem, &self.settings, None, cancel)).ok()?.ok()?;
+        let numbers = |problem: &Problem, solution: &Solution| -> Vec<f64> {
+            read(problem, solution, asked)
+                .into_iter()
+                .map(|found| found.map_or(f64::NAN, |found| found.value))
+                .collect()
+        };
+        let count = |_| {
+            self.solves.fetch_add(1, Ordering::Relaxed);
+        };
+        let found = variation.jacobian(&values, &centre, &numbers, cancel, &count)?;
+        let ratios: Vec<f64> = match self.settings.method {
+            Method::Auto => vec![1.0; asked.len()],
+            Method::Paper => {
+                let own = self.solve(condition, x, &self.settings, cancel);
+                own.iter()
+                    .zip(&found.numbers.fine)
+                    .map(|(own, ours)| own.as_ref().map_or(0.0, |own| own.value / ours))
+                    .collect()
+            }
+        };
+        for (k, column) in varied.iter().zip(&found.columns) {
+            let Ok(column) = &column.slopes else { continue };
+            for (row, slope) in column.iter().enumerate() {
+                let slope = slope.value * self.unknowns[*k].slope(x[*k]) * ratios[row];
+                slopes[row][*k] = if slope.is_finite() { slope } else { 0.0 };
+            }
+        }
+        Some(slopes)
+    }
+}
+
+/// What is asked of a solution.
+fn read(problem: &Problem, solution: &Solution, asked: &[What]) -> Vec<Computed> {
+    let numbers = Numbers::of(problem, solution);
+    let motor = match (&problem.scenario, &solution.outcome) {
+        (Scenario::Motor(motor), Outcome::Motor(result)) => Some((motor, result)),
+        _ => None,
+    };
+    let speeds: Vec<f64> = match motor {
+        Some((motor, _)) => {
+            asked.iter().filter_map(|what| speed(*what).map(|speed| speed / rpm(1.0, motor.contact_radius))).collect()
+        }
+        None => Vec::new(),
+    };
+    let curve = motor.filter(|_| !speeds.is_empty()).map_or_else(Vec::new, |(motor, result)| {
+        Scaled::with_film(motor, result, &solution.recording).performance(&speeds).curve
+    });
+    let mut curve = curve.into_iter();
+    let none = || "the scene has no such number".to_owned();
+    asked
+        .iter()
+        .map(|what| match what {
+            What::Number(quantity) => {
+                let error = quantity.error().and_then(|error| numbers.get(error)).unwrap_or(f64::NAN);
+                numbers.get(*quantity).map(|value| Estimate { value, error }).ok_or_else(none)
+            }
+            What::Torque { .. } => curve.next().map(|point| point.torque).ok_or_else(none),
+        })
+        .collect()
+}
+
+fn speed(what: What) -> Option<f64> {
+    match what {
+        What::Torque { speed_rpm } => Some(speed_rpm),
+        What::Number(_) => None,
+    }
+}

@@ -1,0 +1,462 @@
+//! The values of the unknowns at which one number is greatest or least, within limits on others.
+
+use super::Told;
+use super::error::FitError;
+use super::measured::{What, named, names};
+use super::model::{Computed, Model};
+use super::starts::spread;
+use super::unknown::{Bound, Bounds, Unknown};
+use crate::analysis::quantity::Quantity;
+use crate::control::Cancel;
+use crate::digits::{short, with_error};
+use crate::estimate::Estimate;
+use crate::fidelity::Fidelity;
+use crate::problem::Problem;
+use crate::scene::{Scene, show_text};
+use crate::solve::{Method, Settings};
+use basin::{
+    BoxBounds, Cobyla, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, CostFunction, Executor,
+    NoLinearConstraints, NoNonlinearBlock, NonlinearBlock, NonlinearBlocks, NonlinearInequalityValues, SelectedState,
+};
+use std::str::FromStr;
+use std::sync::{Mutex, PoisonError};
+
+/// Radius in x of the first models, and the one at which the search ends.
+const RADIUS: (f64, f64) = (0.2, 5e-4);
+/// Most points that are tried from one start.
+const MOST_POINTS: u64 = 600;
+/// Starts that are refined, beside that of the scene's own values.
+const REFINED: usize = 3;
+/// An unknown this close in x to a bound is at the bound.
+const AT_BOUND: f64 = 2e-3;
+/// Points of a line through the optimum.
+const LINE: usize = 21;
+/// A share of the optimum that a designer does not mind.
+pub const FLAT: f64 = 0.01;
+/// What stands for a number that could not be computed, in units of what is sought.
+const NOTHING: f64 = 1e3;
+
+/// A limit on another number: `alpha<0.3`, `stall_torque_nm>0.2`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The number's name.
+    pub name: String,
+    /// Whether it has to stay below the value; otherwise above.
+    pub below: bool,
+    /// The value.
+    pub value: f64,
+}
+
+impl FromStr for Limit {
+    type Err = FitError;
+
+    fn from_str(text: &str) -> Result<Self, FitError> {
+        let fault = || FitError::Option {
+            option: "subject-to",
+            found: show_text(text),
+            expected: "name<value or name>value, as in alpha<0.3",
+        };
+        let below = text.contains('<');
+        let (name, value) = text.split_once(if below { '<' } else { '>' }).ok_or_else(fault)?;
+        let value: f64 = value.trim_start_matches('=').trim().parse().map_err(|_| fault())?;
+        if !value.is_finite() {
+            return Err(fault());
+        }
+        Ok(Self { name: name.trim().to_owned(), below, value })
+    }
+}
+
+impl std::fmt::Display for Limit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {} {}", self.name, if self.below { '<' } else { '>' }, self.value)
+    }
+}
+
+/// What is sought.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// The number.
+    pub quantity: Quantity,
+    /// Its greatest value; otherwise its least.
+    pub greatest: bool,
+    /// Limits on other numbers.
+    pub limits: Vec<(Limit, Quantity)>,
+}
+
+impl Goal {
+    /// The greatest (or least) value of the number of this name in results of `scene`, within limits on others.
+    ///
+    /// # Errors
+    /// A name that the scene's results do not have.
+    pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, FitError> {
+        let problem = Problem::new(scene)?;
+        let find = |option: &'static str, name: &str| {
+            named(&problem, name).ok_or_else(|| FitError::Number {
+                option,
+                found: show_text(name),
+                allowed: names(&problem),
+            })
+        };
+        let limits = limits.iter().map(|limit| Ok((limit.clone(), find("subject-to", &limit.name)?)));
+        let limits = limits.collect::<Result<Vec<_>, FitError>>()?;
+        Ok(Self { quantity: find(if greatest { "maximise" } else { "minimise" }, name)?, greatest, limits })
+    }
+
+    /// What it and its limits are read from.
+    fn asked(&self) -> Vec<What> {
+        std::iter::once(self.quantity)
+            .chain(self.limits.iter().map(|(_, quantity)| *quantity))
+            .map(What::Number)
+            .collect()
+    }
+
+    /// To be made small, and what has to be at most 0, from what was computed; in units of `size`.
+    fn judge(&self, computed: &[Computed], size: f64) -> Option<(f64, Vec<f64>)> {
+        let sought = computed[0].as_ref().ok()?.value / size;
+        let mut beyond = Vec::new();
+        for ((limit, _), found) in self.limits.iter().zip(&computed[1..]) {
+            let over = (found.as_ref().ok()?.value - limit.value) / limit.value.abs().max(f64::MIN_POSITIVE);
+            beyond.push(if limit.below { over } else { -over });
+        }
+        Some((if self.greatest { -sought } else { sought }, beyond))
+    }
+}
+
+/// The optimum found.
+#[derive(Clone, Debug)]
+pub struct Optimum {
+    /// What was sought.
+    pub goal: Goal,
+    /// The number there, with its numerical error.
+    pub value: Estimate,
+    /// The same at the scene's own values; `None` if it cannot be solved there.
+    pub before: Option<Estimate>,
+    /// The numbers that are limited.
+    pub limited: Vec<Estimate>,
+    /// The unknowns there, with a line through the optimum along each.
+    pub lines: Vec<Scan>,
+    /// Whether the search ended by itself.
+    pub converged: bool,
+    /// How many solves it took.
+    pub solves: usize,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// The scene with these values.
+    pub scene: Scene,
+}
+
+/// The number that is sought along one unknown, the others being those of the optimum.
+#[derive(Clone, Debug)]
+pub struct Scan {
+    /// The unknown.
+    pub unknown: Unknown,
+    /// Its value at the optimum.
+    pub value: f64,
+    /// The bound it is at.
+    pub at: Option<Bound>,
+    /// Values of the unknown, ascending, and of the number there; `None` where it cannot be computed.
+    pub points: Vec<(f64, Option<f64>)>,
+    /// The range round the optimum in which the number stays within a hundredth of it.
+    pub flat: (f64, f64),
+}
+
+/// The problem as the library wants it.
+struct Search<'a> {
+    model: &'a Model<'a>,
+    goal: &'a Goal,
+    size: f64,
+    settings: Settings,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    cancel: &'a Cancel,
+    told: Told<'a>,
+    /// Points tried, and the best number so far.
+    tried: &'a Mutex<(usize, f64)>,
+    /// The last point, and what came of it: the library asks for the number and for its limits one after the other.
+    last: Mutex<Option<(Vec<f64>, Option<(f64, Vec<f64>)>)>>,
+}
+
+/// The caller cancelled.
+#[derive(Debug)]
+struct Stopped;
+
+impl Search<'_> {
+    fn at(&self, x: &[f64]) -> Result<Option<(f64, Vec<f64>)>, Stopped> {
+        // The library may look beyond the bounds.
+        let x: Vec<f64> = x.iter().map(|x| x.clamp(0.0, 1.0)).collect();
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((point, found)) = last.as_ref()
+            && *point == x
+        {
+            return Ok(found.clone());
+        }
+        let solved = self.model.at(std::slice::from_ref(&x), &self.settings, self.cancel).ok_or(Stopped)?;
+        let found = self.goal.judge(&solved[0][0], self.size);
+        let mut tried = self.tried.lock().unwrap_or_else(PoisonError::into_inner);
+        tried.0 += 1;
+        if let Some((cost, beyond)) = &found
+            && beyond.iter().all(|beyond| *beyond <= 0.0)
+            && (tried.1.is_nan() || *cost < tried.1)
+        {
+            tried.1 = *cost;
+        }
+        (self.told)(tried.0, tried.1 * self.size * if self.goal.greatest { -1.0 } else { 1.0 });
+        *last = Some((x, found.clone()));
+        Ok(found)
+    }
+}
+
+impl Constraints for Search<'_> {
+    type Set =
+        ConstraintSet<BoxBounds<Vec<f64>>, NoLinearConstraints, NonlinearBlocks<NoNonlinearBlock, NonlinearBlock>>;
+
+    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new()
+            .with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
+            .with_nonlinear_inequalities(self.goal.limits.len())
+    }
+}
+
+impl CostFunction for Search<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    type Error = Stopped;
+
+    fn cost(&self, x: &Vec<f64>) -> Result<f64, Stopped> {
+        Ok(self.at(x)?.map_or(NOTHING, |(cost, _)| cost))
+    }
+}
+
+impl NonlinearInequalityValues for Search<'_> {
+    type Param = Vec<f64>;
+    type Values = Vec<f64>;
+    type Error = Stopped;
+
+    fn nonlinear_inequalities(&self, x: &Vec<f64>) -> Result<Vec<f64>, ConstraintSolveError<Stopped>> {
+        let found = self.at(x).map_err(ConstraintSolveError::Evaluation)?;
+        Ok(found.map_or_else(|| vec![NOTHING; self.goal.limits.len()], |(_, beyond)| beyond))
+    }
+}
+
+/// Looks for the optimum of `goal` over the unknowns of `bounds`, from the scene's own values and, with `starts` above 1, from the best
+/// of as many points spread over the bounds and solved as drafts. `None` if cancelled.
+///
+/// # Errors
+/// [`FitError`] of the bounds, or nothing could be solved.
+pub fn optimise(
+    scene: &Scene,
+    bounds: &[Bounds],
+    goal: &Goal,
+    settings: &Settings,
+    (starts, cancel, told): (usize, &Cancel, Told<'_>),
+) -> Result<Option<Optimum>, FitError> {
+    let model = Model::new(scene, bounds, settings)?.asking(goal.asked());
+    let own = model.start();
+    let points: Vec<Vec<f64>> =
+        std::iter::once(own.clone()).chain(spread(own.len(), starts.saturating_sub(1))).collect();
+    let draft = Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..*settings };
+    let Some(solved) = model.at(&points, &draft, cancel) else { return Ok(None) };
+    let found = |solved: &[Vec<Computed>]| solved[0][0].as_ref().ok().map(|found| found.value.abs());
+    let Some(size) = solved.iter().find_map(|solved| found(solved)).map(|size| if size > 0.0 { size } else { 1.0 })
+    else {
+        return Err(FitError::NoStart(solved[0][0][0].as_ref().err().cloned().unwrap_or_default()));
+    };
+    let mut judged: Vec<(f64, Vec<f64>)> = solved
+        .iter()
+        .zip(points)
+        .skip(1)
+        .filter_map(|(solved, point)| {
+            let (cost, beyond) = goal.judge(&solved[0], size)?;
+            // What breaks a limit is no good start, unless all do.
+            Some((cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond)), point))
+        })
+        .collect();
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let tried = Mutex::new((0, f64::NAN));
+    let count = own.len();
+    let mut best: Option<(f64, Vec<f64>, bool)> = None;
+    for start in std::iter::once(own.clone()).chain(judged.into_iter().take(REFINED).map(|(_, point)| point)) {
+        let search = Search {
+            model: &model,
+            goal,
+            size,
+            settings: *settings,
+            lower: vec![0.0; count],
+            upper: vec![1.0; count],
+            cancel,
+            told,
+            tried: &tried,
+            last: Mutex::new(None),
+        };
+        let solver = Cobyla::new().with_initial_radius(RADIUS.0).with_final_radius(RADIUS.1);
+        let ended = match Executor::new(search, solver, SelectedState::new(start)).max_cost_evals(MOST_POINTS).run() {
+            Ok(ended) => ended,
+            Err(ConstraintSolveError::Evaluation(Stopped)) => return Ok(None),
+            Err(error) => return Err(FitError::Search(format!("{error:?}"))),
+        };
+        let x: Vec<f64> = ended.best_param().iter().map(|x| x.clamp(0.0, 1.0)).collect();
+        // Of limits that are kept to a thousandth of their value.
+        let Some(solved) = model.at(std::slice::from_ref(&x), settings, cancel) else { return Ok(None) };
+        let Some((cost, beyond)) = goal.judge(&solved[0][0], size) else { continue };
+        let cost = cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
+        if best.as_ref().is_none_or(|best| cost < best.0) {
+            best = Some((cost, x, ended.cost_evals() < MOST_POINTS));
+        }
+    }
+    let Some((_, mut x, converged)) = best else {
+        return Err(FitError::NoStart("no point that was tried could be solved".to_owned()));
+    };
+    let at: Vec<Option<Bound>> = x
+        .iter()
+        .map(|x| match *x {
+            x if x < AT_BOUND => Some(Bound::Lower),
+            x if x > 1.0 - AT_BOUND => Some(Bound::Upper),
+            _ => None,
+        })
+        .collect();
+    for (x, at) in x.iter_mut().zip(&at) {
+        *x = at.map_or(*x, |at| if at == Bound::Lower { 0.0 } else { 1.0 });
+    }
+    describe(&model, goal, (own, x, at, converged), cancel)
+}
+
+/// What there is to say of the optimum at `x`.
+fn describe(
+    model: &Model<'_>,
+    goal: &Goal,
+    (own, x, at, converged): (Vec<f64>, Vec<f64>, Vec<Option<Bound>>, bool),
+    cancel: &Cancel,
+) -> Result<Option<Optimum>, FitError> {
+    let mut points = vec![x.clone(), own];
+    let mut places = Vec::new();
+    for k in 0..x.len() {
+        let mut along: Vec<f64> = (0..LINE).map(|i| i as f64 / (LINE - 1) as f64).chain([x[k]]).collect();
+        along.sort_by(f64::total_cmp);
+        along.dedup();
+        points.extend(along.iter().map(|place| {
+            let mut point = x.clone();
+            point[k] = *place;
+            point
+        }));
+        places.push(along);
+    }
+    let Some(solved) = model.at(&points, model.settings(), cancel) else { return Ok(None) };
+    let mut found = solved.into_iter().map(|mut solved| solved.swap_remove(0));
+    let (here, before) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
+    let value = |computed: &[Computed]| computed.first().and_then(|found| found.as_ref().ok()).copied();
+    let Some(best) = value(&here) else {
+        return Err(FitError::NoStart("the optimum could not be solved again".to_owned()));
+    };
+    let sign = if goal.greatest { 1.0 } else { -1.0 };
+    let mut lines = Vec::new();
+    let mut better: Option<(String, f64)> = None;
+    for (k, places) in places.iter().enumerate() {
+        let unknown = model.unknowns()[k].clone();
+        let numbers: Vec<(f64, Vec<Computed>)> =
+            places.iter().zip(&mut found).map(|(place, found)| (*place, found)).collect();
+        for (place, computed) in &numbers {
+            let allowed =
+                goal.judge(computed, 1.0).is_some_and(|(_, beyond)| beyond.iter().all(|beyond| *beyond <= 1e-3));
+            if let Some(there) = value(computed)
+                && allowed
+                && sign * (there.value - best.value) > (there.error + best.error).max(0.0)
+                && better.as_ref().is_none_or(|(_, other)| sign * (there.value - other) > 0.0)
+            {
+                let parameter = unknown.parameter;
+                let at = format!("{} = {} {}", parameter.key, short(unknown.value(*place), 4), parameter.unit);
+                better = Some((at.trim_end().to_owned(), there.value));
+            }
+        }
+        let points: Vec<(f64, Option<f64>)> = numbers
+            .iter()
+            .map(|(place, computed)| (unknown.value(*place), value(computed).map(|found| found.value)))
+            .collect();
+        let middle = places.iter().position(|place| *place == x[k]).unwrap_or(0);
+        let flat = (edge(&points, middle, best.value, false), edge(&points, middle, best.value, true));
+        lines.push(Scan { value: unknown.value(x[k]), unknown, at: at[k], points, flat });
+    }
+    let limited: Vec<Estimate> = here.iter().skip(1).filter_map(|found| found.as_ref().ok()).copied().collect();
+    let mut warnings = Vec::new();
+    for line in lines.iter().filter(|line| line.at.is_some()) {
+        let parameter = line.unknown.parameter;
+        warnings.push(format!(
+            "{} is at its {} bound, {} {}: a better value lies beyond it, if anywhere",
+            parameter.key,
+            line.at.map_or("", Bound::name),
+            short(line.value, 6),
+            parameter.unit
+        ));
+    }
+    for ((limit, _), found) in goal.limits.iter().zip(&limited) {
+        let over = if limit.below { found.value - limit.value } else { limit.value - found.value };
+        if over > found.error.max(2e-3 * limit.value.abs()) {
+            warnings
+                .push(format!("the limit {limit} cannot be kept: {} is reached", with_error(found.value, found.error)));
+        } else if over.abs() <= found.error.max(2e-3 * limit.value.abs()) {
+            warnings.push(format!("the limit {limit} is what stops it"));
+        }
+    }
+    if !converged {
+        warnings.push(format!("the search was ended after {MOST_POINTS} points"));
+    }
+    if let Some((at, there)) = better {
+        warnings.push(format!(
+            "{} is better, {}, at {at}, the others unchanged: this is not the optimum within the bounds; give more --starts",
+            goal.quantity.name(),
+            short(there, 6)
+        ));
+    }
+    Ok(Some(Optimum {
+        goal: goal.clone(),
+        value: best,
+        before: value(&before),
+        limited,
+        lines,
+        converged,
+        solves: model.solves(),
+        warnings,
+        scene: model.fitted(&x, "optimised")?,
+    }))
+}
+
+/// Where, above or below the optimum, the number first differs from it by more than [`FLAT`], linear between points; the end of the
+/// line if it nowhere does.
+fn edge(points: &[(f64, Option<f64>)], middle: usize, best: f64, upwards: bool) -> f64 {
+    let order: Vec<usize> = if upwards { (middle..points.len()).collect() } else { (0..=middle).rev().collect() };
+    let mut last = (points[middle].0, 0.0);
+    for i in order {
+        let (place, found) = points[i];
+        let off = found.map_or(f64::INFINITY, |found| (found - best).abs() / best.abs().max(f64::MIN_POSITIVE));
+        if off > FLAT {
+            let share = if off.is_finite() { (FLAT - last.1) / (off - last.1) } else { 0.0 };
+            return last.0 + share * (place - last.0);
+        }
+        last = (place, off);
+    }
+    last.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_edge_is_where_a_hundredth_is_lost() {
+        let parabola: Vec<(f64, Option<f64>)> =
+            (0..=100).map(|i| f64::from(i) / 100.0).map(|x| (x, Some(2.0 * (1.0 - (x - 0.4) * (x - 0.4))))).collect();
+        assert!((edge(&parabola, 40, 2.0, true) - 0.5).abs() < 1e-3);
+        assert!((edge(&parabola, 40, 2.0, false) - 0.3).abs() < 1e-3);
+        let broken = [(0.0, Some(1.0)), (1.0, None)];
+        assert_eq!((edge(&broken, 0, 1.0, true), edge(&broken, 0, 1.0, false)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn limits_are_read() {
+        let limit: Limit = "alpha < 0.3".parse().unwrap();
+        assert_eq!((limit.name.as_str(), limit.below, limit.value), ("alpha", true, 0.3));
+        assert!(!"stall_torque_nm>=0.2".parse::<Limit>().unwrap().below);
+        for wrong in ["alpha", "alpha=0.3", "alpha<", "alpha<inf"] {
+            assert!(wrong.parse::<Limit>().unwrap_err().to_string().contains("expected name<value"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! The keys that are chosen, each within its bounds.
+
+use super::error::FitError;
+use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use std::str::FromStr;
+
+/// Most keys that are chosen at once.
+pub const MOST_UNKNOWNS: usize = 12;
+/// Bounds with at least this ratio are searched by equal ratios.
+const WIDE: f64 = 10.0;
+
+/// What to choose: `key=from:to`, `key=from:to:log` or `key=from:to:lin`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounds {
+    /// Dotted key, as in `--set`.
+    pub key: String,
+    /// Lower bound, in the unit of the key.
+    pub from: f64,
+    /// Upper bound, in the unit of the key.
+    pub to: f64,
+    /// Equal steps or equal ratios; `None`: by ratios if the upper bound is at least ten times the lower one.
+    pub scale: Option<Scale>,
+}
+
+impl FromStr for Bounds {
+    type Err = FitError;
+
+    fn from_str(text: &str) -> Result<Self, FitError> {
+        let syntax = || FitError::Bounds { found: text.to_owned() };
+        let (key, range) = text.split_once('=').ok_or_else(syntax)?;
+        let parts: Vec<&str> = range.split(':').map(str::trim).collect();
+        let (from, to, scale) = match parts[..] {
+            [from, to] => (from, to, None),
+            [from, to, "log"] => (from, to, Some(Scale::Log)),
+            [from, to, "lin"] => (from, to, Some(Scale::Linear)),
+            _ => return Err(syntax()),
+        };
+        let number = |text: &str| text.parse().map_err(|_| syntax());
+        Ok(Self { key: key.trim().to_owned(), from: number(from)?, to: number(to)?, scale })
+    }
+}
+
+/// Which bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// The lower one.
+    Lower,
+    /// The upper one.
+    Upper,
+}
+
+impl Bound {
+    /// `lower` or `upper`: as files have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Upper => "upper",
+        }
+    }
+}
+
+/// A key that is chosen, checked against the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// The key.
+    pub parameter: &'static Parameter,
+    /// Lower bound, in the unit of the key.
+    pub from: f64,
+    /// Upper bound, in the unit of the key.
+    pub to: f64,
+    /// How the range between them is searched.
+    pub scale: Scale,
+    /// Value to start from: that of the scene, or the middle if it lies outside of the bounds.
+    pub start: f64,
+}
+
+impl Unknown {
+    /// Checks bounds against the scene.
+    ///
+    /// # Errors
+    /// A key that the scene does not have, or is no number, or bounds that it does not take.
+    pub fn new(scene: &Scene, bounds: &Bounds) -> Result<Self, FitError> {
+        let key = &bounds.key;
+        let Some(parameter) = Parameter::find(key) else {
+            // Setting it tells what is wrong with it.
+            scene.clone().set(key, "0")?;
+            return Err(FitError::Bounds { found: key.clone() });
+        };
+        for end in [bounds.from, bounds.to] {
+            scene.clone().set_value(key, Value::Number(end))?;
+        }
+        if !matches!(parameter.kind, ParameterKind::Number { .. }) {
+            return Err(FitError::NotANumber { parameter });
+        }
+        let (from, to) = (bounds.from.min(bounds.to), bounds.from.max(bounds.to));
+        let range = |why| FitError::Range { key: parameter.key, from, to, why };
+        if from == to {
+            return Err(range("is no range: the ends have to differ"));
+        }
+        let wide = from > 0.0 && to / from >= WIDE;
+        let scale = bounds.scale.unwrap_or(if wide { Scale::Log } else { Scale::Linear });
+        if scale == Scale::Log && from <= 0.0 {
+            return Err(range("cannot be searched by equal ratios: for :log both ends have to be above 0"));
+        }
+        let mut unknown = Self { parameter, from, to, scale, start: 0.0 };
+        let present = scene.get(key).and_then(|value| value.as_number()).filter(|at| (from..=to).contains(at));
+        unknown.start = present.unwrap_or_else(|| unknown.value(0.5));
+        Ok(unknown)
+    }
+
+    /// The value at x from 0 to 1.
+    pub fn value(&self, x: f64) -> f64 {
+        match (x, self.scale) {
+            (x, _) if x <= 0.0 => self.from,
+            (x, _) if x >= 1.0 => self.to,
+            (x, Scale::Linear) => self.from + x * (self.to - self.from),
+            (x, Scale::Log) => self.from * (self.to / self.from).powf(x),
+        }
+    }
+
+    /// Where a value lies from 0 to 1.
+    pub fn place(&self, value: f64) -> f64 {
+        let x = match self.scale {
+            Scale::Linear => (value - self.from) / (self.to - self.from),
+            Scale::Log => (value / self.from).ln() / (self.to / self.from).ln(),
+        };
+        x.clamp(0.0, 1.0)
+    }
+
+    /// d value / dx at x.
+    pub fn slope(&self, x: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.to - self.from,
+            Scale::Log => self.value(x) * (self.to / self.from).ln(),
+        }
+    }
+
+    /// Gives the key its value at x.
+    ///
+    /// # Errors
+    /// The scene does not take it.
+    pub fn set(&self, scene: &mut Scene, x: f64) -> Result<(), SceneError> {
+        scene.set_value(self.parameter.key, Value::Number(self.value(x)))
+    }
+}

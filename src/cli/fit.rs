@@ -1,0 +1,348 @@
+//! `squeezefilm fit`: keys chosen to agree with measurements, or so that one number is as large or as small as it can be.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::options::CommonOptions;
+use super::progress::Bar;
+use super::solve::written;
+use super::terminal;
+use crate::analysis::fit::{
+    Bound, Bounds, ErrorSize, FLAT, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
+};
+use crate::atomic::Staged;
+use crate::control::Cancel;
+use crate::digits::{duration, percent, short, significant, with_error};
+use crate::export::fit::{Object, OptimumObject, figures, optimum_figure, write_csv, write_optimum_csv};
+use crate::export::json;
+use crate::problem::Problem;
+use crate::scene::{Parameter, Scene, show_text};
+use crate::solve::Settings;
+use clap::Args;
+use std::path::Path;
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm fit fundamental --data table1 --vary film.min_spacing_nm=100:400 --vary stator.normal_amplitude_um=0.8:2
+  squeezefilm fit my.toml --data torque.csv --vary motor.dry_friction=0.1:1 --vary stator.tangential_amplitude_um=0.2:3
+  squeezefilm fit my.toml --data loads.csv --error 2% --vary film.min_spacing_nm=20:1000 --starts 50 --out fitted
+  squeezefilm fit fundamental --maximise stall_torque_nm --vary motor.load_per_wave_n=0.5:10 --vary stator.tooth_width_mm=0.6:2.8
+  squeezefilm fit fundamental --minimise alpha --vary stator.frequency_khz=20:80 --subject-to 'stall_torque_nm>0.2'";
+
+const DATA: &str = "\
+A table of measurements is a CSV file. Its first line names the columns:
+  film.min_spacing_nm   a key of the scene: the condition under which the
+                        line was measured; there it is known, also if --vary
+                        chooses it where the cell is empty
+  film_load_n           a number of a solve, by its name in --json: measured
+  rotor_speed_rpm, torque_nm
+                        torque of the ring at a speed of its rotor; all lines
+                        of one condition share one solve
+  film_load_n_error     the standard error of a measured column
+  weight                how much the line counts, where errors are not known
+  row, name, note       words
+Empty cells were not measured, or leave the condition as the preset has it.
+Without errors those of a column are taken to be equal, and their size is
+estimated from the residuals.
+
+Files of --out:
+  fit.json     what --json prints
+  fit.csv      measured, computed, residual: a row for each measurement
+  fit, residuals, correlation (.svg .png)
+               figures; of an optimum lines through it: optimum.csv and
+               optimum (.svg .png)
+  fitted.toml  the preset with the values found";
+
+/// Chooses keys of a preset to agree with measurements, or to make one number as large or as small as it can be
+///
+/// A fit minimises the sum of ((computed − measured)/error)² within the bounds by least squares, and states values, standard errors,
+/// correlations and residuals. The table of measurements `table1` is part of the program: Table I of Maeno and Bogy (1992).
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{DATA}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
+    #[arg(value_name = "PRESET")]
+    preset: String,
+
+    /// A CSV file of measurements, or table1
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["maximise", "minimise"], conflicts_with_all = ["maximise", "minimise", "subject_to"])]
+    data: Option<String>,
+
+    /// A key to choose, with its bounds in the unit of the key; may be repeated
+    ///
+    /// The search begins at the value that the preset has, or --set gives. Bounds with a ratio of ten or more are searched by equal
+    /// ratios; :log and :lin say so for any.
+    #[arg(long, value_name = "KEY=FROM:TO[:log]", required = true)]
+    vary: Vec<Bounds>,
+
+    /// Standard errors of the measurements: 1%, 0.005 or film_load_n=1%; may be repeated
+    #[arg(long, value_name = "[NAME=]SIZE", conflicts_with_all = ["maximise", "minimise"])]
+    error: Vec<ErrorSize>,
+
+    /// Leaves out a line of the table: its name, or `line 7`; may be repeated
+    #[arg(long, value_name = "LINE", conflicts_with_all = ["maximise", "minimise"])]
+    skip: Vec<String>,
+
+    /// Number of starts: the preset's own values, and points spread over the bounds, of which the best three are refined
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=MOST_STARTS as i64))]
+    starts: u16,
+
+    /// Looks for the greatest value of a number, by its name in --json
+    #[arg(long, value_name = "NAME", conflicts_with = "minimise")]
+    maximise: Option<String>,
+
+    /// Looks for the least value of a number
+    #[arg(long, value_name = "NAME")]
+    minimise: Option<String>,
+
+    /// A limit on another number, of an optimum: alpha<0.3 or stall_torque_nm>0.2; may be repeated
+    #[arg(long, value_name = "NAME<VALUE")]
+    subject_to: Vec<Limit>,
+
+    #[command(flatten)]
+    common: CommonOptions,
+}
+
+pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
+    let scene = arguments.common.scene.scene(&arguments.preset)?;
+    let (folder, settings, cancel) = arguments.common.begin()?;
+    let sought = match (&arguments.maximise, &arguments.minimise) {
+        (Some(name), _) => Some((name, true)),
+        (_, Some(name)) => Some((name, false)),
+        _ => None,
+    };
+    let call = Call { arguments, scene: &scene, settings: &settings, folder, cancel: &cancel, command };
+    match (&arguments.data, sought) {
+        (_, Some((name, greatest))) => call.optimum(&Goal::new(&scene, name, greatest, &arguments.subject_to)?),
+        (Some(data), _) => {
+            let measured = Measured::find(data, &scene, settings.method)?;
+            call.fit(&measured.without(&arguments.skip)?.with_errors(&arguments.error)?)
+        }
+        (None, None) => Err(CliError::Usage("give --data, --maximise or --minimise")),
+    }
+}
+
+/// One call of the command.
+struct Call<'a> {
+    arguments: &'a Arguments,
+    scene: &'a Scene,
+    settings: &'a Settings,
+    folder: Option<&'a Path>,
+    cancel: &'a Cancel,
+    command: &'a [String],
+}
+
+impl Call<'_> {
+    fn fit(&self, measured: &Measured) -> Result<Exit, CliError> {
+        let model = Model::new(self.scene, &self.arguments.vary, self.settings)?.under(measured)?;
+        let (bar, started) = (Bar::share(), Instant::now());
+        let told = |points: usize, chi_squared: f64| {
+            bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)))
+        };
+        let fitted = fit(&model, measured, usize::from(self.arguments.starts), self.cancel, &told)?;
+        let wall_s = started.elapsed().as_secs_f64();
+        drop(bar);
+        let Some(fitted) = fitted else { return Ok(cancelled()) };
+        let object = Object::new(&self.scene.name, &fitted, measured);
+        let json = self.arguments.common.output.json;
+        terminal::result(json, || json::document(&object, self.command), || text(self.scene, &fitted, measured));
+        fitted.warnings.iter().for_each(|warning| terminal::warning(warning));
+        terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
+        if let Some(folder) = self.folder {
+            let problem = Problem::new(&fitted.scene)?;
+            let mut staged = Staged::new(folder)?;
+            staged.add("fit.json", |out| out.write_all(json::document(&object, self.command).as_bytes()))?;
+            staged.add("fit.csv", |out| write_csv(&fitted, measured, out))?;
+            for (name, figure) in figures(&problem, &fitted, measured) {
+                self.arguments.common.figures.stage(&mut staged, name, &figure)?;
+            }
+            staged.add("fitted.toml", |out| out.write_all(fitted.scene.to_toml().as_bytes()))?;
+            terminal::note(&written(folder, &staged.commit()?));
+        }
+        Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
+    }
+
+    fn optimum(&self, goal: &Goal) -> Result<Exit, CliError> {
+        let (bar, started) = (Bar::share(), Instant::now());
+        let name = goal.quantity.name();
+        let told = |points: usize, best: f64| bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
+        let starts = (usize::from(self.arguments.starts), self.cancel, &told as _);
+        let found = optimise(self.scene, &self.arguments.vary, goal, self.settings, starts)?;
+        let wall_s = started.elapsed().as_secs_f64();
+        drop(bar);
+        let Some(found) = found else { return Ok(cancelled()) };
+        let problem = Problem::new(&found.scene)?;
+        let object = OptimumObject::new(&self.scene.name, &found);
+        let json = self.arguments.common.output.json;
+        terminal::result(json, || json::document(&object, self.command), || optimum_text(self.scene, &problem, &found));
+        found.warnings.iter().for_each(|warning| terminal::warning(warning));
+        terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
+        if let Some(folder) = self.folder {
+            let mut staged = Staged::new(folder)?;
+            staged.add("fit.json", |out| out.write_all(json::document(&object, self.command).as_bytes()))?;
+            staged.add("optimum.csv", |out| write_optimum_csv(&found, out))?;
+            self.arguments.common.figures.stage(&mut staged, "optimum", &optimum_figure(&problem, &found))?;
+            staged.add("fitted.toml", |out| out.write_all(found.scene.to_toml().as_bytes()))?;
+            terminal::note(&written(folder, &staged.commit()?));
+        }
+        Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
+    }
+}
+
+fn cancelled() -> Exit {
+    terminal::note("cancelled; nothing was found yet");
+    Exit::Other
+}
+
+/// `9.5 nm`.
+fn with_unit(number: String, parameter: &Parameter) -> String {
+    format!("{number} {}", parameter.unit).trim_end().to_owned()
+}
+
+/// As few digits as say it.
+fn plain(value: f64) -> String {
+    let text = short(value, 5);
+    if text.contains('e') { format!("{value:e}") } else { text }
+}
+
+fn bounds((from, to): (f64, f64), parameter: &Parameter) -> String {
+    with_unit(format!("{} … {}", plain(from), plain(to)), parameter)
+}
+
+fn at_bound(at: Option<Bound>) -> &'static str {
+    match at {
+        Some(Bound::Lower) => "AT ITS LOWER BOUND",
+        Some(Bound::Upper) => "AT ITS UPPER BOUND",
+        None => "",
+    }
+}
+
+/// A fit for people.
+fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
+    let title = format!("{} fitted to {}", show_text(&scene.name), measured.name);
+    let mut text = paragraph(&title, "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row(["key", "value ± standard error", "start", "bounds", ""]);
+    for found in &fitted.unknowns {
+        let parameter = found.unknown.parameter;
+        let value = match found.error {
+            Some(error) => with_error(found.value, error),
+            None => significant(found.value, 5),
+        };
+        columns.row([
+            parameter.key.to_owned(),
+            with_unit(value, parameter),
+            plain(found.unknown.start),
+            bounds((found.unknown.from, found.unknown.to), parameter),
+            at_bound(found.at).to_owned(),
+        ]);
+    }
+    text.push_str(&columns.text("  ", &[2]));
+    if fitted.unknowns.len() > 1 {
+        text.push_str("\nCorrelation:\n\n");
+        let mut columns = Columns::new();
+        for (i, found) in fitted.unknowns.iter().enumerate() {
+            let cells = fitted.correlation[i][..=i].iter();
+            let cells = cells.map(|value| if value.is_finite() { format!("{value:.2}") } else { "–".to_owned() });
+            columns.row(std::iter::once(found.unknown.parameter.key.to_owned()).chain(cells));
+        }
+        text.push_str(&columns.text("  ", &(1..=fitted.unknowns.len()).collect::<Vec<_>>()));
+    }
+    text.push('\n');
+    text.push_str(&paragraph(&summary(fitted, measured), "", ""));
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row(["row", "measured", "", "computed", "difference", "residual"]);
+    for (one, row) in measured.measurements.iter().zip(&fitted.rows) {
+        let (computed, difference) = match &row.computed {
+            Ok(found) => (with_error(found.value, found.error), percent(found.value / one.value - 1.0)),
+            Err(why) => (why.clone(), String::new()),
+        };
+        let residual = row.residual.map_or_else(|| "LEFT OUT".to_owned(), |residual| format!("{residual:.2}"));
+        columns.row([
+            one.label.clone(),
+            one.what.name().to_owned(),
+            short(one.value, 6),
+            computed,
+            difference,
+            residual,
+        ]);
+    }
+    text.push_str(&columns.text("  ", &[2, 4, 5]));
+    text
+}
+
+/// How well a fit agrees, in sentences.
+fn summary(fitted: &Fitted, measured: &Measured) -> String {
+    let used = fitted.rows.iter().filter(|row| row.residual.is_some()).count();
+    let counts = format!("{used} measurements, {} degrees of freedom", fitted.degrees_of_freedom);
+    let agreement = match fitted.error_scale {
+        _ if fitted.errors_known => {
+            format!("χ² = {} of {counts}, with the errors that were given.", significant(fitted.chi_squared, 4))
+        }
+        Some(_) => {
+            let shares = measured.measurements.iter().zip(&fitted.rows).map(|(one, row)| row.error / one.value.abs());
+            let (least, most) = shares
+                .fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), share| (least.min(share), most.max(share)));
+            let size =
+                if most < 1.01 * least { percent(least) } else { format!("{} to {}", percent(least), percent(most)) };
+            format!(
+                "{counts}. No errors were given: the residuals say that one standard error of a measurement is {size} of its value, \
+                 and all standard errors rest on that."
+            )
+        }
+        None => format!("{counts}. No errors were given, and nothing tells how large they are."),
+    };
+    match fitted.numerical_error {
+        Some(worst) => format!(
+            "{agreement} The numerical error of what is computed is at most {} standard errors of a measurement.",
+            significant(worst, 2)
+        ),
+        None => agreement,
+    }
+}
+
+/// An optimum for people.
+fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
+    let which = if found.goal.greatest { "greatest" } else { "least" };
+    let title = format!("{}: {which} {}", show_text(&scene.name), found.goal.quantity.label(problem));
+    let mut text = paragraph(&title, "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    let value = with_error(found.value.value, found.value.error);
+    let before = found.before.map_or_else(
+        || "cannot be solved as the preset is".to_owned(),
+        |before| format!("{} as the preset is", with_error(before.value, before.error)),
+    );
+    columns.row([found.goal.quantity.name().to_owned(), value, before]);
+    for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
+        columns.row([
+            quantity.name().to_owned(),
+            with_error(reached.value, reached.error),
+            format!("allowed: {limit}"),
+        ]);
+    }
+    text.push_str(&columns.text("  ", &[]));
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row([
+        "key".to_owned(),
+        "value".to_owned(),
+        "bounds".to_owned(),
+        format!("within {} of the optimum", percent(FLAT)),
+        String::new(),
+    ]);
+    for line in &found.lines {
+        let parameter = line.unknown.parameter;
+        columns.row([
+            parameter.key.to_owned(),
+            with_unit(significant(line.value, 4), parameter),
+            bounds((line.unknown.from, line.unknown.to), parameter),
+            bounds(line.flat, parameter),
+            at_bound(line.at).to_owned(),
+        ]);
+    }
+    text.push_str(&columns.text("  ", &[]));
+    text
+}

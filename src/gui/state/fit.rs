@@ -1,0 +1,221 @@
+//! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit found.
+
+use super::sweep::AxisForm;
+use crate::analysis::fit::{Bounds, Fitted, MOST_UNKNOWNS, Measured, Unknown, What};
+use crate::gui::derived::words::unused;
+use crate::job::task::{News, Task};
+use crate::scene::{Parameter, ParameterKind, Scale, Scene, quantity_text};
+use std::sync::Arc;
+
+/// What is chosen at first: the first that a scene has.
+const FIRST: [&str; 2] = ["plate.mean_gap_um", "film.min_spacing_nm"];
+
+/// A fit under way: how many points were tried with the least χ² so far; then what was found, nothing if it was cancelled, or why
+/// there is nothing.
+pub type FitTask = Task<(usize, f64), Result<Option<Fitted>, String>>;
+
+/// What a fit is of.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// The scene.
+    pub scene: Scene,
+    /// The measurements.
+    pub measured: Arc<Measured>,
+}
+
+/// The table, the form, and the fit.
+#[derive(Debug, Default)]
+pub struct FitState {
+    measured: Option<Arc<Measured>>,
+    form: Vec<AxisForm>,
+    /// What is wrong with each line of the form.
+    faults: Vec<Option<String>>,
+    /// Of which scene the form was judged.
+    judged: Option<Scene>,
+    task: Option<(Asked, FitTask)>,
+    told: Option<(usize, f64)>,
+    found: Option<(Asked, Fitted)>,
+    failure: Option<String>,
+    cancelled: bool,
+}
+
+/// Whether a key can be chosen between two bounds.
+pub fn chooses(scene: &Scene, parameter: &Parameter) -> bool {
+    matches!(parameter.kind, ParameterKind::Number { .. })
+        && parameter.table() != "numerics"
+        && unused(scene, parameter).is_none()
+        && scene.get(parameter.key).is_some()
+}
+
+impl FitState {
+    /// Takes a table of measurements in place of the one there was.
+    pub fn load(&mut self, measured: Measured) {
+        self.measured = Some(Arc::new(measured));
+        (self.failure, self.told) = (None, None);
+    }
+
+    /// Forgets the table.
+    pub fn forget(&mut self) {
+        self.measured = None;
+    }
+
+    /// The table.
+    pub fn measured(&self) -> Option<&Arc<Measured>> {
+        self.measured.as_ref()
+    }
+
+    /// The torques of the table that were measured on the scene as it is: speed \[rpm\] and torque \[N m\]; and how many others there are,
+    /// measured with other values of some keys.
+    pub fn torques(&self) -> (Vec<[f64; 2]>, usize) {
+        let Some(measured) = &self.measured else { return (Vec::new(), 0) };
+        let mut others = 0;
+        let torques = measured.measurements.iter().filter_map(|one| match one.what {
+            What::Torque { speed_rpm } if measured.conditions[one.condition].is_empty() => Some([speed_rpm, one.value]),
+            What::Torque { .. } => {
+                others += 1;
+                None
+            }
+            What::Number(_) => None,
+        });
+        (torques.collect(), others)
+    }
+
+    /// Looks whether the form is one of `scene`, and what is wrong with it; only if one of them has changed.
+    pub fn review(&mut self, scene: &Scene) {
+        if self.judged.as_ref() == Some(scene) && self.faults.len() == self.form.len() {
+            return;
+        }
+        let has = |key: &str| Parameter::find(key).is_some_and(|parameter| chooses(scene, parameter));
+        self.form.retain(|axis| has(axis.key));
+        if self.form.is_empty() {
+            self.form.extend(FIRST.iter().find(|key| has(key)).map(|key| AxisForm::around(scene, key, 2)));
+        }
+        let bounds: Vec<Result<Bounds, String>> = self.form.iter().map(|axis| bounds(scene, axis)).collect();
+        let twice = |i: usize| self.form[..i].iter().any(|other| other.key == self.form[i].key);
+        self.faults = bounds
+            .into_iter()
+            .enumerate()
+            .map(|(i, bounds)| if twice(i) { Some("Chosen twice: take another key".to_owned()) } else { bounds.err() })
+            .collect();
+        self.judged = Some(scene.clone());
+    }
+
+    /// The keys to be chosen.
+    pub fn form(&self) -> &[AxisForm] {
+        &self.form
+    }
+
+    /// What is wrong with each.
+    pub fn faults(&self) -> &[Option<String>] {
+        &self.faults
+    }
+
+    /// Whether one more key can be chosen.
+    pub fn has_room(&self) -> bool {
+        self.form.len() < MOST_UNKNOWNS
+    }
+
+    /// Changes a line of the form.
+    pub fn edit(&mut self, line: usize, change: impl FnOnce(&mut AxisForm)) {
+        self.form.get_mut(line).map(change);
+        self.judged = None;
+    }
+
+    /// One more line: the first key that is not there.
+    pub fn add(&mut self, scene: &Scene) {
+        let taken = |key: &str| self.form.iter().any(|axis| axis.key == key);
+        let next = scene.parameters().find(|parameter| chooses(scene, parameter) && !taken(parameter.key));
+        self.form.extend(next.map(|parameter| AxisForm::around(scene, parameter.key, 2)));
+        self.judged = None;
+    }
+
+    /// One line less.
+    pub fn remove(&mut self, line: usize) {
+        if line < self.form.len() {
+            self.form.remove(line);
+        }
+        self.judged = None;
+    }
+
+    /// The bounds that the form says.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it.
+    pub fn asked(&self, scene: &Scene) -> Result<Vec<Bounds>, String> {
+        if let Some(fault) = self.faults.iter().flatten().next() {
+            return Err(fault.clone());
+        }
+        self.form.iter().map(|axis| bounds(scene, axis)).collect()
+    }
+
+    /// `task` fits.
+    pub fn begin(&mut self, asked: Asked, task: FitTask) {
+        self.task = Some((asked, task));
+        (self.failure, self.told, self.cancelled) = (None, None, false);
+    }
+
+    /// Takes what was told and found since the last time.
+    pub fn drain(&mut self) {
+        let Some((asked, task)) = &self.task else { return };
+        let News { messages, end } = task.drain();
+        self.told = messages.into_iter().last().or(self.told);
+        let Some(end) = end else { return };
+        let asked = asked.clone();
+        self.task = None;
+        match end {
+            Ok(Ok(Some(found))) => self.found = Some((asked, found)),
+            Ok(Ok(None)) => {}
+            Ok(Err(why)) => self.failure = Some(why),
+            Err(panic) => self.failure = Some(format!("it failed: {panic}")),
+        }
+    }
+
+    /// Asks it to end.
+    pub fn cancel(&mut self) {
+        if let Some((_, task)) = &self.task {
+            task.cancel();
+            self.cancelled = true;
+        }
+    }
+
+    /// Whether a fit goes on.
+    pub fn running(&self) -> bool {
+        self.task.is_some()
+    }
+
+    /// How many points were tried, and the least χ² so far.
+    pub fn told(&self) -> Option<(usize, f64)> {
+        self.told
+    }
+
+    /// Whether the last one was told to end.
+    pub fn cancelled(&self) -> bool {
+        self.cancelled
+    }
+
+    /// Why there is nothing.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
+    }
+
+    /// What was found, and of what.
+    pub fn found(&self) -> Option<&(Asked, Fitted)> {
+        self.found.as_ref()
+    }
+
+    /// Whether `scene` is another one than was fitted: neither that nor the one that came out.
+    pub fn stale(&self, scene: &Scene) -> bool {
+        let same = |other: &Scene| other.same_model(scene) && other.numerics() == scene.numerics();
+        self.found.as_ref().is_some_and(|(asked, found)| !same(&asked.scene) && !same(&found.scene))
+    }
+}
+
+/// What a line of the form says.
+fn bounds(scene: &Scene, axis: &AxisForm) -> Result<Bounds, String> {
+    let parameter = Parameter::find(axis.key).ok_or_else(|| format!("{} is not known", axis.key))?;
+    let (from, to) = (quantity_text::read(parameter, &axis.from)?, quantity_text::read(parameter, &axis.to)?);
+    let scale = Some(if axis.log { Scale::Log } else { Scale::Linear });
+    let bounds = Bounds { key: axis.key.to_owned(), from, to, scale };
+    Unknown::new(scene, &bounds).map_err(|error| error.to_string())?;
+    Ok(bounds)
+}

@@ -1,0 +1,370 @@
+//! Fits: values that are known are found again within the errors that are stated, and an optimum is that of a fine sweep.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use serde_json::Value as Json;
+use squeezefilm::analysis::fit::{Bound, Bounds, ErrorSize, Fitted, Goal, Limit, Measured, Model, fit, optimise};
+use squeezefilm::analysis::quantity::Quantity;
+use squeezefilm::analysis::sweep::{Sweep, Vary};
+use squeezefilm::control::Cancel;
+use squeezefilm::drive::Scaled;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::problem::{Problem, Scenario, rpm};
+use squeezefilm::scene::{Scene, presets};
+use squeezefilm::solution::Outcome;
+use squeezefilm::solve::{Method, Record, Settings, solve};
+use std::fmt::Write as _;
+use std::process::{Command, Output, Stdio};
+
+const STANDARD: Settings = Settings { fidelity: Fidelity::Standard, method: Method::Auto, record: Record::Numbers };
+const DRAFT: Settings = Settings { fidelity: Fidelity::Draft, ..STANDARD };
+
+fn bounds(vary: &[&str]) -> Vec<Bounds> {
+    vary.iter().map(|text| text.parse().unwrap()).collect()
+}
+
+fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
+    let mut scene = presets::find(preset).unwrap();
+    scene.set_all(changes.iter().copied()).unwrap();
+    scene
+}
+
+fn table(scene: &Scene, text: &str) -> Measured {
+    Measured::from_csv(text, "table.csv", &Problem::new(scene).unwrap()).unwrap()
+}
+
+fn fitted(scene: &Scene, vary: &[&str], measured: &Measured, settings: &Settings, starts: usize) -> Fitted {
+    let model = Model::new(scene, &bounds(vary), settings).unwrap().under(measured).unwrap();
+    fit(&model, measured, starts, &Cancel::new(), &|_, _| ()).unwrap().unwrap()
+}
+
+/// The film load of a scene with changes.
+fn load(scene: &Scene, changes: &[(&str, String)]) -> f64 {
+    let mut scene = scene.clone();
+    scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str()))).unwrap();
+    match solve(&Problem::new(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
+        Outcome::Motor(result) => result.film_load,
+        Outcome::Plate(result) => result.film_load,
+    }
+}
+
+/// Normally distributed numbers, the same ones for the same seed.
+struct Noise(u64);
+
+impl Noise {
+    fn uniform(&mut self) -> f64 {
+        // SplitMix64.
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn next(&mut self) -> f64 {
+        (-2.0 * (1.0 - self.uniform()).ln()).sqrt() * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+}
+
+const FREQUENCIES: [f64; 8] = [3.0, 6.0, 12.0, 20.0, 35.0, 60.0, 100.0, 150.0];
+const PLATE: [&str; 2] = ["plate.amplitude_um=0.2:0.8", "film.viscosity_upa_s=8:40"];
+
+/// Loads of a plate over its frequency at an amplitude of 0.5 µm and a viscosity of 18.1 µPa s, with errors of 1 %.
+fn plate_loads(exact: &[f64], seed: u64) -> String {
+    let mut noise = Noise(seed);
+    let mut text = "plate.frequency_khz,film_load_n,film_load_n_error\n".to_owned();
+    for (frequency, exact) in FREQUENCIES.iter().zip(exact) {
+        let error = 0.01 * exact;
+        writeln!(text, "{frequency},{},{error}", exact + error * noise.next()).unwrap();
+    }
+    text
+}
+
+fn exact_loads() -> Vec<f64> {
+    let plate = scene("plate-crossover", &[]);
+    FREQUENCIES.iter().map(|frequency| load(&plate, &[("plate.frequency_khz", frequency.to_string())])).collect()
+}
+
+#[test]
+fn what_is_known_is_found_again_within_the_stated_errors() {
+    let exact = exact_loads();
+    let start = scene("plate-crossover", &[("plate.amplitude_um", "0.3"), ("film.viscosity_upa_s", "30")]);
+    let truth = [0.5, 18.1];
+    let (mut within, mut all, mut chi_squared) = (0, 0, 0.0);
+    for seed in 0..30 {
+        let measured = table(&start, &plate_loads(&exact, seed));
+        let found = fitted(&start, &PLATE, &measured, &DRAFT, 1);
+        assert!(found.converged && found.errors_known && found.degrees_of_freedom == 6);
+        chi_squared += found.chi_squared;
+        for (one, truth) in found.unknowns.iter().zip(truth) {
+            let off = (one.value - truth) / one.error.unwrap();
+            assert!(off.abs() < 4.0, "seed {seed}: {} is off by {off} standard errors", one.unknown.parameter.key);
+            within += usize::from(off.abs() < 1.0);
+            all += 1;
+        }
+    }
+    // 68 % of 60, give or take 3.6 at one standard deviation.
+    assert!((30..=52).contains(&within), "{within} of {all}");
+    // Six degrees of freedom in each of 30: 180, give or take 19.
+    assert!((120.0..240.0).contains(&chi_squared), "{chi_squared}");
+}
+
+#[test]
+fn errors_that_are_not_given_follow_from_the_residuals() {
+    let exact = exact_loads();
+    let start = scene("plate-crossover", &[]);
+    let text = plate_loads(&exact, 1);
+    let given = fitted(&start, &PLATE, &table(&start, &text), &DRAFT, 1);
+    // The same table with relative weights in place of errors.
+    let mut weights = "plate.frequency_khz,film_load_n,weight\n".to_owned();
+    for line in text.lines().skip(1) {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        writeln!(weights, "{},{},{}", cells[0], cells[1], 1.0 / (cells[2] * cells[2])).unwrap();
+    }
+    let estimated = fitted(&start, &PLATE, &table(&start, &weights), &DRAFT, 1);
+    assert!(!estimated.errors_known);
+    let scale = (given.chi_squared / 6.0).sqrt();
+    for (given, estimated) in given.unknowns.iter().zip(&estimated.unknowns) {
+        assert!((given.value / estimated.value - 1.0).abs() < 1e-3, "{given:?} {estimated:?}");
+        let ratio = estimated.error.unwrap() / given.error.unwrap();
+        assert!((ratio / scale - 1.0).abs() < 0.05, "{ratio} {scale}");
+    }
+    let sum: f64 = estimated.rows.iter().map(|row| row.residual.unwrap().powi(2)).sum();
+    assert!((sum - 6.0).abs() < 1e-9, "{sum}");
+}
+
+#[test]
+fn a_bound_in_the_way_is_told() {
+    let start = scene("plate-crossover", &[]);
+    let measured = table(&start, &plate_loads(&exact_loads(), 2));
+    let found = fitted(&start, &["film.viscosity_upa_s=25:400", PLATE[0]], &measured, &DRAFT, 1);
+    let viscosity = &found.unknowns[0];
+    assert_eq!((viscosity.at, viscosity.value, viscosity.error), (Some(Bound::Lower), 25.0, None));
+    assert!(found.unknowns[1].error.is_some() && found.degrees_of_freedom == 7);
+    assert!(found.warnings.iter().any(|text| text.starts_with("film.viscosity_upa_s is at its lower bound, 25 µPa s")));
+    // The errors were given, and the model no longer agrees.
+    assert!(found.warnings.iter().any(|text| text.contains("times as large as the errors")), "{:?}", found.warnings);
+}
+
+#[test]
+fn what_cannot_be_told_apart_is_told() {
+    let start = scene("plate-crossover", &[]);
+    let amplitudes =
+        [0.2, 0.4, 0.6].map(|amplitude| (amplitude, load(&start, &[("plate.amplitude_um", format!("{amplitude}"))])));
+    let rows = amplitudes.map(|(amplitude, load)| format!("{amplitude},{load}\n")).concat();
+    let measured = table(&start, &format!("plate.amplitude_um,film_load_n\n{rows}"));
+    // The film knows the squeeze number, which is proportional to their product.
+    let found = fitted(&start, &["film.viscosity_upa_s=8:40", "plate.frequency_khz=0.3:3"], &measured, &DRAFT, 1);
+    let told = "the measurements do not determine film.viscosity_upa_s and plate.frequency_khz";
+    assert!(found.warnings.iter().any(|text| text.starts_with(told)), "{found:?}");
+    assert_eq!(found.unknowns[0].error, None);
+}
+
+#[test]
+fn several_starts_find_the_same_minimum() {
+    let start = scene("plate-crossover", &[("plate.amplitude_um", "0.21"), ("film.viscosity_upa_s", "39")]);
+    let measured = table(&start, &plate_loads(&exact_loads(), 3));
+    let found = fitted(&start, &PLATE, &measured, &DRAFT, 20);
+    assert_eq!(found.minima.iter().map(|minimum| minimum.starts).sum::<usize>(), 4);
+    assert!((found.unknowns[0].value - 0.5).abs() < 4.0 * found.unknowns[0].error.unwrap());
+    assert_eq!(found.scene.get("plate.amplitude_um").unwrap().as_number(), Some(found.unknowns[0].value));
+    assert!(found.scene.name.ends_with(", fitted"), "{}", found.scene.name);
+}
+
+#[test]
+fn rows_of_one_condition_share_a_solve() {
+    let motor = scene("fundamental", &[]);
+    let problem = Problem::new(&motor).unwrap();
+    let solution = solve(&problem, &Settings { record: Record::Everything, ..DRAFT }, &mut (), &Cancel::new()).unwrap();
+    let (Scenario::Motor(of), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) else { panic!() };
+    let speeds: Vec<f64> = (0..10).map(|i| 0.1 * f64::from(i) * of.surface_speed()).collect();
+    let curve = Scaled::with_film(of, result, &solution.recording).performance(&speeds).curve;
+    let mut text = "rotor_speed_rpm,torque_nm\n".to_owned();
+    let mut noise = Noise(7);
+    for point in &curve {
+        let torque = point.torque.value + 0.002 * noise.next();
+        writeln!(text, "{},{torque}", rpm(point.speed, of.contact_radius)).unwrap();
+    }
+    let start = scene("fundamental", &[("motor.dry_friction", "0.4"), ("stator.tangential_amplitude_um", "1.4")]);
+    let measured = table(&start, &text);
+    assert_eq!((measured.conditions.len(), measured.measurements.len()), (1, 10));
+    let vary = ["motor.dry_friction=0.1:1", "stator.tangential_amplitude_um=0.3:3"];
+    let found = fitted(&start, &vary, &measured, &DRAFT, 1);
+    for (one, truth) in found.unknowns.iter().zip([0.7, 1.0]) {
+        assert!((one.value - truth).abs() < 4.0 * one.error.unwrap() && one.error.unwrap() < 0.05 * truth, "{one:?}");
+    }
+    // Far less than ten for each point that was tried.
+    assert!(found.solves < 150, "{}", found.solves);
+}
+
+#[test]
+fn a_row_that_cannot_be_solved_is_left_out_and_reported() {
+    let start = scene("plate-crossover", &[]);
+    // Under this gap the plate of the start would strike.
+    let mut text =
+        plate_loads(&exact_loads(), 4).replace("_error\n", "_error,plate.mean_gap_um\n").replace('\n', ",\n");
+    text = text.replace("plate.mean_gap_um,", "plate.mean_gap_um") + "20,1,0.1,0.55\n";
+    let found = fitted(&start, &["plate.amplitude_um=0.56:0.8", PLATE[1]], &table(&start, &text), &DRAFT, 1);
+    let last = found.rows.last().unwrap();
+    assert!(last.residual.is_none() && last.computed.is_err(), "{last:?}");
+    assert!(
+        found.warnings.iter().any(|text| text.contains("1 of 9 measurements were left out")),
+        "{:?}",
+        found.warnings
+    );
+    assert!(found.rows[..8].iter().all(|row| row.residual.is_some()));
+}
+
+#[test]
+fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
+    let problem = Problem::new(&scene("fundamental", &[])).unwrap();
+    for (text, words) in [
+        ("film.min_spacing_nm\n100\n", "table.csv:1: no column holds what was measured; allowed: alpha, film_load_n"),
+        (
+            "film.min_spacing,alpha\n100,0.2\n",
+            "table.csv:1: column film.min_spacing: unknown; allowed: keys of the scene",
+        ),
+        ("alpha,alpha\n1,2\n", "table.csv:1: column alpha: given twice"),
+        ("alpha\n0.2\nhigh\n", "table.csv:3: column alpha: high is not a number"),
+        ("alpha\n0.2\ninf\n", "table.csv:3: column alpha: inf is not a number"),
+        ("alpha,alpha_error\n0.2,0\n", "table.csv:2: column alpha_error: \"0\": expected a number above 0"),
+        (
+            "alpha,film_load_n,alpha_error\n0.2,0.5,0.1\n",
+            "table.csv:1: give the errors of all that was measured, or of none",
+        ),
+        ("torque_nm\n0.2\n", "table.csv:1: torque_nm and rotor_speed_rpm go together"),
+        ("torque_nm,rotor_speed_rpm\n0.2,\n", "table.csv:2: column rotor_speed_rpm: empty"),
+        ("alpha,weight\n0.2,-1\n", "table.csv:2: column weight: \"-1\": expected a number above 0"),
+        ("alpha,mean_load_ratio\n0.2,1\n", "column mean_load_ratio: unknown"),
+        ("alpha\n", "table.csv: no measurements"),
+        ("alpha,film.min_spacing_nm\n0.2\n", "table.csv:2"),
+        ("film_steps\n3\n", "column film_steps: unknown"),
+    ] {
+        let error = Measured::from_csv(text, "table.csv", &problem).unwrap_err().to_string();
+        assert!(error.contains(words), "{text:?}: {error}");
+    }
+    let motor = scene("fundamental", &[]);
+    let measured = table(&motor, "alpha,film.min_spacing_nm\n0.2,3\n");
+    let model = || Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6"]), &DRAFT).unwrap();
+    let error = model().under(&measured).unwrap_err().to_string();
+    assert!(error.contains("film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"), "{error}");
+    let measured = table(&motor, "alpha,rotor.decay_length_mm\n0.2,3\n");
+    let error = model().under(&measured).unwrap_err().to_string();
+    assert!(error.contains("every line of the table of measurements sets it"), "{error}");
+    let one = table(&motor, "alpha\n0.2\n");
+    let two =
+        Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]), &DRAFT).unwrap();
+    let error = fit(&two.under(&one).unwrap(), &one, 1, &Cancel::new(), &|_, _| ()).unwrap_err().to_string();
+    assert!(error.starts_with("1 measurements cannot determine 2 keys"), "{error}");
+    for (size, words) in [
+        ("alpha=x", "expected a number above 0"),
+        ("film_load_n=1%", "no such number; allowed: alpha"),
+        ("-1%", "above 0"),
+    ] {
+        let error =
+            size.parse::<ErrorSize>().and_then(|size| one.clone().with_errors(&[size])).unwrap_err().to_string();
+        assert!(error.contains(words), "{size}: {error}");
+    }
+    assert!(one.without(&["nobody".to_owned()]).unwrap_err().to_string().contains("no line has this name"));
+}
+
+#[test]
+fn bounds_are_read_and_checked() {
+    let motor = scene("fundamental", &[]);
+    for (vary, words) in [
+        ("film.min_spacing_nm", "expected key=from:to"),
+        ("film.min_spacing_nm=100:200:3", "expected key=from:to"),
+        ("film.min_spacing_nm=3:200", "film.min_spacing_nm = 3 is out of range"),
+        ("film.min_spacing=100:200", "did you mean film.min_spacing_nm?"),
+        ("film.min_spacing_nm=200:200", "is no range"),
+        ("motor.rotor_speed_rpm=0:20:log", "both ends have to be above 0"),
+        ("motor.waves=4:9", "motor.waves: it accepts"),
+        ("plate.length_mm=1:2", "belongs to scene = \"plate\""),
+    ] {
+        let read = vary.parse::<Bounds>().and_then(|bounds| Model::new(&motor, &[bounds], &DRAFT).map(|_| ()));
+        let error = read.unwrap_err().to_string();
+        assert!(error.contains(words), "{vary}: {error}");
+    }
+    let twice = bounds(&["rotor.decay_length_mm=2:6", "rotor.decay_length_mm=2:7"]);
+    assert!(Model::new(&motor, &twice, &DRAFT).unwrap_err().to_string().contains("given twice"));
+    assert!(Model::new(&motor, &[], &DRAFT).unwrap_err().to_string().contains("0 keys given: allowed 1 to 12"));
+}
+
+#[test]
+fn table_one_gives_the_fundamental_values_again() {
+    let measured = Measured::table1(Method::Auto).unwrap().without(&["rotor_width_0.6mm".to_owned()]).unwrap();
+    // Far from the fundamental values.
+    let start = scene("fundamental", &[("film.min_spacing_nm", "300"), ("stator.normal_amplitude_um", "1.0")]);
+    let vary = ["film.min_spacing_nm=50:600", "stator.normal_amplitude_um=0.5:3"];
+    let found = fitted(&start, &vary, &measured, &DRAFT, 1);
+    assert_eq!((found.rows.len(), found.degrees_of_freedom), (13, 11));
+    assert!((found.unknowns[0].value - 200.0).abs() < 20.0, "{:?}", found.unknowns[0]);
+    assert!((found.unknowns[1].value - 1.3).abs() < 0.13, "{:?}", found.unknowns[1]);
+    // Table I agrees with the model to some per cent.
+    assert!((0.005..0.05).contains(&found.error_scale.unwrap()), "{:?}", found.error_scale);
+}
+
+#[test]
+fn the_optimum_is_that_of_a_fine_sweep() {
+    let motor = scene("fundamental", &[]);
+    let goal = Goal::new(&motor, "stall_torque_nm", true, &[]).unwrap();
+    let vary = bounds(&["motor.load_per_wave_n=1:60"]);
+    let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    let sweep: Vary = "motor.load_per_wave_n=1:60:120:log".parse().unwrap();
+    let rows = Sweep::new(&motor, &[sweep], &DRAFT).unwrap().run(&[], &Cancel::new(), &|_| ());
+    let best = rows.iter().filter_map(|row| Some((row.numbers.get(Quantity::StallTorque)?, row.values[0])));
+    let best = best.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    assert!((found.value.value / best.0 - 1.0).abs() < 0.01, "{found:?} {best:?}");
+    let line = &found.lines[0];
+    assert!(line.flat.0 <= line.value && line.value <= line.flat.1 && (line.flat.0..=line.flat.1).contains(&best.1));
+}
+
+#[test]
+fn an_optimum_keeps_its_limits() {
+    let motor = scene("fundamental", &[]);
+    let limit: Limit = "alpha<0.2".parse().unwrap();
+    let goal = Goal::new(&motor, "film_load_n", true, &[limit]).unwrap();
+    let vary = bounds(&["film.min_spacing_nm=100:400"]);
+    let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    assert!((found.limited[0].value - 0.2).abs() < 5e-4, "{found:?}");
+    assert!((found.value.value - 0.2 * 2.45).abs() < 2e-3, "{found:?}");
+    assert!(found.warnings.iter().any(|text| text == "the limit alpha < 0.2 is what stops it"), "{:?}", found.warnings);
+    // Without it the bound is reached, and said to be.
+    let goal = Goal::new(&motor, "film_load_n", true, &[]).unwrap();
+    let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
+    assert_eq!((found.lines[0].at, found.lines[0].value), (Some(Bound::Lower), 100.0));
+    let error = Goal::new(&motor, "torque", true, &[]).unwrap_err().to_string();
+    assert!(error.contains("maximise torque: no such number; allowed: alpha,"), "{error}");
+}
+
+fn run(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
+    command.args(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+#[test]
+fn the_command_writes_what_it_prints_and_a_preset_that_solves() {
+    let folder = tempfile::tempdir().unwrap();
+    let (data, out) = (folder.path().join("loads.csv"), folder.path().join("out"));
+    std::fs::write(&data, plate_loads(&exact_loads(), 5)).unwrap();
+    let [data, out_text] = [&data, &out].map(|path| path.to_str().unwrap());
+    let mut arguments =
+        vec!["fit", "plate-crossover", "--data", data, "--out", out_text, "--json", "--fidelity", "draft"];
+    arguments.extend(PLATE.iter().flat_map(|vary| ["--vary", vary]));
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let object: Json = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(object["unknowns"][0]["key"], "plate.amplitude_um");
+    assert_eq!(object["rows"].as_array().unwrap().len(), 8);
+    assert_eq!(object["correlation"][0][0], 1.0);
+    let written: Json = serde_json::from_str(&std::fs::read_to_string(out.join("fit.json")).unwrap()).unwrap();
+    assert_eq!(written, object);
+    for name in ["fit.csv", "fit.svg", "residuals.svg", "correlation.png"] {
+        assert!(out.join(name).metadata().unwrap().len() > 100, "{name}");
+    }
+    let preset = Scene::load(&out.join("fitted.toml")).unwrap();
+    let value = object["unknowns"][0]["value"].as_f64().unwrap();
+    assert_eq!(preset.get("plate.amplitude_um").unwrap().as_number(), Some(value));
+    let missing = run(&["fit", "fundamental", "--data", "nowhere.csv", "--vary", "film.min_spacing_nm=100:200"]);
+    let said = String::from_utf8_lossy(&missing.stderr).into_owned();
+    assert!(missing.status.code() == Some(2) && said.contains("nowhere.csv: cannot be read"), "{said}");
+}
