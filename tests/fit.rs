@@ -136,11 +136,11 @@ fn errors_that_are_not_given_follow_from_the_residuals() {
 fn a_bound_in_the_way_is_told() {
     let start = scene("plate-crossover", &[]);
     let measured = table(&start, &plate_loads(&exact_loads(), 2));
-    let found = fitted(&start, &["plate.amplitude_um=0.2:0.4", "film.viscosity_upa_s=2:400"], &measured, &DRAFT, 1);
-    let amplitude = &found.unknowns[0];
-    assert_eq!((amplitude.at, amplitude.value, amplitude.error), (Some(Bound::Upper), 0.4, None));
+    let found = fitted(&start, &["film.viscosity_upa_s=25:400", PLATE[0]], &measured, &DRAFT, 1);
+    let viscosity = &found.unknowns[0];
+    assert_eq!((viscosity.at, viscosity.value, viscosity.error), (Some(Bound::Lower), 25.0, None));
     assert!(found.unknowns[1].error.is_some() && found.degrees_of_freedom == 7);
-    assert!(found.warnings.iter().any(|text| text.starts_with("plate.amplitude_um is at its upper bound, 0.4 µm")));
+    assert!(found.warnings.iter().any(|text| text.starts_with("film.viscosity_upa_s is at its lower bound, 25 µPa s")));
     // The errors were given, and the model no longer agrees.
     assert!(found.warnings.iter().any(|text| text.contains("times as large as the errors")), "{:?}", found.warnings);
 }

@@ -63,12 +63,6 @@ fn ctrl(window: &mut Window, key: Key) {
     window.run_steps(3);
 }
 
-/// Shows the fit.
-fn fit(window: &mut Window) {
-    window.key_press_modifiers(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
-    window.run_steps(3);
-}
-
 /// Types into a field, over what is there.
 fn type_into(window: &mut Window, field: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, field).click();
@@ -77,6 +71,11 @@ fn type_into(window: &mut Window, field: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, field).type_text(text);
     window.step();
     window.key_press(Key::Enter);
+    window.run_steps(3);
+}
+
+fn show_fit(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
     window.run_steps(3);
 }
 
@@ -609,8 +608,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Sensitivity", &words);
     explains(faults, &window, "Sensitivity, table", &["Parameter", "Share of the variance"]);
     hovers(faults, &mut window, "Decay length", "rotor.decay_length_mm");
-
-    fit(&mut window);
+    show_fit(&mut window);
     explains(faults, &window, "Fit, before", &[]);
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("loads.csv");
@@ -661,7 +659,7 @@ const LOADS: &str = "stator.frequency_khz,film_load_n\n20,0.550\n40,0.600\n60,0.
 fn a_fit_gives_values_that_are_taken_and_taken_back() {
     let mut window = window("fundamental");
     solved(&mut window);
-    fit(&mut window);
+    show_fit(&mut window);
     assert!(shows(&window, "Which values of some parameters agree best"));
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("loads.csv");

@@ -219,7 +219,7 @@ fn at_bound(at: Option<Bound>) -> &'static str {
 
 /// A fit for people.
 fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
-    let title = format!("{} fitted to {}", show_text(&scene.name), measured.name);
+    let title = format!("{}, fitted to {}", show_text(&scene.name), measured.name);
     let mut text = paragraph(&title, "", "");
     text.push('\n');
     let mut columns = Columns::new();

@@ -7,6 +7,7 @@ use super::model::{Computed, Model};
 use super::starts::spread;
 use super::statistics::Certainty;
 use super::unknown::{Bound, Unknown};
+use crate::analysis::attempt::caught;
 use crate::control::Cancel;
 use crate::digits::{short, significant};
 use crate::fidelity::Fidelity;
@@ -19,7 +20,7 @@ use basin::{
 use std::sync::Mutex;
 
 /// The search ends when a step makes χ² smaller by less than this share …
-const LEAST_GAIN: f64 = 1e-5;
+const LEAST_GAIN: f64 = 1e-4;
 /// … or after so many steps.
 const MOST_STEPS: u64 = 60;
 /// Steps that may fail to make χ² smaller before the search ends.
@@ -309,7 +310,8 @@ fn descend(search: Search<'_>, start: Vec<f64>) -> Result<Option<(f64, Vec<f64>,
         .with_max_inner_attempts(MOST_ATTEMPTS)
         .with_initial_radius(0.5)
         .with_relative_cost_change_tolerance(LEAST_GAIN);
-    match Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run() {
+    // The library refuses what it was not made for with a panic.
+    match caught(|| Executor::from_start(search, solver, start).max_iter(MOST_STEPS).run()).map_err(FitError::Search)? {
         Ok(ended) => {
             // Where differences of solves are all noise no step gains anything: that is a minimum as well.
             let converged = ended.report.termination.code() != TerminationCode::MaxIter;

@@ -6,6 +6,7 @@ use super::measured::{What, named, names};
 use super::model::{Computed, Model};
 use super::starts::spread;
 use super::unknown::{Bound, Bounds, Unknown};
+use crate::analysis::attempt::caught;
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
 use crate::digits::{short, with_error};
@@ -289,7 +290,9 @@ pub fn optimise(
             last: Mutex::new(None),
         };
         let solver = Cobyla::new().with_initial_radius(RADIUS.0).with_final_radius(RADIUS.1);
-        let ended = match Executor::new(search, solver, SelectedState::new(start)).max_cost_evals(MOST_POINTS).run() {
+        let run = || Executor::new(search, solver, SelectedState::new(start)).max_cost_evals(MOST_POINTS).run();
+        // The library refuses what it was not made for with a panic.
+        let ended = match caught(run).map_err(FitError::Search)? {
             Ok(ended) => ended,
             Err(ConstraintSolveError::Evaluation(Stopped)) => return Ok(None),
             Err(error) => return Err(FitError::Search(format!("{error:?}"))),

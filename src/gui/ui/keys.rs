@@ -134,7 +134,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             window(key(CTRL, Key::Num7), "Hold a plate", || Command::Show(Tab::Hold)),
             window(key(CTRL, Key::Num8), "Show the rotor", || Command::Show(Tab::Rotor)),
             window(key(CTRL, Key::Num9), "Show what the results depend on", || Command::Show(Tab::Sensitivity)),
-            window(key(CTRL_SHIFT, Key::F), "Show the fit", || Command::Show(Tab::Fit)),
+            window(key(CTRL_SHIFT, Key::F), "Fit to measurements", || Command::Show(Tab::Fit)),
             always(key(CTRL, Key::L), "Lecture size", || Command::ToggleLecture),
             always(key(CTRL, Key::T), "Light or dark", || Command::ToggleTheme),
             window(key(NONE, Key::F2), "Show or hide the parameters", || Command::ToggleParameters),

@@ -1,7 +1,7 @@
 //! Keys chosen to agree with measurements: the table, what is asked for, and what was found.
 
 use crate::analysis::fit::{Bound, Fitted, FittedUnknown, Measured};
-use crate::digits::{significant, with_error};
+use crate::digits::{signed, significant, with_error};
 use crate::gui::command::FitCommand;
 use crate::gui::derived::words::label;
 use crate::gui::state::fit::{Asked, FitState, chooses};
@@ -280,7 +280,9 @@ fn rows(ui: &mut Ui, measured: &Measured, found: &Fitted, cx: &DrawContext<'_>) 
                     Ok(computed) => ui.label(with_error(computed.value, computed.error)),
                     Err(why) => ui.label(RichText::new(why).color(cx.colours.alarm)),
                 });
-                ui.label(row.residual.map_or_else(|| "left out".to_owned(), |residual| format!("{residual:.2}")));
+                ui.label(
+                    row.residual.map_or_else(|| "left out".to_owned(), |residual| signed(format!("{residual:.2}"))),
+                );
                 ui.end_row();
             }
         });
