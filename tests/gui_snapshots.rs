@@ -391,37 +391,6 @@ fn measurements_look_as_they_did() {
     results.extend_harness(&mut window);
 }
 
-/// A fit with its residuals, in a small window and light too; and measured torques over the curve.
-#[test]
-fn measurements_look_as_they_did() {
-    if !can_draw() {
-        return;
-    }
-    const FIT: (Modifiers, Key) = (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
-    let folder = tempfile::tempdir().unwrap();
-    let (loads, torques) = (folder.path().join("loads.csv"), folder.path().join("torques.csv"));
-    let rows = "row,stator.frequency_khz,film_load_n\nlow,20,0.550\n,40,0.600\n,60,0.615\nhigh,100,0.630\n";
-    std::fs::write(&loads, rows).unwrap();
-    std::fs::write(&torques, "rotor_speed_rpm,torque_nm\n0,0.27\n20,0.255\n40,0.24\n50,0.21\n55,0.12\n").unwrap();
-    let mut results = SnapshotResults::new();
-    for (name, size, keys) in [("fit-dark", USUAL, &[FIT][..]), ("fit-small-light", SMALL, &[FIT, THEME][..])] {
-        let mut window = window("fundamental", size, keys);
-        drop_file(&mut window, &loads);
-        window.get_by_label("Add a key…").click();
-        settle(&mut window);
-        window.get_by_label("Fit the scene").click();
-        window::until(&mut window, "the fit", |app| app.state().fit.found().is_some());
-        settle(&mut window);
-        window.snapshot(name);
-        results.extend_harness(&mut window);
-    }
-    let mut window = window("fundamental", USUAL, &[TORQUE]);
-    drop_file(&mut window, &torques);
-    settle(&mut window);
-    window.snapshot("torque-measured");
-    results.extend_harness(&mut window);
-}
-
 /// A path to type, and what cannot be opened, in a small window with large text.
 fn open_by_path(results: &mut SnapshotResults) {
     let mut window = window("fundamental", SMALL, &[LECTURE, OPEN]);
