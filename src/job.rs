@@ -251,6 +251,7 @@ fn refine(
                 })));
                 continue;
             }
+            Ok(Err(_)) if cancel.is_cancelled() => return false,
             Ok(Err(error)) => error.to_string(),
             Err(panic) => format!("the solver failed at {fidelity}: {panic}"),
         };

@@ -47,6 +47,7 @@
 //! | --- | --- |
 //! | [`numerics`] | five-point systems, graded nodes, Anderson acceleration; no physics |
 //! | [`control`], [`digits`] | cancellation and progress; numbers for people |
+//! | [`budget`] | the memory that all solves of the process share |
 //! | [`atomic`] | files that appear whole or not at all; locks between processes |
 //! | [`gas`] | gases by name: viscosity, mean free path; the standard atmosphere |
 //! | [`problem`] | what is to be solved: checked, in SI units |
@@ -57,7 +58,7 @@
 //! | [`fidelity`], [`plan`], [`estimate`] | how much accuracy; what this scene needs; the error that is left |
 //! | [`recording`], [`solution`] | what a solve returns: plain data |
 //! | [`drive`] | torque, power and efficiency over speed, from where the contact load is |
-//! | [`memory`] | what a solve needs of it, and what all solves may take |
+//! | [`memory`] | what a solve needs of it |
 //! | [`motor`], [`plate`] | the periodic state of either scene |
 //! | [`mod@paper`] | the algorithm of Maeno and Bogy (1992), literally |
 //! | [`mod@solve`] | one call for all of it |
@@ -70,6 +71,7 @@
 
 pub mod analysis;
 pub mod atomic;
+pub mod budget;
 pub mod cli;
 pub mod contact;
 pub mod control;

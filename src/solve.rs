@@ -75,7 +75,11 @@ pub enum SolveError {
 impl SolveError {
     /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]).
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::PaperPlate | Self::Memory(_) | Self::Motor(MotorError::Rotor(_)))
+        match self {
+            Self::PaperPlate | Self::Memory(_) => true,
+            Self::Motor(MotorError::Rotor(rotor)) => !rotor.is_cancelled(),
+            Self::Motor(_) | Self::Plate(_) => false,
+        }
     }
 }
 
@@ -84,25 +88,35 @@ impl SolveError {
 /// # Errors
 /// [`SolveError::PaperPlate`], [`MotorError::Rotor`] or [`SolveError::Memory`].
 pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
-    Ok(memory::check(need(problem, settings)?)?)
+    Ok(memory::check(need(problem, settings, &Cancel::new())?)?)
 }
 
-fn need(problem: &Problem, settings: &Settings) -> Result<memory::Need, SolveError> {
+fn need(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<memory::Need, SolveError> {
     let spec = settings.fidelity.spec();
     Ok(match (&problem.scenario, settings.method) {
-        (Scenario::Motor(motor), Method::Auto) => memory::motor(motor, &motor_plan(motor, problem, settings, &spec)?),
+        (Scenario::Motor(motor), Method::Auto) => {
+            memory::motor(motor, &motor_plan(motor, problem, settings, &spec, cancel)?)
+        }
         (Scenario::Plate(plate), Method::Auto) => memory::plate(plate, &plate_plan(plate, problem, settings, &spec)),
         (Scenario::Motor(motor), Method::Paper) => {
             let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
+            // Resolved before anything is taken, and kept.
+            motor.compliances(n / 2, cancel).map_err(MotorError::from)?;
             memory::paper(motor, (nx, ny, n, steps))
         }
         (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
     })
 }
 
-fn motor_plan(motor: &Motor, problem: &Problem, settings: &Settings, spec: &Spec) -> Result<Plan, MotorError> {
+fn motor_plan(
+    motor: &Motor,
+    problem: &Problem,
+    settings: &Settings,
+    spec: &Spec,
+    cancel: &Cancel,
+) -> Result<Plan, MotorError> {
     let maps = settings.record == Record::Everything;
-    let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, spec, &problem.numerics)? };
+    let plan = Plan { maps, ..Plan::motor_to(motor, settings.fidelity, spec, &problem.numerics, cancel)? };
     Ok(memory::within(plan, |plan| memory::motor(motor, plan)))
 }
 
@@ -140,13 +154,18 @@ pub fn solve_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
-    let taken = memory::take(need(problem, settings)?, cancel)?;
-    let cancel = &cancel.started();
+    let need = need(problem, settings, cancel)?;
     let spec = settings.fidelity.spec();
-    let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
-    let mut solution = match (&problem.scenario, settings.method) {
-        (Scenario::Motor(motor), Method::Auto) => {
-            let plan = motor_plan(motor, problem, settings, &spec)?;
+    let spec = if cancel.started().has_budget() { spec.from_coarse() } else { spec };
+    let planned = match (&problem.scenario, settings.method) {
+        (Scenario::Motor(motor), Method::Auto) => Some(motor_plan(motor, problem, settings, &spec, cancel)?),
+        (Scenario::Plate(plate), Method::Auto) => Some(plate_plan(plate, problem, settings, &spec)),
+        (_, Method::Paper) => None,
+    };
+    let taken = memory::take(need, cancel)?;
+    let cancel = &cancel.started();
+    let mut solution = match (&problem.scenario, planned) {
+        (Scenario::Motor(motor), Some(plan)) => {
             let mut found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let other = touching(&mut found, motor, &plan, observer, cancel);
             let teeth = if plan.every_tooth { motor.teeth } else { 1 };
@@ -162,8 +181,7 @@ pub fn solve_from(
                 recording: found.recording,
             }
         }
-        (Scenario::Plate(plate), Method::Auto) => {
-            let plan = plate_plan(plate, problem, settings, &spec);
+        (Scenario::Plate(plate), Some(plan)) => {
             let found = plate::periodic(plate, &plan, observer, cancel).map_err(SolveError::Plate)?;
             let result = &found.result;
             Solution {
@@ -177,10 +195,10 @@ pub fn solve_from(
                 recording: found.recording,
             }
         }
-        (Scenario::Motor(motor), Method::Paper) => {
+        (Scenario::Motor(motor), None) => {
             paper::solve(motor, &problem.numerics, observer, cancel).map_err(MotorError::from)?
         }
-        (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
+        (Scenario::Plate(_), None) => return Err(SolveError::PaperPlate),
     };
     if let Scenario::Motor(motor) = &problem.scenario {
         solution.warnings.extend(motor.compliance_not_covered());

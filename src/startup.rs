@@ -98,7 +98,7 @@ pub fn startup(
     };
     let cancel = &cancel.started();
     let known = periodic.as_ref().filter(|_| !cancel.has_budget()).map_or(0, |known| known.stats.steps_per_cycle);
-    let mut plan = plan(problem, settings, known, cancel.has_budget())?;
+    let mut plan = plan(problem, settings, known, cancel)?;
     let mut way = Way::new(problem, settings, periodic.as_ref(), each);
     let mut stopped = match way.march(&plan, None, cancel) {
         // A polynomial across may swing below no pressure at all; finite volumes cannot.
@@ -130,13 +130,15 @@ pub fn startup(
 
 /// The grids to begin with: the plan's own, or finer ones up to so many `steps` a cycle, with which the periodic state was as exact as
 /// was asked; coarse ones if there is a budget.
-fn plan(problem: &Problem, settings: &Settings, steps: usize, budget: bool) -> Result<Plan, SolveError> {
+fn plan(problem: &Problem, settings: &Settings, steps: usize, cancel: &Cancel) -> Result<Plan, SolveError> {
     // A transient leaks: there is no limit to take.
     let numerics = Numerics { time: Time::March, ..problem.numerics };
     let (fidelity, spec) = (settings.fidelity, settings.fidelity.spec());
-    let spec = if budget { spec.from_coarse() } else { spec };
+    let spec = if cancel.has_budget() { spec.from_coarse() } else { spec };
     let mut plan = match &problem.scenario {
-        Scenario::Motor(motor) => Plan::motor_to(motor, fidelity, &spec, &numerics).map_err(motor::MotorError::from)?,
+        Scenario::Motor(motor) => {
+            Plan::motor_to(motor, fidelity, &spec, &numerics, cancel).map_err(motor::MotorError::from)?
+        }
         Scenario::Plate(plate) => Plan::plate_to(plate, fidelity, &spec, &numerics),
     };
     let finest = |plan: &Plan| plan.grids.last().map_or(0, |grid| grid.steps);

@@ -703,7 +703,7 @@ fn a_load_that_presses_the_wave_flat_leaves_no_film() {
     let problem = Problem::new(&scene).unwrap();
     let motor = motor_of(&problem);
     let RotorCompliance::Beam { .. } = motor.rotor else { panic!("a beam") };
-    let flat = 1e6 * motor.load * motor.compliances(1).unwrap().harmonic(1) / motor.wavelength();
+    let flat = 1e6 * motor.load * motor.compliances(1, &Cancel::new()).unwrap().harmonic(1) / motor.wavelength();
     // Nine tenths of what can be pressed flat; the grooves carry nothing, so the teeth need a little more.
     let found = alpha(
         Fidelity::Standard,

@@ -10,7 +10,9 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::memory;
 use squeezefilm::paper;
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{Numerics, Problem, Scenario, Time};
+use squeezefilm::problem::{Numerics, Problem, RotorCompliance, Scenario, Time};
+use squeezefilm::rotor;
+use squeezefilm::rotor::ring::{Band, MATERIALS, Part, Section};
 use squeezefilm::scene::presets;
 use squeezefilm::solve::{Method, Record, Settings, SolveError, check, solve};
 use squeezefilm::startup::{self, startup};
@@ -32,6 +34,45 @@ fn compare(what: &str, run: impl FnOnce() -> u64) -> f64 {
     let ratio = bytes as f64 / most as f64;
     println!("{what}: estimated {:.2} MB, allocated {:.2} MB, ratio {ratio:.2}", bytes as f64 / 1e6, most as f64 / 1e6);
     ratio
+}
+
+/// Rings: the preset's, one rectangle, and one whose mesh is as large as it may be.
+fn rings() -> Vec<(&'static str, Section, Band)> {
+    let part = |name: &str, [inner, outer, bottom, top]: [f64; 4]| {
+        let [inner_radius, outer_radius, bottom, top] = [inner, outer, bottom, top].map(|mm| 1e-3 * mm);
+        Part { name: name.to_owned(), inner_radius, outer_radius, bottom, top, material: MATERIALS[0] }
+    };
+    let Scenario::Motor(motor) = problem("ring-rotor", &[]).scenario else { unreachable!("the preset is a motor") };
+    let RotorCompliance::Ring(preset) = &motor.rotor else { unreachable!("its rotor is a ring") };
+    let band = motor.wave().band;
+    let block = Section::new(vec![part("block", [20.0, 32.0, 0.0, 8.0])], Vec::new()).unwrap();
+    let rib = |i: usize| part(&format!("rib {i}"), [20.0 + i as f64, 20.4 + i as f64, -0.1 * i as f64, 1.0]);
+    let ribs = [part("plate", [20.0, 32.0, 1.0, 2.0])].into_iter().chain((0..10).map(rib)).collect();
+    let ribs = Section::new(ribs, Vec::new()).unwrap();
+    let lowest = Band { radius: 29.2e-3, width: 0.3e-3 };
+    vec![("ring-rotor", preset.clone(), band), ("block", block, band), ("ribs", ribs, lowest)]
+}
+
+#[test]
+fn a_ring_takes_what_is_estimated() {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    for (name, section, band) in rings() {
+        let need = [rotor::need(&section, band).unwrap(), rotor::need_of_frequencies(&section).unwrap()];
+        let compliances = || {
+            section.compliances(band, 7, 200, &Cancel::new()).unwrap();
+            need[0].bytes
+        };
+        let frequencies = || {
+            section.natural_frequencies(&[7, 14, 21], 1, &Cancel::new()).unwrap();
+            need[1].bytes
+        };
+        println!("{:?}", need.map(|need| need.what));
+        // On one thread: the orders are computed one after the other, on more beside each other.
+        let ratio = one.install(|| compare(&format!("{name}, compliances"), compliances));
+        assert!(ALLOWED.contains(&ratio), "{name}: {ratio}");
+        let ratio = one.install(|| compare(&format!("{name}, frequencies"), frequencies));
+        assert!(ALLOWED.contains(&ratio), "{name}: {ratio}");
+    }
 }
 
 /// What a solve that ended with so many steps a cycle on its finest grid was estimated to need.

@@ -335,7 +335,7 @@ fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_kn
     let rotor = decisions.iter().find(|decision| matches!(decision.chosen, Choice::Rotor { .. })).unwrap();
     assert!(rotor.effect > 0.0 && rotor.effect < 5e-3, "{rotor:?}");
     let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
-    let found = motor.compliances(200).unwrap();
+    let found = motor.compliances(200, &Cancel::new()).unwrap();
     let first = std::f64::consts::TAU / motor.wavelength();
     let rows = (1..=200).map(|n| (first * n as f64, found.harmonic(n))).collect();
     let table = Problem {

@@ -674,7 +674,8 @@ fn an_error_of_the_rotor_changes_alpha_by_no_more_than_is_stated() {
         let Scenario::Motor(motor) = Problem::new(&presets::find(preset).unwrap()).unwrap().scenario else {
             panic!("a motor")
         };
-        let (rotor, first) = (motor.compliances(64).unwrap(), std::f64::consts::TAU / motor.wavelength());
+        let (rotor, first) =
+            (motor.compliances(64, &Cancel::new()).unwrap(), std::f64::consts::TAU / motor.wavelength());
         let alpha = |change: &dyn Fn(usize) -> f64| {
             let rows = (1..=64).map(|n| (first * n as f64, change(n) * rotor.harmonic(n))).collect();
             let motor = Motor { rotor: RotorCompliance::Table(rows), ..motor.clone() };

@@ -1,10 +1,11 @@
 //! A rotor by itself: its compliance beside those of other models, its Green's function, and of a ring how the load bends it.
 
+use crate::budget;
 use crate::control::Cancel;
 use crate::problem::{Motor, Problem, RotorCompliance, Scenario};
 use crate::recording::LineLoads;
 use crate::rotor::ring::{Deflection, Mesh, Section};
-use crate::rotor::{Compliances, RotorError};
+use crate::rotor::{self, Compliances, RotorError};
 use crate::scene::Scene;
 use std::f64::consts::TAU;
 
@@ -55,7 +56,14 @@ impl RotorCurves {
     /// # Errors
     /// [`RotorError`] if it has no compliance.
     pub fn of(motor: &Motor, cancel: &Cancel) -> Result<Option<Self>, RotorError> {
-        let present = motor.compliances(HARMONICS)?;
+        match Self::computed(motor, cancel) {
+            Err(error) if error.is_cancelled() => Ok(None),
+            computed => computed,
+        }
+    }
+
+    fn computed(motor: &Motor, cancel: &Cancel) -> Result<Option<Self>, RotorError> {
+        let present = motor.compliances(HARMONICS, cancel)?;
         let mut curves = vec![curve("present rotor", &present)];
         for (name, model) in [("beam fitted to Table I", "beam"), ("ring of the preset", "ring")] {
             if cancel.is_cancelled() {
@@ -63,12 +71,13 @@ impl RotorCurves {
             }
             // One that the stator does not touch, since the wave is elsewhere, is left out.
             let other = reference(model).filter(|other| *other != motor.rotor);
-            let other = other.and_then(|rotor| rotor.resolve(&motor.wave(), HARMONICS).ok());
+            let other = other.and_then(|rotor| rotor.resolve(&motor.wave(), HARMONICS, cancel).ok());
             curves.extend(other.map(|found| curve(name, &found)));
         }
         let bent = match &motor.rotor {
             RotorCompliance::Ring(section) => {
                 let band = motor.wave().band;
+                let _taken = budget::take(rotor::need(section, band)?, cancel)?;
                 let mesh = section.mesh(band)?;
                 let mut harmonics = Vec::new();
                 for n in 1..=BENDING {
@@ -81,7 +90,7 @@ impl RotorCurves {
             }
             _ => None,
         };
-        let resonances = motor.resonances()?.map(Vec::from);
+        let resonances = motor.resonances(cancel)?.map(Vec::from);
         Ok(Some(Self { curves, relative_error: present.relative_error(), resonances, bent }))
     }
 }

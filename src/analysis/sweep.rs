@@ -256,6 +256,8 @@ impl Sweep {
                     row.numbers = Numbers::of(problem, &solution);
                     row.outside = validity::names(&validity::outside(problem, Some(&solution)));
                 }
+                // A point that was cut short is no failure.
+                Err(_) if cancel.is_cancelled() => break,
                 Err(reason) => row.status = RunStatus::Failed(reason),
             }
             finished(&row);

@@ -105,7 +105,7 @@ pub fn solve(
     cancel: &Cancel,
 ) -> Result<Solution, RotorError> {
     let Mesh { nx, ny, n, steps } = Mesh::of(numerics);
-    let rotor = motor.compliances(n / 2)?;
+    let rotor = motor.compliances(n / 2, cancel)?;
 
     let mut warnings = Vec::new();
     let knudsen = match motor.gas.slip {

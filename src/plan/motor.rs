@@ -3,6 +3,7 @@
 use super::grid::{Grid, graded, nested, round_up, spectral_clustering};
 use super::reduction::{flow, time, wedge};
 use super::{Choice, Decision, Plan, ROUND_LIMIT, THINNEST_LAYER, custom, name};
+use crate::control::Cancel;
 use crate::dimensionless::Dimensionless;
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::numerics::grading::middle_clustering;
@@ -27,18 +28,24 @@ impl Plan {
     /// # Errors
     /// [`RotorError`] if the rotor has no compliance.
     pub fn motor(motor: &Motor, fidelity: Fidelity, numerics: &Numerics) -> Result<Self, RotorError> {
-        Self::motor_to(motor, fidelity, &fidelity.spec(), numerics)
+        Self::motor_to(motor, fidelity, &fidelity.spec(), numerics, &Cancel::new())
     }
 
     /// The plan of a motor to a specification.
     ///
     /// # Errors
-    /// As [`Plan::motor`].
-    pub fn motor_to(motor: &Motor, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Result<Self, RotorError> {
+    /// As [`Plan::motor`], or if it is cancelled.
+    pub fn motor_to(
+        motor: &Motor,
+        fidelity: Fidelity,
+        spec: &Spec,
+        numerics: &Numerics,
+        cancel: &Cancel,
+    ) -> Result<Self, RotorError> {
         let numbers = Dimensionless::of_motor(motor);
         let layer = numbers.boundary_layer;
         let in_layer = (motor.wavelength() / (TAU * layer)) as usize;
-        let rotor = motor.compliances(in_layer.clamp(spec.most_harmonics, MOST_HARMONICS))?;
+        let rotor = motor.compliances(in_layer.clamp(spec.most_harmonics, MOST_HARMONICS), cancel)?;
         let per_wave = (spec.per_wave as f64 * motor.tooth_width / motor.wavelength()).ceil() as usize;
         let edge = spec.edge_fraction * layer;
         let base = spec.along.max(per_wave);
@@ -72,7 +79,7 @@ impl Plan {
         let grid = Decision { overruled: custom(numerics), ..Decision::exact(grid) };
         let decisions: Vec<Decision> = [time, flow, wedge, teeth(numerics, motor), width(numerics), grid]
             .into_iter()
-            .chain(rotor_error(motor, &rotor, spec)?)
+            .chain(rotor_error(motor, &rotor, spec, cancel)?)
             .collect();
         // What the trapped limit leaves out, it leaves out once.
         let moving =
@@ -116,13 +123,18 @@ fn crown_length(motor: &Motor) -> f64 {
 }
 
 /// Of a rotor that is known to a stated error only.
-fn rotor_error(motor: &Motor, rotor: &Compliances, spec: &Spec) -> Result<Option<Decision>, RotorError> {
+fn rotor_error(
+    motor: &Motor,
+    rotor: &Compliances,
+    spec: &Spec,
+    cancel: &Cancel,
+) -> Result<Option<Decision>, RotorError> {
     let error = rotor.relative_error();
     if error == 0.0 {
         return Ok(None);
     }
     let ring = matches!(motor.rotor, RotorCompliance::Ring(_));
-    let resonances = if spec.target_error < Fidelity::Draft.accuracy() { motor.resonances()? } else { None };
+    let resonances = if spec.target_error < Fidelity::Draft.accuracy() { motor.resonances(cancel)? } else { None };
     let chosen = Choice::Rotor { error, ring, resonances };
     Ok(Some(Decision { effect: ROTOR_EFFECT * error, ..Decision::exact(chosen) }))
 }

@@ -1,6 +1,7 @@
 //! What solvers know of a rotor, whatever its model.
 
 use super::ring::{Band, RingError};
+use crate::budget::Excess;
 use std::sync::Arc;
 
 /// Harmonics in which a rotor is smooth: beyond, its deflection is local, and hardly matters to the film.
@@ -11,6 +12,9 @@ pub enum RotorError {
     /// A ring that cannot be computed.
     #[error("rotor.model = \"ring\": {0}")]
     Ring(#[from] RingError),
+    /// A ring that needs more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] Excess),
     /// A table that is no Green's function.
     #[error(
         "rotor.green: harmonic {harmonic} of the wave has the compliance {compliance:.1e} m²/N, known to {error:.1e}: allowed is a deflection \
@@ -24,6 +28,13 @@ pub enum RotorError {
         /// The estimated error of that.
         error: f64,
     },
+}
+
+impl RotorError {
+    /// Whether it was only cancelled.
+    pub fn is_cancelled(&self) -> bool {
+        matches!(self, Self::Ring(RingError::Cancelled))
+    }
 }
 
 /// The wave that loads the rotor, and where.

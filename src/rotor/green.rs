@@ -84,6 +84,7 @@ fn transform(rows: &[(f64, f64)], k: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::Cancel;
     use crate::problem::RotorCompliance;
     use crate::rotor::ring::Band;
 
@@ -103,7 +104,7 @@ mod tests {
     fn the_beam_comes_back_within_the_stated_error() {
         let decay = 1.5e-3;
         let rotor = RotorCompliance::Beam { decay_length: decay, point_compliance: 0.64e-6, local_compliance: 0.0 };
-        let exact = rotor.resolve(&WAVE, 30).unwrap();
+        let exact = rotor.resolve(&WAVE, 30, &Cancel::new()).unwrap();
         // One force alone, until the deflection has died out or not quite, and one in every wavelength.
         let images = |x: f64| (-3..=3).map(|i| beam((x + f64::from(i) * WAVE.length).abs(), decay)).sum::<f64>();
         for (end, most, table) in [

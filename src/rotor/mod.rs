@@ -11,10 +11,11 @@ mod compliances;
 mod green;
 pub mod ring;
 
+use crate::budget::{self, Need, What};
+use crate::control::Cancel;
 use crate::problem::{Motor, RotorCompliance};
 use compliances::smooth_share;
 pub use compliances::{Compliances, RotorError, Wave};
-use rayon::prelude::*;
 use ring::{Band, Section};
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
@@ -32,8 +33,8 @@ impl RotorCompliance {
     /// Compliances of the first `count` harmonics of `wave`.
     ///
     /// # Errors
-    /// [`RotorError`] of a ring that the wave does not touch, or that nothing holds.
-    pub fn resolve(&self, wave: &Wave, count: usize) -> Result<Compliances, RotorError> {
+    /// [`RotorError`] of a ring that the wave does not touch, or that nothing holds, or if it is cancelled.
+    pub fn resolve(&self, wave: &Wave, count: usize, cancel: &Cancel) -> Result<Compliances, RotorError> {
         let waves = |at: &dyn Fn(f64) -> f64| Compliances {
             wavelength: wave.length,
             harmonics: (1..=count).map(|n| at(std::f64::consts::TAU * n as f64 / wave.length)).collect(),
@@ -50,7 +51,7 @@ impl RotorCompliance {
             }
             Self::Table(rows) => waves(&|k| interpolate_log(rows, k)),
             Self::Green(rows) => green::resolve(rows, wave, count)?,
-            Self::Ring(section) => of_ring(section, wave)?,
+            Self::Ring(section) => of_ring(section, wave, cancel)?,
         })
     }
 }
@@ -66,21 +67,21 @@ impl Motor {
     ///
     /// # Errors
     /// See [`RotorCompliance::resolve`].
-    pub fn compliances(&self, count: usize) -> Result<Compliances, RotorError> {
-        self.rotor.resolve(&self.wave(), count)
+    pub fn compliances(&self, count: usize, cancel: &Cancel) -> Result<Compliances, RotorError> {
+        self.rotor.resolve(&self.wave(), count, cancel)
     }
 
     /// Lowest natural frequency of the shape of each of the first harmonics of the wave \[Hz\]; `None` of a rotor whose mass is not known.
     ///
     /// # Errors
     /// [`RotorError`] of a ring that cannot be computed.
-    pub fn resonances(&self) -> Result<Option<[f64; RESONANCES]>, RotorError> {
+    pub fn resonances(&self, cancel: &Cancel) -> Result<Option<[f64; RESONANCES]>, RotorError> {
         let RotorCompliance::Ring(section) = &self.rotor else { return Ok(None) };
         let found = RESONATING.or((section.clone(), self.waves), |_| {
+            let _taken = budget::take(need_of_frequencies(section)?, cancel)?;
             let orders: Vec<u32> = (1..).take(RESONANCES).map(|n: u32| n * self.waves).collect();
-            let lowest = orders.into_par_iter().map(|order| section.natural_frequencies(order, 1));
             let mut resonances = [f64::INFINITY; RESONANCES];
-            for (resonance, found) in resonances.iter_mut().zip(lowest.collect::<Result<Vec<_>, _>>()?) {
+            for (resonance, found) in resonances.iter_mut().zip(section.natural_frequencies(&orders, 1, cancel)?) {
                 *resonance = found.first().map_or(f64::INFINITY, |frequency| frequency.value);
             }
             Ok::<_, RotorError>(resonances)
@@ -111,13 +112,37 @@ impl<K: PartialEq, V: Clone> Kept<K, V> {
     }
 }
 
+/// Bytes for each element of the finer mesh of a ring: of its compliances, and of its natural frequencies, order by order
+/// (`tests/memory_needs.rs`).
+const OF_COMPLIANCES: u64 = 30_000;
+const OF_FREQUENCIES: u64 = 20_000;
+
+/// What a ring needs of memory while its compliances under a contact band are computed.
+///
+/// # Errors
+/// [`RotorError`] of a ring that has no mesh.
+pub fn need(section: &Section, band: Band) -> Result<Need, RotorError> {
+    let elements = section.elements(Some(band))?;
+    Ok(Need { what: What::Ring { elements }, bytes: elements as u64 * OF_COMPLIANCES })
+}
+
+/// What it needs while its natural frequencies are.
+///
+/// # Errors
+/// As [`need`].
+pub fn need_of_frequencies(section: &Section) -> Result<Need, RotorError> {
+    let elements = section.elements(None)?;
+    Ok(Need { what: What::Ring { elements }, bytes: elements as u64 * OF_FREQUENCIES * RESONANCES as u64 })
+}
+
 static RINGS: Kept<(Section, Wave), Compliances> = Kept::new();
 static RESONATING: Kept<(Section, u32), [f64; RESONANCES]> = Kept::new();
 
-fn of_ring(section: &Section, wave: &Wave) -> Result<Compliances, RotorError> {
+fn of_ring(section: &Section, wave: &Wave, cancel: &Cancel) -> Result<Compliances, RotorError> {
     RINGS.or((section.clone(), *wave), |_| {
+        let _taken = budget::take(need(section, wave.band)?, cancel)?;
         let ring::RingCompliances { harmonics: found, resolved, .. } =
-            section.compliances(wave.band, wave.waves, MOST_HARMONICS)?;
+            section.compliances(wave.band, wave.waves, MOST_HARMONICS, cancel)?;
         let harmonics: Vec<f64> = found.iter().map(|harmonic| harmonic.value).collect();
         let off = found[..resolved].iter().map(|harmonic| harmonic.error).sum();
         Ok(Compliances {
@@ -185,7 +210,7 @@ mod tests {
         let (decay_length, point_compliance) = (4.0e-3, 0.64e-6);
         let rotor = RotorCompliance::Beam { decay_length, point_compliance, local_compliance: 0.0 };
         let dk = 1.0;
-        let found = rotor.resolve(&wave(std::f64::consts::TAU / dk), 2_000_000).unwrap();
+        let found = rotor.resolve(&wave(std::f64::consts::TAU / dk), 2_000_000, &Cancel::new()).unwrap();
         // The trapezoidal rule, with C(0) = 2 ℓ C_p.
         let sum: f64 = (1..=2_000_000).map(|n| found.harmonic(n) * dk).sum();
         let point = (sum + decay_length * point_compliance * dk) / std::f64::consts::PI;
@@ -212,7 +237,7 @@ mod tests {
     #[test]
     fn table_passes_through_its_rows_and_is_constant_beyond() {
         let rotor = RotorCompliance::Table(vec![(10.0, 4e-9), (1000.0, 1e-9)]);
-        let at = |k: f64| rotor.resolve(&wave(std::f64::consts::TAU / k), 1).unwrap().harmonic(1);
+        let at = |k: f64| rotor.resolve(&wave(std::f64::consts::TAU / k), 1, &Cancel::new()).unwrap().harmonic(1);
         assert_eq!(at(1.0), 4e-9);
         assert!((at(10.0) - 4e-9).abs() < 1e-22);
         assert!((at(100.0) - 2e-9).abs() < 1e-22);

@@ -7,9 +7,13 @@
 //! greater.
 
 use super::section::{Band, Part, RingError, Section, common, mm, same};
+use std::collections::HashMap;
 
 /// Nodes of an element.
 pub const NODES: usize = 9;
+/// The three quadratic shape functions at 0, ¼, ½, ¾ and 1 of an element.
+const QUARTERS: [[f64; 3]; 5] =
+    [[1.0, 0.0, 0.0], [0.375, 0.75, -0.125], [0.0, 1.0, 0.0], [-0.125, 0.75, 0.375], [0.0, 0.0, 1.0]];
 
 /// A mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +24,8 @@ pub struct Mesh {
     pub elements: Vec<Element>,
     /// For each node, whether a support holds it along r, θ and z.
     pub held: Vec<[bool; 3]>,
+    /// For each node, which column and row of the grid it is in: those of elements' corners are even.
+    places: Vec<[usize; 2]>,
 }
 
 /// One element.
@@ -29,6 +35,60 @@ pub struct Element {
     pub nodes: [usize; NODES],
     /// Which part of the section it belongs to.
     pub part: usize,
+}
+
+/// What the nodes of a mesh with halved elements have to do with those of the mesh that was halved.
+pub(super) struct Halved {
+    /// Nodes of the mesh that was halved.
+    count: usize,
+    /// For each node of the other: the nodes of the element in which it is, and their shape functions there.
+    parents: Vec<([usize; NODES], [f64; NODES])>,
+}
+
+impl Halved {
+    /// From `mesh` to `finer`, which is `mesh` with every element halved both ways.
+    pub(super) fn new(mesh: &Mesh, finer: &Mesh) -> Self {
+        let at: HashMap<[usize; 2], &Element> =
+            mesh.elements.iter().map(|element| (mesh.places[element.nodes[0]], element)).collect();
+        let mut parents = vec![([0; NODES], [0.0; NODES]); finer.nodes.len()];
+        for element in &finer.elements {
+            let [column, row] = finer.places[element.nodes[0]];
+            if let Some(parent) = at.get(&[column / 4 * 2, row / 4 * 2]) {
+                for (k, node) in element.nodes.into_iter().enumerate() {
+                    let (along, up) = (QUARTERS[column % 4 + k % 3], QUARTERS[row % 4 + k / 3]);
+                    parents[node] = (parent.nodes, std::array::from_fn(|i| along[i % 3] * up[i / 3]));
+                }
+            }
+        }
+        Self { count: mesh.nodes.len(), parents }
+    }
+
+    /// Displacements of the mesh that was halved.
+    pub(super) fn size(&self) -> usize {
+        3 * self.count
+    }
+
+    /// The same displacements on the finer mesh.
+    pub(super) fn finer(&self, moved: &[f64]) -> Vec<f64> {
+        let (moved, _) = moved.as_chunks::<3>();
+        let at = |(nodes, shares): &([usize; NODES], [f64; NODES])| {
+            let of = nodes.iter().zip(shares);
+            of.fold([0.0; 3], |sum, (node, share)| std::array::from_fn(|d| sum[d] + share * moved[*node][d]))
+        };
+        self.parents.iter().flat_map(at).collect()
+    }
+
+    /// Forces on the nodes of the finer mesh as those on the other that do the same work.
+    pub(super) fn coarser(&self, forces: &[f64]) -> Vec<f64> {
+        let (forces, _) = forces.as_chunks::<3>();
+        let mut out = vec![[0.0; 3]; self.count];
+        for ((nodes, shares), force) in self.parents.iter().zip(forces) {
+            for (node, share) in nodes.iter().zip(shares) {
+                (0..3).for_each(|d| out[*node][d] += share * force[d]);
+            }
+        }
+        out.into_flattened()
+    }
 }
 
 /// Elements of the mesh that is to be halved once more.
@@ -49,6 +109,14 @@ impl Section {
     /// [`RingError`] if the band is not within the lowest face or the mesh would be too large.
     pub fn mesh(&self, band: Band) -> Result<Mesh, RingError> {
         self.meshes(Some(band)).map(|[_, fine]| fine)
+    }
+
+    /// How many elements the finer mesh has, with a contact band or without.
+    ///
+    /// # Errors
+    /// As [`Self::mesh`].
+    pub fn elements(&self, band: Option<Band>) -> Result<usize, RingError> {
+        Ok(4 * Mesh::new(self, band, COARSE, 1)?.elements.len())
     }
 
     /// A mesh and that with every element halved both ways.
@@ -256,14 +324,15 @@ impl Grid {
         let mut number = vec![usize::MAX; columns * (2 * up.len() + 1)];
         elements.iter().flat_map(|element| element.nodes).for_each(|place| number[place] = 0);
         let middle = |edges: &[f64], i: usize| 0.5 * (edges[i / 2] + edges[i.div_ceil(2)]);
-        let mut nodes = Vec::new();
+        let (mut nodes, mut places) = (Vec::new(), Vec::new());
         for (place, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == 0) {
             *number = nodes.len();
+            places.push([place % columns, place / columns]);
             nodes.push([middle(&radii, place % columns), middle(&heights, place / columns)]);
         }
         elements.iter_mut().for_each(|element| element.nodes = element.nodes.map(|place| number[place]));
         let held = nodes.iter().map(|node| section.held(*node)).collect();
-        Mesh { nodes, elements, held }
+        Mesh { nodes, elements, held, places }
     }
 }
 

@@ -7,98 +7,135 @@
 
 use super::compliance::Stated;
 use super::element::DIRECTIONS;
-use super::mesh::Mesh;
+use super::mesh::{Halved, Mesh};
 use super::section::{RingError, Section};
-use super::solve::{System, free_motions};
+use super::solve::{System, cancelled, free_motions};
+use crate::control::Cancel;
 use crate::numerics::dot;
 use nalgebra::{DMatrix, SymmetricEigen};
+use rayon::prelude::*;
 
-/// Vectors that are iterated beside those asked for.
+/// Vectors that are iterated beside those asked for: on the coarser mesh, and on the finer one, which starts from its modes.
 const BESIDE: usize = 8;
+const BESIDE_FINER: usize = 2;
 /// The most iterations.
 const MOST: usize = 60;
 /// Relative change of a squared frequency at which it counts as found.
-const SETTLED: f64 = 1e-9;
+const SETTLED: f64 = 1e-8;
 
 impl Section {
-    /// The lowest `count` natural frequencies \[Hz\] of order `order`, ascending; rigid motions that nothing holds
+    /// The lowest `count` natural frequencies \[Hz\] of each of the `orders`, ascending; rigid motions that nothing holds
     /// are left out. Order 0 has those with torsion alone and those without.
     ///
     /// # Errors
-    /// [`RingError`] if the mesh would be too large.
-    pub fn natural_frequencies(&self, order: u32, count: usize) -> Result<Vec<Stated>, RingError> {
+    /// [`RingError`] if the mesh would be too large, or if it is cancelled.
+    pub fn natural_frequencies(
+        &self,
+        orders: &[u32],
+        count: usize,
+        cancel: &Cancel,
+    ) -> Result<Vec<Vec<Stated>>, RingError> {
         let meshes = self.meshes(None)?;
         let [coarse, fine] = &meshes;
-        let (coarse, fine) = rayon::join(|| lowest(self, coarse, order, count), || lowest(self, fine, order, count));
-        Ok(coarse?.iter().zip(&fine?).map(|(coarse, fine)| Stated::extrapolated(*coarse, *fine)).collect())
+        let equations = |mesh: &Mesh| cancelled(cancel).and_then(|()| System::new(self, mesh));
+        let (first, second) = rayon::join(|| equations(coarse), || equations(fine));
+        let (first, second) = (first?, second?);
+        let halved = Halved::new(coarse, fine);
+        let of_order = |order: &u32| {
+            let rigid = free_motions(coarse, *order).len();
+            let held: Vec<bool> = coarse.held.iter().flatten().copied().collect();
+            let free = held.iter().filter(|held| !**held).count();
+            let wanted = (count + rigid).min(free);
+            let of =
+                |j: usize| held.iter().enumerate().map(|(i, held)| if *held { 0.0 } else { start(i, j) }).collect();
+            let vectors: Vec<Vec<f64>> = (0..(wanted + BESIDE).min(free)).map(of).collect();
+            let shift = self.shift();
+            let from = Iteration { system: &first, order: *order, shift, wanted, cancel };
+            let (coarse, mut modes) = from.lowest(vectors)?;
+            modes.truncate(wanted + BESIDE_FINER);
+            let finer = modes.iter().map(|mode| second.inertia(&halved.finer(mode))).collect();
+            let (fine, _) = Iteration { system: &second, ..from }.lowest(finer)?;
+            let hertz = |square: &f64| (square - shift).max(0.0).sqrt() / std::f64::consts::TAU;
+            let both = coarse.iter().zip(&fine).take(wanted).skip(rigid);
+            Ok(both.map(|(coarse, fine)| Stated::extrapolated(hertz(coarse), hertz(fine))).collect())
+        };
+        orders.par_iter().map(of_order).collect()
+    }
+
+    /// What is added to squared frequencies \[1/s²\]: far below that of a wave as long as the ring is round, far above rounding.
+    fn shift(&self) -> f64 {
+        let squares = self.parts().iter().map(|part| part.material.youngs_modulus / part.material.density);
+        let outer = self.parts().iter().map(|part| part.outer_radius).fold(0.0, f64::max);
+        1e-2 * squares.fold(f64::INFINITY, f64::min) / (outer * outer)
     }
 }
 
-/// The lowest frequencies \[Hz\] on one mesh.
-fn lowest(section: &Section, mesh: &Mesh, order: u32, count: usize) -> Result<Vec<f64>, RingError> {
-    let system = System::new(section, mesh)?;
-    let fault = RingError::Singular { order };
-    // Far below the frequency of a wave as long as the ring is round, far above rounding.
-    let slowest = section
-        .parts()
-        .iter()
-        .map(|part| part.material.youngs_modulus / part.material.density)
-        .fold(f64::INFINITY, f64::min);
-    let outer = section.parts().iter().map(|part| part.outer_radius).fold(0.0, f64::max);
-    let shift = 1e-2 * slowest / (outer * outer);
-    let factor = system.factor(f64::from(order), shift)?;
-    let rigid = free_motions(mesh, order).len();
-    let (wanted, size) = (count + rigid, system.size);
-    let held: Vec<bool> = mesh.held.iter().flatten().copied().collect();
-    let vectors = (wanted + BESIDE).min(held.iter().filter(|held| !**held).count());
-    if vectors == 0 {
-        return Ok(Vec::new());
-    }
-    let of = |j: usize| held.iter().enumerate().map(|(i, held)| if *held { 0.0 } else { start(i, j) }).collect();
-    let mut pushed: Vec<Vec<f64>> = (0..vectors).map(of).collect();
-    let mut found = vec![f64::INFINITY; vectors];
-    for _ in 0..MOST {
-        let mut moved = pushed.concat();
-        factor.solve(&mut moved, vectors)?;
-        let mut moved: Vec<Vec<f64>> = moved.chunks(size).map(<[f64]>::to_vec).collect();
-        let mut inertia: Vec<Vec<f64>> =
-            moved.iter().map(|moved| system.products(moved)).map(|[.., inertia]| inertia).collect();
-        // Each at right angles to those before it in the sense of the mass; twice, because they are nearly parallel.
-        for j in (0..vectors).flat_map(|j| [j, j]) {
-            for i in 0..j {
-                let share = -dot(&moved[j], &inertia[i]);
+/// The iteration on one mesh.
+#[derive(Clone, Copy)]
+struct Iteration<'a> {
+    system: &'a System,
+    order: u32,
+    shift: f64,
+    wanted: usize,
+    cancel: &'a Cancel,
+}
+
+impl Iteration<'_> {
+    /// Squared frequencies plus the shift, ascending, and their modes, from `pushed`, which are vectors times the mass.
+    fn lowest(&self, mut pushed: Vec<Vec<f64>>) -> Result<(Vec<f64>, Vec<Vec<f64>>), RingError> {
+        let Self { system, order, shift, wanted, cancel } = *self;
+        let (vectors, size) = (pushed.len(), system.size);
+        if vectors == 0 {
+            return Ok((Vec::new(), Vec::new()));
+        }
+        cancelled(cancel)?;
+        let factor = system.factor(f64::from(order), shift)?;
+        let (mut found, mut modes) = (vec![f64::INFINITY; vectors], Vec::new());
+        for _ in 0..MOST {
+            cancelled(cancel)?;
+            let mut moved = pushed.concat();
+            factor.solve(&mut moved, vectors)?;
+            let mut moved: Vec<Vec<f64>> = moved.chunks(size).map(<[f64]>::to_vec).collect();
+            let mut inertia: Vec<Vec<f64>> = moved.iter().map(|moved| system.inertia(moved)).collect();
+            // Each at right angles to those before it in the sense of the mass; twice, because they are nearly parallel.
+            for j in (0..vectors).flat_map(|j| [j, j]) {
+                for i in 0..j {
+                    let share = -dot(&moved[j], &inertia[i]);
+                    for all in [&mut moved, &mut inertia, &mut pushed] {
+                        add(all, j, share, i);
+                    }
+                }
+                let norm = dot(&moved[j], &inertia[j]).sqrt();
                 for all in [&mut moved, &mut inertia, &mut pushed] {
-                    add(all, j, share, i);
+                    all[j].iter_mut().for_each(|x| *x /= norm);
                 }
             }
-            let norm = dot(&moved[j], &inertia[j]).sqrt();
-            for all in [&mut moved, &mut inertia, &mut pushed] {
-                all[j].iter_mut().for_each(|x| *x /= norm);
+            let stiffness = DMatrix::from_fn(vectors, vectors, |i, j| {
+                0.5 * (dot(&moved[i], &pushed[j]) + dot(&moved[j], &pushed[i]))
+            });
+            let eigen = SymmetricEigen::try_new(stiffness, f64::EPSILON, 1000).ok_or(RingError::Singular { order })?;
+            let mut ascending: Vec<usize> = (0..vectors).collect();
+            ascending.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+            let squares: Vec<f64> = ascending.iter().map(|k| eigen.eigenvalues[*k]).collect();
+            let mixed = |of: &[Vec<f64>], k: usize| {
+                let mut mixed = vec![0.0; size];
+                for (j, vector) in of.iter().enumerate() {
+                    let share = eigen.eigenvectors[(j, k)];
+                    mixed.iter_mut().zip(vector).for_each(|(x, y)| *x += share * y);
+                }
+                mixed
+            };
+            let settled =
+                squares.iter().zip(&found).take(wanted).all(|(now, before)| (now / before - 1.0).abs() < SETTLED);
+            found = squares;
+            modes = ascending.iter().map(|k| mixed(&moved, *k)).collect();
+            if settled {
+                break;
             }
+            pushed = ascending.iter().map(|k| mixed(&inertia, *k)).collect();
         }
-        let stiffness =
-            DMatrix::from_fn(vectors, vectors, |i, j| 0.5 * (dot(&moved[i], &pushed[j]) + dot(&moved[j], &pushed[i])));
-        let eigen = SymmetricEigen::try_new(stiffness, f64::EPSILON, 1000).ok_or(fault.clone())?;
-        let mut ascending: Vec<usize> = (0..vectors).collect();
-        ascending.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
-        let squares: Vec<f64> = ascending.iter().map(|k| eigen.eigenvalues[*k]).collect();
-        let mixed = |k: &usize| {
-            let mut mixed = vec![0.0; size];
-            for (j, inertia) in inertia.iter().enumerate() {
-                let share = eigen.eigenvectors[(j, *k)];
-                mixed.iter_mut().zip(inertia).for_each(|(x, y)| *x += share * y);
-            }
-            mixed
-        };
-        pushed = ascending.iter().map(mixed).collect();
-        let settled = squares.iter().zip(&found).take(wanted).all(|(now, before)| (now / before - 1.0).abs() < SETTLED);
-        found = squares;
-        if settled {
-            break;
-        }
+        Ok((found, modes))
     }
-    let hertz = |square: f64| (square - shift).max(0.0).sqrt() / std::f64::consts::TAU;
-    Ok(found.into_iter().take(wanted).skip(rigid).map(hertz).collect())
 }
 
 /// Adds `share` times the vector `i` to the vector `j`, i < j.
@@ -127,7 +164,7 @@ mod tests {
         let section = Section::rectangle((radius - 0.5 * side, radius + 0.5 * side), (0.0, side), steel, Vec::new());
         let bending_over_torsion = (1.0 / 12.0) * 2.0 * (1.0 + steel.poisson_ratio) / 0.140_577;
         for order in [2_u32, 3, 5] {
-            let found = section.natural_frequencies(order, 2).unwrap();
+            let found = section.natural_frequencies(&[order], 2, &Cancel::new()).unwrap()[0].clone();
             let m2 = f64::from(order * order);
             let scale = steel.youngs_modulus * side * side / 12.0 / (steel.density * radius.powi(4));
             let hertz = |below: f64| (scale * m2 * (m2 - 1.0).powi(2) / below).sqrt() / std::f64::consts::TAU;
@@ -147,16 +184,16 @@ mod tests {
         let whole = ((radius - 0.5 * side, radius + 0.5 * side), (0.0, side));
         let free = Section::rectangle(whole.0, whole.1, steel, Vec::new());
         let breathing = (steel.youngs_modulus / steel.density).sqrt() / radius / std::f64::consts::TAU;
-        let found = free.natural_frequencies(0, 2).unwrap();
+        let found = free.natural_frequencies(&[0], 2, &Cancel::new()).unwrap()[0].clone();
         let near = |value: f64, exact: f64| (value / exact - 1.0).abs() < 1e-3;
         // The other is rotation of the section about its middle, hoop stress against the moment of inertia of a
         // square: ω² = E/(2ρR²).
         assert!(near(found[0].value, breathing / 2.0_f64.sqrt()) && near(found[1].value, breathing), "{found:?}");
-        let first = free.natural_frequencies(1, 1).unwrap()[0];
+        let first = free.natural_frequencies(&[1], 1, &Cancel::new()).unwrap()[0].clone()[0];
         assert!(first.value > 0.5 * breathing, "{first:?}");
         let held = Support::at_height(0.0, [false, true, true]);
         let held = Section::rectangle(whole.0, whole.1, steel, vec![held]);
-        let found = held.natural_frequencies(0, 2).unwrap();
+        let found = held.natural_frequencies(&[0], 2, &Cancel::new()).unwrap()[0].clone();
         assert!(found[0].value > 0.9 * breathing && found[1].value > found[0].value, "{found:?}");
     }
 }

@@ -158,6 +158,9 @@ pub enum RingError {
         /// The order m.
         order: u32,
     },
+    /// Cancelled.
+    #[error("cancelled")]
+    Cancelled,
     /// There is not enough memory for the equations.
     #[error("not enough memory for the equations of the section")]
     Memory,

@@ -1,0 +1,249 @@
+//! What all solves of this process may take of memory at the same time.
+//!
+//! Whoever solves takes his share of the one budget first ([`take`]): what is more than all of it is refused, what is more than is left
+//! waits for others to end, so that the results of a sweep do not depend on how many threads share the budget. It is a quarter of the
+//! machine's memory unless [`allow`] says otherwise, because results are kept, and drawn, beside it.
+//!
+//! A rotor takes its share while it is resolved, and gives it back before the solve takes its own: nobody waits who holds a share.
+
+use crate::control::Cancel;
+use std::fmt;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// The budget is the machine's memory over this …
+const SHARE: u64 = 4;
+/// … or, where nothing is known of the machine, so many bytes.
+const UNKNOWN: u64 = 1_000_000_000;
+/// How often whoever waits looks whether it is cancelled.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// What a solve needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// For what.
+    pub what: What,
+    /// Bytes.
+    pub bytes: u64,
+}
+
+/// What memory is needed for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// The film.
+    Film {
+        /// Film nodes of the finest grid along a tooth or plate …
+        along: usize,
+        /// … and across all of its width.
+        across: usize,
+        /// Time steps in a cycle.
+        steps: usize,
+        /// Teeth whose film is solved.
+        teeth: usize,
+    },
+    /// The compliances of a ring, on so many elements.
+    Ring {
+        /// Elements of the finer mesh.
+        elements: usize,
+    },
+}
+
+/// More memory than is allowed. The message names the keys that it follows from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Excess {
+    /// What is needed.
+    pub need: Need,
+    /// What is allowed \[bytes\].
+    pub allowed: u64,
+}
+
+impl fmt::Display for Excess {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (bytes, allowed) = (size(self.need.bytes), size(self.allowed));
+        match self.need.what {
+            What::Film { along, across, steps, teeth } => {
+                let teeth = if teeth > 1 { format!(" on {teeth} teeth") } else { String::new() };
+                write!(
+                    f,
+                    "{along} × {across} film nodes{teeth} and {steps} steps a cycle need {bytes} of memory: allowed {allowed}; lower \
+                     numerics.film_nodes_along, numerics.film_nodes_across or numerics.steps_per_cycle, or allow more with --memory"
+                )
+            }
+            What::Ring { elements } => write!(
+                f,
+                "rotor.model = \"ring\": {elements} elements of its section need {bytes} of memory: allowed {allowed}; allow more with \
+                 --memory, or take another rotor.model"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Excess {}
+
+/// `1.2 GB`, `350 MB`: bytes for people.
+pub fn size(bytes: u64) -> String {
+    let (value, unit) = match bytes {
+        0..1_000_000 => (bytes as f64 / 1e3, "kB"),
+        1_000_000..1_000_000_000 => (bytes as f64 / 1e6, "MB"),
+        _ => (bytes as f64 / 1e9, "GB"),
+    };
+    if value < 10.0 { format!("{value:.1} {unit}") } else { format!("{value:.0} {unit}") }
+}
+
+/// What is left of a budget.
+#[derive(Debug)]
+struct Pool {
+    /// Allowed, once it is known, and taken \[bytes\].
+    state: Mutex<(Option<u64>, u64)>,
+    freed: Condvar,
+}
+
+static POOL: Pool = Pool::new(None);
+
+/// What a solve has taken of the budget; given back on drop.
+#[derive(Debug)]
+pub struct Taken<'a> {
+    pool: &'a Pool,
+    bytes: u64,
+}
+
+impl Taken<'_> {
+    /// Bytes.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+}
+
+impl Drop for Taken<'_> {
+    fn drop(&mut self) {
+        self.pool.lock().1 -= self.bytes;
+        self.pool.freed.notify_all();
+    }
+}
+
+impl Pool {
+    const fn new(allowed: Option<u64>) -> Self {
+        Self { state: Mutex::new((allowed, 0)), freed: Condvar::new() }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, (Option<u64>, u64)> {
+        // Two numbers, never left half-changed.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn allowed(&self) -> u64 {
+        *self.lock().0.get_or_insert_with(|| of_this_machine().map_or(UNKNOWN, |all| all / SHARE))
+    }
+
+    fn take(&self, need: Need, cancel: &Cancel) -> Result<Taken<'_>, Excess> {
+        let bytes = self.check(need)?;
+        let mut state = self.lock();
+        while state.1.saturating_add(bytes) > state.0.unwrap_or(bytes) && state.1 > 0 {
+            if cancel.is_cancelled() {
+                // It ends at its first look at this.
+                return Ok(Taken { pool: self, bytes: 0 });
+            }
+            state = self.freed.wait_timeout(state, LOOK).unwrap_or_else(PoisonError::into_inner).0;
+        }
+        state.1 += bytes;
+        Ok(Taken { pool: self, bytes })
+    }
+
+    fn check(&self, need: Need) -> Result<u64, Excess> {
+        let allowed = self.allowed();
+        if need.bytes > allowed { Err(Excess { need, allowed }) } else { Ok(need.bytes) }
+    }
+}
+
+/// Allows all solves of this process together so many bytes from now on.
+pub fn allow(bytes: u64) {
+    POOL.lock().0 = Some(bytes);
+}
+
+/// Bytes that all solves of this process may take together.
+pub fn allowed() -> u64 {
+    POOL.allowed()
+}
+
+/// Whether `need` is within what is allowed.
+///
+/// # Errors
+/// [`Excess`] if it is not.
+pub fn check(need: Need) -> Result<(), Excess> {
+    POOL.check(need).map(|_| ())
+}
+
+/// Takes what a solve needs, as soon as others have left so much.
+///
+/// # Errors
+/// [`Excess`] if it is more than all that is allowed.
+pub fn take(need: Need, cancel: &Cancel) -> Result<Taken<'static>, Excess> {
+    POOL.take(need, cancel)
+}
+
+/// Bytes of memory that this machine has, or that the group of processes in which this one runs may use; `None` where the system
+/// does not tell.
+fn of_this_machine() -> Option<u64> {
+    let mut system = sysinfo::System::new().ok()?;
+    system.refresh_memory_specifics(sysinfo::MemoryRefreshKind::nothing().with_ram());
+    let group = system.cgroup_limits().map(|group| group.total_memory);
+    [Some(system.total_memory()), group].into_iter().flatten().filter(|bytes| *bytes > 0).min()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+
+    fn of(bytes: u64) -> Need {
+        Need { what: What::Ring { elements: 3 }, bytes }
+    }
+
+    #[test]
+    fn what_is_left_is_shared_and_what_is_too_much_is_refused() {
+        let pool = Pool::new(Some(100));
+        assert_eq!(pool.take(of(101), &Cancel::new()).unwrap_err(), Excess { need: of(101), allowed: 100 });
+        let first = pool.take(of(60), &Cancel::new()).unwrap();
+        let second = pool.take(of(40), &Cancel::new()).unwrap();
+        assert_eq!(pool.lock().1, 100);
+        std::thread::scope(|scope| {
+            let (tell, told) = channel();
+            scope.spawn({
+                let pool = &pool;
+                move || {
+                    let _taken = pool.take(of(70), &Cancel::new()).unwrap();
+                    tell.send(pool.lock().1).unwrap();
+                }
+            });
+            // It cannot begin beside the first, and begins once that has ended.
+            drop(second);
+            assert!(told.try_recv().is_err());
+            drop(first);
+            assert_eq!(told.recv(), Ok(70));
+        });
+        assert_eq!(pool.lock().1, 0);
+    }
+
+    #[test]
+    fn whoever_waits_can_be_cancelled() {
+        let pool = Pool::new(Some(100));
+        let _first = pool.take(of(60), &Cancel::new()).unwrap();
+        let cancel = Cancel::new();
+        cancel.cancel();
+        assert_eq!(pool.take(of(60), &cancel).unwrap().bytes(), 0);
+    }
+
+    #[test]
+    fn the_machine_is_known_here() {
+        let all = of_this_machine().unwrap();
+        assert!((1 << 28..1 << 50).contains(&all), "{all}");
+    }
+
+    #[test]
+    fn sizes_are_for_people() {
+        assert_eq!(
+            [350_000, 12_300_000, 1_240_000_000, 400_000_000_000].map(size),
+            ["350 kB", "12 MB", "1.2 GB", "400 GB"]
+        );
+    }
+}
