@@ -5,6 +5,7 @@
 
 use proptest::prelude::*;
 use squeezefilm::contact::{Contact, Instant, Modes, Shape, cutoff};
+use squeezefilm::control::Cancel;
 use squeezefilm::problem::RotorCompliance;
 use squeezefilm::rotor::ring::Band;
 use squeezefilm::rotor::{Compliances, Wave};
@@ -15,7 +16,9 @@ const SPACING: f64 = 200e-9;
 
 /// The rotor as contact knows it.
 fn resolved(rotor: &RotorCompliance) -> Compliances {
-    rotor.resolve(&Wave { length: WAVE, waves: 7, band: Band { radius: 0.029, width: 3e-4 } }, 200).unwrap()
+    rotor
+        .resolve(&Wave { length: WAVE, waves: 7, band: Band { radius: 0.029, width: 3e-4 } }, 200, &Cancel::new())
+        .unwrap()
 }
 
 /// Nodes over a whole wavelength, no film (vacuum), `stator` profile.

@@ -24,8 +24,9 @@ use squeezefilm::gui::ui::cache::made;
 use squeezefilm::gui::ui::glossary::unexplained;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::lessons::glossary;
-use squeezefilm::problem::Problem;
+use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::{Value, presets};
+use squeezefilm::solution::Outcome;
 use squeezefilm::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -801,4 +802,80 @@ fn the_line_of_a_chart_over_the_cycle_is_dragged_to_another_instant() {
     let moved = window.state().state().view.phase;
     assert!((moved - if phase < 0.5 { 0.75 } else { 0.25 }).abs() < 0.02, "{phase} {moved}");
     assert!((line(&window).x - to.x).abs() < 3.0);
+}
+
+/// The ring's tab, its rotor computed and the scene solved.
+fn ring() -> Window {
+    let mut window = window("ring-rotor");
+    solved(&mut window);
+    ctrl(&mut window, Key::Num8);
+    until(&mut window, "the rotor is computed", |app| {
+        let run = app.state().run.as_deref().map(|run| &run.problem.scenario);
+        matches!(run, Some(Scenario::Motor(motor)) if app.state().rotor.is_of(motor))
+    });
+    window
+}
+
+/// A number of a part of the ring.
+fn length(window: &Window, part: usize, column: usize) -> f64 {
+    let Some(Value::Records(parts)) = window.state().state().document.scene().get("rotor.part") else {
+        panic!("no parts")
+    };
+    parts[part][column].as_number().unwrap()
+}
+
+fn share(window: &Window) -> f64 {
+    match &window.state().state().run.as_deref().unwrap().solution.outcome {
+        Outcome::Motor(result) => result.alpha,
+        Outcome::Plate(_) => panic!("a motor"),
+    }
+}
+
+#[test]
+fn an_edge_of_the_section_is_dragged_and_the_share_answers() {
+    let mut window = ring();
+    let before = share(&window);
+    let at_first = window.state().state().document.scene().clone();
+    // What two parts share moves with both: the rim stays on its lining.
+    let edge = window.get_by_label("Top of lining, to drag").rect().center();
+    drag(&mut window, edge, edge - Vec2::new(0.0, 12.0));
+    let (top, bottom) = (length(&window, 0, 4), length(&window, 1, 3));
+    assert!(top > 0.2 && top == bottom, "{top} {bottom}");
+    solved(&mut window);
+    let after = share(&window);
+    assert!((after / before - 1.0).abs() > 0.005, "{before} {after}");
+    // No further than to its other side.
+    let edge = window.get_by_label("Outer radius of flange, to drag").rect().center();
+    drag(&mut window, edge, edge - Vec2::new(2000.0, 0.0));
+    assert_eq!((length(&window, 2, 2), length(&window, 1, 1)), (26.91, 26.91));
+    // Each drag is one step back.
+    ctrl(&mut window, Key::Z);
+    ctrl(&mut window, Key::Z);
+    assert_eq!(window.state().state().document.scene(), &at_first);
+}
+
+#[test]
+fn a_part_is_edited_in_its_table() {
+    let mut window = ring();
+    let before = share(&window);
+    let labels = window.query_all_by_label("Rotor").count();
+    (0..labels).for_each(|label| {
+        window.query_all_by_label("Rotor").nth(label).unwrap().click();
+        window.run_steps(10);
+    });
+    let field = "Top in mm, lining";
+    window.get_by_role_and_label(Role::SpinButton, field).scroll_to_me();
+    window.run_steps(10);
+    window.get_by_role_and_label(Role::SpinButton, field).click();
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::SpinButton, field).type_text("0.1");
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    // The rim comes down with it.
+    assert_eq!((length(&window, 0, 4), length(&window, 1, 3)), (0.1, 0.1));
+    solved(&mut window);
+    let after = share(&window);
+    assert!((after / before - 1.0).abs() > 0.005, "{before} {after}");
 }

@@ -220,7 +220,7 @@ fn a_compliance_table_of_the_beam_is_the_beam() {
     // Interpolated in (ln k, ln C) between rows 3 % apart: a few parts in 1e4.
     let at = |k: f64| {
         let wave = Wave { length: std::f64::consts::TAU / k, ..beam.wave() };
-        (k, beam.rotor.resolve(&wave, 1).unwrap().harmonic(1))
+        (k, beam.rotor.resolve(&wave, 1, &Cancel::new()).unwrap().harmonic(1))
     };
     let rows = (0..400).map(|i| at(50.0 * 1.03f64.powi(i))).collect();
     let table = Motor { rotor: RotorCompliance::Table(rows), ..beam.clone() };

@@ -1,6 +1,7 @@
 //! An editor for an array of tables, such as the parts of a ring: one small table for each, with a number, choice or text a row.
 
 use crate::gui::command::Command;
+use crate::gui::derived::section::with_edge;
 use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, beside};
@@ -50,7 +51,14 @@ pub fn show(
                     let spoken = format!("{}, {name}", field_name(of));
                     if let Some((value, dragging)) = cell(ui, of, value, named.id, &spoken) {
                         let mut edited = records.to_vec();
-                        edited[number][place] = value;
+                        match value {
+                            // What two parts share moves in both.
+                            Value::Number(to) if fewest > 0 => {
+                                let side = columns[..place].iter().filter(|column| column.range().is_some()).count();
+                                edited = with_edge(records, (number, side), to);
+                            }
+                            value => edited[number][place] = value,
+                        }
                         set(edited, dragging);
                     }
                     ui.end_row();

@@ -5,6 +5,7 @@ use crate::analysis::rotor::{Bent, Curve, RotorCurves};
 use crate::digits::percent;
 use crate::gui::command::Command;
 use crate::gui::derived::format::{digits, power_of_ten};
+use crate::gui::derived::section::{lengths, reach, with_edge};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, powers, title};
 use crate::gui::ui::context::DrawContext;
@@ -177,12 +178,6 @@ impl Scale {
     }
 }
 
-/// Inner and outer radius, bottom and top of a part \[mm\].
-fn lengths(part: &[Value]) -> Option<[f64; 4]> {
-    let numbers: Vec<f64> = part.iter().filter_map(Value::as_number).collect();
-    numbers.try_into().ok()
-}
-
 fn section(
     ui: &mut Ui,
     parts: &[Vec<Value>],
@@ -252,15 +247,12 @@ fn section(
             };
             let along =
                 if which < 2 { f64::from(at.x - origin.x) / points } else { f64::from(origin.y - at.y) / points };
-            let value = (along / STEP).round() * STEP;
-            let place = part.iter().enumerate().filter(|(_, value)| value.as_number().is_some()).nth(which);
-            if let Some((place, _)) = place {
-                let mut edited = parts.to_vec();
-                // As few digits as the step has.
-                edited[number][place] = Value::Number((value * 1e4).round() / 1e4);
-                let key = Parameter::find("rotor.part").map_or("rotor.part", |parameter| parameter.key);
-                cx.push(Command::Set { key, value: Value::Records(edited), dragging: held.dragged() });
-            }
+            let key = Parameter::find("rotor.part").map_or("rotor.part", |parameter| parameter.key);
+            let reach = reach(parts, (number, which), STEP);
+            // As few digits as the step has.
+            let to = ((along / STEP).round() * STEP).clamp(*reach.start(), *reach.end());
+            let value = Value::Records(with_edge(parts, (number, which), (to * 1e4).round() / 1e4));
+            cx.push(Command::Set { key, value, dragging: held.dragged() });
         }
     }
     ui.data_mut(|data| match dragged {

@@ -1,0 +1,84 @@
+//! The cross-section of a ring while one of its lengths is edited.
+//!
+//! Where two parts share an edge, it moves in both: the rim stays on its lining, and no edit on the way takes the ring apart.
+
+use crate::scene::Value;
+use std::ops::RangeInclusive;
+
+/// Lengths that differ by less than this are one \[mm\].
+const SAME: f64 = 1e-6;
+
+/// Inner and outer radius, bottom and top of a part or support \[mm\].
+pub fn lengths(part: &[Value]) -> Option<[f64; 4]> {
+    let numbers: Vec<f64> = part.iter().filter_map(Value::as_number).collect();
+    numbers.try_into().ok()
+}
+
+/// The edges that move with that on the side `which` of a part, itself first: numbers of parts, and which of their [`lengths`].
+fn together(parts: &[Vec<Value>], (number, which): (usize, usize)) -> Vec<(usize, usize)> {
+    let mut edges = vec![(number, which)];
+    let boxes: Vec<_> = parts.iter().map(|part| lengths(part)).collect();
+    if let Some(own) = boxes.get(number).copied().flatten() {
+        // The ends of the edge: heights of an upright one, radii of a level one.
+        let ends = (which + 2) % 4 / 2 * 2;
+        let shared = |other: &[f64; 4]| {
+            (other[which ^ 1] - own[which]).abs() < SAME
+                && own[ends].max(other[ends]) + SAME < own[ends + 1].min(other[ends + 1])
+        };
+        edges.extend((0..parts.len()).filter(|i| boxes[*i].as_ref().is_some_and(shared)).map(|i| (i, which ^ 1)));
+    }
+    edges
+}
+
+/// How far an edge can be moved \[mm\] until one of the parts that it bounds is as thin as `step`.
+pub fn reach(parts: &[Vec<Value>], edge: (usize, usize), step: f64) -> RangeInclusive<f64> {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (part, side) in together(parts, edge) {
+        match lengths(&parts[part]) {
+            Some(lengths) if side % 2 == 1 => low = low.max(lengths[side - 1] + step),
+            Some(lengths) => high = high.min(lengths[side + 1] - step),
+            None => {}
+        }
+    }
+    low..=high.max(low)
+}
+
+/// The parts with an edge at `to` \[mm\].
+pub fn with_edge(parts: &[Vec<Value>], edge: (usize, usize), to: f64) -> Vec<Vec<Value>> {
+    let mut edited = parts.to_vec();
+    for (part, side) in together(parts, edge) {
+        if let Some(length) = edited[part].iter_mut().filter(|value| value.as_number().is_some()).nth(side) {
+            *length = Value::Number(to);
+        }
+    }
+    edited
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_shared_edge_moves_in_both_parts_and_no_other() {
+        let mut scene = Scene::motor();
+        scene.set("rotor.model", "ring").unwrap();
+        let Some(Value::Records(parts)) = scene.get("rotor.part") else { panic!("no parts") };
+        let moved = |edge, to| -> Vec<(usize, usize)> {
+            let edited = with_edge(&parts, edge, to);
+            let boxes = parts.iter().zip(&edited).map(|(a, b)| (lengths(a).unwrap(), lengths(b).unwrap()));
+            let changed =
+                boxes.enumerate().flat_map(|(i, (a, b))| (0..4).filter(move |k| a[*k] != b[*k]).map(move |k| (i, k)));
+            changed.collect()
+        };
+        // Lining under rim; rim beside flange, which end at the same height; flange beside body.
+        assert_eq!(moved((0, 3), 0.2), [(0, 3), (1, 2)]);
+        assert_eq!(moved((1, 2), 0.2), [(0, 3), (1, 2)]);
+        assert_eq!(moved((1, 3), 1.5), [(1, 3)]);
+        assert_eq!(moved((3, 1), 26.0), [(2, 0), (3, 1)]);
+        let lining = reach(&parts, (0, 3), 0.01);
+        assert!((lining.start() - 0.01).abs() < 1e-9 && (lining.end() - 1.19).abs() < 1e-9, "{lining:?}");
+        let rim = reach(&parts, (1, 1), 0.01);
+        assert!((rim.start() - 28.31).abs() < 1e-9 && *rim.end() == f64::INFINITY, "{rim:?}");
+    }
+}
