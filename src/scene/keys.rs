@@ -126,11 +126,6 @@ pub static PARAMETERS: &[Parameter] = &[
 ];
 
 impl Parameter {
-    /// The parameter of a dotted key.
-    pub fn find(key: &str) -> Option<&'static Self> {
-        PARAMETERS.iter().find(|parameter| parameter.key == key)
-    }
-
     /// Whether other keys belong to one of its values, as those of a beam to `rotor.model = "beam"`.
     pub(super) fn selects(&self) -> bool {
         PARAMETERS.iter().any(|parameter| parameter.when.is_some_and(|(selector, _)| selector == self.key))
@@ -142,6 +137,8 @@ impl Parameter {
         match self.kind {
             _ if self.selects() => 0,
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 3,
+            // After the array that it is a value of.
+            _ if self.key.matches('.').count() > 1 => 4,
             _ => 1 + u8::from(self.instead_of.is_some()),
         }
     }

@@ -22,8 +22,10 @@
 //! ```
 
 mod accept;
+mod cell;
 pub mod compliance;
 mod convert;
+pub mod edges;
 mod edit;
 mod error;
 mod follow;

@@ -198,7 +198,7 @@ impl Parameter {
     /// The key within its table in words, without its unit: `min spacing`.
     pub fn words(&self) -> String {
         let stem = UNITS.iter().find_map(|(ending, ..)| self.leaf().strip_suffix(ending));
-        stem.filter(|_| !self.unit.is_empty()).unwrap_or(self.leaf()).replace('_', " ")
+        stem.filter(|_| !self.unit.is_empty()).unwrap_or(self.leaf()).replace(['_', '.'], " ")
     }
 
     /// A value of this key in SI.

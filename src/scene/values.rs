@@ -81,7 +81,7 @@ impl Scene {
             "about" => Some(Value::Text(self.about.clone())),
             _ => self.values.get(key).cloned().or_else(|| {
                 let parameter = Parameter::find(key).filter(|parameter| self.applies(parameter).is_ok())?;
-                parameter.default()
+                self.cell_value(key).or_else(|| parameter.default())
             }),
         }
     }
@@ -180,7 +180,9 @@ impl Scene {
         if let Err(foreign) = self.has_table(table, show_text(key)) {
             return foreign;
         }
-        let known: Vec<_> = self.parameters().map(|parameter| parameter.key).collect();
+        let cells = self.cell_keys();
+        let cells = cells.iter().map(String::as_str).filter(|_| key.matches('.').count() > 2);
+        let known: Vec<_> = cells.chain(self.parameters().map(|parameter| parameter.key)).collect();
         let siblings = if keys_of(table).is_empty() { self.tables() } else { keys_of(table) };
         unknown(nearest_key(key, &known), siblings)
     }
@@ -203,6 +205,10 @@ impl Scene {
     /// Checks a value against the key's own type and range, and stores it.
     pub(super) fn assign(&mut self, parameter: &'static Parameter, value: Value) -> Result<(), What> {
         let value = parameter.accept(value)?;
+        if let Some(array) = self.with_cell(parameter.key, &value) {
+            let (array, records) = array?;
+            return self.assign(array, records);
+        }
         // A table that is given chooses the model that it belongs to.
         let table = matches!(parameter.kind, ParameterKind::Rows { .. } | ParameterKind::Records { .. });
         if let (true, Some((selector, model))) = (table, parameter.when) {
@@ -214,7 +220,10 @@ impl Scene {
 
     /// Gives a key its default, or removes it if it is optional.
     pub(super) fn reset(&mut self, parameter: &'static Parameter) {
-        self.put(parameter, parameter.default());
+        // A value of an array has no default of its own.
+        if self.cell_value(parameter.key).is_none() {
+            self.put(parameter, parameter.default());
+        }
     }
 
     /// Stores a value that has been accepted, or none. Where it chooses a model, the keys of the others are dropped; where it replaces

@@ -3,7 +3,6 @@
 pub mod exact;
 pub mod format;
 pub mod scales;
-pub mod section;
 pub mod sliders;
 pub mod ticks;
 pub mod words;

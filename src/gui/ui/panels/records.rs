@@ -1,10 +1,10 @@
 //! An editor for an array of tables, such as the parts of a ring: one small table for each, with a number, choice or text a row.
 
 use crate::gui::command::Command;
-use crate::gui::derived::section::with_edge;
 use crate::gui::derived::words::{choice, field_name, label};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, beside};
+use crate::scene::edges::with_edge;
 use crate::scene::{Parameter, ParameterKind, Value};
 use eframe::egui::{self, RichText};
 

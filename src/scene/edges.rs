@@ -1,8 +1,8 @@
-//! The cross-section of a ring while one of its lengths is edited.
+//! The edges of the parts of a ring, of which one is moved.
 //!
 //! Where two parts share an edge, it moves in both: the rim stays on its lining, and no edit on the way takes the ring apart.
 
-use crate::scene::Value;
+use super::value::Value;
 use std::ops::RangeInclusive;
 
 /// Lengths that differ by less than this are one \[mm\].

@@ -1,0 +1,159 @@
+//! One value of an array of tables as a key of its own, so that it can be set and varied as any other: `rotor.part.flange.r_outer_mm`, or by
+//! its number, `rotor.support.1.z_top_mm`, counted from 1 as in messages.
+//!
+//! Such a key is a [`Parameter`] made of that of the array and that of the column. It is not among `PARAMETERS`, and a scene keeps its
+//! value in the array.
+
+use super::edges::with_edge;
+use super::error::What;
+use super::keys::PARAMETERS;
+use super::parameter::{Parameter, ParameterKind};
+use super::value::Value;
+use super::values::Scene;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+/// What a dotted key names of an array: the array, which of its tables, in words, and which column.
+type Named<'a> = (&'static Parameter, &'a str, usize);
+
+/// The longest key that is looked at \[bytes\].
+const LONGEST: usize = 100;
+
+fn named(key: &str) -> Option<Named<'_>> {
+    if key.len() > LONGEST || key.matches('.').count() < 3 {
+        return None;
+    }
+    PARAMETERS.iter().find_map(|array| {
+        let ParameterKind::Records { columns, .. } = array.kind else { return None };
+        let (which, leaf) = key.strip_prefix(array.key)?.strip_prefix('.')?.rsplit_once('.')?;
+        let of_value = |column: &Parameter| column.key == leaf && !matches!(column.kind, ParameterKind::Text { .. });
+        Some((array, which, columns.iter().position(of_value)?))
+    })
+}
+
+/// The keys that were asked for. They are few, and are kept for good, as those of the table are.
+static KNOWN: Mutex<BTreeMap<String, &'static Parameter>> = Mutex::new(BTreeMap::new());
+/// The most that are kept: nobody names so many.
+const MOST: usize = 10_000;
+
+impl Parameter {
+    /// The parameter of a dotted key, which may name one value of an array of tables.
+    pub fn find(key: &str) -> Option<&'static Self> {
+        PARAMETERS.iter().find(|parameter| parameter.key == key).or_else(|| find(key))
+    }
+}
+
+/// The parameter of a key that names one value of an array.
+fn find(key: &str) -> Option<&'static Parameter> {
+    let (array, _, column) = named(key)?;
+    let ParameterKind::Records { columns, .. } = array.kind else { return None };
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(found) = known.get(key) {
+        return Some(found);
+    }
+    if known.len() == MOST {
+        return None;
+    }
+    let parameter =
+        Parameter { key: key.to_owned().leak(), belongs: array.belongs, when: array.when, ..columns[column] };
+    let kept: &'static Parameter = Box::leak(Box::new(parameter));
+    known.insert(key.to_owned(), kept);
+    Some(kept)
+}
+
+impl Scene {
+    /// The array of a key that names one value of one, its tables in this scene, and where the value is; `None` of any other key.
+    ///
+    /// # Errors
+    /// If there is no such table.
+    fn cell(&self, key: &str) -> Option<Result<(&'static Parameter, Vec<Vec<Value>>, [usize; 2]), What>> {
+        let (array, which, column) = named(key)?;
+        let Some(Value::Records(records)) = self.get(array.key) else { return Some(Err(self.unknown_key(key))) };
+        let called = |record: &Vec<Value>| matches!(record.first(), Some(Value::Text(name)) if name == which);
+        let counted = || which.parse::<usize>().ok()?.checked_sub(1).filter(|number| *number < records.len());
+        let place = records.iter().position(called).or_else(counted);
+        Some(place.ok_or_else(|| self.unknown_key(key)).map(|row| (array, records, [row, column])))
+    }
+
+    /// The value of a key that names one of an array.
+    pub(super) fn cell_value(&self, key: &str) -> Option<Value> {
+        let (_, records, [row, column]) = self.cell(key)?.ok()?;
+        records.get(row)?.get(column).cloned()
+    }
+
+    /// The array with the value of a key that names one of it; `None` of any other key. Where two parts share an edge, it moves in both.
+    ///
+    /// # Errors
+    /// If there is no such table.
+    pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), What>> {
+        let put = |(array, mut records, [row, column]): (&'static Parameter, Vec<Vec<Value>>, [usize; 2])| {
+            let ParameterKind::Records { columns, fewest, .. } = array.kind else {
+                return (array, Value::Records(records));
+            };
+            match value.as_number() {
+                Some(to) if fewest > 0 => {
+                    let side = columns[..column].iter().filter(|column| column.range().is_some()).count();
+                    records = with_edge(&records, (row, side), to);
+                }
+                _ => records[row][column] = value.clone(),
+            }
+            (array, Value::Records(records))
+        };
+        Some(self.cell(key)?.map(put))
+    }
+
+    /// The keys that name one value of an array of this scene.
+    pub(super) fn cell_keys(&self) -> Vec<String> {
+        let mut keys = Vec::new();
+        for array in self.parameters() {
+            let (ParameterKind::Records { columns, .. }, Some(Value::Records(records))) =
+                (array.kind, self.get(array.key))
+            else {
+                continue;
+            };
+            for (row, record) in records.iter().enumerate() {
+                let name = match record.first() {
+                    Some(Value::Text(name)) if columns[0].key == "name" && !name.is_empty() => name.clone(),
+                    _ => (row + 1).to_string(),
+                };
+                let values = columns.iter().filter(|column| !matches!(column.kind, ParameterKind::Text { .. }));
+                keys.extend(values.map(|column| format!("{}.{name}.{}", array.key, column.key)));
+            }
+        }
+        keys
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_of_a_part_is_a_key() {
+        let mut scene = Scene::motor();
+        let (by_name, by_number) = ("rotor.part.flange.r_inner_mm", "rotor.part.3.r_inner_mm");
+        assert_eq!(scene.get(by_name), None);
+        let refused = scene.set(by_name, "26.5").unwrap_err().to_string();
+        assert!(refused.contains("rotor.model") && refused.contains("ring"), "{refused}");
+        scene.set_all([(by_name, "26.5"), ("rotor.model", "ring")]).unwrap();
+        assert_eq!(
+            [by_name, by_number].map(|key| scene.get(key)),
+            [26.5, 26.5].map(|length| Some(Value::Number(length)))
+        );
+        // The body goes with it.
+        assert_eq!(scene.get("rotor.part.body.r_outer_mm"), Some(Value::Number(26.5)));
+        scene.set("rotor.part.body.material", "steel").unwrap();
+        assert_eq!(scene.get("rotor.part.4.material"), Some(Value::Text("steel".into())));
+        scene.check().unwrap();
+        let refused = |key: &str, text: &str| scene.clone().set(key, text).unwrap_err().to_string();
+        assert!(refused(by_name, "0.01").contains("rotor.part.flange.r_inner_mm = 0.01 is out of range: allowed 0.05"));
+        assert!(refused("rotor.part.flang.r_inner_mm", "1").contains("did you mean rotor.part.flange.r_inner_mm?"));
+        for key in ["rotor.part.0.r_inner_mm", "rotor.part.5.r_inner_mm", "rotor.part.rim.width_mm", "rotor.part.rim"] {
+            assert!(refused(key, "1").contains(&format!("unknown key {key}")), "{key}");
+        }
+        // Removed, it stays what it is: what it was before is not known.
+        let before = scene.clone();
+        scene.unset(by_name).unwrap();
+        assert_eq!(scene, before);
+    }
+}
