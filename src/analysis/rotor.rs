@@ -79,13 +79,8 @@ impl RotorCurves {
                 let band = motor.wave().band;
                 let _taken = budget::take(rotor::need(section, band)?, cancel)?;
                 let mesh = section.mesh(band)?;
-                let mut harmonics = Vec::new();
-                for n in 1..=BENDING {
-                    if cancel.is_cancelled() {
-                        return Ok(None);
-                    }
-                    harmonics.push(section.deflection(band, n * motor.waves)?);
-                }
+                let orders: Vec<u32> = (1..=BENDING).map(|n| n * motor.waves).collect();
+                let harmonics = section.deflections(band, &orders, cancel)?;
                 Some(Bent { section: section.clone(), mesh, harmonics })
             }
             _ => None,

@@ -157,18 +157,23 @@ impl Section {
         Ok(RingCompliances { harmonics, resolved, elements: meshes[1].elements.len() })
     }
 
-    /// How the section moves under a unit line load of order `order` on the contact `band`.
+    /// How the section moves under a unit line load of each of the `orders` on the contact `band`.
     ///
     /// # Errors
     /// As [`Section::compliances`].
-    pub fn deflection(&self, band: Band, order: u32) -> Result<Deflection, RingError> {
+    pub fn deflections(&self, band: Band, orders: &[u32], cancel: &Cancel) -> Result<Vec<Deflection>, RingError> {
         let mesh = self.mesh(band)?;
-        self.check_held(&mesh, order)?;
+        orders.iter().try_for_each(|order| self.check_held(&mesh, *order))?;
         let system = System::new(self, &mesh)?;
-        let mut moved = contact_load(self, &mesh, band);
-        system.factor(f64::from(order), 0.0)?.solve(&mut moved, 1)?;
-        let direction = |d: usize| moved.iter().skip(d).step_by(DIRECTIONS).copied().collect();
-        Ok(Deflection { radial: direction(0), circumferential: direction(1), axial: direction(2) })
+        let load = contact_load(self, &mesh, band);
+        let of_order = |order: &u32| {
+            cancelled(cancel)?;
+            let mut moved = load.clone();
+            system.factor(f64::from(*order), 0.0)?.solve(&mut moved, 1)?;
+            let direction = |d: usize| moved.iter().skip(d).step_by(DIRECTIONS).copied().collect();
+            Ok(Deflection { radial: direction(0), circumferential: direction(1), axial: direction(2) })
+        };
+        orders.iter().map(of_order).collect()
     }
 
     /// Whether the supports hold the ring against the rigid motions of an order that a contact pressure may set off.
@@ -565,7 +570,7 @@ mod tests {
         );
         let tilting = section.compliances(band, 1, 4, &Cancel::new()).unwrap_err().to_string();
         assert!(tilting.contains("tilting") && tilting.contains("fix it axially and radially"), "{tilting}");
-        let lifted = section.deflection(band, 0).unwrap_err().to_string();
+        let lifted = section.deflections(band, &[0], &Cancel::new()).unwrap_err().to_string();
         assert!(lifted.contains("along its axis"), "{lifted}");
         assert!(section.compliances(band, 7, 0, &Cancel::new()).unwrap().harmonics.is_empty());
     }
@@ -573,7 +578,8 @@ mod tests {
     #[test]
     fn the_deflection_does_the_work_of_the_compliance() {
         let (section, band) = rotor();
-        let (mesh, moved) = (section.mesh(band).unwrap(), section.deflection(band, 14).unwrap());
+        let (mesh, moved) =
+            (section.mesh(band).unwrap(), section.deflections(band, &[14], &Cancel::new()).unwrap().swap_remove(0));
         let at =
             |r: f64| mesh.nodes.iter().position(|node| (node[0] - r).abs() < 1e-9 && node[1].abs() < 1e-9).unwrap();
         let compliance = section.compliances(band, 7, 2, &Cancel::new()).unwrap().harmonics[1].value;

@@ -122,7 +122,7 @@ pub enum RingError {
     },
     /// The stator touches where the section has no face.
     #[error(
-        "the contact from r = {inner_mm} to {outer_mm} mm is not within the lowest face of the section: allowed {allowed}"
+        "the contact from r = {inner_mm} to {outer_mm} mm is not within the lowest face of the section: allowed {allowed}; make the part that it touches as wide, or the contact narrower"
     )]
     Band {
         /// Inner radius of the contact \[mm\].
