@@ -10,12 +10,14 @@ use crate::scene::new_motor::{Accepts, Answers, NewMotor, QUESTIONS, Question};
 use eframe::egui::{self, Ui};
 
 /// Share of the window's height that questions and assumptions have each.
-const HEIGHTS: [f32; 2] = [0.42, 0.22];
+const HEIGHTS: [f32; 2] = [0.5, 0.2];
 
 /// Asks; the answer is the motor.
 pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answer {
     heading(ui, "A motor from its data sheet");
     let height = ui.ctx().content_rect().height();
+    // Beside what is asked, and there whenever something is further down: a bar that fades hides that there is more.
+    ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     egui::ScrollArea::vertical().id_salt("questions").max_height(HEIGHTS[0] * height).show(ui, |ui| {
         egui::Grid::new("questions").num_columns(2).show(ui, |ui| {
             for question in QUESTIONS {
@@ -34,9 +36,9 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
             }
         }
         Err(wrong) => {
-            for line in wrong.lines() {
-                cx.note(ui, line);
-            }
+            let told: Vec<String> = QUESTIONS.iter().filter_map(|question| complaint(question, answers)).collect();
+            let others = wrong.lines().filter(|_| told.is_empty()).map(str::to_owned);
+            told.iter().cloned().chain(others).for_each(|line| cx.note(ui, line));
         }
     });
     ui.add_space(12.0);
@@ -49,6 +51,18 @@ pub(super) fn show(ui: &mut Ui, answers: &Answers, cx: &DrawContext<'_>) -> Answ
         }
     })
     .inner
+}
+
+/// What is wrong with the answer to a question, or that it is needed, under the words that the question has here.
+fn complaint(question: &Question, answers: &Answers) -> Option<String> {
+    let answer = answers.get(question.name).map_or("", |answer| answer.trim());
+    match (answer, question.otherwise) {
+        ("", Some(_)) => None,
+        ("", None) => Some(format!("{}: needed, {}", question.words, question.allowed())),
+        _ => {
+            question.check(answer).err().map(|_| format!("{}: {answer} is not {}", question.words, question.allowed()))
+        }
+    }
 }
 
 fn ask(ui: &mut Ui, question: &'static Question, answers: &Answers, cx: &DrawContext<'_>) {
