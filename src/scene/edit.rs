@@ -135,12 +135,11 @@ impl Scene {
     pub fn retitle(&mut self, original: &Self) {
         let shown = |scene: &Self, Parameter { key, unit, .. }: &Parameter| match scene.get(key) {
             None => "none".to_owned(),
-            Some(Value::Rows(_)) => "another table".to_owned(),
-            Some(Value::Records(_)) => "other parts".to_owned(),
             Some(value) => format!("{value} {unit}").trim_end().to_owned(),
         };
-        let changes = self.changed(original).map(|parameter| {
-            format!("{} = {}, was {}", parameter.key, shown(self, parameter), shown(original, parameter))
+        let changes = self.changed(original).map(|parameter| match parameter.kind {
+            ParameterKind::Rows { .. } | ParameterKind::Records { .. } => format!("another {}", parameter.key),
+            _ => format!("{} = {}, was {}", parameter.key, shown(self, parameter), shown(original, parameter)),
         });
         let changes = changes.collect::<Vec<_>>().join("; ");
         let title = self.title(original);
