@@ -112,10 +112,12 @@ impl<K: PartialEq, V: Clone> Kept<K, V> {
     }
 }
 
-/// Bytes for each element of the finer mesh of a ring: of its compliances, and of its natural frequencies, order by order
+/// Bytes that a ring takes whose finer mesh has so many elements: equations, and a factor that grows a little faster than they do
 /// (`tests/memory_needs.rs`).
-const OF_COMPLIANCES: u64 = 30_000;
-const OF_FREQUENCIES: u64 = 20_000;
+fn bytes(elements: usize) -> u64 {
+    let elements = elements as f64;
+    (elements * (8e3 + 2.4e3 * elements.log2())) as u64
+}
 
 /// What a ring needs of memory while its compliances under a contact band are computed.
 ///
@@ -123,16 +125,16 @@ const OF_FREQUENCIES: u64 = 20_000;
 /// [`RotorError`] of a ring that has no mesh.
 pub fn need(section: &Section, band: Band) -> Result<Need, RotorError> {
     let elements = section.elements(Some(band))?;
-    Ok(Need { what: What::Ring { elements }, bytes: elements as u64 * OF_COMPLIANCES })
+    Ok(Need { what: What::Ring { elements }, bytes: bytes(elements) })
 }
 
-/// What it needs while its natural frequencies are.
+/// What it needs while its natural frequencies are, of which each may be on a thread of its own.
 ///
 /// # Errors
 /// As [`need`].
 pub fn need_of_frequencies(section: &Section) -> Result<Need, RotorError> {
     let elements = section.elements(None)?;
-    Ok(Need { what: What::Ring { elements }, bytes: elements as u64 * OF_FREQUENCIES * RESONANCES as u64 })
+    Ok(Need { what: What::Ring { elements }, bytes: bytes(elements) * RESONANCES as u64 })
 }
 
 static RINGS: Kept<(Section, Wave), Compliances> = Kept::new();
