@@ -2,7 +2,7 @@
 
 use super::error::{SCHEMA, SceneError, What};
 use super::keys::{PARAMETERS, tables};
-use super::nearest::nearest_key;
+use super::nearest::{nearest, nearest_key};
 use super::parameter::{Belongs, Model, Parameter, ParameterKind};
 use super::value::{Value, show_text};
 use crate::problem::Numerics;
@@ -184,9 +184,11 @@ impl Scene {
         if let Err(foreign) = self.has_table(table, show_text(key)) {
             return foreign;
         }
-        let cells = self.cell_keys();
-        let cells = cells.iter().map(String::as_str).filter(|_| key.matches('.').count() > 2);
-        let known: Vec<_> = cells.chain(self.parameters().map(|parameter| parameter.key)).collect();
+        if key.matches('.').count() > 2 {
+            let cells = self.cell_keys();
+            return unknown(nearest(key, cells.iter().map(String::as_str)), keys_of(table));
+        }
+        let known: Vec<_> = self.parameters().map(|parameter| parameter.key).collect();
         let siblings = if keys_of(table).is_empty() { self.tables() } else { keys_of(table) };
         unknown(nearest_key(key, &known), siblings)
     }

@@ -46,7 +46,8 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         let known = cx.state.rotor.found();
         match known {
             None => drop(ui.label("Computing the rotor…")),
-            Some(_) if !cx.state.rotor.is_of(&motor) => cx.note(ui, "Of the rotor before this edit"),
+            // Of curves their numbers say it, so that what is dragged does not move away.
+            Some(Err(_)) if !cx.state.rotor.is_of(&motor) => cx.note(ui, "Of the rotor before this edit"),
             Some(_) => {}
         }
         let found = match known {
@@ -61,7 +62,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         if let Some(found) = found {
             curves(ui, found, [tall(0), tall(1)], cx);
-            numbers(ui, found, cx);
+            numbers(ui, found, cx.state.rotor.is_of(&motor), cx);
         }
         if let Some(Value::Records(parts)) = scene.get("rotor.part") {
             ui.add_space(4.0);
@@ -153,13 +154,14 @@ fn green(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
     axes(ui, whole, *shown.transform.frame(), None, "Green's function");
 }
 
-fn numbers(ui: &mut Ui, found: &RotorCurves, cx: &DrawContext<'_>) {
+fn numbers(ui: &mut Ui, found: &RotorCurves, present: bool, cx: &DrawContext<'_>) {
     let deflection = found.curves[0].green[0][1] * 1e6;
     let known = match found.relative_error {
         0.0 => String::new(),
         error => format!(", known to {}", percent(error)),
     };
-    let mut text = format!("Present rotor: {} µm/N under a unit force{known}", digits(deflection, 3));
+    let whose = if present { "Present rotor" } else { "Before this edit" };
+    let mut text = format!("{whose}: {} µm/N under a unit force{known}", digits(deflection, 3));
     if let Some(resonances) = &found.resonances {
         let khz: Vec<_> = resonances.iter().map(|hertz| digits(1e-3 * hertz, 3)).collect();
         text += &format!("; lowest natural frequencies of harmonics 1 to {}: {} kHz", khz.len(), khz.join(", "));
