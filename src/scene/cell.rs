@@ -16,6 +16,9 @@ use std::sync::{Mutex, PoisonError};
 /// What a dotted key names of an array: the array, which of its tables, in words, and which column.
 type Named<'a> = (&'static Parameter, &'a str, usize);
 
+/// Where it is in a scene: the array, its tables, and row and column.
+type Place = (&'static Parameter, Vec<Vec<Value>>, [usize; 2]);
+
 /// The longest key that is looked at \[bytes\].
 const LONGEST: usize = 100;
 
@@ -66,7 +69,7 @@ impl Scene {
     ///
     /// # Errors
     /// If there is no such table.
-    fn cell(&self, key: &str) -> Option<Result<(&'static Parameter, Vec<Vec<Value>>, [usize; 2]), What>> {
+    fn cell(&self, key: &str) -> Option<Result<Place, What>> {
         let (array, which, column) = named(key)?;
         let Some(Value::Records(records)) = self.get(array.key) else { return Some(Err(self.unknown_key(key))) };
         let called = |record: &Vec<Value>| matches!(record.first(), Some(Value::Text(name)) if name == which);
@@ -86,7 +89,7 @@ impl Scene {
     /// # Errors
     /// If there is no such table.
     pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), What>> {
-        let put = |(array, mut records, [row, column]): (&'static Parameter, Vec<Vec<Value>>, [usize; 2])| {
+        let put = |(array, mut records, [row, column]): Place| {
             let ParameterKind::Records { columns, fewest, .. } = array.kind else {
                 return (array, Value::Records(records));
             };
