@@ -138,7 +138,7 @@ fn python_reads_the_npz_with_the_example_of_the_docs() {
     let example = docs.split("```python\n").nth(1).unwrap().split("```").next().unwrap();
     let ran = Command::new("python3").args(["-c", example]).current_dir(&folder).output().unwrap();
     let (said, faults) = (String::from_utf8_lossy(&ran.stdout), String::from_utf8_lossy(&ran.stderr));
-    assert!(ran.status.success() && said.starts_with("Fundamental case: film load 0.5"), "{said}{faults}");
+    assert!(ran.status.success() && said.starts_with("Fundamental case: film load 0.60"), "{said}{faults}");
 }
 
 #[test]

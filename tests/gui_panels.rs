@@ -82,7 +82,7 @@ fn panel(edited: Edited) -> Harness<'static, Edited> {
 }
 
 fn open_all(harness: &mut Harness<'_, Edited>) {
-    for title in ["Rotor", "Film", "Numerics"] {
+    for title in ["Rotor", "Film", "Surface", "Numerics"] {
         if let Some(header) = harness.query_by_label(title) {
             header.click();
             harness.run();
@@ -116,7 +116,9 @@ fn scenes() -> Vec<Scene> {
         ("motor.rotor_speed_mm_per_s", "9"),
     ];
     section.set_all(others).unwrap();
-    vec![Scene::motor(), Scene::plate(), crowned, table, wide, helium, section, green, ring]
+    let mut rough = Scene::motor();
+    rough.set_all([("surface.model", "asperities"), ("surface.flow_factors", "patir-cheng")]).unwrap();
+    vec![Scene::motor(), Scene::plate(), crowned, table, wide, helium, section, green, ring, rough]
 }
 
 #[test]

@@ -16,7 +16,7 @@
 use super::attempt::caught;
 use crate::control::Cancel;
 use crate::ladder::Nested;
-use crate::problem::Problem;
+use crate::problem::{Motor, Problem, RotorCompliance, Scenario};
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError, Value};
 use crate::solution::Solution;
 use crate::solve::near::Centre;
@@ -254,7 +254,10 @@ impl Variation {
             let slopes = match (plan.refused, points) {
                 (Some(why), _) => Err(why),
                 (None, points) => points.map(|points| {
-                    slopes(plan.sides, plan.step, centre.left_out() * STEP / plan.step, &middle, &points)
+                    let smooth = plan.points.iter().all(|point| same_elements(point, &centre.problem));
+                    let one_sided = if plan.sides == Sides::Both { 1.0 } else { 4.0 };
+                    let relative = centre.left_out() / plan.step * if smooth { STEP } else { one_sided };
+                    slopes(plan.sides, plan.step, relative, &middle, &points)
                 }),
             };
             Column {
@@ -320,8 +323,16 @@ fn read(
     }
 }
 
+/// Whether what is left out changes smoothly from one to the other: the elements of a ring follow its section and the band of contact, and what
+/// they leave of its compliance is another number for each.
+fn same_elements(a: &Problem, b: &Problem) -> bool {
+    let (Scenario::Motor(a), Scenario::Motor(b)) = (&a.scenario, &b.scenario) else { return true };
+    let band = |motor: &Motor| (motor.contact_radius, motor.contact_width);
+    !matches!(a.rotor, RotorCompliance::Ring(_)) || a.rotor == b.rotor && band(a) == band(b)
+}
+
 /// The slopes of all numbers, from those in the middle and at the points of the sides. `relative`: what is left out of the model, as a share of
-/// a number, over the scale of the key.
+/// a number, over the scale of the key, or over the step where it does not change smoothly.
 fn slopes(
     sides: Sides,
     step: f64,
