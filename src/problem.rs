@@ -338,6 +338,7 @@ pub struct Numerics {
 
 /// What is to be solved.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one for each scene, not one for each node")]
 pub enum Scenario {
     /// The travelling-wave motor.
     Motor(Motor),

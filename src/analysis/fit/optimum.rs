@@ -174,8 +174,11 @@ struct Search<'a> {
     /// Points tried, and the best number so far.
     tried: &'a Mutex<(usize, f64)>,
     /// The last point, and what came of it: the library asks for the number and for its limits one after the other.
-    last: Mutex<Option<(Vec<f64>, Option<(f64, Vec<f64>)>)>>,
+    last: Mutex<Option<(Vec<f64>, Option<Outcome>)>>,
 }
+
+/// The number at a point, and its limits.
+type Outcome = (f64, Vec<f64>);
 
 /// The caller cancelled.
 #[derive(Debug)]

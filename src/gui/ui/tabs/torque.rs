@@ -126,12 +126,15 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
     ui.add_space(8.0);
 }
 
+/// Points, and how they are drawn.
+type Curve = (Vec<[f64; 2]>, Color32, LineStyle);
+
 /// One chart over the speed, which is named below it if it is at the `bottom`; the speed under the pointer \[rpm\].
 fn panel(
     ui: &mut egui::Ui,
     (name, word): (&str, &str),
     height: f32,
-    (lines, measured): (&[(Vec<[f64; 2]>, Color32, LineStyle)], &[[f64; 2]]),
+    (lines, measured): (&[Curve], &[[f64; 2]]),
     top: Option<f64>,
     bottom: bool,
     merit: &TorqueCurves,
