@@ -40,7 +40,7 @@ pub struct Law {
 pub struct Heights {
     /// Its name in presets.
     pub name: &'static str,
-    /// ln Fₙ(u) and its derivative by u, for u ≥ [`DEEPEST`].
+    /// ln Fₙ(u) and its derivative by u, for u ≥ `DEEPEST`.
     pub moment: fn(Order, f64) -> (f64, f64),
 }
 
