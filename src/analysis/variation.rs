@@ -90,7 +90,8 @@ pub struct Slope {
     /// Its estimated error by the length of the step, absolute.
     pub step_error: f64,
     /// Its estimated error by what the plan leaves out of the model, absolute: a term that changes the number by a share ε is taken to change as
-    /// the key does, and the derivative with it by ε of the number over the scale of the key.
+    /// the key does, and the derivative with it by ε of the number over the scale of the key. Where the elements of a ring follow the key, what
+    /// they leave is another share at each point: ε of the number over the step, of a one-sided derivative four times that.
     pub left_out: f64,
 }
 

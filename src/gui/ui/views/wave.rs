@@ -44,10 +44,7 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     let column = Rect::from_x_y_ranges(left..=right, rect.y_range());
     painter.rect_filled(column, 0.0, style.palette.accent.gamma_multiply(0.10));
     stator(painter, style, &axes, shown);
-    let underside = rotor(painter, style, &axes, shown);
-    if shown.motor.rotor_speed != 0.0 {
-        marks(painter, style, &underside, scale, shown);
-    }
+    rotor(painter, style, &axes, scale, shown);
     touching(painter, style, &axes, shown);
     if shown.motor.rotor_speed != 0.0 {
         ellipse(painter, style, &axes, scale, shown);
@@ -93,8 +90,7 @@ fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<
     }
 }
 
-/// Draws the rotor; its underside, from left to right.
-fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) -> Vec<Pos2> {
+fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, scale: f64, shown: &MotorFrame<'_>) {
     let recording = shown.recording;
     let nodes = recording.x.len();
     let lines = &shown.lines;
@@ -121,11 +117,13 @@ fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'
     }
     let colour = style.palette.rotor;
     band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
-    painter.line(underside.clone(), Stroke::new(1.5, colour));
-    underside
+    if shown.motor.rotor_speed != 0.0 {
+        marks(painter, style, &underside, scale, shown);
+    }
+    painter.line(underside, Stroke::new(1.5, colour));
 }
 
-/// Marks on the rotor, which move as it does; `scale`: pixels per metre.
+/// Marks on the rotor above its underside, which goes from left to right; they move as it does; `scale`: pixels per metre.
 fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], scale: f64, shown: &MotorFrame<'_>) {
     let (Some(first), Some(last)) = (underside.first(), underside.last()) else { return };
     let apart = MARKS * style.row;
