@@ -11,10 +11,12 @@ use super::ui::{layout, theme};
 use super::update::platform::Platform;
 use super::update::storage::keep;
 use super::update::updater::Updater;
+use crate::platform::Instant;
+use crate::platform::window::{Parent, dropped};
 use crate::scene::Scene;
 use eframe::egui;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Unsaved work is written away this often.
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
@@ -46,7 +48,7 @@ impl App {
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
         let state = restored(context.storage, opened, platform.storage.as_deref())?;
-        let updater = Updater::start(&context.egui_ctx, state, platform, rfd::FileDialog::new().set_parent(context))?;
+        let updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
         Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None })
     }
 
@@ -122,10 +124,7 @@ impl eframe::App for App {
         let (waiting, at_once): (Vec<_>, Vec<_>) =
             pressed.into_iter().partition(|shortcut| shortcut.scope == Scope::Window);
         commands.extend(at_once.iter().map(|shortcut| (shortcut.command)()));
-        let dropped = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_path_buf()).collect());
-        let dropped: Vec<PathBuf> = dropped;
-        let named = dropped.into_iter().filter(|path| !path.as_os_str().is_empty());
-        commands.extend(named.map(Command::opened));
+        commands.extend(dropped(ctx).into_iter().map(Command::opened));
         commands.into_iter().for_each(|command| self.updater.carry_out(command));
         let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
         let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;

@@ -2,8 +2,8 @@
 
 use super::task::Task;
 use crate::analysis::tradeoff::{self, Candidate, Effort, Run};
+use crate::platform::Instant;
 use crate::problem::Problem;
-use std::time::Instant;
 
 /// How far a measurement is: all settings with what was measured of them so far, and the share of the work that is done,
 /// 0 to 1.

@@ -8,10 +8,10 @@ use crate::gui::derived::format::to_digits;
 use crate::gui::derived::sliders::slider_range;
 use crate::gui::derived::words::unused;
 use crate::job::task::{News, Task};
+use crate::platform::Instant;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value, quantity_text};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// What is varied at first, along x and y: the first that a scene has.
 const FIRST: [&[&str]; 2] = [

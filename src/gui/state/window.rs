@@ -156,7 +156,8 @@ impl State {
     /// Whether there is what `export` writes.
     pub fn can_export(&self, export: Export) -> bool {
         match export {
-            Export::Data | Export::Figures | Export::Fields | Export::Animation | Export::Report => self.run.is_some(),
+            Export::Data | Export::Figures | Export::Fields | Export::Report => self.run.is_some(),
+            Export::Animation => cfg!(feature = "render") && self.run.is_some(),
             Export::Comparison | Export::ComparisonReport => self.pins.runs().len() > 1,
             Export::SweepTable | Export::SweepFigure | Export::Sweep => {
                 self.sweep.swept().is_some_and(|swept| !swept.rows().is_empty())

@@ -2,7 +2,6 @@
 
 use super::updater::Updater;
 use crate::analysis::rotor::RotorCurves;
-use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
@@ -11,9 +10,9 @@ use crate::gui::state::view::Tab;
 use crate::job;
 use crate::job::hold::{HeldPlate, slowed};
 use crate::job::task::Task;
+use crate::job::work::Posed;
 use crate::problem::{Problem, Scenario};
 use crate::startup;
-use std::sync::Arc;
 use std::time::Duration;
 
 impl Updater {
@@ -36,12 +35,7 @@ impl Updater {
     pub fn follow_torque(&mut self) {
         let (Tab::Torque, Some(run)) = (self.state.view.tab, self.state.run.clone()) else { return };
         if self.state.torque.lacks(&run) {
-            let theirs = Arc::clone(&run);
-            let task = Task::start("torque", self.wake(Duration::ZERO), move |cancel, _: &(dyn Fn(()) + Sync)| {
-                TorqueCurves::of_solve(&theirs.problem, theirs.fidelity, &theirs.solution, cancel)
-                    .map_err(|error| format!("without film, {error}"))
-                    .transpose()
-            });
+            let task = job::torque::start(&run, self.wake(Duration::ZERO));
             self.state.torque.begin(&run, task);
         }
     }
@@ -124,7 +118,11 @@ impl Updater {
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count() + 1);
         let scene = self.state.document.scene().clone();
-        match job::startup::start(problem.clone(), settings, self.wake(Duration::ZERO)) {
+        match job::startup::start(
+            Posed { scene: scene.clone(), problem: problem.clone() },
+            settings,
+            self.wake(Duration::ZERO),
+        ) {
             Ok(task) => self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count)),
             Err(error) => self.state.fail(format!("The start-up cannot be started: {error}")),
         }
