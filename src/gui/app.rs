@@ -3,6 +3,7 @@
 use super::command::Command;
 use super::state::document::{Document, Next};
 use super::state::lessons::LessonState;
+use super::state::link::Link;
 use super::state::window::State;
 use super::ui::context::DrawContext;
 use super::ui::keys::{self, Obstacles, Scope};
@@ -12,7 +13,7 @@ use super::update::platform::Platform;
 use super::update::storage::keep;
 use super::update::updater::Updater;
 use crate::platform::Instant;
-use crate::platform::window::{Parent, dropped};
+use crate::platform::window::{Parent, dropped, fragment, mirror};
 use crate::scene::Scene;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -29,6 +30,8 @@ pub struct App {
     /// What was asked for while text was being typed: it is carried out once the text is taken.
     after_text: Vec<Command>,
     last_frame: Option<Instant>,
+    /// What followed the `#` of the page's address when it was last looked at.
+    address: String,
 }
 
 impl App {
@@ -47,9 +50,10 @@ impl App {
         platform: Platform,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
+        mirror(&context.egui_ctx);
         let state = restored(context.storage, opened, platform.storage.as_deref())?;
         let updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
-        Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None })
+        Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None, address: String::new() })
     }
 
     /// All that the window knows.
@@ -60,6 +64,11 @@ impl App {
     /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
     pub fn load_lessons(&mut self, folder: &Path) {
         self.updater.load_lessons(folder);
+    }
+
+    /// Shows what a link leads to.
+    pub fn follow(&mut self, link: Link) {
+        self.updater.follow(link);
     }
 
     /// Escape closes the tour, then the glossary: after whatever is over them, and after a text that is being typed.
@@ -118,6 +127,13 @@ impl eframe::App for App {
         if !self.after_text.is_empty() {
             // The field hands its text over when the cursor leaves it.
             ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));
+        }
+        let address = fragment();
+        if address != self.address {
+            self.address = address;
+            if !self.address.is_empty() {
+                self.updater.visit(&self.address);
+            }
         }
         let mut commands: Vec<Command> = self.escape(ctx).into_iter().collect();
         let pressed = keys::pressed(ctx, self.obstacles(), self.state().view.tab);

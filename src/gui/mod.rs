@@ -13,16 +13,17 @@ pub mod update;
 
 use crate::platform::window;
 use state::document::Document;
+use state::link::Link;
 use std::path::PathBuf;
 use update::platform::Platform;
 use update::storage::StorageFile;
 
 /// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
-/// beside the built-in ones.
+/// beside the built-in ones. `link`: what to show of that.
 ///
 /// # Errors
 /// If there is no display, or no way to draw on it.
-pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), eframe::Error> {
+pub fn open(opened: Option<Document>, lessons: Option<PathBuf>, link: Option<Link>) -> Result<(), eframe::Error> {
     // Without a file of its own it keeps nothing: another window's is left alone.
     let file = window::storage_folder().and_then(|folder| StorageFile::claim(&folder).ok());
     let storage = file.as_ref().map(|file| file.path().to_owned());
@@ -32,6 +33,9 @@ pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), ef
         let mut app = app::App::on_platform(context, opened, platform)?;
         if let Some(folder) = lessons {
             app.load_lessons(&folder);
+        }
+        if let Some(link) = link {
+            app.follow(link);
         }
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };

@@ -70,6 +70,16 @@ pub mod window {
         egui::FontDefinitions::default()
     }
 
+    /// The address that links begin with: none, there is no page.
+    pub fn page() -> String {
+        String::new()
+    }
+
+    /// What follows the `#` of the page's address.
+    pub fn fragment() -> String {
+        String::new()
+    }
+
     /// The folder for what windows keep.
     pub fn storage_folder() -> Option<PathBuf> {
         eframe::storage_dir("squeezefilm")
@@ -81,6 +91,12 @@ pub mod window {
         let paths: Vec<PathBuf> = paths;
         paths.into_iter().filter(|path| !path.as_os_str().is_empty()).collect()
     }
+
+    /// Tells the page what is shown: there is none, and screen readers are told by the system.
+    pub fn mirror(_: &egui::Context) {}
+
+    /// Tells the page of the run on screen: there is none.
+    pub fn publish(_: serde_json::Value) {}
 
     /// What file dialogs are shown over.
     #[derive(Clone, Debug)]

@@ -198,6 +198,7 @@ pub mod window {
     use super::{ARRIVED, HANDED_OVER};
     use eframe::egui;
     use std::cell::RefCell;
+    use std::collections::HashMap;
     use std::path::PathBuf;
     use wasm_bindgen::{JsCast, JsValue};
     use wasm_bindgen_futures::spawn_local;
@@ -208,6 +209,9 @@ pub mod window {
 
     thread_local! {
         static RUNNER: RefCell<Option<eframe::WebRunner>> = const { RefCell::new(None) };
+        /// What the last frame told screen readers, and how much larger than usual it was drawn.
+        static SHOWN: RefCell<Option<(egui::accesskit::TreeUpdate, f64)>> = const { RefCell::new(None) };
+        static RUN: RefCell<serde_json::Value> = const { RefCell::new(serde_json::Value::Null) };
     }
 
     /// Opens the window in the page. What it keeps is in the browser's storage. The page is told by an event, `squeezefilm`, whose
@@ -256,6 +260,21 @@ pub mod window {
         }
     }
 
+    fn location() -> Option<web_sys::Location> {
+        web_sys::window().map(|window| window.location())
+    }
+
+    /// The address that links begin with.
+    pub fn page() -> String {
+        let address = location().and_then(|location| location.href().ok()).unwrap_or_default();
+        address.split('#').next().unwrap_or_default().to_owned()
+    }
+
+    /// What follows the `#` of the page's address.
+    pub fn fragment() -> String {
+        location().and_then(|location| location.hash().ok()).unwrap_or_default()
+    }
+
     /// The folder for what windows keep: the browser has a storage of its own.
     pub fn storage_folder() -> Option<PathBuf> {
         None
@@ -278,6 +297,62 @@ pub mod window {
             });
         }
         ARRIVED.take()
+    }
+
+    /// What the window tells screen readers, kept for the page: eframe drops it there.
+    struct Mirror;
+
+    impl egui::Plugin for Mirror {
+        fn debug_name(&self) -> &'static str {
+            "mirror"
+        }
+
+        fn setup(&mut self, ctx: &egui::Context) {
+            ctx.enable_accesskit();
+        }
+
+        fn output_hook(&mut self, ctx: &egui::Context, output: &mut egui::FullOutput) {
+            if let Some(tree) = output.platform_output.accesskit_update.take() {
+                SHOWN.set(Some((tree, f64::from(ctx.zoom_factor()))));
+            }
+        }
+    }
+
+    /// Tells the page from now on what is shown.
+    pub fn mirror(ctx: &egui::Context) {
+        ctx.add_plugin(Mirror);
+    }
+
+    /// Tells the page of the run on screen.
+    pub fn publish(run: serde_json::Value) {
+        RUN.set(run);
+    }
+
+    /// What is shown, as JSON: the run on screen, and of each thing in the window what it is, what it is called, its value, and where it is
+    /// \[CSS pixels\], in the order in which it is read.
+    pub fn told() -> String {
+        let nodes = SHOWN.with_borrow(|shown| {
+            let Some((tree, zoom)) = shown else { return Vec::new() };
+            let known: HashMap<_, _> = tree.nodes.iter().map(|(id, node)| (*id, node)).collect();
+            let mut left: Vec<_> = tree.tree.iter().map(|tree| tree.root).collect();
+            let mut told = Vec::new();
+            while let Some(id) = left.pop() {
+                let Some(node) = known.get(&id) else { continue };
+                left.extend(node.children().iter().rev());
+                if node.label().is_some() || node.value().is_some() {
+                    let place = node.bounds().map(|b| [b.x0, b.y0, b.x1, b.y1].map(|length| length * zoom));
+                    told.push(serde_json::json!({
+                        "role": format!("{:?}", node.role()),
+                        "label": node.label(),
+                        "value": node.value(),
+                        "number": node.numeric_value(),
+                        "box": place,
+                    }));
+                }
+            }
+            told
+        });
+        RUN.with_borrow(|run| serde_json::json!({ "run": run, "nodes": nodes }).to_string())
     }
 
     /// What file dialogs are shown over.

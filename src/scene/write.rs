@@ -34,6 +34,19 @@ impl Scene {
         text
     }
 
+    /// The value of a key as [`Scene::set`] takes it; `None` if it is absent.
+    pub fn given_text(&self, parameter: &Parameter) -> Option<String> {
+        let listed = |lines: Vec<String>| format!("[{}]", lines.join(", "));
+        Some(match (self.get(parameter.key)?, parameter.kind) {
+            (Value::Text(words), _) => words,
+            (Value::Rows(rows), _) => listed(rows.iter().map(|(a, b)| format!("[{a:?}, {b:?}]")).collect()),
+            (Value::Records(records), ParameterKind::Records { columns, .. }) => {
+                listed(records.iter().map(|record| inline(columns, record)).collect())
+            }
+            (value, _) => value.to_string(),
+        })
+    }
+
     /// Writes the scene to `path` by way of a temporary file in the same folder, so that a reader never sees half of
     /// it and a failure leaves an older file as it was.
     ///
@@ -79,22 +92,27 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
             let ParameterKind::Records { columns, .. } = parameter.kind else { return };
             let _ = writeln!(text, "{leaf} = [  # {}", parameter.about);
             for record in records {
-                let pair = |(column, value): (&Parameter, &Value)| {
-                    let value = match value {
-                        Value::Text(words) => quote(words),
-                        Value::Number(number) => format!("{number:?}"),
-                        value => value.to_string(),
-                    };
-                    format!("{} = {value}", column.key)
-                };
-                let pairs: Vec<_> = columns.iter().zip(record).map(pair).collect();
-                let _ = writeln!(text, "  {{ {} }},", pairs.join(", "));
+                let _ = writeln!(text, "  {},", inline(columns, record));
             }
             text.push_str("]\n");
             return;
         }
     };
     let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
+}
+
+/// One of an array of tables, on a line.
+fn inline(columns: &[Parameter], record: &[Value]) -> String {
+    let pair = |(column, value): (&Parameter, &Value)| {
+        let value = match value {
+            Value::Text(words) => quote(words),
+            Value::Number(number) => format!("{number:?}"),
+            value => value.to_string(),
+        };
+        format!("{} = {value}", column.key)
+    };
+    let pairs: Vec<_> = columns.iter().zip(record).map(pair).collect();
+    format!("{{ {} }}", pairs.join(", "))
 }
 
 /// A TOML basic string.

@@ -1,5 +1,5 @@
 // Loads the program, shows how far that is, and opens the window. Says in words what a browser lacks.
-import init, { open } from "./squeezefilm.js";
+import init, { open, told } from "./squeezefilm.js";
 
 const size = "PROGRAM_BYTES"; // a number once it is built
 const message = document.getElementById("message");
@@ -47,6 +47,15 @@ async function start() {
   });
   await init({ module_or_path: await program() });
   open();
+  // For screen readers, and for tests.
+  window.squeezefilm = () => JSON.parse(told());
+  const text = document.getElementById("told");
+  setInterval(() => {
+    const { nodes } = window.squeezefilm();
+    const lines = nodes.map(({ label, value }) => [label, value].filter(Boolean).join(": "));
+    const now = lines.join("\n");
+    if (text.textContent !== now) text.textContent = now;
+  }, 1000);
 }
 
 start().catch((error) => stop(`The program cannot be started: ${error.message ?? error}`));

@@ -6,7 +6,13 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Opens the window in the page's canvas.
 #[wasm_bindgen]
 pub fn open() -> Result<(), String> {
-    squeezefilm::gui::open(None, None).map_err(|error| error.to_string())
+    squeezefilm::gui::open(None, None, None).map_err(|error| error.to_string())
+}
+
+/// What the window shows, as JSON.
+#[wasm_bindgen]
+pub fn told() -> String {
+    squeezefilm::platform::window::told()
 }
 
 /// Makes this worker do what its page asks for.

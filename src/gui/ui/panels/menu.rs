@@ -20,6 +20,8 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         ui.menu_button("Edit", |ui| {
             item(ui, "Undo", document.can_undo(), Command::Undo, cx);
             item(ui, "Redo", document.can_redo(), Command::Redo, cx);
+            ui.separator();
+            item(ui, "Copy link", true, Command::CopyLink, cx);
         });
         ui.menu_button("View", |ui| {
             let other = if cx.state.dark { "Light theme" } else { "Dark theme" };
