@@ -11,10 +11,12 @@ mod line;
 #[cfg(target_arch = "wasm32")]
 mod page;
 pub mod pin;
+pub mod rotor;
 pub mod sensitivity;
 #[cfg(target_arch = "wasm32")]
 pub mod serve;
 pub mod startup;
+pub mod sweep;
 pub mod task;
 #[cfg(not(target_arch = "wasm32"))]
 mod thread;

@@ -41,6 +41,21 @@ macro_rules! numbers {
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $Known([Option<f64>; TABLE.len()]);
 
+        /// In bytes: all of them in order.
+        impl serde::Serialize for $Known {
+            fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                self.0[..].serialize(to)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $Known {
+            fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                let all = <Vec<Option<f64>>>::deserialize(from)?;
+                let count = all.len();
+                all.try_into().map(Self).map_err(|_| serde::de::Error::invalid_length(count, &stringify!($Known)))
+            }
+        }
+
         impl Default for $Known {
             fn default() -> Self {
                 Self([None; TABLE.len()])

@@ -3,8 +3,11 @@
 use super::line::{end, message};
 use super::page::Step;
 use super::pin::Compared;
+use super::rotor::Alone;
 use super::startup::FromRest;
+use super::sweep::Points;
 use super::torque::Curves;
+use super::tradeoff::Measurement;
 use super::work::Work;
 use crate::control::Cancel;
 use crate::platform::worker::{reply, serve};
@@ -30,6 +33,9 @@ const WORKS: &[(&str, Run)] = &[
     (Compared::NAME, run::<Compared>),
     (Curves::NAME, run::<Curves>),
     (FromRest::NAME, run::<FromRest>),
+    (Points::NAME, run::<Points>),
+    (Measurement::NAME, run::<Measurement>),
+    (Alone::NAME, run::<Alone>),
 ];
 
 fn run<W: Work>(bytes: &[u8]) {

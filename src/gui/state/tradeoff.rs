@@ -52,6 +52,8 @@ impl TradeoffState {
         if let Some(end) = end {
             self.job = None;
             match end {
+                // A worker that was ended returns none.
+                Ok(runs) if runs.is_empty() => {}
                 Ok(runs) => self.tradeoff = Tradeoff::of(&runs),
                 Err(panic) => self.failure = Some(panic),
             }

@@ -1,7 +1,6 @@
 //! What is computed while one looks: a start-up, a plate in the hand, torque over speed, and the rotor.
 
 use super::updater::Updater;
-use crate::analysis::rotor::RotorCurves;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
@@ -9,7 +8,6 @@ use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
 use crate::job;
 use crate::job::hold::{HeldPlate, slowed};
-use crate::job::task::Task;
 use crate::job::work::Posed;
 use crate::problem::{Problem, Scenario};
 use crate::startup;
@@ -43,15 +41,13 @@ impl Updater {
     /// Computes the rotor of the present scene while its tab is shown.
     pub fn follow_rotor(&mut self) {
         let Tab::Rotor = self.state.view.tab else { return };
-        let Ok(Problem { scenario: Scenario::Motor(motor), .. }) = Problem::new(self.state.document.scene()) else {
-            return;
-        };
-        if self.state.rotor.lacks(&motor) {
-            let theirs = motor.clone();
-            let task = Task::start("rotor", self.wake(Duration::ZERO), move |cancel, _: &(dyn Fn(()) + Sync)| {
-                RotorCurves::of(&theirs, cancel).map_err(|error| error.to_string()).transpose()
-            });
-            self.state.rotor.begin(&motor, task);
+        let scene = self.state.document.scene();
+        let Ok(problem) = Problem::new(scene) else { return };
+        let Scenario::Motor(motor) = &problem.scenario else { return };
+        if self.state.rotor.lacks(motor) {
+            let posed = Posed { scene: scene.clone(), problem: problem.clone() };
+            let task = job::rotor::start(posed, self.wake(Duration::ZERO));
+            self.state.rotor.begin(motor, task);
         }
     }
 
