@@ -70,14 +70,13 @@ struct Point {
 /// In bytes a sweep is what it was made of.
 impl Serialize for Sweep {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        (self.scene.to_toml(), &self.vary, &self.settings).serialize(to)
+        (&self.scene, &self.vary, &self.settings).serialize(to)
     }
 }
 
 impl<'de> Deserialize<'de> for Sweep {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let (scene, vary, settings) = <(String, Vec<Vary>, Settings)>::deserialize(from)?;
-        let scene = Scene::from_toml(&scene, "the scene").map_err(D::Error::custom)?;
+        let (scene, vary, settings) = <(Scene, Vec<Vary>, Settings)>::deserialize(from)?;
         Self::new(&scene, &vary, &settings).map_err(D::Error::custom)
     }
 }

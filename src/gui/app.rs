@@ -13,7 +13,7 @@ use super::update::platform::Platform;
 use super::update::storage::keep;
 use super::update::updater::Updater;
 use crate::platform::Instant;
-use crate::platform::window::{Parent, dropped, fragment, mirror};
+use crate::platform::window::{Parent, dropped, fragment, mirror, prefers_dark};
 use crate::scene::Scene;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -232,7 +232,7 @@ fn restored(
     let mut state = State::new(target.into_iter().fold(document, Document::with_target));
     state.lessons = LessonState::new(stored("lessons"));
     state.recent = stored("recent").map(|text| text.lines().map(PathBuf::from).collect()).unwrap_or_default();
-    state.dark = stored("theme").is_none_or(|theme| theme != "light");
+    state.dark = stored("theme").map_or(prefers_dark().unwrap_or(true), |theme| theme != "light");
     state.lecture = stored("lecture").is_some_and(|size| size == "true");
     state.lessons.tour = first_start.then_some(0);
     // What cannot be read is told, and the rest is there.

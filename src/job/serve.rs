@@ -1,5 +1,6 @@
 //! What a worker of a page does: the work that it is sent, by its name.
 
+use super::fit::Asked;
 use super::line::{end, message};
 use super::page::Step;
 use super::pin::Compared;
@@ -36,6 +37,7 @@ const WORKS: &[(&str, Run)] = &[
     (Points::NAME, run::<Points>),
     (Measurement::NAME, run::<Measurement>),
     (Alone::NAME, run::<Alone>),
+    (Asked::NAME, run::<Asked>),
 ];
 
 fn run<W: Work>(bytes: &[u8]) {

@@ -24,8 +24,8 @@ pub type SweepTask = Task<SweepMessage, Result<Vec<Row>, String>>;
 /// A sweep, as it is carried to where it is computed.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Points {
-    /// To be built: the scene as a file has it, what is varied, and how it is solved. There can be 100 000 points to make.
-    New(String, Vec<Vary>, Settings),
+    /// To be built of a scene, what is varied, and how it is solved. There can be 100 000 points to make.
+    New(Scene, Vec<Vary>, Settings),
     /// Built, with the rows that are known.
     Known(#[serde(with = "shared")] Arc<Sweep>, Vec<Row>),
 }
@@ -38,7 +38,6 @@ impl Work for Points {
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(SweepMessage) + Sync)) -> Self::Found {
         let (sweep, done) = match self {
             Self::New(scene, vary, settings) => {
-                let scene = Scene::from_toml(&scene, "the scene").map_err(|error| error.to_string())?;
                 let sweep = Arc::new(Sweep::new(&scene, &vary, &settings).map_err(|error| error.in_place())?);
                 tell(SweepMessage::Built(Arc::clone(&sweep)));
                 (sweep, Vec::new())
@@ -63,12 +62,12 @@ impl Work for Points {
 /// # Errors
 /// If it cannot be done in the background.
 pub fn start(
-    scene: &Scene,
+    scene: Scene,
     vary: Vec<Vary>,
     settings: Settings,
     wake: impl Fn(bool) + Send + Sync + 'static,
 ) -> std::io::Result<SweepTask> {
-    Task::of(Points::New(scene.to_toml(), vary, settings), wake)
+    Task::of(Points::New(scene, vary, settings), wake)
 }
 
 /// Goes on with a sweep of which some rows are known.

@@ -35,13 +35,13 @@ pub struct Posed {
 
 impl Serialize for Posed {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.scene.to_toml().serialize(to)
+        self.scene.serialize(to)
     }
 }
 
 impl<'de> Deserialize<'de> for Posed {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let scene = Scene::from_toml(&String::deserialize(from)?, "the scene").map_err(Error::custom)?;
+        let scene = Scene::deserialize(from)?;
         let problem = Problem::new(&scene).map_err(Error::custom)?;
         Ok(Self { scene, problem })
     }

@@ -70,6 +70,11 @@ pub mod window {
         egui::FontDefinitions::default()
     }
 
+    /// Whether the system asks for dark colours, if what that is is asked at all: a window begins dark, and stays as it was left.
+    pub fn prefers_dark() -> Option<bool> {
+        None
+    }
+
     /// The address that links begin with: none, there is no page.
     pub fn page() -> String {
         String::new()

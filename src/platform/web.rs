@@ -260,6 +260,12 @@ pub mod window {
         }
     }
 
+    /// Whether the system asks for dark colours.
+    pub fn prefers_dark() -> Option<bool> {
+        let asked = web_sys::window()?.match_media("(prefers-color-scheme: dark)").ok()??;
+        Some(asked.matches())
+    }
+
     fn location() -> Option<web_sys::Location> {
         web_sys::window().map(|window| window.location())
     }
@@ -339,11 +345,13 @@ pub mod window {
             while let Some(id) = left.pop() {
                 let Some(node) = known.get(&id) else { continue };
                 left.extend(node.children().iter().rev());
-                if node.label().is_some() || node.value().is_some() {
+                let said = |id| known.get(id).and_then(|node| node.label().or(node.value()));
+                let label = node.label().or_else(|| node.labelled_by().iter().find_map(said));
+                if label.is_some() || node.value().is_some() {
                     let place = node.bounds().map(|b| [b.x0, b.y0, b.x1, b.y1].map(|length| length * zoom));
                     told.push(serde_json::json!({
                         "role": format!("{:?}", node.role()),
-                        "label": node.label(),
+                        "label": label,
                         "value": node.value(),
                         "number": node.numeric_value(),
                         "box": place,

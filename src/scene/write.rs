@@ -6,6 +6,8 @@ use super::parameter::{Parameter, ParameterKind};
 use super::value::{Value, is_unseen};
 use super::values::Scene;
 use crate::atomic::write_file;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -60,6 +62,37 @@ impl Scene {
             let what = What::Unwritable(error.source.to_string());
             Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
         })
+    }
+}
+
+/// In bytes a scene is its file.
+impl Serialize for Scene {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.to_toml().serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Scene {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Self::from_toml(&String::deserialize(from)?, "the scene").map_err(D::Error::custom)
+    }
+}
+
+/// In bytes a parameter is its key.
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.key.serialize(to)
+    }
+}
+
+impl Parameter {
+    /// The parameter whose key is in bytes.
+    ///
+    /// # Errors
+    /// If there is none of that key.
+    pub fn from_key<'de, D: Deserializer<'de>>(from: D) -> Result<&'static Self, D::Error> {
+        let key = String::deserialize(from)?;
+        Self::find(&key).ok_or_else(|| D::Error::custom(key))
     }
 }
 

@@ -19,6 +19,7 @@ use super::torque::TorqueState;
 use super::tradeoff::TradeoffState;
 use super::view::{Tab, View};
 use crate::job::SolvedScene;
+use crate::platform::HAS_FILES;
 use crate::recording::Recording;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -117,6 +118,9 @@ impl State {
 
     /// Puts `path` first among the files remembered.
     pub fn remember(&mut self, path: &Path) {
+        if !HAS_FILES {
+            return;
+        }
         let path = absolute(path);
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);

@@ -53,7 +53,7 @@ impl Updater {
         let mut swept = scene.clone();
         swept.retitle(self.state.document.saved());
         let settings = Settings { fidelity, ..Settings::default() };
-        let task = job::sweep::start(&swept, vary, settings, self.wake(REDRAW));
+        let task = job::sweep::start(swept, vary, settings, self.wake(REDRAW));
         self.begin_sweep(task, false);
     }
 
