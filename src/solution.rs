@@ -3,10 +3,10 @@
 use crate::estimate::Estimate;
 use crate::plan::Decision;
 use crate::recording::Recording;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How a solve ended. None of these is an error: what was reached is always reported.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Status {
     /// The cycle repeats to the tolerance.
     Converged,
@@ -27,7 +27,7 @@ pub enum Status {
 }
 
 /// Why a solve was content with the grids it had.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StoppedBy {
     /// The stated error is what was asked for.
     Accuracy,
@@ -50,7 +50,7 @@ impl StoppedBy {
 }
 
 /// The accuracy of the headline, relative to it; that of α to a hundredth of the load where the film carries less than that.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Asked for; 0 on grids that the scene prescribes.
     pub asked: f64,
@@ -61,7 +61,7 @@ pub struct Accuracy {
 }
 
 /// Results of a motor scene: cycle means for one wavelength.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MotorResult {
     /// α: the film's share of the load.
     pub alpha: f64,
@@ -99,7 +99,7 @@ pub struct MotorResult {
 }
 
 /// The motor at one speed of its rotor; the whole ring.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Surface speed of the rotor \[m/s\].
     pub speed: f64,
@@ -114,7 +114,7 @@ pub struct Point {
 }
 
 /// Torque, power and efficiency with the film, or without it; the whole ring.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Performance {
     /// Torque at rest \[N m\].
     pub stall_torque: Estimate,
@@ -137,7 +137,7 @@ pub struct Performance {
 }
 
 /// Results of a plate scene. Forces of a strip are per metre of width.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlateResult {
     /// Cycle mean of the net gauge force \[N or N/m\].
     pub film_load: f64,
@@ -158,7 +158,7 @@ pub struct PlateResult {
 }
 
 /// The result of either scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
     /// Of a motor.
     Motor(MotorResult),
@@ -167,7 +167,7 @@ pub enum Outcome {
 }
 
 /// What the solve cost, counted; no clock in here.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stats {
     /// Time steps of one tooth's film.
     pub film_steps: u64,
@@ -195,7 +195,7 @@ pub struct Stats {
 }
 
 /// What was modelled, in words for the user.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Model {
     /// `draft`, `standard`, … or `paper mesh`.
     pub fidelity: String,
@@ -214,7 +214,7 @@ pub struct Model {
 }
 
 /// Everything a solve returns.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Solution {
     /// How it ended.
     pub status: Status,

@@ -8,10 +8,12 @@ pub mod exact;
 pub mod figure;
 pub mod figures;
 pub mod files;
+mod film;
 pub mod fit;
 pub mod html;
 pub mod json;
 
+#[cfg(feature = "video")]
 mod mp4;
 pub mod npz;
 pub mod reproduce;
@@ -23,4 +25,5 @@ pub mod sweep;
 pub mod table1;
 pub mod torque;
 pub mod tradeoff;
+#[cfg(feature = "video")]
 mod video;
