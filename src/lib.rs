@@ -66,6 +66,7 @@
 //! | [`mod@solve`] | one call for all of it |
 //! | [`mod@startup`], [`hold`] | the transient from rest; a plate held by hand |
 //! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
+//! | [`citation`] | how the program is cited |
 //! | [`lessons`] | lessons and the glossary: their texts, scenes, questions and checks |
 //! | [`cli`] | the command line |
 //!
@@ -74,6 +75,7 @@
 pub mod analysis;
 pub mod atomic;
 pub mod budget;
+pub mod citation;
 pub mod cli;
 pub mod contact;
 pub mod control;

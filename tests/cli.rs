@@ -332,6 +332,33 @@ fn a_scene_in_a_file_that_is_not_one_is_refused() {
 }
 
 #[test]
+fn shells_and_man_are_told_every_command() {
+    let help = run(&["--help"]);
+    let listed: Vec<&str> = out(&help)
+        .lines()
+        .skip_while(|line| *line != "Commands:")
+        .skip(1)
+        .take_while(|line| !line.is_empty())
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|command| *command != "help")
+        .collect();
+    assert!(listed.contains(&"solve") && listed.contains(&"man"), "{listed:?}");
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let script = run(&["completions", shell]);
+        assert_eq!(script.status.code(), Some(0));
+        assert!(listed.iter().all(|command| out(&script).contains(command)), "{shell}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(run(&["man", folder.path().to_str().unwrap()]).status.code(), Some(0));
+    for command in listed {
+        let page = std::fs::read_to_string(folder.path().join(format!("squeezefilm-{command}.1"))).unwrap();
+        assert!(page.contains(".SH OPTIONS") && page.contains(".SH SYNOPSIS"), "{page}");
+    }
+    let program = std::fs::read_to_string(folder.path().join("squeezefilm.1")).unwrap();
+    assert!(program.contains("Exit status") && program.contains("squeezefilm\\-solve(1)"), "{program}");
+}
+
+#[test]
 fn help_and_version_go_to_standard_output() {
     for arguments in [&["--help"][..], &["help", "solve"], &["solve", "--help"], &["--version"], &["table1", "-h"]] {
         let output = run(arguments);

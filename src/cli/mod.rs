@@ -3,6 +3,7 @@
 mod animate;
 mod columns;
 mod compare;
+mod completions;
 mod exit;
 mod fit;
 #[cfg(feature = "gui")]
@@ -65,6 +66,8 @@ enum Command {
     Presets(presets::Arguments),
     New(new::Arguments),
     Surface(surface::Arguments),
+    Completions(completions::CompletionsArguments),
+    Man(completions::ManArguments),
 }
 
 const AFTER: &str = "\
@@ -128,6 +131,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Presets(arguments)) => presets::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Surface(arguments)) => surface::run(&arguments, &command_line(words)),
+        Some(Command::Completions(arguments)) => completions::completions(&arguments),
+        Some(Command::Man(arguments)) => completions::man(&arguments),
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),

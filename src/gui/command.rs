@@ -45,6 +45,10 @@ pub enum Command {
     },
     /// Copies a link to what is shown.
     CopyLink,
+    /// Tells what the program is, and how it is cited.
+    About,
+    /// Copies its citation.
+    CopyCitation,
     /// Takes the last edit back.
     Undo,
     /// Makes it again.

@@ -22,6 +22,8 @@ pub enum Modal {
     Path(PathPrompt),
     /// What is asked about a new motor, as answered so far.
     NewMotor(Answers),
+    /// What the program is, and how it is cited.
+    About,
 }
 
 /// A path, and what it may be used for.

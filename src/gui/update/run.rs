@@ -2,6 +2,7 @@
 
 use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Target;
+use crate::citation;
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::{Answer, Picture, Purpose};
 use crate::gui::state::document::Document;
@@ -21,6 +22,8 @@ impl Updater {
             Command::Reset { key } => self.reset(key),
             Command::Use { target, numerics } => self.use_setting(target, numerics),
             Command::CopyLink => self.copy_link(),
+            Command::About => state.modal = Some(Modal::About),
+            Command::CopyCitation => self.ctx.copy_text(citation::bibtex()),
             Command::Undo => self.step_history(Document::undo),
             Command::Redo => self.step_history(Document::redo),
             Command::Proceed(next) => self.proceed(next),

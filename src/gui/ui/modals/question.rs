@@ -2,6 +2,7 @@
 
 use super::frame::{Answer, frame, heading};
 use super::new_motor;
+use crate::citation::{LICENCE, VERSION, bibtex};
 use crate::gui::command::Command;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::document::{Next, absolute};
@@ -25,6 +26,7 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
             Modal::Unfinished(work) => unfinished(ui, work),
             Modal::Path(prompt) => path(ui, prompt, cx),
             Modal::NewMotor(answers) => new_motor::show(ui, answers, cx),
+            Modal::About => about(ui, cx),
         }
     });
     let closed = response.should_close().then(Vec::new);
@@ -46,6 +48,41 @@ fn error(ui: &mut Ui, message: &str) -> Answer {
         close.request_focus();
     }
     close.clicked().then(Vec::new)
+}
+
+fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
+    heading(ui, &format!("squeezefilm {VERSION}"));
+    let text = "What a few hundred nanometres of air do inside an ultrasonic motor: the film between stator and rotor, the elastic \
+                rotor and their contact, solved together, with an error for every number.";
+    ui.add(egui::Label::new(text).wrap());
+    ui.add_space(6.0);
+    cx.note(
+        ui,
+        &format!(
+            "Licence: {LICENCE}. Equations and what they were checked against: docs/theory.md and docs/validation.md."
+        ),
+    );
+    ui.add_space(12.0);
+    ui.label("To cite it:");
+    let citation = bibtex();
+    ui.add(
+        egui::TextEdit::multiline(&mut citation.trim_end())
+            .font(egui::TextStyle::Monospace)
+            .desired_width(f32::INFINITY)
+            .desired_rows(1),
+    );
+    ui.add_space(12.0);
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Copy citation").clicked() {
+            cx.push(Command::CopyCitation);
+        }
+        let close = ui.button("Close");
+        if ui.memory(|memory| memory.focused().is_none()) {
+            close.request_focus();
+        }
+        close.clicked().then(Vec::new)
+    })
+    .inner
 }
 
 fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {

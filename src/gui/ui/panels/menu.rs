@@ -45,6 +45,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             item(ui, "Take the tour", true, Command::Tour(Some(0)), cx);
             ui.separator();
             item(ui, "Keyboard shortcuts", true, Command::ToggleShortcuts, cx);
+            item(ui, "About squeezefilm", true, Command::About, cx);
         });
         ui.separator();
         let mark = if document.is_dirty() { " •" } else { "" };

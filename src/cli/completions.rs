@@ -1,0 +1,49 @@
+//! `squeezefilm completions` and `squeezefilm man`: the command line, told to shells and to `man`.
+
+use super::Cli;
+use super::exit::{CliError, Exit};
+use super::terminal;
+use crate::atomic::Staged;
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+use clap_mangen::Man;
+use std::path::PathBuf;
+
+/// Prints what a shell completes commands and options from
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  squeezefilm completions bash > ~/.local/share/bash-completion/completions/squeezefilm
+  squeezefilm completions fish > ~/.config/fish/completions/squeezefilm.fish")]
+pub(super) struct CompletionsArguments {
+    /// The shell
+    shell: Shell,
+}
+
+/// Writes a page for man for every command
+#[derive(Debug, Args)]
+#[command(after_help = "Example:
+  squeezefilm man ~/.local/share/man/man1")]
+pub(super) struct ManArguments {
+    /// Folder that the pages are written into
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+pub(super) fn completions(arguments: &CompletionsArguments) -> Result<Exit, CliError> {
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Cli::command(), "squeezefilm", &mut script);
+    terminal::data(&String::from_utf8_lossy(&script));
+    Ok(Exit::Solved)
+}
+
+pub(super) fn man(arguments: &ManArguments) -> Result<Exit, CliError> {
+    let mut program = Cli::command().disable_help_subcommand(true);
+    program.build();
+    let mut pages = Staged::new(&arguments.folder)?;
+    for command in std::iter::once(&program).chain(program.get_subcommands()) {
+        let page = Man::new(command.clone());
+        pages.add(page.get_filename(), |file| page.render(file))?;
+    }
+    pages.commit()?;
+    Ok(Exit::Solved)
+}
