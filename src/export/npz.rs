@@ -6,20 +6,10 @@
 //! are stored, not compressed, which costs a few megabytes and saves seconds; entries carry no time, so that a run
 //! gives the same bytes every time.
 //!
-//! | array | shape | what |
-//! | --- | --- | --- |
-//! | `time_s` | frames | the instants of one cycle |
-//! | `x_m`, `node_length_m` | nodes | along a tooth from its middle (a plate: from its own), and the length each node stands for |
-//! | `tooth_middle_m` | teeth | where the middles of the teeth are (motor) |
-//! | `stator_nm`, `gap_nm`, `contact_n_per_m` | frames × teeth × nodes | fields on the lines of all teeth (motor) |
-//! | `film_thickness_nm`, `film_n_per_m` | frames × teeth × nodes, of a plate frames × nodes | the same of both scenes (a strip: `film_n_per_m2`) |
-//! | `map_x_m`, `map_y_m` | | where the pressure is, of a symmetric film only the half that was solved |
-//! | `pressure_kpa` | frames × map_x × map_y | absolute, under the first tooth |
-//! | `film_load_n`, `contact_load_n`, `teeth_in_contact` | frames | on one wavelength (a strip: `film_load_n_per_m`) |
-//! | `preset`, `version`, `fidelity`, `scene_toml` | | text |
+//! Beside the [`fields`] there are `preset`, `version`, `fidelity` and `scene_toml` as text.
 
-use crate::problem::{Problem, Scenario};
-use crate::recording::Recording;
+use super::fields::{Field, fields};
+use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::Solution;
 use std::fmt::Write as _;
@@ -30,55 +20,14 @@ use zip::{CompressionMethod, ZipWriter};
 /// Writes the archive of a solve of `scene`.
 pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dyn Write) -> io::Result<()> {
     let mut archive = Archive(ZipWriter::new_stream(out));
-    let recording = &solution.recording;
-    let (frames, nodes, teeth) = (recording.frames, recording.x.len(), recording.teeth);
-    let times: Vec<f64> = (0..frames).map(|frame| recording.time(frame)).collect();
-    archive.numbers("time_s", &[frames], times)?;
-    archive.numbers("x_m", &[nodes], recording.x.iter().copied())?;
-    archive.numbers("node_length_m", &[nodes], recording.node_length.iter().copied())?;
-    let (film, load) = match &problem.scenario {
-        Scenario::Motor(motor) => {
-            let shape = [frames, teeth, nodes];
-            archive.numbers("tooth_middle_m", &[teeth], (0..teeth).map(|tooth| tooth as f64 * recording.pitch))?;
-            archive.numbers("stator_nm", &shape, lines(recording, &recording.stator, 1e9))?;
-            let gap = lines(recording, &recording.film_thickness, 1e9).map(|h| h - motor.spacing() * 1e9);
-            archive.numbers("gap_nm", &shape, gap)?;
-            archive.numbers("contact_n_per_m", &shape, lines(recording, &recording.contact, 1.0))?;
-            archive.numbers("contact_load_n", &[frames], recording.contact_load.iter().copied())?;
-            archive.numbers("teeth_in_contact", &[frames], recording.teeth_in_contact.iter().map(|n| *n as f64))?;
-            ("film_n_per_m", "film_load_n")
-        }
-        Scenario::Plate(plate) if plate.width.is_none() => ("film_n_per_m2", "film_load_n_per_m"),
-        Scenario::Plate(_) => ("film_n_per_m", "film_load_n"),
-    };
-    let shape: &[usize] =
-        if matches!(problem.scenario, Scenario::Motor(_)) { &[frames, teeth, nodes] } else { &[frames, nodes] };
-    archive.numbers("film_thickness_nm", shape, lines(recording, &recording.film_thickness, 1e9))?;
-    archive.numbers(film, shape, lines(recording, &recording.film, 1.0))?;
-    archive.numbers(load, &[frames], recording.film_load.iter().copied())?;
-    let loads = format!("{}_error{}", &load[..9], &load[9..]);
-    for (name, errors, unit) in [
-        (loads.as_str(), &recording.film_load_error, 1.0),
-        ("max_pressure_error_kpa", &recording.max_pressure_error, 1e-3),
-    ] {
-        archive.numbers(name, &[errors.len()], errors.iter().map(|error| error * unit))?;
+    for Field { name, shape, values, .. } in fields(problem, &solution.recording) {
+        archive.numbers(&name, &shape, values)?;
     }
-    let (nx, ny) = (recording.map_x.len(), recording.map_y.len());
-    archive.numbers("map_x_m", &[nx], recording.map_x.iter().copied())?;
-    archive.numbers("map_y_m", &[ny], recording.map_y.iter().copied())?;
-    archive.numbers("pressure_kpa", &[frames, nx, ny], recording.pressure.iter().map(|p| p * 1e-3))?;
     archive.text("preset", &problem.name)?;
     archive.text("version", env!("CARGO_PKG_VERSION"))?;
     archive.text("fidelity", &solution.model.fidelity)?;
     archive.text("scene_toml", &scene.to_toml())?;
     archive.0.finish().map_err(io::Error::from)?.flush()
-}
-
-/// A field of all teeth, frame by frame, tooth by tooth.
-fn lines<'a>(recording: &'a Recording, field: &'a [f64], scale: f64) -> impl Iterator<Item = f64> + 'a {
-    let teeth = move |frame: usize| (0..recording.teeth).map(move |tooth| recording.line_offset(tooth, frame));
-    let line = move |at: usize| field[at..at + recording.x.len()].iter().map(move |value| value * scale);
-    (0..recording.frames).flat_map(teeth).flat_map(line)
 }
 
 /// A zip as a stream: sizes and sums follow each array, and the index is at the end.
