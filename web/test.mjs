@@ -40,7 +40,7 @@ function watch(page) {
 }
 watch(page);
 
-const told = () => page.evaluate(() => window.squeezefilm?.() ?? null);
+const told = () => page.evaluate(() => window.shown?.() ?? null);
 async function until(what, ready, seconds = 60) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {

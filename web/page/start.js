@@ -48,10 +48,10 @@ async function start() {
   await init({ module_or_path: await program() });
   open();
   // For screen readers, and for tests.
-  window.squeezefilm = () => JSON.parse(told());
+  window.shown = () => JSON.parse(told());
   const text = document.getElementById("told");
   setInterval(() => {
-    const { nodes } = window.squeezefilm();
+    const { nodes } = window.shown();
     const lines = nodes.map(({ label, value }) => [label, value].filter(Boolean).join(": "));
     const now = lines.join("\n");
     if (text.textContent !== now) text.textContent = now;
