@@ -40,7 +40,7 @@ function watch(page) {
 }
 watch(page);
 
-const told = () => page.evaluate(() => window.squeezefilm?.() ?? null);
+const told = () => page.evaluate(() => window.shown?.() ?? null);
 async function until(what, ready, seconds = 60) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
@@ -144,12 +144,23 @@ await click("Sweep as table…", "Button");
 const table = await readFile(await (await download).path(), "utf8");
 check(`a table was downloaded: ${table.split("\n").length} lines`, /alpha/.test(table) && table.split("\n").length > 5);
 
-// Every tab.
-for (const [key, name] of [["1", "motion"], ["5", "trade-off"], ["6", "start-up"], ["8", "rotor"], ["9", "sensitivity"]]) {
+// Every tab, and what is computed in it.
+const says = (words) => ({ nodes }) => nodes.some(({ label, value }) => words.test(`${label} ${value}`));
+async function computed(key, button, words, name) {
   await page.keyboard.press(`Control+${key}`);
-  await page.waitForTimeout(1200);
+  if (button) await click(button, "Button");
+  await until(name, says(words), 120);
+  await page.waitForTimeout(500);
   await picture(name);
+  check(`${name} is computed`, true);
 }
+await computed("8", null, /Present rotor:/, "rotor");
+await computed("9", "Compute sensitivities", /% for 1 % more/, "sensitivity");
+await computed("6", "Start from rest", /Cycle \d+: repeats/, "start-up");
+await computed("5", "Measure", /accuracy 1%/, "trade-off");
+await page.keyboard.press("Control+1");
+await page.waitForTimeout(1500);
+await picture("motion");
 await fresh.close();
 
 // A lesson, and its next step.

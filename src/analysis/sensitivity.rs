@@ -25,8 +25,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use rayon::prelude::*;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
+use std::sync::OnceLock;
 
 /// A result whose sensitivity is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -135,7 +139,12 @@ pub enum SensitivityError {
 #[derive(Debug)]
 pub struct Sensitivity {
     variation: Variation,
-    centre: Centre,
+    settings: Settings,
+    problem: Problem,
+    /// What random scenes are solved from: not carried in bytes, but solved again.
+    centre: OnceLock<Centre>,
+    status: Status,
+    warnings: Vec<String>,
     /// The results, the headline first.
     pub outputs: &'static [Output],
     /// Their values, with their numerical errors; not finite where the scene has none.
@@ -169,7 +178,20 @@ impl Sensitivity {
         };
         let (outputs, values) = (Output::of(&problem), read(&problem, &centre.solved.fine));
         let coarse = numbers.coarse.unwrap_or(numbers.fine);
-        Ok(Some(Self { variation, centre, outputs, values, columns, coarse }))
+        let (status, warnings) = (centre.solved.fine.status, centre.solved.fine.warnings.clone());
+        let (settings, centre) = (*settings, OnceLock::from(centre));
+        Ok(Some(Self { variation, settings, problem, centre, status, warnings, outputs, values, columns, coarse }))
+    }
+
+    /// What random scenes are solved from.
+    fn centre(&self, cancel: &Cancel) -> Result<&Centre, SolveError> {
+        match self.centre.get() {
+            Some(centre) => Ok(centre),
+            None => {
+                let centre = Centre::new(&self.problem, &self.settings, None, cancel)?;
+                Ok(self.centre.get_or_init(|| centre))
+            }
+        }
     }
 
     /// The scene.
@@ -179,17 +201,17 @@ impl Sensitivity {
 
     /// The problem.
     pub fn problem(&self) -> &Problem {
-        &self.centre.problem
+        &self.problem
     }
 
     /// How the solve in the middle ended.
     pub fn status(&self) -> Status {
-        self.centre.solved.fine.status
+        self.status
     }
 
     /// What the user should know of that solve.
     pub fn warnings(&self) -> &[String] {
-        &self.centre.solved.fine.warnings
+        &self.warnings
     }
 
     /// Keys that act in the scene and are whole numbers, which have no derivative.
@@ -280,9 +302,11 @@ impl Sensitivity {
         cancel: &Cancel,
         solved: &(dyn Fn() + Sync),
     ) -> Option<MonteCarlo> {
+        // Known, unless this was carried here: then it is solved as it was before.
+        let centre = self.centre(cancel).ok()?;
         let one = |number: usize| {
             let found = uncertainties.draw(number as u64, seed).and_then(|(values, problem, redrawn)| {
-                let results = if cancel.is_cancelled() { Vec::new() } else { self.solve_draw(&problem, cancel)? };
+                let results = if cancel.is_cancelled() { Vec::new() } else { solve_draw(centre, &problem, cancel)? };
                 Ok((Draw { values, results }, redrawn))
             });
             solved();
@@ -304,13 +328,52 @@ impl Sensitivity {
         }
         Some(carlo)
     }
+}
 
-    fn solve_draw(&self, problem: &Problem, cancel: &Cancel) -> Result<Vec<f64>, String> {
-        let found = caught(|| self.centre.solve(problem, cancel))
-            .map_err(|panic| format!("the solver failed: {panic}"))?
-            .map_err(|error| error.to_string())?;
-        let found = found.ok_or("it has no periodic state on the grids of the scene")?;
-        Ok(values(problem, &found.fine))
+fn solve_draw(centre: &Centre, problem: &Problem, cancel: &Cancel) -> Result<Vec<f64>, String> {
+    let found = caught(|| centre.solve(problem, cancel))
+        .map_err(|panic| format!("the solver failed: {panic}"))?
+        .map_err(|error| error.to_string())?;
+    let found = found.ok_or("it has no periodic state on the grids of the scene")?;
+    Ok(values(problem, &found.fine))
+}
+
+/// In bytes: all but what random scenes are solved from.
+type Carried<'a> =
+    (Cow<'a, Variation>, Settings, Status, Cow<'a, [String]>, Cow<'a, [Estimate]>, Cow<'a, [Column]>, Cow<'a, [f64]>);
+
+impl Serialize for Sensitivity {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let carried: Carried<'_> = (
+            Cow::Borrowed(&self.variation),
+            self.settings,
+            self.status,
+            Cow::Borrowed(&self.warnings),
+            Cow::Borrowed(&self.values),
+            Cow::Borrowed(&self.columns),
+            Cow::Borrowed(&self.coarse),
+        );
+        carried.serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Sensitivity {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let (variation, settings, status, warnings, values, columns, coarse) = Carried::deserialize(from)?;
+        let variation = variation.into_owned();
+        let problem = Problem::new(variation.scene()).map_err(D::Error::custom)?;
+        Ok(Self {
+            variation,
+            settings,
+            outputs: Output::of(&problem),
+            problem,
+            centre: OnceLock::new(),
+            status,
+            warnings: warnings.into_owned(),
+            values: values.into_owned(),
+            columns: columns.into_owned(),
+            coarse: coarse.into_owned(),
+        })
     }
 }
 
@@ -323,7 +386,7 @@ const MOST_REDRAWN: usize = 1000;
 // ---- uncertainties
 
 /// How the values of a key are distributed about that of the scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Shape {
     /// Normally.
     #[default]
@@ -346,7 +409,7 @@ impl Shape {
 }
 
 /// The uncertainty of a key, as in `20%`, `10` or `±10`: a standard deviation, or limits if it begins with `±`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uncertainty {
     /// Standard deviation or limit, in the unit of the key, or as a share of its value.
     pub amount: f64,
@@ -421,7 +484,7 @@ impl fmt::Display for Uncertainty {
 }
 
 /// Uncertainties of keys of one scene, which are independent of each other.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Uncertainties {
     variation: Variation,
     given: Vec<Uncertainty>,
@@ -498,7 +561,7 @@ impl Propagated {
 // ---- Monte Carlo
 
 /// One draw: the values of the uncertain keys in their order, and the results.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Draw {
     /// Of the keys, in their units.
     pub values: Vec<f64>,
@@ -507,7 +570,7 @@ pub struct Draw {
 }
 
 /// What random scenes give.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MonteCarlo {
     /// Where the random numbers began.
     pub seed: u64,

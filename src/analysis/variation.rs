@@ -22,6 +22,7 @@ use crate::solution::Solution;
 use crate::solve::near::Centre;
 use crate::solve::{Settings, check};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The step, as a share of the scale of a key.
 const STEP: f64 = 0.01;
@@ -33,9 +34,10 @@ const ABOVE: [i32; 2] = [1, 2];
 const BELOW: [i32; 2] = [-1, -2];
 
 /// A scene and the keys that are varied in it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Variation {
     scene: Scene,
+    #[serde(deserialize_with = "Parameter::from_keys")]
     parameters: Vec<&'static Parameter>,
 }
 
@@ -70,7 +72,7 @@ pub enum VariationError {
 }
 
 /// What a derivative was taken over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sides {
     /// Steps to both sides.
     Both,
@@ -81,7 +83,7 @@ pub enum Sides {
 }
 
 /// A derivative, in the unit of the number over that of the key.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Slope {
     /// The derivative; not finite where the number is not known.
     pub value: f64,
@@ -108,9 +110,10 @@ impl Slope {
 }
 
 /// The derivatives of all numbers by one key.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// The key.
+    #[serde(deserialize_with = "Parameter::from_key")]
     pub parameter: &'static Parameter,
     /// Its value in the middle, in its unit.
     pub at: f64,

@@ -19,6 +19,13 @@ pub struct Compared {
     fidelity: Fidelity,
 }
 
+impl Compared {
+    /// A scene, and the fidelity that it is solved at.
+    pub fn new(posed: Posed, fidelity: Fidelity) -> Self {
+        Self { posed, fidelity }
+    }
+}
+
 /// What came of it: what it is called, and its solution or why there is none.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Found {
@@ -67,5 +74,5 @@ pub fn start(
     wake: impl Fn(bool) + Send + Sync + 'static,
 ) -> std::io::Result<PinTask> {
     let problem = Problem::new(&scene).map_err(std::io::Error::other)?;
-    Task::of(Compared { posed: Posed { scene, problem }, fidelity }, wake)
+    Task::of(Compared::new(Posed { scene, problem }, fidelity), wake)
 }

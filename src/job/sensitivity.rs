@@ -1,42 +1,93 @@
 //! Derivatives of the results, and random scenes, in the background.
 
 use super::task::Task;
+use super::work::{Work, shared};
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
+use crate::control::Cancel;
 use crate::scene::Scene;
 use crate::solve::Settings;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Work that tells the share that is done, 0 to 1, and returns what was found; `None` if it was cancelled.
 pub type Finding<T> = Task<f64, Option<T>>;
 
+/// A scene, as it is carried to where its derivatives are computed.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Derivatives {
+    scene: Scene,
+    settings: Settings,
+}
+
+impl Work for Derivatives {
+    const NAME: &'static str = "sensitivity";
+    type Message = f64;
+    type Found = Option<Result<Box<Sensitivity>, String>>;
+
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
+        let count = AtomicUsize::new(0);
+        let solved = |all: usize| tell((count.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64);
+        let none: [&str; 0] = [];
+        match Sensitivity::of(&self.scene, &none, &self.settings, cancel, &solved) {
+            Ok(found) => found.map(|found| Ok(Box::new(found))),
+            Err(error) => Some(Err(error.to_string())),
+        }
+    }
+
+    fn ended() -> Self::Found {
+        None
+    }
+}
+
+/// Random scenes, as they are carried to where they are solved.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Draws {
+    #[serde(with = "shared")]
+    sensitivity: Arc<Sensitivity>,
+    uncertainties: Uncertainties,
+    draws: usize,
+    seed: u64,
+}
+
+impl Work for Draws {
+    const NAME: &'static str = "monte-carlo";
+    type Message = f64;
+    type Found = Option<MonteCarlo>;
+
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
+        let Self { sensitivity, uncertainties, draws, seed } = self;
+        let count = AtomicUsize::new(0);
+        let solved = || tell((count.fetch_add(1, Ordering::Relaxed) + 1) as f64 / draws.max(1) as f64);
+        sensitivity.monte_carlo(&uncertainties, draws, seed, cancel, &solved)
+    }
+
+    fn ended() -> Self::Found {
+        None
+    }
+}
+
 /// Starts to compute the derivatives of the results of `scene` by every key that acts. It returns them, or why there are none.
+///
+/// # Errors
+/// If it cannot be done in the background.
 pub fn sensitivity(
     scene: Scene,
     settings: Settings,
     wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<Finding<Result<Arc<Sensitivity>, String>>> {
-    Task::start("sensitivity", wake, move |cancel, tell| {
-        let count = AtomicUsize::new(0);
-        let solved = |all: usize| tell((count.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64);
-        let none: [&str; 0] = [];
-        match Sensitivity::of(&scene, &none, &settings, cancel, &solved) {
-            Ok(found) => found.map(|found| Ok(Arc::new(found))),
-            Err(error) => Some(Err(error.to_string())),
-        }
-    })
+) -> std::io::Result<Finding<Result<Box<Sensitivity>, String>>> {
+    Task::of(Derivatives { scene, settings }, wake)
 }
 
 /// Starts to solve `draws` random scenes.
+///
+/// # Errors
+/// If it cannot be done in the background.
 pub fn monte_carlo(
     sensitivity: Arc<Sensitivity>,
     uncertainties: Uncertainties,
     (draws, seed): (usize, u64),
     wake: impl Fn(bool) + Send + Sync + 'static,
 ) -> std::io::Result<Finding<MonteCarlo>> {
-    Task::start("monte-carlo", wake, move |cancel, tell| {
-        let count = AtomicUsize::new(0);
-        let solved = || tell((count.fetch_add(1, Ordering::Relaxed) + 1) as f64 / draws.max(1) as f64);
-        sensitivity.monte_carlo(&uncertainties, draws, seed, cancel, &solved)
-    })
+    Task::of(Draws { sensitivity, uncertainties, draws, seed }, wake)
 }

@@ -5,6 +5,7 @@ use super::line::{end, message};
 use super::page::Step;
 use super::pin::Compared;
 use super::rotor::Alone;
+use super::sensitivity::{Derivatives, Draws};
 use super::startup::FromRest;
 use super::sweep::Points;
 use super::torque::Curves;
@@ -38,6 +39,8 @@ const WORKS: &[(&str, Run)] = &[
     (Measurement::NAME, run::<Measurement>),
     (Alone::NAME, run::<Alone>),
     (Asked::NAME, run::<Asked>),
+    (Derivatives::NAME, run::<Derivatives>),
+    (Draws::NAME, run::<Draws>),
 ];
 
 fn run<W: Work>(bytes: &[u8]) {

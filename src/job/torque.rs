@@ -18,6 +18,13 @@ pub struct Curves {
     solution: Solution,
 }
 
+impl Curves {
+    /// Of a solution of a scene at this fidelity.
+    pub fn new(posed: Posed, fidelity: Fidelity, solution: Solution) -> Self {
+        Self { posed, fidelity, solution }
+    }
+}
+
 /// What was found, in bytes.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Found(#[serde(with = "Parts")] pub TorqueCurves);
@@ -63,5 +70,5 @@ impl Work for Curves {
 pub fn start(run: &SolvedScene, wake: impl Fn(bool) + Send + Sync + 'static) -> std::io::Result<TorqueTask> {
     let SolvedScene { scene, problem, fidelity, solution, .. } = run;
     let posed = Posed { scene: scene.clone(), problem: problem.clone() };
-    Task::of(Curves { posed, fidelity: *fidelity, solution: solution.clone() }, wake)
+    Task::of(Curves::new(posed, *fidelity, solution.clone()), wake)
 }

@@ -62,3 +62,90 @@ pub(super) mod shared {
         T::deserialize(from).map(Arc::new)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::sensitivity::{Sensitivity, Uncertainties, Uncertainty};
+    use crate::analysis::sweep::Sweep;
+    use crate::analysis::tradeoff::candidates;
+    use crate::fidelity::Fidelity;
+    use crate::job::pin::Compared;
+    use crate::job::sweep::Points;
+    use crate::job::torque::Curves;
+    use crate::scene::presets;
+    use crate::solve::{Settings, solve};
+
+    fn carried<T: Serialize + DeserializeOwned>(what: &T) -> T {
+        postcard::from_bytes(&postcard::to_stdvec(what).unwrap()).unwrap()
+    }
+
+    fn draft() -> Settings {
+        Settings { fidelity: Fidelity::Draft, ..Settings::default() }
+    }
+
+    fn posed(preset: &str) -> Posed {
+        let scene = presets::find(preset).unwrap();
+        Posed { problem: Problem::new(&scene).unwrap(), scene }
+    }
+
+    /// Not a number equals nothing, itself included: what is printed is compared.
+    fn same<T: std::fmt::Debug>(one: &T, other: &T) {
+        assert_eq!(format!("{one:?}"), format!("{other:?}"));
+    }
+
+    #[test]
+    fn scenes_and_solutions_are_carried_to_the_last_bit() {
+        for preset in ["fundamental", "ring-rotor", "asperities", "levitating", "plate-crossover"] {
+            let posed = posed(preset);
+            same(&carried(&posed), &posed);
+            let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
+            same(&carried(&solution), &solution);
+            same(&carried(&candidates(&posed.problem)), &candidates(&posed.problem));
+        }
+    }
+
+    #[test]
+    fn what_is_done_elsewhere_comes_to_the_same() {
+        fn both<W: Work>(work: W) {
+            let there: W = carried(&work);
+            let found = |work: W| work.run(&Cancel::new(), &|told| drop(carried(&told)));
+            let (here, there) = (found(work), found(there));
+            assert_eq!(
+                postcard::to_stdvec(&carried(&here)).unwrap(),
+                postcard::to_stdvec(&there).unwrap(),
+                "{}",
+                W::NAME
+            );
+        }
+        let posed = posed("fundamental");
+        let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
+        both(Curves::new(posed.clone(), Fidelity::Draft, solution));
+        both(Compared::new(posed.clone(), Fidelity::Draft));
+        both(Points::New(posed.scene.clone(), vec!["film.min_spacing_nm=100:300:3".parse().unwrap()], draft()));
+    }
+
+    #[test]
+    fn random_scenes_of_sensitivities_that_were_carried_are_the_same() {
+        let scene = presets::find("fundamental").unwrap();
+        let none = |_: usize| ();
+        let found =
+            Sensitivity::of(&scene, &["film.min_spacing_nm"], &draft(), &Cancel::new(), &none).unwrap().unwrap();
+        let uncertain: Uncertainty = "10%".parse().unwrap();
+        let uncertainties = Uncertainties::new(&scene, &[("film.min_spacing_nm", uncertain)]).unwrap();
+        let there = carried(&found);
+        same(&there.columns, &found.columns);
+        let draw = |of: &Sensitivity, by: &Uncertainties| of.monte_carlo(by, 5, 1, &Cancel::new(), &|| ()).unwrap();
+        same(&draw(&there, &carried(&uncertainties)), &draw(&found, &uncertainties));
+    }
+
+    #[test]
+    fn a_sweep_that_goes_on_elsewhere_is_the_same() {
+        let scene = presets::find("plate-crossover").unwrap();
+        let sweep = Sweep::new(&scene, &["plate.amplitude_um=0.1:0.5:5".parse().unwrap()], &draft()).unwrap();
+        let there = carried(&sweep);
+        assert_eq!(there.fingerprint(), sweep.fingerprint());
+        let rows = sweep.run(&[], &Cancel::new(), &|_| ());
+        assert_eq!(there.run(&carried(&rows[..2].to_vec()), &Cancel::new(), &|_| ()), rows);
+    }
+}

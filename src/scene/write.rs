@@ -94,6 +94,15 @@ impl Parameter {
         let key = String::deserialize(from)?;
         Self::find(&key).ok_or_else(|| D::Error::custom(key))
     }
+
+    /// The parameters whose keys are in bytes.
+    ///
+    /// # Errors
+    /// If there is none of one of the keys.
+    pub fn from_keys<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<&'static Self>, D::Error> {
+        let keys = <Vec<String>>::deserialize(from)?;
+        keys.into_iter().map(|key| Self::find(&key).ok_or_else(|| D::Error::custom(key))).collect()
+    }
 }
 
 fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {

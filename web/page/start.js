@@ -1,5 +1,6 @@
 // Loads the program, shows how far that is, and opens the window. Says in words what a browser lacks.
 import init, { open, told } from "./squeezefilm.js";
+import unpacker, { unpack } from "./unpack.js";
 
 const size = "PROGRAM_BYTES"; // a number once it is built
 const message = document.getElementById("message");
@@ -10,20 +11,23 @@ function stop(why) {
   message.textContent = why;
 }
 
-// The program, unpacked while it is loaded and compiled while it is unpacked.
+// The program: loaded, unpacked and compiled.
 async function program() {
+  const ready = unpacker();
   const answer = await fetch("./squeezefilm.bin");
   if (!answer.ok) throw new Error(`the program cannot be loaded: ${answer.status} ${answer.statusText}`);
+  const packed = new Uint8Array(size);
   let loaded = 0;
-  const counted = answer.body.pipeThrough(new TransformStream({
-    transform(part, to) {
-      loaded += part.length;
-      progress.value = Math.min(loaded / size, 1);
-      to.enqueue(part);
-    },
-  }));
-  const unpacked = counted.pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compileStreaming(new Response(unpacked, { headers: { "Content-Type": "application/wasm" } }));
+  for (const reader = answer.body.getReader(); ;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    packed.set(value, loaded);
+    loaded += value.length;
+    progress.value = loaded / size;
+  }
+  await ready;
+  message.textContent = "Starting…";
+  return WebAssembly.compile(unpack(packed));
 }
 
 function webgl() {
@@ -32,8 +36,8 @@ function webgl() {
 }
 
 async function start() {
-  if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function") {
-    return stop("This browser cannot run the program: it needs WebAssembly and DecompressionStream, which browsers have had since 2023.");
+  if (typeof WebAssembly !== "object") {
+    return stop("This browser cannot run the program: it needs WebAssembly, which every current browser has unless it was switched off.");
   }
   if (!webgl()) {
     return stop("This browser does not draw with WebGL. Switch hardware acceleration on in its settings, or use another browser.");
@@ -48,10 +52,10 @@ async function start() {
   await init({ module_or_path: await program() });
   open();
   // For screen readers, and for tests.
-  window.squeezefilm = () => JSON.parse(told());
+  window.shown = () => JSON.parse(told());
   const text = document.getElementById("told");
   setInterval(() => {
-    const { nodes } = window.squeezefilm();
+    const { nodes } = window.shown();
     const lines = nodes.map(({ label, value }) => [label, value].filter(Boolean).join(": "));
     const now = lines.join("\n");
     if (text.textContent !== now) text.textContent = now;

@@ -15,7 +15,7 @@ pub const SEED: u64 = 1;
 /// Derivatives, uncertainties and random scenes.
 #[derive(Debug)]
 pub struct SensitivityState {
-    derivatives: Option<Finding<Result<Arc<Sensitivity>, String>>>,
+    derivatives: Option<Finding<Result<Box<Sensitivity>, String>>>,
     drawing: Option<Finding<MonteCarlo>>,
     share: f64,
     failure: Option<String>,
@@ -55,7 +55,7 @@ impl Default for SensitivityState {
 
 impl SensitivityState {
     /// `task` computes the derivatives at this fidelity. What was found before stays until it has.
-    pub fn begin(&mut self, task: std::io::Result<Finding<Result<Arc<Sensitivity>, String>>>, fidelity: Fidelity) {
+    pub fn begin(&mut self, task: std::io::Result<Finding<Result<Box<Sensitivity>, String>>>, fidelity: Fidelity) {
         (self.share, self.failure, self.drawing) = (0.0, None, None);
         match task {
             Ok(task) => (self.derivatives, self.fidelity) = (Some(task), fidelity),
@@ -81,7 +81,7 @@ impl SensitivityState {
                 self.derivatives = None;
                 match end {
                     Ok(Some(Ok(found))) => {
-                        (self.found, self.carlo) = (Some(found), None);
+                        (self.found, self.carlo) = (Some(found.into()), None);
                         self.judge();
                     }
                     Ok(Some(Err(why))) | Err(why) => self.failure = Some(why),
