@@ -545,6 +545,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     ctrl(&mut window, Key::Num1);
     let motion = ["Travelling wave", "Rotor", "Stator", "Gauge pressure", "Film", "Contact", "Pressure map"];
     explains(faults, &window, "Motion", &motion);
+    explains(faults, &window, "Motion, at the side", &["Ring", "Velocity across the film", "u"]);
     explains(faults, &window, "Motion, followed tooth", &["Followed tooth", "Least gap", "Loads", "Slow motion"]);
 
     ctrl(&mut window, Key::Num3);
@@ -637,7 +638,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
         faults,
         &window,
         "Motion of a plate",
-        &["Gap", "Plate", "Wall", "Film pressure", "Ambient", "Film load", "Loop"],
+        &["Gap", "Plate", "Wall", "Film pressure", "Ambient", "Film load", "Loop", "Velocity across the film"],
     );
     ctrl(&mut window, Key::Num4);
     let exact = ["Squeeze number", "Spring", "Damping", "σ/Q", "Spring and damping", "Boyle", "t/T", "Film load"];
@@ -934,6 +935,42 @@ fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
         window.run_steps(3);
         assert_eq!(range(&window), at_first, "{name}");
     }
+}
+
+#[test]
+fn the_ring_is_turned_with_the_mouse_and_with_the_arrow_keys() {
+    const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("Pause").click();
+    window.run_steps(3);
+    let seen = |window: &Window| {
+        let view = &window.state().state().view;
+        (view.orbit, view.phase)
+    };
+    let (first, phase) = seen(&window);
+    let middle = window.get_by_role_and_label(Role::Image, NAME).rect().center();
+    drag(&mut window, middle, middle + Vec2::new(40.0, 30.0));
+    let (dragged, _) = seen(&window);
+    assert!(dragged.elevation > first.elevation + 0.1, "what is in front goes down with the pointer: {dragged:?}");
+    assert!(dragged.azimuth > std::f64::consts::PI, "and to the right: {dragged:?}");
+    // Once it has the keyboard the arrows are its own, and step no frames.
+    window.get_by_role_and_label(Role::Image, NAME).focus();
+    window.run_steps(2);
+    for key in [Key::ArrowUp, Key::ArrowLeft, Key::ArrowLeft] {
+        window.key_press(key);
+        window.run_steps(2);
+    }
+    let (turned, same) = seen(&window);
+    let by = [turned.azimuth - dragged.azimuth, turned.elevation - dragged.elevation];
+    assert!((by[0] - 0.2).abs() < 1e-9 && (by[1] - 0.1).abs() < 1e-9, "{by:?}");
+    window.key_press(Key::Home);
+    window.run_steps(2);
+    assert_eq!((seen(&window), same), ((first, phase), phase));
+    drop(window);
+    let mut window = self::window("plate-trapped");
+    solved(&mut window);
+    assert!(window.query_by_label(NAME).is_none(), "a plate is no ring");
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::state::view::Tab;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::fidelity::Fidelity;
+use crate::gui::derived::ring::Orbit;
 use crate::lessons::Prediction;
 use crate::problem::Numerics;
 use crate::scene::Value;
@@ -117,6 +118,8 @@ pub enum Command {
     FollowTooth(usize),
     /// Follows the tooth this many further on.
     NextTooth(i64),
+    /// Looks at the ring from here.
+    Orbit(Orbit),
     /// Shows a prompt for a path to open.
     OpenPathPrompt,
     /// Light or dark.

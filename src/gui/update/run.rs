@@ -90,6 +90,7 @@ impl Updater {
                     state.view.tooth = (state.view.tooth as i64 + by).rem_euclid(teeth) as usize;
                 }
             }
+            Command::Orbit(orbit) => state.view.orbit = orbit,
             Command::ToggleTheme => {
                 state.dark = !state.dark;
                 self.apply_theme();
