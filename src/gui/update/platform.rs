@@ -54,11 +54,13 @@ fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
         },
         Purpose::Lessons => dialog,
         Purpose::Measurements => dialog.add_filter("Table", &["csv"]),
+        Purpose::Heights => dialog.add_filter("Heights", &["csv", "txt"]),
         Purpose::Open | Purpose::Save(_) => dialog.add_filter("Preset", &["toml"]),
     };
     let path = match purpose {
         Purpose::Open => dialog.set_title("Open a preset").pick_file(),
         Purpose::Measurements => dialog.set_title("Open a table of measurements").pick_file(),
+        Purpose::Heights => dialog.set_title("Open measured heights").pick_file(),
         Purpose::Export(export) if export.is_folder() => dialog.set_title(export.title()).pick_folder(),
         Purpose::Lessons => dialog.set_title("Open a folder of lessons").pick_folder(),
         Purpose::Export(export) => dialog.set_title(export.title()).set_file_name(name).save_file(),
