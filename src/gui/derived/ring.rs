@@ -161,7 +161,7 @@ impl Ring<'_> {
             let x = |i: usize| (i as f64 / count as f64) * recording.length - 0.5 * recording.pitch;
             return (0..=count).filter_map(|i| self.on_a_tooth(x(i))).collect();
         }
-        let strips = (MOST_TEETH / (recording.teeth * waves)).clamp(1, STRIPS);
+        let strips = (MOST_TEETH / (recording.teeth * waves).max(1)).clamp(1, STRIPS);
         let mut stations = Vec::with_capacity(recording.teeth * (strips + 3) + 1);
         for tooth in 0..recording.teeth {
             let middle = tooth as f64 * recording.pitch;

@@ -478,7 +478,7 @@ mod tests {
             section.compliances(band, 7, 1, &Cancel::new()).unwrap().harmonics[0].value
         };
         let slope = |step: f64, moved: bool| (with(step, moved) - with(-step, moved)) / (2.0 * step);
-        let [short, long] = [1e-5, 1e-2].map(|step| slope(step, true));
+        let [short, long] = [1e-5, 1e-3].map(|step| slope(step, true));
         assert!((short / long - 1.0).abs() < 5e-3, "{short} {long}");
         // Not moved they are those of the section itself.
         assert_eq!(with(0.0, true), with(0.0, false));
