@@ -199,6 +199,10 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     window.hover_at(begin);
     window.drag_at(begin);
     window.step();
+    // Beside it are its own numbers, not those of the vibrating plate.
+    window.get_by_label_contains("The plate in your hand");
+    window.get_by_label("Since it was at rest");
+    assert!(window.query_by_label("mean load of the film over the cycle").is_none());
     // A tenth of the drawing is about four tenths of the mean gap.
     for i in 1_u8..=8 {
         window.hover_at(begin + vec2(0.0, 0.0125 * f32::from(i) * rect.height()));

@@ -30,7 +30,7 @@ use squeezefilm::solve::Method;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
-use window::drop_file;
+use window::{drop_file, face};
 
 const USUAL: [f32; 2] = [1400.0, 900.0];
 const SMALL: [f32; 2] = [1024.0, 700.0];
@@ -357,6 +357,14 @@ fn a_rotor_looks_as_it_did() {
     let mut window = self::window("rough-flow", USUAL, &[ROTOR]);
     until(&mut window, "the rotor is computed", computed);
     window.snapshot("rotor-rough-faces");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("face.csv");
+    std::fs::write(&path, face()).unwrap();
+    drop_file(&mut window, &path);
+    until(&mut window, "the heights are read", |app| app.state().face.found().is_some());
+    window.get_by_label("Profile along x, nm").scroll_to_me();
+    settle(&mut window);
+    window.snapshot("rotor-measured-face");
     results.extend_harness(&mut window);
 }
 

@@ -19,6 +19,7 @@ use squeezefilm::gui::app::App;
 use squeezefilm::gui::derived::format::{digits, uncertain};
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::state::fit::Found;
 use squeezefilm::gui::state::pins::Page;
 use squeezefilm::gui::state::sweep::Swept;
 use squeezefilm::gui::state::view::Tab;
@@ -27,12 +28,12 @@ use squeezefilm::gui::ui::glossary::unexplained;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::lessons::glossary;
 use squeezefilm::problem::{Problem, Scenario};
-use squeezefilm::scene::{Value, presets};
+use squeezefilm::scene::{Value, heights, presets};
 use squeezefilm::solution::Outcome;
 use squeezefilm::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use window::{Memory, Window, begin_export, click, drop_file, open, reopen, solved};
+use window::{Memory, Window, begin_export, click, drop_file, face, open, reopen, solved};
 
 /// One of each family, twice each.
 fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
@@ -545,6 +546,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     ctrl(&mut window, Key::Num1);
     let motion = ["Travelling wave", "Rotor", "Stator", "Gauge pressure", "Film", "Contact", "Pressure map"];
     explains(faults, &window, "Motion", &motion);
+    explains(faults, &window, "Motion, at the side", &["Ring", "Velocity across the film", "u"]);
     explains(faults, &window, "Motion, followed tooth", &["Followed tooth", "Least gap", "Loads", "Slow motion"]);
 
     ctrl(&mut window, Key::Num3);
@@ -637,7 +639,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
         faults,
         &window,
         "Motion of a plate",
-        &["Gap", "Plate", "Wall", "Film pressure", "Ambient", "Film load", "Loop"],
+        &["Gap", "Plate", "Wall", "Film pressure", "Ambient", "Film load", "Loop", "Velocity across the film"],
     );
     ctrl(&mut window, Key::Num4);
     let exact = ["Squeeze number", "Spring", "Damping", "σ/Q", "Spring and damping", "Boyle", "t/T", "Film load"];
@@ -675,8 +677,18 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
     until(&mut window, "the fit", |app| app.state().fit.found().is_some());
     let spacing = |window: &Window| window.state().state().document.scene().get("film.min_spacing_nm").unwrap();
     assert_eq!(spacing(&window), Value::Number(200.0));
-    let found = window.state().state().fit.found().unwrap().1.unknowns[0].value;
+    let found = window.state().state().fit.found().unwrap().1.values()[0].1;
     assert!((190.0..230.0).contains(&found), "{found}");
+    // What is exported is what the command writes.
+    let [ours, theirs] = ["ours", "theirs"].map(|name| folder.path().join(name));
+    export(&mut window, "Fit, into a folder…", &ours);
+    let vary = ["--vary", "film.min_spacing_nm=100:400:lin", "--starts", "16", "--fidelity", "fine"];
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
+    command.args(["fit", "fundamental", "--quiet", "--data"]).arg(&table).args(vary).arg("--out").arg(&theirs);
+    assert!(command.output().unwrap().status.success());
+    assert_eq!(names(&ours), names(&theirs));
+    let [csv, again] = [&ours, &theirs].map(|folder| std::fs::read_to_string(folder.join("fit.csv")).unwrap());
+    assert_eq!(csv, again);
     click(&mut window, "Take these values");
     assert_eq!(spacing(&window), Value::Number(found));
     // It is of the scene as it now is, until that changes.
@@ -689,6 +701,67 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
     std::fs::write(&bad, "film.min_spacing,alpha\n1,2\n").unwrap();
     drop_file(&mut window, &bad);
     assert!(shows(&window, "bad.csv:1: column film.min_spacing: unknown"));
+}
+
+#[test]
+fn a_fit_that_is_cancelled_leaves_nothing() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    show_fit(&mut window);
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("loads.csv");
+    std::fs::write(&table, LOADS).unwrap();
+    drop_file(&mut window, &table);
+    for _ in 0..2 {
+        click(&mut window, "Add a key…");
+    }
+    click(&mut window, "Fit the scene");
+    assert!(window.state().state().fit.running());
+    click(&mut window, "Cancel the fit");
+    until(&mut window, "it ends", |app| !app.state().fit.running());
+    assert!(window.state().state().fit.found().is_none());
+    assert!(shows(&window, "Cancelled") && !shows(&window, "Take these values"));
+    // Another one can be begun.
+    click(&mut window, "Fit the scene");
+    assert!(window.state().state().fit.running());
+}
+
+#[test]
+fn an_optimum_is_found_within_limits_and_taken() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    show_fit(&mut window);
+    let choose = |window: &mut Window, combo: &str, entry: &str| {
+        window.get_by_role_and_label(Role::ComboBox, combo).click();
+        window.run_steps(3);
+        window.get_by_label(entry).click();
+        window.run_steps(3);
+    };
+    choose(&mut window, "What is looked for", "the greatest value of");
+    choose(&mut window, "Number that is sought", "stall torque, N·m");
+    // No table is needed, and a limit that cannot be read is said.
+    type_into(&mut window, "Limits on other results", "alpha=0.3");
+    assert!(shows(&window, "alpha=0.3") && shows(&window, "name<value"));
+    type_into(&mut window, "Limits on other results", "alpha<0.3");
+    assert!(!shows(&window, "name<value"));
+    choose(&mut window, "Parameter 1", "Load on one wave");
+    type_into(&mut window, "Lower bound of parameter 1", "1");
+    type_into(&mut window, "Upper bound of parameter 1", "3");
+    click(&mut window, "Find the optimum");
+    until(&mut window, "the optimum", |app| app.state().fit.found().is_some());
+    let state = window.state().state();
+    let (_, found) = state.fit.found().unwrap();
+    let Found::Optimum(optimum) = &**found else { panic!("an optimum") };
+    // Torque grows with the load, and the share of the air falls.
+    assert!((optimum.lines[0].value - 3.0).abs() < 0.01 && optimum.value.value > 0.3, "{:?}", optimum.value);
+    assert!(optimum.limited[0].value < 0.3);
+    let load = found.values()[0];
+    assert!(shows(&window, "at its upper bound") && shows(&window, "allowed: alpha < 0.3"));
+    let faults = &mut Vec::new();
+    explains(faults, &window, "Fit, optimum", &["Line through the optimum"]);
+    assert!(faults.is_empty(), "{faults:#?}");
+    click(&mut window, "Take these values");
+    assert_eq!(window.state().state().document.scene().get(load.0), Some(Value::Number(load.1)));
 }
 
 #[test]
@@ -772,10 +845,45 @@ fn exports_say_what_they_write() {
         "Comparison as HTML…",
         "Trade-off as figure…",
         "Sensitivities, into a folder…",
+        "Fit, into a folder…",
     ] {
         let found = exports.iter().find(|(_, name, _)| name == entry).unwrap_or_else(|| panic!("{entry}: {exports:?}"));
         assert!(found.2.as_ref().is_some_and(|text| text.len() > 20), "{found:?}");
     }
+}
+
+#[test]
+fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
+    let mut window = window("asperities");
+    solved(&mut window);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("face.csv");
+    std::fs::write(&path, face()).unwrap();
+    drop_file(&mut window, &path);
+    until(&mut window, "the heights are read", |app| app.state().face.found().is_some());
+    assert_eq!(window.state().state().view.tab, Tab::Rotor);
+    until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
+    assert!(shows(&window, "face.csv") && shows(&window, "Profile along x, nm"));
+    let faults = &mut Vec::new();
+    explains(faults, &window, "Measured face", &["Measured face"]);
+    assert!(faults.is_empty(), "{faults:#?}");
+    let follows = heights::keys_of(&window.state().state().face.found().unwrap().pair);
+    let rms = |window: &Window| window.state().state().document.scene().get("surface.rms_nm");
+    let before = rms(&window);
+    click(&mut window, "Take roughness from it");
+    for (key, value) in follows {
+        let taken = window.state().state().document.scene().get(key);
+        // This preset has no flow factors, and so no lay.
+        assert_eq!(taken, (key != "surface.lay").then_some(Value::Number(value)), "{key}");
+    }
+    ctrl(&mut window, Key::Z);
+    assert_eq!(rms(&window), before);
+    click(&mut window, "Forget it");
+    assert!(!shows(&window, "face.csv"));
+    std::fs::write(&path, "# height = nm\n1,2\n").unwrap();
+    drop_file(&mut window, &path);
+    until(&mut window, "it is refused", |app| app.state().modal.is_some());
+    assert!(shows(&window, "face.csv: no spacing along x"));
 }
 
 /// What a window leaves behind.
@@ -934,6 +1042,42 @@ fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
         window.run_steps(3);
         assert_eq!(range(&window), at_first, "{name}");
     }
+}
+
+#[test]
+fn the_ring_is_turned_with_the_mouse_and_with_the_arrow_keys() {
+    const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
+    let mut window = window("fundamental");
+    solved(&mut window);
+    window.get_by_label("Pause").click();
+    window.run_steps(3);
+    let seen = |window: &Window| {
+        let view = &window.state().state().view;
+        (view.orbit, view.phase)
+    };
+    let (first, phase) = seen(&window);
+    let middle = window.get_by_role_and_label(Role::Image, NAME).rect().center();
+    drag(&mut window, middle, middle + Vec2::new(40.0, 30.0));
+    let (dragged, _) = seen(&window);
+    assert!(dragged.elevation > first.elevation + 0.1, "what is in front goes down with the pointer: {dragged:?}");
+    assert!(dragged.azimuth > std::f64::consts::PI, "and to the right: {dragged:?}");
+    // Once it has the keyboard the arrows are its own, and step no frames.
+    window.get_by_role_and_label(Role::Image, NAME).focus();
+    window.run_steps(2);
+    for key in [Key::ArrowUp, Key::ArrowLeft, Key::ArrowLeft] {
+        window.key_press(key);
+        window.run_steps(2);
+    }
+    let (turned, same) = seen(&window);
+    let by = [turned.azimuth - dragged.azimuth, turned.elevation - dragged.elevation];
+    assert!((by[0] - 0.2).abs() < 1e-9 && (by[1] - 0.1).abs() < 1e-9, "{by:?}");
+    window.key_press(Key::Home);
+    window.run_steps(2);
+    assert_eq!((seen(&window), same), ((first, phase), phase));
+    drop(window);
+    let mut window = self::window("plate-trapped");
+    solved(&mut window);
+    assert!(window.query_by_label(NAME).is_none(), "a plate is no ring");
 }
 
 #[test]

@@ -6,7 +6,8 @@
 use proptest::prelude::*;
 use squeezefilm::input::ReadError;
 use squeezefilm::problem::{Gas, Problem, RotorCompliance, Scenario};
-use squeezefilm::scene::{PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, What, presets, table1};
+use squeezefilm::scene::{PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, What, heights, presets, table1};
+use squeezefilm::surface::texture::{Pair, measured};
 use std::path::Path;
 
 fn read(text: &str) -> Result<Scene, SceneError> {
@@ -384,6 +385,81 @@ fn a_gas_is_either_named_or_given_and_so_is_its_pressure() {
     let saved = read("schema = 1\nfilm = { gas = \"argon\", altitude_m = 300, temperature_c = 0 }\n").unwrap();
     assert_eq!(read(&saved.to_toml()).unwrap(), saved);
     assert!(!saved.to_toml().contains("viscosity_upa_s") && !saved.to_toml().contains("ambient_pressure_kpa"));
+}
+
+// ---- measured heights
+
+/// Heights \[nm\] of a face on which ridges lie along y.
+fn face() -> String {
+    let height = |i: u32, j: u32| {
+        let (i, j) = (f64::from(i), f64::from(j));
+        90.0 * (0.9 * i).sin() * (0.21 * j).cos() + 37.0 * (2.3 * i + 0.3 * j).sin()
+    };
+    let row = |j: u32| (0..48).map(|i| format!("{:.3}", height(i, j))).collect::<Vec<_>>().join(",");
+    let rows: Vec<String> = (0..40).map(row).collect();
+    format!("# dx_um = 2\n# dy_um = 2\n# height = nm\n{}\n", rows.join("\n"))
+}
+
+#[test]
+fn what_is_not_given_follows_from_measured_heights() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("face.csv");
+    std::fs::write(&csv, face()).unwrap();
+    let preset = folder.path().join("p.toml");
+    let lines =
+        "heights_csv = \"face.csv\"\nmodel = \"asperities\"\nflow_factors = \"patir-cheng\"\nsummit_radius_um = 20\n";
+    std::fs::write(&preset, format!("schema = 1\n[surface]\n{lines}")).unwrap();
+    let scene = Scene::load(&preset).unwrap();
+    let number = |scene: &Scene, key: &str| scene.get(key).unwrap().as_number().unwrap();
+    let (map, texture) = measured(&face(), 1).unwrap();
+    let rms = (map.heights.iter().map(|z| z * z).sum::<f64>() / map.heights.len() as f64).sqrt();
+    // Of two faces alike, to four digits.
+    assert!((number(&scene, "surface.rms_nm") / (1e9 * rms * 2f64.sqrt()) - 1.0).abs() < 5e-4);
+    for (key, value) in heights::keys_of(&Pair::of(&texture, &texture)) {
+        let given = if key == "surface.summit_radius_um" { 20.0 } else { value };
+        assert_eq!(number(&scene, key), given, "{key}");
+    }
+    assert!(number(&scene, "surface.lay") < 0.5, "ridges across the wave");
+
+    // What is saved needs the CSV file no more, and --set takes it in any order.
+    assert_eq!(read(&scene.to_toml()).unwrap(), scene);
+    let path = csv.to_str().unwrap();
+    let pairs = [
+        ("surface.summit_radius_um", "20"),
+        ("surface.heights_csv", path),
+        ("surface.flow_factors", "patir-cheng"),
+        ("surface.model", "asperities"),
+    ];
+    let mut other = Scene::motor();
+    other.set_all(pairs).unwrap();
+    assert!(other.same_model(&scene));
+    let mut again = Scene::motor();
+    again.set_all(pairs.into_iter().rev()).unwrap();
+    assert_eq!(again, other);
+    // Of a hard stop with flow factors only what those need.
+    let mut stop = Scene::motor();
+    stop.set_all([("surface.flow_factors", "patir-cheng"), ("surface.heights_csv", path)]).unwrap();
+    assert_eq!(stop.get("surface.lay"), scene.get("surface.lay"));
+    assert_eq!(stop.get("surface.summit_density_per_mm2"), None);
+
+    let message = Scene::motor().set("surface.heights_csv", path).unwrap_err().to_string();
+    assert!(message.contains("surface.heights_csv belongs to surface.model = \"asperities\""), "{message}");
+    for (text, expected) in [
+        ("secret\n", "no unit of the heights"),
+        ("# dx_um = 1\n# dy_um = 1\n# height = nm\n1,secret\n", "line 4 has no heights of a measured face"),
+        ("x_um,z_nm\n0,1\n", "points: allowed 16"),
+    ] {
+        std::fs::write(&csv, text).unwrap();
+        let message = Scene::load(&preset).unwrap_err().to_string();
+        assert!(
+            message.contains("p.toml:3: surface.heights_csv = \"face.csv\": ") && message.contains(expected),
+            "{message}"
+        );
+        assert!(!message.contains("secret"), "{message}");
+    }
+    std::fs::write(&csv, face().replace("= nm", "= um")).unwrap();
+    let message = Scene::load(&preset).unwrap_err().to_string();
+    assert!(message.contains("surface.rms_nm = ") && message.contains("allowed 10 to 5000 nm"), "{message}");
 }
 
 // ---- the compliance table

@@ -24,7 +24,12 @@ use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-create_exception!(_squeezefilm, SceneError, PyValueError, "A scene that cannot be solved: the key, its value and what is allowed.");
+create_exception!(
+    _squeezefilm,
+    SceneError,
+    PyValueError,
+    "A scene that cannot be solved: the key, its value and what is allowed."
+);
 create_exception!(_squeezefilm, SolveError, PyRuntimeError, "A solve that came to no end.");
 
 fn scene_error(error: impl std::fmt::Display) -> PyErr {
@@ -102,9 +107,9 @@ impl Scene {
     fn preset(name: &str) -> PyResult<Self> {
         if !BUILT_IN.iter().any(|built_in| built_in.name == name) {
             // The error that names the nearest one.
-            return presets::find(name).map_err(scene_error).and_then(|_| {
-                Err(scene_error(format!("{name:?} is a file, no built-in preset: load it")))
-            });
+            return presets::find(name)
+                .map_err(scene_error)
+                .and_then(|_| Err(scene_error(format!("{name:?} is a file, no built-in preset: load it"))));
         }
         presets::find(name).map(Self).map_err(scene_error)
     }
@@ -221,7 +226,8 @@ fn sweep(
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let settings = settings(accuracy, fidelity, "auto", Record::Numbers)?;
-    let vary = axes.into_iter().map(|(key, values)| format!("{key}={values}").parse::<Vary>()).collect::<Result<Vec<_>, _>>();
+    let vary =
+        axes.into_iter().map(|(key, values)| format!("{key}={values}").parse::<Vary>()).collect::<Result<Vec<_>, _>>();
     let sweep = Sweep::new(&scene.0, &vary.map_err(scene_error)?, &settings).map_err(scene_error)?;
     apart(py, told, move |cancel, tell| {
         let done = std::sync::atomic::AtomicUsize::new(0);

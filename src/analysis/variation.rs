@@ -16,7 +16,7 @@
 use super::attempt::caught;
 use crate::control::Cancel;
 use crate::ladder::Nested;
-use crate::problem::{Motor, Problem, RotorCompliance, Scenario};
+use crate::problem::{Problem, RotorCompliance, Scenario};
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError, Value};
 use crate::solution::Solution;
 use crate::solve::near::Centre;
@@ -92,8 +92,8 @@ pub struct Slope {
     /// Its estimated error by the length of the step, absolute.
     pub step_error: f64,
     /// Its estimated error by what the plan leaves out of the model, absolute: a term that changes the number by a share ε is taken to change as
-    /// the key does, and the derivative with it by ε of the number over the scale of the key. Where the elements of a ring follow the key, what
-    /// they leave is another share at each point: ε of the number over the step, of a one-sided derivative four times that.
+    /// the key does, and the derivative with it by ε of the number over the scale of the key. Where a ring has other elements at each point, what
+    /// they leave is another share there: ε of the number over the step, of a one-sided derivative four times that.
     pub left_out: f64,
 }
 
@@ -327,12 +327,12 @@ fn read(
     }
 }
 
-/// Whether what is left out changes smoothly from one to the other: the elements of a ring follow its section and the band of contact, and what
-/// they leave of its compliance is another number for each.
+/// Whether what is left out changes smoothly from one to the other: a ring has the elements of the other only if its section hangs together
+/// alike, and else leaves another number of its compliance.
 fn same_elements(a: &Problem, b: &Problem) -> bool {
     let (Scenario::Motor(a), Scenario::Motor(b)) = (&a.scenario, &b.scenario) else { return true };
-    let band = |motor: &Motor| (motor.contact_radius, motor.contact_width);
-    !matches!(a.rotor, RotorCompliance::Ring(_)) || a.rotor == b.rotor && band(a) == band(b)
+    let (RotorCompliance::Ring(one), RotorCompliance::Ring(other)) = (&a.rotor, &b.rotor) else { return true };
+    one.is_meshed_like(a.wave().band, other, b.wave().band).unwrap_or(false)
 }
 
 /// The slopes of all numbers, from those in the middle and at the points of the sides. `relative`: what is left out of the model, as a share of

@@ -9,11 +9,10 @@ use super::terminal;
 use crate::analysis::fit::{
     Bound, Bounds, ErrorSize, FLAT, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
 };
-use crate::atomic::Staged;
 use crate::control::Cancel;
 use crate::digits::{duration, percent, short, significant, with_error};
-use crate::export::fit::{Object, OptimumObject, figures, optimum_figure, write_csv, write_optimum_csv};
-use crate::export::json;
+use crate::export::fit::{Object, OptimumObject};
+use crate::export::{files, json};
 use crate::problem::Problem;
 use crate::scene::{Parameter, Scene, show_text};
 use crate::solve::Settings;
@@ -150,14 +149,9 @@ impl Call<'_> {
         terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
             let problem = Problem::new(&fitted.scene)?;
-            let mut staged = Staged::new(folder)?;
-            staged.add("fit.json", |out| out.write_all(json::document(&object, self.command).as_bytes()))?;
-            staged.add("fit.csv", |out| write_csv(&fitted, measured, out))?;
-            for (name, figure) in figures(&problem, &fitted, measured) {
-                self.arguments.common.figures.stage(&mut staged, name, &figure)?;
-            }
-            staged.add("fitted.toml", |out| out.write_all(fitted.scene.to_toml().as_bytes()))?;
-            terminal::note(&written(folder, &staged.commit()?));
+            let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
+            let paths = files::fitted(folder, of, (&fitted, measured), self.command, &formats)?;
+            terminal::note(&written(folder, &paths));
         }
         Ok(if fitted.converged { Exit::Solved } else { Exit::NotConverged })
     }
@@ -178,12 +172,8 @@ impl Call<'_> {
         found.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", found.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
-            let mut staged = Staged::new(folder)?;
-            staged.add("fit.json", |out| out.write_all(json::document(&object, self.command).as_bytes()))?;
-            staged.add("optimum.csv", |out| write_optimum_csv(&found, out))?;
-            self.arguments.common.figures.stage(&mut staged, "optimum", &optimum_figure(&problem, &found))?;
-            staged.add("fitted.toml", |out| out.write_all(found.scene.to_toml().as_bytes()))?;
-            terminal::note(&written(folder, &staged.commit()?));
+            let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
+            terminal::note(&written(folder, &files::optimum(folder, of, &found, self.command, &formats)?));
         }
         Ok(if found.converged { Exit::Solved } else { Exit::NotConverged })
     }

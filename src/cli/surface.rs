@@ -11,8 +11,9 @@ use crate::export::figures::surface::figure;
 use crate::export::json;
 use crate::export::surface::{Face, Object, preset};
 use crate::input::read_text;
+use crate::scene::heights::LARGEST;
 use crate::surface::height_map::HeightMap;
-use crate::surface::texture::{Pair, Texture};
+use crate::surface::texture::{Pair, Texture, measured};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -29,9 +30,6 @@ Files of --out:
   surface.json      what --json prints
   face-1.svg        heights and autocorrelation of the first file; and face-1.png, face-2.…
   surface.toml      lines for a preset";
-
-/// Largest file \[MB\].
-const LARGEST: u64 = 256;
 
 /// Statistics of measured faces, and the spacing, asperities and flow factors that follow
 ///
@@ -80,13 +78,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 fn face(file: &Path, degree: u8) -> Result<(HeightMap, Texture), CliError> {
     let fault = |reason: String| CliError::Answers(format!("{}: {reason}", file.display()));
     let text = read_text(file, LARGEST).map_err(|error| fault(error.to_string()))?;
-    let map = HeightMap::read(&text).map_err(|error| fault(error.to_string()))?.levelled(usize::from(degree));
-    let texture = Texture::of(&map);
-    if texture.rms > 0.0 && texture.moments.iter().all(|moment| *moment > 0.0) {
-        Ok((map, texture))
-    } else {
-        Err(fault("nothing is left of the heights once they are level".to_owned()))
-    }
+    measured(&text, usize::from(degree)).map_err(|error| fault(error.to_string()))
 }
 
 fn text(object: &Object) -> String {

@@ -5,8 +5,9 @@ use super::animation::{AnimationError, Movie, Options, cycle, frames, video_fram
 use super::compare::{self, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
-use super::{csv, figures, npz, sensitivity, sweep, torque};
+use super::{csv, figures, fit, npz, sensitivity, sweep, torque};
 use crate::analysis::compare::ComparedRun;
+use crate::analysis::fit::{Fitted, Measured, Optimum};
 use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
 use crate::atomic::{Staged, WriteError, write_file};
@@ -292,6 +293,42 @@ pub fn swept(
     staged.add("sweep.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
     stage_figure(&mut staged, "sweep", &sweep::figure(swept, rows), formats)?;
     staged.add("scene.toml", |out| out.write_all(swept.scene().to_toml().as_bytes()))?;
+    staged.commit()
+}
+
+/// What `squeezefilm fit --out` writes into a folder of a fit to measurements; `preset`: what was fitted, `problem`: with the values found.
+pub fn fitted(
+    folder: &Path,
+    (preset, problem): (&str, &Problem),
+    (found, measured): (&Fitted, &Measured),
+    command: &[String],
+    formats: &[Format],
+) -> Result<Vec<PathBuf>, WriteError> {
+    let mut staged = Staged::new(folder)?;
+    let object = fit::Object::new(preset, found, measured);
+    staged.add("fit.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+    staged.add("fit.csv", |out| fit::write_csv(found, measured, out))?;
+    for (name, figure) in fit::figures(problem, found, measured) {
+        stage_figure(&mut staged, name, &figure, formats)?;
+    }
+    staged.add("fitted.toml", |out| out.write_all(found.scene.to_toml().as_bytes()))?;
+    staged.commit()
+}
+
+/// What it writes of an optimum.
+pub fn optimum(
+    folder: &Path,
+    (preset, problem): (&str, &Problem),
+    found: &Optimum,
+    command: &[String],
+    formats: &[Format],
+) -> Result<Vec<PathBuf>, WriteError> {
+    let mut staged = Staged::new(folder)?;
+    let object = fit::OptimumObject::new(preset, found);
+    staged.add("fit.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+    staged.add("optimum.csv", |out| fit::write_optimum_csv(found, out))?;
+    stage_figure(&mut staged, "optimum", &fit::optimum_figure(problem, found), formats)?;
+    staged.add("fitted.toml", |out| out.write_all(found.scene.to_toml().as_bytes()))?;
     staged.commit()
 }
 

@@ -2,6 +2,7 @@
 
 use crate::digits::rounded;
 use crate::scene::Parameter;
+use crate::scene::heights::keys_of;
 use crate::surface::height_map::HeightMap;
 use crate::surface::texture::{Pair, Texture};
 use serde::Serialize;
@@ -129,12 +130,11 @@ pub fn preset(pair: &Pair) -> String {
     let commented = |lines: String| lines.lines().map(|line| format!("# {line}\n")).collect::<String>();
     let mut text = "[film]\n".to_owned() + &line("film.min_spacing_nm", pair.min_spacing * 1e9);
     text += "\n# or, in place of that:\n# [surface]\n# model = \"asperities\"\n";
-    let mut lines = line("surface.rms_nm", pair.rms * 1e9);
-    lines += &line("surface.summit_radius_um", pair.summit_radius * 1e6);
-    lines += &line("surface.summit_density_per_mm2", pair.summit_density * 1e-6);
+    let [rms, radius, density, lay] = keys_of(pair).map(|(key, value)| line(key, value));
+    let mut lines = rms + &radius + &density;
     lines += "elastic_modulus_gpa = 60.0  # of the materials: no height tells it\n";
     lines += "flow_factors = \"patir-cheng\"\n";
-    lines += &line("surface.lay", pair.lay);
+    lines += &lay;
     lines += &line("surface.stator_share", pair.stator_share);
     text + &commented(lines)
 }

@@ -8,7 +8,8 @@
 //!
 //! ψ is the slip law's mobility (`slip`), h(x, t) does not depend on y, U is the sliding speed of the upper face seen
 //! from the lower. A uniform pressure drives no flux whatever h does. `grid` holds the nodes, `stepper` one implicit
-//! time step, `cycle` a whole cycle and the shortcut to the periodic state, `exact` the solutions to verify against.
+//! time step, `cycle` a whole cycle and the shortcut to the periodic state, `exact` the solutions to verify against,
+//! `velocity` how the gas moves from wall to wall.
 
 pub mod cycle;
 pub mod exact;
@@ -16,3 +17,4 @@ pub mod grid;
 pub mod slip;
 pub mod stepper;
 pub mod trapped;
+pub mod velocity;

@@ -2,11 +2,13 @@
 
 use super::state::dialogs::{Export, Picture, Purpose};
 use super::state::document::Next;
+use super::state::fit::Sought;
 use super::state::pins::Page;
 use super::state::view::Tab;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::fidelity::Fidelity;
+use crate::gui::derived::ring::Orbit;
 use crate::lessons::Prediction;
 use crate::problem::Numerics;
 use crate::scene::Value;
@@ -91,6 +93,8 @@ pub enum Command {
     Sensitivity(SensitivityCommand),
     /// About measurements, and fits to them.
     Fit(FitCommand),
+    /// About a measured face.
+    Face(FaceCommand),
     /// About the plate that is held.
     Hold(HoldCommand),
     /// About the start-up.
@@ -123,6 +127,8 @@ pub enum Command {
     FollowTooth(usize),
     /// Follows the tooth this many further on.
     NextTooth(i64),
+    /// Looks at the ring from here.
+    Orbit(Orbit),
     /// Shows a prompt for a path to open.
     OpenPathPrompt,
     /// Light or dark.
@@ -212,6 +218,12 @@ pub enum FitCommand {
     Load(PathBuf),
     /// Forgets the table.
     Forget,
+    /// Looks for this.
+    Seek(Sought),
+    /// For the optimum of the number of this name.
+    Quantity(&'static str),
+    /// Within these limits on other numbers, as they are typed.
+    Limits(String),
     /// Chooses this key in this line of the form, between bounds round its present value.
     Key(usize, &'static str),
     /// From this.
@@ -229,6 +241,19 @@ pub enum FitCommand {
     /// Ends it.
     Cancel,
     /// Gives the scene the values that were found: one edit.
+    Take,
+}
+
+/// About a measured face.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FaceCommand {
+    /// Asks for a file of heights.
+    Choose,
+    /// Reads this one.
+    Load(PathBuf),
+    /// Forgets it.
+    Forget,
+    /// Gives the scene the roughness that follows: one edit.
     Take,
 }
 
@@ -319,7 +344,7 @@ macro_rules! commands_of {
 }
 
 commands_of!(Pin(PinCommand), Sweep(SweepCommand), Startup(StartupCommand), Hold(HoldCommand), Lesson(LessonCommand));
-commands_of!(Proceed(Next), Sensitivity(SensitivityCommand), Fit(FitCommand));
+commands_of!(Proceed(Next), Sensitivity(SensitivityCommand), Fit(FitCommand), Face(FaceCommand));
 
 impl Command {
     /// The parameter that it edits.
@@ -330,7 +355,8 @@ impl Command {
         }
     }
 
-    /// What is done with a file that is opened, or dropped on the window: a CSV file is a table of measurements, anything else a preset.
+    /// What is done with a file that is opened, or dropped on the window: a CSV file is a table of measurements, or a measured face,
+    /// anything else a preset.
     pub fn opened(path: PathBuf) -> Self {
         let table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         if table { Self::Fit(FitCommand::Load(path)) } else { Self::Proceed(Next::File(path)) }
@@ -341,6 +367,7 @@ impl Command {
         match purpose {
             Purpose::Open => Self::opened(path),
             Purpose::Measurements => Self::Fit(FitCommand::Load(path)),
+            Purpose::Heights => Self::Face(FaceCommand::Load(path)),
             Purpose::Lessons => Self::Lesson(LessonCommand::LoadFolder(path)),
             Purpose::Save(then) => Self::SavePath(path, then),
             Purpose::Picture(picture) => Self::WritePicture(picture, path),

@@ -11,6 +11,9 @@ use std::ops::Range;
 /// Harmonics of the rotor between the teeth: those of a pitch and shorter are small.
 const HARMONICS: usize = 32;
 
+/// Points of the rotor over a groove; an odd number, so that one is half-way.
+const GROOVE: usize = 7;
+
 /// Interval of ascending `nodes` around `x` and the weight of its right end; `None` outside. Rounding at either end
 /// is forgiven.
 pub fn locate(nodes: &[f64], x: f64) -> Option<(usize, f64)> {
@@ -215,6 +218,22 @@ impl Lines {
         tooth * self.nodes..(tooth + 1) * self.nodes
     }
 
+    /// The rotor's underside, (x, height) \[m\], over one wavelength from half a groove before tooth 0 on.
+    pub fn underside(&self, recording: &Recording) -> Vec<[f64; 2]> {
+        let grooves = self.grooves(recording, GROOVE);
+        let mut points = Vec::with_capacity(recording.teeth * (self.nodes + GROOVE) + 1);
+        // The wave repeats.
+        let before = grooves.last().into_iter().flatten().skip(GROOVE / 2);
+        points.extend(before.map(|[x, height]| [x - recording.length, *height]));
+        for (tooth, groove) in grooves.iter().enumerate() {
+            let middle = tooth as f64 * recording.pitch;
+            let height = |k: usize| self.stator[k] + self.film_thickness[k] - recording.touching.min_spacing;
+            points.extend(recording.x.iter().zip(self.of(tooth)).map(|(xi, k)| [middle + xi, height(k)]));
+            points.extend(groove.iter().take(if tooth + 1 == recording.teeth { GROOVE / 2 + 1 } else { GROOVE }));
+        }
+        points
+    }
+
     /// The rotor's underside over the groove behind each tooth: `points` of (x, height) \[m\], evenly spaced from one
     /// tooth's edge to the next one's, the last ones beyond the wavelength.
     ///
@@ -359,6 +378,28 @@ pub fn middle_pressure(recording: &Recording, tooth: usize, xi: f64, place: f64)
     column(recording, tooth, xi, place, &mut values).then(|| between(&values, row))
 }
 
+/// How pressure grows along x at y = 0 \[Pa/m\], of second order between nodes.
+pub fn middle_gradient(recording: &Recording, tooth: usize, xi: f64, place: f64) -> Option<f64> {
+    let nodes = &recording.map_x;
+    let at = |i: usize| Some([*nodes.get(i)?, middle_pressure(recording, tooth, nodes[i], place)?]);
+    // At a node: the slopes on both sides, each weighed by the length of the other; at an end the one that there is.
+    let slope = |i: usize| {
+        let [x, p] = at(i)?;
+        let before = i.checked_sub(1).and_then(at);
+        let side = |end: [f64; 2]| (end[0] - x, (end[1] - p) / (end[0] - x));
+        match (before.map(side), at(i + 1).map(side)) {
+            (None, Some(_)) if recording.half_length => Some(0.0),
+            (Some((back, a)), Some((ahead, b))) => Some((ahead * a - back * b) / (ahead - back)),
+            (one, other) => one.or(other).map(|(_, slope)| slope),
+        }
+    };
+    let mirrored = recording.half_length && xi < 0.0;
+    let (left, weight) = locate(nodes, if mirrored { -xi } else { xi })?;
+    let from = slope(left)?;
+    let found = if weight > 0.0 { from + weight * (slope(left + 1)? - from) } else { from };
+    Some(if mirrored { -found } else { found })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -403,6 +444,30 @@ mod tests {
         }
         let lines = LineLoads { frames, teeth, ..LineLoads::default() };
         Recording { lines, map_x, map_y, pressure, half_width: true, half_length: half, ..Recording::default() }
+    }
+
+    #[test]
+    fn a_parabola_has_its_slope_at_every_node_and_between_them() {
+        let of = |x: f64| 2.0 + 3.0 * x - 4.0 * x * x;
+        let map = |map_x: Vec<f64>, half_length: bool| Recording {
+            lines: LineLoads { frames: 1, teeth: 1, ..LineLoads::default() },
+            pressure: map_x.iter().map(|x| if half_length { of(*x) - 3.0 * x } else { of(*x) }).collect(),
+            map_x,
+            map_y: vec![0.0],
+            half_length,
+            ..Recording::default()
+        };
+        let whole = map(vec![-1.0, -0.7, 0.1, 0.6, 1.0], false);
+        for x in [-0.7, -0.3, 0.1, 0.33, 0.6] {
+            let found = middle_gradient(&whole, 0, x, 0.0).unwrap();
+            assert!((found - (3.0 - 8.0 * x)).abs() < 1e-12, "{x}: {found}");
+        }
+        assert_eq!(middle_gradient(&whole, 0, 1.1, 0.0), None);
+        let half = map(vec![0.0, 0.2, 0.6, 1.0], true);
+        for x in [-0.6, -0.1, 0.0, 0.1, 0.4] {
+            let found = middle_gradient(&half, 0, x, 0.0).unwrap();
+            assert!((found + 8.0 * x).abs() < 1e-12, "{x}: {found}");
+        }
     }
 
     #[test]

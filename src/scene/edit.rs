@@ -1,6 +1,7 @@
 //! A scene changed from outside, key by key, and what to call it then.
 
 use super::error::{SceneError, What};
+use super::heights;
 use super::parameter::{Parameter, ParameterKind};
 use super::parse;
 use super::value::Value;
@@ -27,14 +28,35 @@ impl Scene {
         let value = match parameter.kind {
             ParameterKind::Rows { columns } => parse::rows_from_text(parameter, columns, text)?,
             ParameterKind::Records { columns, .. } => parse::records_from_text(parameter, columns, text)?,
-            ParameterKind::CsvPath { rows } => {
-                let of = self.parameter(rows)?;
-                let rows = parse::read_table(parameter, of, text, Path::new(text), self.wavelength()?)?;
-                return Ok(self.assign(of, rows)?);
-            }
+            ParameterKind::CsvPath { fills } => return self.take_csv(parameter, fills, text, Path::new(text)),
             _ => parameter.read(text)?,
         };
         Ok(self.assign(parameter, value)?)
+    }
+
+    /// Takes what follows from the CSV file at `path` for the keys that `parameter` fills, as far as this scene has them; `given` is the value
+    /// of the key, for messages.
+    pub(super) fn take_csv(
+        &mut self,
+        parameter: &'static Parameter,
+        fills: &[&str],
+        given: &str,
+        path: &Path,
+    ) -> Result<(), SceneError> {
+        if let [rows] = fills {
+            let of = self.parameter(rows)?;
+            let rows = parse::read_table(parameter, of, given, path, self.wavelength()?)?;
+            return Ok(self.assign(of, rows)?);
+        }
+        let mut changed = self.clone();
+        for (key, value) in heights::keys_of(&heights::read(parameter, given, path)?) {
+            let of = changed.parameter(key)?;
+            if fills.contains(&key) && changed.applies(of).is_ok() {
+                changed.assign(of, Value::Number(value))?;
+            }
+        }
+        *self = changed;
+        Ok(())
     }
 
     /// Sets a dotted key from a value in the key's unit. A number without a fraction is accepted for a whole number.
@@ -98,7 +120,7 @@ impl Scene {
             (Ok(()), _) if !self.heeds(key) => Err(What::NoEffect { key: parameter.key, scene: self.scene() }),
             (
                 Err(What::Elsewhere { selector, .. }),
-                ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } | ParameterKind::Records { .. },
+                ParameterKind::Rows { .. } | ParameterKind::CsvPath { fills: [_] } | ParameterKind::Records { .. },
             ) if selector != "scene" => Ok(parameter),
             // What is set takes the place of what was given instead.
             (Err(What::BothGiven { .. }), _) => Ok(parameter),

@@ -313,6 +313,18 @@ pub enum What {
         /// What is wrong with the file.
         fault: ReadError,
     },
+    /// The CSV file has no heights of a measured face.
+    #[error("{key} = \"{given}\": {}: {fault}", path.display())]
+    Heights {
+        /// The dotted key.
+        key: &'static str,
+        /// The value of the key.
+        given: String,
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        fault: String,
+    },
     /// The CSV file has another header. What is in it is not shown: it may be any file of this machine.
     #[error("{key}: this is no {},{}", no_table(columns), columns[1].key)]
     CsvHeader {
@@ -349,6 +361,7 @@ impl What {
             Self::Count { key, .. }
             | Self::Record { key, .. }
             | Self::Csv { key, .. }
+            | Self::Heights { key, .. }
             | Self::CsvHeader { key, .. } => key,
             Self::Refused { parameter, .. } | Self::OutOfRange { parameter, .. } => parameter.key,
             Self::SchemaMissing | Self::SchemaUnsupported(_) => "schema",

@@ -74,10 +74,10 @@ pub static PARAMETERS: &[Parameter] = &[
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BENDING),
-    other("rotor.compliance_csv", Motor, CsvPath { rows: "rotor.compliance" },
+    other("rotor.compliance_csv", Motor, CsvPath { fills: &["rotor.compliance"] },
         "CSV file of the compliance, relative to the preset's folder").when(TABLE),
     other("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Compliance per wavenumber, inline").when(TABLE),
-    other("rotor.green_csv", Motor, CsvPath { rows: "rotor.green" },
+    other("rotor.green_csv", Motor, CsvPath { fills: &["rotor.green"] },
         "CSV file of the deflection under a unit force, relative to the preset's folder").when(GREENS),
     other("rotor.green", Motor, Rows { columns: &GREEN }, "Deflection under a unit force, over the distance from it, inline").when(GREENS),
     other("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: PARTS },
@@ -114,6 +114,10 @@ pub static PARAMETERS: &[Parameter] = &[
     choice("surface.contact_law", Motor, &["greenwood-williamson", "greenwood-tripp"], "greenwood-williamson",
         "What the asperities carry: those of one face against a plane, or of both faces").when(ASPERITIES),
     choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "How the heights of the summits are distributed").when(ASPERITIES),
+    other("surface.heights_csv", Motor,
+        CsvPath { fills: &["surface.rms_nm", "surface.summit_radius_um", "surface.summit_density_per_mm2", "surface.lay"] },
+        "CSV file of measured heights, relative to the preset's folder, that both faces are like: roughness, summits and lay follow where they are not given")
+        .when(ROUGH),
     number("surface.rms_nm", "nm", Motor, (10.0, 5000.0), (20.0, 1000.0), Log, 100.0,
         "Standard deviation of the heights of both faces together").when(ROUGH),
     number("surface.summit_radius_um", "µm", Motor, (0.1, 1e4), (1.0, 1000.0), Log, 50.0, "Radius of a summit").when(ASPERITIES),
@@ -153,14 +157,15 @@ impl Parameter {
     }
 
     /// Its place when several keys are set at once: what chooses a model decides which keys there are, what replaces another one
-    /// comes after that, and a table of harmonics needs the wavelength.
+    /// comes after that, and a table of harmonics needs the wavelength. Numbers that are given take the place of those from a file.
     pub(super) fn rank(&self) -> u8 {
         match self.kind {
             _ if self.selects() => 0,
-            ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 3,
+            ParameterKind::CsvPath { fills: [_, _, ..] } => 1,
+            ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 4,
             // After the array that it is a value of.
-            _ if self.key.matches('.').count() > 1 => 4,
-            _ => 1 + u8::from(self.instead_of.is_some()),
+            _ if self.key.matches('.').count() > 1 => 5,
+            _ => 2 + u8::from(self.instead_of.is_some()),
         }
     }
 

@@ -29,6 +29,7 @@ pub mod edges;
 mod edit;
 mod error;
 mod follow;
+pub mod heights;
 mod keys;
 mod nearest;
 pub mod new_motor;

@@ -85,10 +85,10 @@ pub enum ParameterKind {
         /// What the numbers of a pair are.
         columns: &'static [Parameter; 2],
     },
-    /// The path of a CSV file, read when the scene is; the scene keeps its rows, not the path.
+    /// The path of a CSV file, read when the scene is; the scene keeps what follows from it, not the path.
     CsvPath {
-        /// The key of the rows.
-        rows: &'static str,
+        /// The keys that follow: one of rows, or several numbers, of which those that are given stay.
+        fills: &'static [&'static str],
     },
     /// An array of tables.
     Records {

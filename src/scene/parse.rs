@@ -221,7 +221,7 @@ impl Reader<'_> {
                 }
                 Ok(read)
             }
-            ParameterKind::CsvPath { rows } => return self.csv(scene, parameter, rows, value),
+            ParameterKind::CsvPath { fills } => return self.csv(scene, parameter, fills, value),
             _ => value_from_toml(parameter, value.get_ref())
                 .ok_or_else(|| What::wrong_type(parameter, self.written(span.clone()))),
         };
@@ -235,26 +235,23 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the table of the key `rows` from the CSV file that a key names.
-    fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, rows: &str, value: &Spanned<DeValue<'_>>) {
+    /// Reads what follows for the keys `fills` from the CSV file that a key names.
+    fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, fills: &[&str], value: &Spanned<DeValue<'_>>) {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
             let found = self.written(value.span());
             return self.fault(span, || What::wrong_type(parameter, found));
         };
-        if let Some(other) = Parameter::find(rows).filter(|other| self.spans.contains_key(other.key)) {
-            return self.fault(span, || What::BothGiven { key: parameter.key, other: other.key });
-        }
-        if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
-            return;
+        if let [rows] = fills {
+            if let Some(other) = Parameter::find(rows).filter(|other| self.spans.contains_key(other.key)) {
+                return self.fault(span, || What::BothGiven { key: parameter.key, other: other.key });
+            }
+            if self.at_fault(&["motor.contact_radius_mm", "motor.waves"]) {
+                return;
+            }
         }
         let path = self.origin.parent().unwrap_or(Path::new("")).join(given);
-        let read = |scene: &Scene| {
-            let of = scene.parameter(rows)?;
-            Ok::<_, SceneError>((of, read_table(parameter, of, given, &path, scene.wavelength()?)?))
-        };
-        let set = read(scene).and_then(|(of, rows)| Ok(scene.assign(of, rows)?));
-        if let Err(error) = set {
+        if let Err(error) = scene.take_csv(parameter, fills, given, &path) {
             match error.faults() {
                 // About the file as such, and not about a line of it.
                 [Fault { origin: None, what, .. }, ..] => self.fault(span, || what.clone()),

@@ -2,7 +2,7 @@
 //!
 //! Two solves to an accuracy of half a per cent differ by up to as much, even if the problems hardly do: each chooses its own grids, terms
 //! and harmonics, and stops as soon as its cycle repeats well enough. Here one problem is solved first, and all others by its plan: on
-//! the same grids, which move with what is varied, with the same terms left out, and, where it can, until the cycle repeats much more
+//! the same grids, which move with what is varied, with the same terms left out, with the same elements of a ring, and, where it can, until the cycle repeats much more
 //! exactly than an accuracy asks for. The error of the grid is then nearly the same in all of them, and cancels in a difference.
 
 use super::{Method, Record, Settings, SolveError, motor_plan, of_motor, of_plate, perform, plate_plan};
@@ -12,7 +12,7 @@ use crate::memory;
 use crate::motor::{self, Warm};
 use crate::plan::Plan;
 use crate::plate;
-use crate::problem::{Problem, Scenario};
+use crate::problem::{Motor, Problem, RotorCompliance, Scenario};
 use crate::solution::{Outcome, Solution, Status};
 
 /// What a cycle has to repeat to, relative: the change of the trapped gas, and of the load.
@@ -104,7 +104,8 @@ impl Centre {
         match &problem.scenario {
             Scenario::Motor(motor) => {
                 let settings = Settings { record: Record::Numbers, ..Settings::default() };
-                let own = motor_plan(motor, problem, &settings, &settings.fidelity.spec(), cancel)?;
+                let meshed = self.meshed(motor);
+                let own = motor_plan(&meshed, problem, &settings, &settings.fidelity.spec(), cancel)?;
                 let plan = self.plan.near(&own.rotor);
                 let _taken = memory::take(memory::motor(motor, &plan), cancel)?;
                 let (found, _, used) = motor::periodic_near(&self.warm, motor, &plan, cancel)?;
@@ -117,6 +118,20 @@ impl Centre {
                 let near = settled(found.fine.status) && alike(&self.plan, &used);
                 Ok(near.then(|| found.map(|found| of_plate(found, &self.plan, cancel))))
             }
+        }
+    }
+
+    /// The motor, whose ring has the elements of that of this one: what they leave of its compliance then cancels in a difference.
+    fn meshed(&self, motor: &Motor) -> Motor {
+        let Scenario::Motor(own) = &self.problem.scenario else { return motor.clone() };
+        match (&motor.rotor, &own.rotor) {
+            (RotorCompliance::Ring(section), RotorCompliance::Ring(pattern))
+                if section != pattern || motor.wave() != own.wave() =>
+            {
+                let section = section.meshed_as(pattern, own.wave().band);
+                Motor { rotor: RotorCompliance::Ring(section), ..motor.clone() }
+            }
+            _ => motor.clone(),
         }
     }
 }

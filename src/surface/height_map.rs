@@ -33,6 +33,9 @@ pub enum HeightMapError {
         "no {0}: a grid needs lines like \"# dx_um = 0.5\", \"# dy_um = 0.5\" and \"# height = nm\" before its heights, a profile a line like \"x_um,z_nm\""
     )]
     Missing(&'static str),
+    /// A plane, or too smooth to have summits.
+    #[error("nothing is left of the heights once they are level")]
+    Flat,
     /// Too few points, or too many.
     #[error(
         "{nx} × {ny} points: allowed {FEWEST} to {MOST} along a profile, and from {FEWEST} × {FEWEST} on a grid, {POINTS} in all"
@@ -53,6 +56,17 @@ pub const MOST: usize = 1_000_000;
 pub const POINTS: usize = 16_000_000;
 /// By how much of a step the points of a profile may lie unevenly.
 const UNEVEN: f64 = 0.02;
+
+/// Whether text begins as heights do: with a spacing or a unit of heights, or with the columns of a profile.
+pub fn begins_as_heights(text: &str) -> bool {
+    let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).filter(|line| !line.is_empty());
+    let key = |line: &str| line.strip_prefix('#').and_then(|line| Some(line.split_once('=')?.0.trim().to_owned()));
+    let told =
+        |line: &str| key(line).is_some_and(|key| key == "height" || key.starts_with("dx_") || key.starts_with("dy_"));
+    let head = lines.by_ref().take_while(|line| line.starts_with('#') || line.starts_with("x_"));
+    head.into_iter()
+        .any(|line| told(line) || line.starts_with("x_") && cells(line).nth(1).is_some_and(|z| z.starts_with("z_")))
+}
 
 /// Metres in a unit.
 fn metres(unit: &str) -> Option<f64> {

@@ -10,7 +10,7 @@
 //! ```
 
 use super::flow::{ROWS_LAY, pressure_factor};
-use super::height_map::HeightMap;
+use super::height_map::{HeightMap, HeightMapError};
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -42,6 +42,17 @@ pub struct Texture {
 const TAIL: usize = 3;
 /// Most lags of an autocorrelation.
 const MOST_LAGS: usize = 2000;
+
+/// A measured face from its text, less the polynomial of this degree that is closest to it, and its statistics.
+///
+/// # Errors
+/// [`HeightMapError`] if the text is no face, or if it is flat.
+pub fn measured(text: &str, degree: usize) -> Result<(HeightMap, Texture), HeightMapError> {
+    let map = HeightMap::read(text)?.levelled(degree);
+    let texture = Texture::of(&map);
+    let rough = texture.rms > 0.0 && texture.moments.iter().all(|moment| *moment > 0.0);
+    if rough { Ok((map, texture)) } else { Err(HeightMapError::Flat) }
+}
 
 impl Texture {
     /// Of a levelled face.

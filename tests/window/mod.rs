@@ -121,6 +121,17 @@ pub(crate) fn begin_export(window: &mut Window, entry: &str, path: &Path) {
     answer(window, path);
 }
 
+/// Heights of a face on which ridges lie along y.
+pub(crate) fn face() -> String {
+    let height = |i: u32, j: u32| {
+        let (i, j) = (f64::from(i), f64::from(j));
+        90.0 * (0.9 * i).sin() * (0.21 * j).cos() + 37.0 * (2.3 * i + 0.3 * j).sin()
+    };
+    let row = |j: u32| (0..48).map(|i| format!("{:.3}", height(i, j))).collect::<Vec<_>>().join(",");
+    let rows: Vec<String> = (0..40).map(row).collect();
+    format!("# dx_um = 2\n# dy_um = 2\n# height = nm\n{}\n", rows.join("\n"))
+}
+
 /// Storage in memory, as eframe keeps it in a file.
 #[derive(Clone, Default)]
 pub(crate) struct Memory(pub(crate) BTreeMap<String, String>);

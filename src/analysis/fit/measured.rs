@@ -129,7 +129,7 @@ enum Column {
 }
 
 /// Numbers that can be measured: those of a solve but for what it cost and its own errors.
-pub(super) fn measurable(problem: &Problem) -> Vec<Quantity> {
+pub fn measurable(problem: &Problem) -> Vec<Quantity> {
     let all: Vec<Quantity> = Quantity::of(problem).collect();
     let is_error = |quantity: &Quantity| all.iter().any(|other| other.error() == Some(*quantity));
     let other = |quantity: &Quantity| matches!(quantity, Quantity::Residual | Quantity::Tolerance);

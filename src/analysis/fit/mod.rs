@@ -25,7 +25,7 @@ mod unknown;
 
 pub use error::FitError;
 pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
-pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, TABLE1, What};
+pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, TABLE1, What, measurable};
 pub use model::{Computed, Model};
 pub use optimum::{FLAT, Goal, Limit, Optimum, Scan, optimise};
 pub use starts::MOST_STARTS;

@@ -19,6 +19,7 @@ use basin::{
     BoxBounds, Cobyla, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, CostFunction, Executor,
     NoLinearConstraints, NoNonlinearBlock, NonlinearBlock, NonlinearBlocks, NonlinearInequalityValues, SelectedState,
 };
+use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use std::sync::{Mutex, PoisonError};
 
@@ -38,7 +39,7 @@ pub const FLAT: f64 = 0.01;
 const NOTHING: f64 = 1e3;
 
 /// A limit on another number: `alpha<0.3`, `stall_torque_nm>0.2`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Limit {
     /// The number's name.
     pub name: String,
@@ -74,7 +75,7 @@ impl std::fmt::Display for Limit {
 }
 
 /// What is sought.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// The number.
     pub quantity: Quantity,
@@ -124,7 +125,7 @@ impl Goal {
 }
 
 /// The optimum found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Optimum {
     /// What was sought.
     pub goal: Goal,
@@ -147,7 +148,7 @@ pub struct Optimum {
 }
 
 /// The number that is sought along one unknown, the others being those of the optimum.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scan {
     /// The unknown.
     pub unknown: Unknown,

@@ -8,6 +8,7 @@ use super::unit::prefixed;
 use crate::export::figure::{Axis, Figure, Grid, Layer, Legend, Line, Map, Panel, Range, Style, Width};
 use crate::problem::{Motor, Plate};
 use crate::recording::Recording;
+use crate::recording::sample::Lines;
 
 /// One run: of a motor, or of a plate.
 #[derive(Clone, Copy, Debug)]
@@ -92,11 +93,6 @@ fn along(recording: &Recording, frame: usize, x: f64, value: impl Fn(usize) -> f
     points
 }
 
-/// The same without gaps: the rotor runs on over the grooves.
-fn joined(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.into_iter().filter(|[x, _]| x.is_finite()).collect()
-}
-
 /// Surfaces, contact pressure and film pressure along one wavelength at a phase of the cycle, all runs in each panel.
 pub fn waves(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let mut figure = Figure::new(format!("t/T = {phase:.3}"));
@@ -131,7 +127,8 @@ fn surfaces(runs: &[MotorRun<'_>], phase: f64) -> Panel {
     }
     for run in runs {
         let (frame, metre) = (nearest_frame(run.recording, phase), metre(run.recording));
-        let rotor = joined(along(run.recording, frame, metre, |i| underside(run, i) * scale));
+        let rotor = Lines::at(run.recording, frame as f64).underside(run.recording);
+        let rotor = rotor.into_iter().map(|[x, height]| [x * metre, height * scale]);
         panel = panel.layer(Line::new(run.name, rotor, Style { width: 1.3, ..run.style }));
     }
     panel.legend = Legend::Above;

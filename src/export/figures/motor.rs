@@ -7,6 +7,7 @@ use crate::export::figure::{
 };
 use crate::problem::Motor;
 use crate::recording::Recording;
+use crate::recording::sample::Lines;
 
 /// The frame at which the crest of the wave is on the tooth in the middle, as in the paper's figures.
 pub fn crest_in_the_middle(recording: &Recording) -> usize {
@@ -54,7 +55,7 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
     let y = Axis::new("displacement", &unit)
         .fixed((low - 0.06 * (high - low)) * scale, (high + 0.06 * (high - low)) * scale);
     let nodes = recording.x.len();
-    let (mut teeth, mut outline, mut rotor, mut touching) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut teeth, mut outline, mut touching) = (Vec::new(), Vec::new(), Vec::new());
     let gap = [f64::NAN; 2];
     for tooth in 0..recording.teeth {
         let line = recording.line_offset(tooth, frame);
@@ -63,20 +64,14 @@ pub fn surfaces(motor: &Motor, recording: &Recording, frame: usize) -> Panel {
             let (x, top) = ((middle + recording.x[i]) * 1e3, recording.stator[line + i] * scale);
             teeth.push([x, f64::MIN / 2.0, top]);
             outline.push([x, top]);
-            rotor.push([x, underside(line + i) * scale]);
             touching.push(if recording.contact[line + i] > motor.touching_from() { [x, top] } else { gap });
         }
         teeth.push([f64::NAN; 3]);
         outline.push(gap);
         touching.push(gap);
     }
-    // Half a groove at either end: the wave repeats.
-    if let (Some(first), Some(last)) = (rotor.first().copied(), rotor.last().copied()) {
-        let [left, right] = [-0.5 * recording.pitch, recording.length - 0.5 * recording.pitch].map(|x| x * 1e3);
-        let edge = 0.5 * (first[1] + last[1]);
-        rotor.insert(0, [left, edge]);
-        rotor.push([right, edge]);
-    }
+    let rotor = Lines::at(recording, frame as f64).underside(recording);
+    let rotor: Vec<[f64; 2]> = rotor.iter().map(|[x, height]| [x * 1e3, height * scale]).collect();
     let above = rotor.iter().map(|[x, y]| [*x, *y, f64::MAX / 2.0]);
     let above = Band { opacity: 0.3, ..Band::new("", above, Colour::ROTOR) };
     let body = Band { opacity: 0.35, ..Band::new("", teeth, Colour::STATOR) };

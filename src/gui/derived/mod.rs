@@ -2,6 +2,7 @@
 
 pub mod exact;
 pub mod format;
+pub mod ring;
 pub mod scales;
 pub mod sliders;
 pub mod ticks;

@@ -53,6 +53,7 @@ const LABELS: &[(&str, &str)] = &[
     ("surface.model", "Faces meet on"),
     ("surface.contact_law", "Contact law"),
     ("surface.summit_heights", "Heights of summits"),
+    ("surface.heights_csv", "Measured heights from a CSV file"),
     ("surface.rms_nm", "Rms roughness σ"),
     ("surface.summit_radius_um", "Radius of a summit"),
     ("surface.summit_density_per_mm2", "Density of summits"),

@@ -33,6 +33,8 @@ pub enum Export {
     TradeoffFigure,
     /// All that `sensitivity --out` writes.
     Sensitivity,
+    /// All that `fit --out` writes.
+    Fit,
 }
 
 impl Export {
@@ -51,6 +53,7 @@ impl Export {
             Self::TradeoffTable => "tradeoff.csv",
             Self::TradeoffFigure => "tradeoff.svg",
             Self::Sensitivity => "sensitivity",
+            Self::Fit => "fit",
         }
     }
 
@@ -66,6 +69,7 @@ impl Export {
             Self::ComparisonReport => "Export a report of the pinned runs as HTML",
             Self::Sweep => "Export the sweep into a folder",
             Self::Sensitivity => "Export the sensitivities into a folder",
+            Self::Fit => "Export what was fitted into a folder",
             Self::SweepTable | Self::TradeoffTable => "Export the table as CSV",
             Self::SweepFigure | Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
         }
@@ -90,6 +94,9 @@ impl Export {
             Self::SweepFigure => "The sweep as it is drawn here, with the published points",
             Self::TradeoffTable => "A row for each setting, with its time and its error",
             Self::TradeoffFigure => "Error against solve time of all settings, as it is drawn here",
+            Self::Fit => {
+                "The values found as a preset, measured beside computed as CSV and JSON, and figures; of an optimum the lines through it"
+            }
             Self::Sensitivity => {
                 "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"
             }
@@ -99,7 +106,7 @@ impl Export {
     /// Kind of file and its extensions; `None` for a folder.
     pub fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
         match self {
-            Self::Data | Self::Figures | Self::Comparison | Self::Sweep | Self::Sensitivity => None,
+            Self::Data | Self::Figures | Self::Comparison | Self::Sweep | Self::Sensitivity | Self::Fit => None,
             Self::Fields => Some(("NumPy archive", &["npz"])),
             Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
             Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
@@ -185,6 +192,8 @@ pub enum Purpose {
     Lessons,
     /// Open a table of measurements.
     Measurements,
+    /// Open a file of heights.
+    Heights,
 }
 
 impl Purpose {

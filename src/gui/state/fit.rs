@@ -1,23 +1,27 @@
-//! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit found.
+//! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit or the search for an optimum found.
 
 use super::sweep::AxisForm;
-use crate::analysis::fit::{Bounds, Fitted, MOST_UNKNOWNS, Measured, Unknown, What};
+use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Unknown, What, measurable};
 use crate::gui::derived::words::unused;
-use crate::job::fit::FitTask;
+pub use crate::job::fit::{FitTask, Found};
 use crate::job::task::News;
+use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, quantity_text};
 use std::sync::Arc;
 
 /// What is chosen at first: the first that a scene has.
 const FIRST: [&str; 2] = ["plate.mean_gap_um", "film.min_spacing_nm"];
 
-/// What a fit is of.
-#[derive(Clone, Debug)]
-pub struct Asked {
-    /// The scene.
-    pub scene: Scene,
-    /// The measurements.
-    pub measured: Arc<Measured>,
+/// What is looked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sought {
+    /// Agreement with the measurements.
+    #[default]
+    Agreement,
+    /// The greatest value of a number.
+    Greatest,
+    /// Its least value.
+    Least,
 }
 
 /// The table, the form, and the fit.
@@ -29,9 +33,17 @@ pub struct FitState {
     faults: Vec<Option<String>>,
     /// Of which scene the form was judged.
     judged: Option<Scene>,
-    task: Option<(Asked, FitTask)>,
+    sought: Sought,
+    /// The number whose optimum is sought, by its name.
+    quantity: Option<&'static str>,
+    /// Limits on other numbers, as they are typed.
+    limits: String,
+    /// What is wrong with them.
+    goal_fault: Option<String>,
+    /// The search under way, and the scene that it is of.
+    task: Option<(Scene, FitTask)>,
     told: Option<(usize, f64)>,
-    found: Option<(Asked, Fitted)>,
+    found: Option<(Scene, Arc<Found>)>,
     failure: Option<String>,
     cancelled: bool,
 }
@@ -94,7 +106,50 @@ impl FitState {
             .enumerate()
             .map(|(i, bounds)| if twice(i) { Some("Chosen twice: take another key".to_owned()) } else { bounds.err() })
             .collect();
+        let known = quantities(scene);
+        let present = self.quantity.filter(|name| known.iter().any(|(other, _)| other == name));
+        self.quantity = present.or_else(|| known.first().map(|(name, _)| *name));
+        self.goal_fault = self.goal(scene).err();
         self.judged = Some(scene.clone());
+    }
+
+    /// What is looked for, the name of the number if it is an optimum, and limits on others as they are typed.
+    pub fn sought(&self) -> (Sought, Option<&'static str>, &str) {
+        (self.sought, self.quantity, &self.limits)
+    }
+
+    /// Looks for something else.
+    pub fn seek(&mut self, sought: Sought) {
+        self.sought = sought;
+        self.judged = None;
+    }
+
+    /// Looks for the optimum of the number of this name.
+    pub fn seek_of(&mut self, name: &'static str) {
+        self.quantity = Some(name);
+        self.judged = None;
+    }
+
+    /// Within these limits on other numbers.
+    pub fn limit(&mut self, limits: String) {
+        self.limits = limits;
+        self.judged = None;
+    }
+
+    /// What is wrong with the limits.
+    pub fn goal_fault(&self) -> Option<&str> {
+        self.goal_fault.as_deref()
+    }
+
+    /// The optimum that is sought; `None` of agreement.
+    ///
+    /// # Errors
+    /// What is wrong with the limits.
+    pub fn goal(&self, scene: &Scene) -> Result<Option<Goal>, String> {
+        let (Some(name), true) = (self.quantity, self.sought != Sought::Agreement) else { return Ok(None) };
+        let limits = self.limits.split(',').map(str::trim).filter(|limit| !limit.is_empty());
+        let limits = limits.map(str::parse).collect::<Result<Vec<Limit>, _>>().map_err(|error| error.to_string())?;
+        Goal::new(scene, name, self.sought == Sought::Greatest, &limits).map(Some).map_err(|error| error.to_string())
     }
 
     /// The keys to be chosen.
@@ -139,28 +194,28 @@ impl FitState {
     /// # Errors
     /// The first thing that is wrong with it.
     pub fn asked(&self, scene: &Scene) -> Result<Vec<Bounds>, String> {
-        if let Some(fault) = self.faults.iter().flatten().next() {
+        if let Some(fault) = self.faults.iter().flatten().chain(&self.goal_fault).next() {
             return Err(fault.clone());
         }
         self.form.iter().map(|axis| bounds(scene, axis)).collect()
     }
 
-    /// `task` fits.
-    pub fn begin(&mut self, asked: Asked, task: FitTask) {
-        self.task = Some((asked, task));
+    /// `task` searches for `scene`.
+    pub fn begin(&mut self, scene: Scene, task: FitTask) {
+        self.task = Some((scene, task));
         (self.failure, self.told, self.cancelled) = (None, None, false);
     }
 
     /// Takes what was told and found since the last time.
     pub fn drain(&mut self) {
-        let Some((asked, task)) = &self.task else { return };
+        let Some((scene, task)) = &self.task else { return };
         let News { messages, end } = task.drain();
         self.told = messages.into_iter().last().or(self.told);
         let Some(end) = end else { return };
-        let asked = asked.clone();
+        let scene = scene.clone();
         self.task = None;
         match end {
-            Ok(Ok(Some(found))) => self.found = Some((asked, found)),
+            Ok(Ok(Some(found))) => self.found = Some((scene, Arc::new(found))),
             Ok(Ok(None)) => {}
             Ok(Err(why)) => self.failure = Some(why),
             Err(panic) => self.failure = Some(format!("it failed: {panic}")),
@@ -180,7 +235,7 @@ impl FitState {
         self.task.is_some()
     }
 
-    /// How many points were tried, and the least χ² so far.
+    /// How many points were tried, and the least χ² or the best number so far.
     pub fn told(&self) -> Option<(usize, f64)> {
         self.told
     }
@@ -195,16 +250,22 @@ impl FitState {
         self.failure.as_deref()
     }
 
-    /// What was found, and of what.
-    pub fn found(&self) -> Option<&(Asked, Fitted)> {
+    /// What was found, and for which scene.
+    pub fn found(&self) -> Option<&(Scene, Arc<Found>)> {
         self.found.as_ref()
     }
 
     /// Whether `scene` is another one than was fitted: neither that nor the one that came out.
     pub fn stale(&self, scene: &Scene) -> bool {
         let same = |other: &Scene| other.same_model(scene) && other.numerics() == scene.numerics();
-        self.found.as_ref().is_some_and(|(asked, found)| !same(&asked.scene) && !same(&found.scene))
+        self.found.as_ref().is_some_and(|(asked, found)| !same(asked) && !same(found.scene()))
     }
+}
+
+/// Numbers whose optimum can be sought: name, and words with the unit.
+pub fn quantities(scene: &Scene) -> Vec<(&'static str, String)> {
+    let Ok(problem) = Problem::new(scene) else { return Vec::new() };
+    measurable(&problem).into_iter().map(|quantity| (quantity.name(), quantity.label(&problem))).collect()
 }
 
 /// What a line of the form says.

@@ -5,6 +5,7 @@ pub mod dialogs;
 pub mod document;
 pub mod edits;
 pub mod exports;
+pub mod face;
 pub mod fit;
 pub mod hold;
 pub mod lessons;

@@ -1,5 +1,6 @@
 //! How results are looked at: nothing in here changes one.
 
+use crate::gui::derived::ring::Orbit;
 use crate::recording::Recording;
 
 /// What is in the middle of the window.
@@ -85,6 +86,8 @@ pub struct View {
     pub results: bool,
     /// x under the pointer in any view \[m\], read out by all of them.
     pub cursor_x: Option<f64>,
+    /// From where the ring is seen.
+    pub orbit: Orbit,
 }
 
 impl Default for View {
@@ -101,6 +104,7 @@ impl Default for View {
             parameters: true,
             results: true,
             cursor_x: None,
+            orbit: Orbit::default(),
         }
     }
 }

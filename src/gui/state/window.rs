@@ -5,6 +5,7 @@ use super::dialogs::Export;
 use super::document::{Document, absolute};
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
+use super::face::FaceState;
 use super::fit::FitState;
 use super::hold::HoldState;
 use super::lessons::{LessonState, OnScreen};
@@ -52,6 +53,8 @@ pub struct State {
     pub sweep: SweepState,
     /// Measurements, and the fit to them.
     pub fit: FitState,
+    /// A measured face.
+    pub face: FaceState,
     /// Torque over speed.
     pub torque: TorqueState,
     /// The rotor by itself.
@@ -95,6 +98,7 @@ impl State {
             pins: Pins::default(),
             sweep: SweepState::default(),
             fit: FitState::default(),
+            face: FaceState::default(),
             torque: TorqueState::default(),
             rotor: RotorState::default(),
             sensitivity: SensitivityState::default(),
@@ -167,6 +171,7 @@ impl State {
                 self.sweep.swept().is_some_and(|swept| !swept.rows().is_empty())
             }
             Export::Sensitivity => self.sensitivity.found().is_some(),
+            Export::Fit => self.fit.found().is_some(),
             Export::TradeoffTable | Export::TradeoffFigure => {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff().points.is_empty())
             }

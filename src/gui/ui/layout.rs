@@ -2,7 +2,7 @@
 
 use super::context::DrawContext;
 use super::modals;
-use super::panels::{exports, lesson, menu, parameters, results, timeline};
+use super::panels::{exports, held, lesson, menu, parameters, results, timeline};
 use super::{tabs, views};
 use crate::gui::command::LessonCommand;
 use crate::gui::state::view::Tab;
@@ -68,7 +68,9 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             if state.lessons.running().is_some() && ui.button("Back to the lesson").clicked() {
                 cx.push(LessonCommand::AllResults(false));
             }
-            if let Some(run) = &state.run {
+            if let (Tab::Hold, Some(hold)) = (state.view.tab, &state.hold) {
+                held::show(ui, hold, cx);
+            } else if let Some(run) = &state.run {
                 results::show(ui, run, cx);
             }
         });

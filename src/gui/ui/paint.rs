@@ -160,6 +160,12 @@ impl Axes {
         self.rect.bottom() - part as f32 * self.rect.height()
     }
 
+    /// By how much y is drawn larger than x.
+    pub(in crate::gui::ui) fn exaggeration(&self) -> f64 {
+        let scale = |length: f32, [from, to]: [f64; 2]| f64::from(length) / (to - from);
+        scale(self.rect.height(), self.y) / scale(self.rect.width(), self.x)
+    }
+
     pub(in crate::gui::ui) fn at(&self, x: f64, y: f64) -> Pos2 {
         pos2(self.px(x), self.py(y))
     }

@@ -88,6 +88,12 @@ pub fn field_colour(value: f64) -> Color32 {
     Color32::from_rgb(colour.r, colour.g, colour.b)
 }
 
+/// `colour` on a face that has this much light, 0 to 1.
+pub fn lit(colour: Color32, light: f32) -> Color32 {
+    let [r, g, b] = [colour.r(), colour.g(), colour.b()].map(|part| (f32::from(part) * light.clamp(0.0, 1.0)) as u8);
+    Color32::from_rgb(r, g, b)
+}
+
 /// Installs fonts and the colours of both themes.
 pub fn install(ctx: &egui::Context) {
     install_fonts(ctx);

@@ -14,6 +14,7 @@ use crate::export::sweep::{figure_of, write_csv};
 use crate::export::{csv, sensitivity, tradeoff};
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Export;
+use crate::gui::state::fit::Found;
 use crate::gui::state::pins::{fidelity, to_compare};
 use crate::job::SolvedScene;
 use crate::job::task::Task;
@@ -140,6 +141,20 @@ impl Updater {
                         carlo: carlo.as_ref(),
                     };
                     Ok(files::sensitivity(&path, &found, &fidelity, &[], BESIDE_DATA)?)
+                })
+            }
+            Export::Fit => {
+                let (scene, found) = self.state.fit.found()?;
+                let (name, found) = (scene.name.clone(), Arc::clone(found));
+                let problem = Problem::new(found.scene()).ok()?;
+                Box::new(move |_| {
+                    let of = (name.as_str(), &problem);
+                    Ok(match &*found {
+                        Found::Fit(measured, fitted) => {
+                            files::fitted(&path, of, (fitted, measured), &[], &BESIDE_DATA)?
+                        }
+                        Found::Optimum(optimum) => files::optimum(&path, of, optimum, &[], &BESIDE_DATA)?,
+                    })
                 })
             }
             Export::TradeoffTable | Export::TradeoffFigure => {

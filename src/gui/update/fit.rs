@@ -1,15 +1,16 @@
 //! What is asked of measurements and fits, carried out.
 
 use super::updater::Updater;
-use crate::analysis::fit::Measured;
-use crate::gui::command::FitCommand;
+use crate::analysis::fit::{LARGEST_TABLE, Measured};
+use crate::gui::command::{FaceCommand, FitCommand};
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::fit::Asked;
 use crate::gui::state::sweep::AxisForm;
 use crate::gui::state::view::Tab;
+use crate::input::{ReadError, read_text};
 use crate::job;
 use crate::scene::Value;
 use crate::solve::{Method, Settings};
+use crate::surface::height_map::begins_as_heights;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -25,6 +26,9 @@ impl Updater {
             FitCommand::Choose => self.ask(Purpose::Measurements, ""),
             FitCommand::Load(path) => self.load_measurements(&path),
             FitCommand::Forget => state.fit.forget(),
+            FitCommand::Seek(sought) => state.fit.seek(sought),
+            FitCommand::Quantity(name) => state.fit.seek_of(name),
+            FitCommand::Limits(limits) => state.fit.limit(limits),
             FitCommand::Key(line, key) => {
                 let axis = AxisForm::around(scene, key, 2);
                 state.fit.edit(line, |line| *line = axis);
@@ -39,10 +43,8 @@ impl Updater {
             FitCommand::Take => {
                 let Some((_, found)) = state.fit.found() else { return };
                 let mut next = scene.clone();
-                let set = found
-                    .unknowns
-                    .iter()
-                    .try_for_each(|found| next.set_value(found.unknown.parameter.key, Value::Number(found.value)));
+                let mut values = found.values().into_iter();
+                let set = values.try_for_each(|(key, value)| next.set_value(key, Value::Number(value)));
                 match set.and_then(|()| next.check()) {
                     Ok(()) => self.change_scene(next),
                     Err(error) => self.state.fail(error),
@@ -51,8 +53,16 @@ impl Updater {
         }
     }
 
-    /// Reads a table of measurements. On the torque tab torques are drawn over the curve; anything else shows the fit.
+    /// Reads a table of measurements, or a measured face. On the torque tab torques are drawn over the curve; anything else shows the fit.
     fn load_measurements(&mut self, path: &Path) {
+        // No table of measurements is as large as heights may be.
+        let heights = match read_text(path, LARGEST_TABLE) {
+            Ok(text) => begins_as_heights(&text),
+            Err(error) => matches!(error, ReadError::TooLarge(_)),
+        };
+        if heights {
+            return self.face(FaceCommand::Load(path.to_owned()));
+        }
         let state = &mut self.state;
         match Measured::find(&path.to_string_lossy(), state.document.scene(), Method::Auto) {
             Ok(measured) => {
@@ -72,12 +82,16 @@ impl Updater {
         }
         let scene = self.state.document.scene().clone();
         // What is wrong with a key is said at the key.
-        let (Some(measured), Ok(bounds)) = (self.state.fit.measured().cloned(), self.state.fit.asked(&scene)) else {
+        let state = &self.state.fit;
+        let (Ok(bounds), Ok(goal)) = (state.asked(&scene), state.goal(&scene)) else { return };
+        let measured = state.measured().cloned();
+        if measured.is_none() && goal.is_none() {
             return;
-        };
+        }
         let settings = Settings { fidelity: self.state.document.target(), ..Settings::default() };
-        let asked = Asked { scene: scene.clone(), measured: Arc::clone(&measured) };
-        let task = job::fit::start(scene, measured, bounds, settings, self.wake(REDRAW));
+        let asked = scene.clone();
+        let measured = measured.map(Arc::unwrap_or_clone);
+        let task = job::fit::start(scene, measured, bounds, goal, settings, self.wake(REDRAW));
         match task {
             Ok(task) => self.state.fit.begin(asked, task),
             Err(error) => self.state.fail(format!("The fit cannot be started: {error}")),

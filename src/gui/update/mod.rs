@@ -2,6 +2,7 @@
 
 pub mod dialogs;
 mod exports;
+mod face;
 mod fit;
 mod lessons;
 mod links;

@@ -52,11 +52,12 @@ fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
         Purpose::Export(export) => (export.filter(), export.title()),
         Purpose::Lessons => (None, "Open a folder of lessons"),
         Purpose::Measurements => (Some(("Table", &["csv"])), "Open a table of measurements"),
+        Purpose::Heights => (Some(("Heights", &["csv", "txt"])), "Open measured heights"),
         Purpose::Open => (Some(("Preset", &["toml"])), "Open a preset"),
         Purpose::Save(_) => (Some(("Preset", &["toml"])), "Save"),
     };
     let asked = match purpose {
-        Purpose::Open | Purpose::Measurements => Asked::File,
+        Purpose::Open | Purpose::Measurements | Purpose::Heights => Asked::File,
         Purpose::Lessons => Asked::Folder,
         Purpose::Export(export) if export.is_folder() => Asked::Folder,
         Purpose::Export(_) | Purpose::Save(_) | Purpose::Picture(_) => Asked::NewFile,

@@ -63,6 +63,7 @@ impl Updater {
             Command::Pin(command) => self.pin(command),
             Command::Sweep(command) => self.sweep(command),
             Command::Fit(command) => self.fit(command),
+            Command::Face(command) => self.face(command),
             Command::Hold(command) => self.hold(command),
             Command::Startup(command) => self.start_up(command),
             Command::Sensitivity(command) => self.sensitivity(command),
@@ -94,6 +95,7 @@ impl Updater {
                     state.view.tooth = (state.view.tooth as i64 + by).rem_euclid(teeth) as usize;
                 }
             }
+            Command::Orbit(orbit) => state.view.orbit = orbit,
             Command::ToggleTheme => {
                 state.dark = !state.dark;
                 self.apply_theme();
@@ -145,7 +147,7 @@ impl Updater {
         }
         let state = &mut self.state;
         state.tradeoff.iter_mut().for_each(|measured| measured.drain());
-        if let Some(error) = state.exports.drain() {
+        if let Some(error) = state.exports.drain().or_else(|| state.face.drain()) {
             state.fail(error);
         }
         state.pins.drain();
@@ -179,7 +181,7 @@ impl Updater {
             Answer::Cancelled => {}
             Answer::NoDialog => {
                 let path = match &purpose {
-                    Purpose::Open | Purpose::Lessons | Purpose::Measurements => String::new(),
+                    Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
                     Purpose::Save(_) => self.state.suggested_name(),
                     Purpose::Picture(_) => Picture::FILE_NAME.to_owned(),
                     Purpose::Export(export) => export.file_name().to_owned(),

@@ -465,6 +465,32 @@ mod tests {
         (Section::new(parts, Vec::new()).unwrap(), Band { radius: 29e-3, width: 0.3e-3 })
     }
 
+    /// The elements of the same section are moved, so that what they leave of C is nearly the same however small the step is.
+    #[test]
+    fn on_moved_elements_a_derivative_does_not_depend_on_the_step() {
+        let (middle, band) = rotor();
+        let with = |change: f64, moved: bool| {
+            let mut parts = middle.parts().to_vec();
+            parts[2].inner_radius *= 1.0 + change;
+            parts[2].top *= 1.0 + change;
+            let section = Section::new(parts, Vec::new()).unwrap();
+            assert!(section.is_meshed_like(band, &middle, band).unwrap());
+            let section = if moved { section.meshed_as(&middle, band) } else { section };
+            section.compliances(band, 7, 1, &Cancel::new()).unwrap().harmonics[0].value
+        };
+        let slope = |step: f64, moved: bool| (with(step, moved) - with(-step, moved)) / (2.0 * step);
+        let [short, long] = [1e-5, 1e-3].map(|step| slope(step, true));
+        assert!((short / long - 1.0).abs() < 5e-3, "{short} {long}");
+        // Not moved they are those of the section itself.
+        assert_eq!(with(0.0, true), with(0.0, false));
+        let mut torn = middle.parts().to_vec();
+        torn[2].bottom -= 1e-5;
+        let torn = Section::new(torn, Vec::new()).unwrap();
+        assert!(!torn.is_meshed_like(band, &middle, band).unwrap());
+        let other = torn.meshed_as(&middle, band).compliances(band, 7, 1, &Cancel::new()).unwrap();
+        assert_eq!(other, torn.compliances(band, 7, 1, &Cancel::new()).unwrap());
+    }
+
     #[test]
     fn a_few_orders_stand_for_all() {
         let (section, band) = rotor();

@@ -219,6 +219,60 @@ impl Mesh {
         elements: usize,
         halves: usize,
     ) -> Result<Self, RingError> {
+        let grid = Grid::of(section, band)?;
+        let pattern = section.pattern().map(|(other, of)| Grid::of(other, band.and(Some(of)))).transpose()?;
+        let pattern = pattern.filter(|pattern| pattern.is_like(&grid));
+        let pattern = pattern.as_ref().unwrap_or(&grid);
+        // The smallest elements of which there are no more than asked for, within a hundredth.
+        let (mut many, mut few) = (1e-2_f64, 1e4_f64);
+        while few / many > 1.01 {
+            let scale = (many * few).sqrt();
+            if pattern.elements(scale) > elements { many = scale } else { few = scale }
+        }
+        let least = pattern.elements(few);
+        if least > elements.max(MOST) {
+            return Err(RingError::Elements { elements: least, most: MOST });
+        }
+        Ok(grid.mesh(section, pattern, few, halves))
+    }
+
+    /// Inner and outer radius, bottom and top of `element`.
+    pub(super) fn corners(&self, element: &Element) -> [f64; 4] {
+        let ([inner, bottom], [outer, top]) = (self.nodes[element.nodes[0]], self.nodes[element.nodes[8]]);
+        [inner, outer, bottom, top]
+    }
+}
+
+impl Section {
+    /// Whether this section under its contact `band` has as many lines, between the same parts, as `other` has under its own.
+    ///
+    /// # Errors
+    /// [`RingError`] if a band is not within the lowest face.
+    pub fn is_meshed_like(&self, band: Band, other: &Self, of: Band) -> Result<bool, RingError> {
+        Ok(Grid::of(self, Some(band))?.is_like(&Grid::of(other, Some(of))?))
+    }
+
+    /// The size below which the stress of the contact varies: the width of the band, or the height of the lowest part
+    /// it is on.
+    pub(super) fn depth(&self, band: Band) -> f64 {
+        let height = self.contact_height();
+        let touching =
+            self.parts().iter().filter(|part| same(part.bottom, height) && common(part.radii(), band.radii()) > 0.0);
+        touching.map(|part| part.top - part.bottom).fold(band.width, f64::min)
+    }
+}
+
+/// The lines both ways, and which part is between them.
+struct Grid {
+    along: Lines,
+    up: Lines,
+    /// Part of each interval i along r and j along z, `[i + j · intervals along r]`.
+    parts: Vec<Option<usize>>,
+}
+
+impl Grid {
+    /// Of a section with a contact band or without.
+    fn of(section: &Section, band: Option<Band>) -> Result<Self, RingError> {
         let (mut along, mut up) = (Vec::new(), Vec::new());
         for part in section.parts() {
             along.extend([part.inner_radius, part.outer_radius]);
@@ -250,47 +304,14 @@ impl Mesh {
             fine_along.extend([(inner, size), (outer, size)]);
             fine_up.push((section.contact_height(), size));
         }
-        let grid = Grid::new(section, Lines::new(along, &fine_along), Lines::new(up, &fine_up));
-        // The smallest elements of which there are no more than asked for, within a hundredth.
-        let (mut many, mut few) = (1e-2_f64, 1e4_f64);
-        while few / many > 1.01 {
-            let scale = (many * few).sqrt();
-            if grid.elements(scale) > elements { many = scale } else { few = scale }
-        }
-        let least = grid.elements(few);
-        if least > elements.max(MOST) {
-            return Err(RingError::Elements { elements: least, most: MOST });
-        }
-        Ok(grid.mesh(section, few, halves))
+        Ok(Self::new(section, Lines::new(along, &fine_along), Lines::new(up, &fine_up)))
     }
 
-    /// Inner and outer radius, bottom and top of `element`.
-    pub(super) fn corners(&self, element: &Element) -> [f64; 4] {
-        let ([inner, bottom], [outer, top]) = (self.nodes[element.nodes[0]], self.nodes[element.nodes[8]]);
-        [inner, outer, bottom, top]
+    /// Whether both have as many lines, between the same parts.
+    fn is_like(&self, other: &Self) -> bool {
+        self.along.at.len() == other.along.at.len() && self.parts == other.parts
     }
-}
 
-impl Section {
-    /// The size below which the stress of the contact varies: the width of the band, or the height of the lowest part
-    /// it is on.
-    pub(super) fn depth(&self, band: Band) -> f64 {
-        let height = self.contact_height();
-        let touching =
-            self.parts().iter().filter(|part| same(part.bottom, height) && common(part.radii(), band.radii()) > 0.0);
-        touching.map(|part| part.top - part.bottom).fold(band.width, f64::min)
-    }
-}
-
-/// The lines both ways, and which part is between them.
-struct Grid {
-    along: Lines,
-    up: Lines,
-    /// Part of each interval i along r and j along z, `[i + j · intervals along r]`.
-    parts: Vec<Option<usize>>,
-}
-
-impl Grid {
     fn new(section: &Section, along: Lines, up: Lines) -> Self {
         let within = |ends: &[f64], (low, high): (f64, f64)| (low..high).contains(&(0.5 * (ends[0] + ends[1])));
         let mut parts = Vec::new();
@@ -308,9 +329,12 @@ impl Grid {
         filled.map(|(k, _)| self.along.count(k % columns, scale) * self.up.count(k / columns, scale)).sum()
     }
 
-    fn mesh(&self, section: &Section, scale: f64, halves: usize) -> Mesh {
-        let (radii, along) = self.along.divided(scale, halves);
-        let (heights, up) = self.up.divided(scale, halves);
+    /// Elements as in `pattern`, which is like this grid or this grid itself, moved with the lines.
+    fn mesh(&self, section: &Section, pattern: &Self, scale: f64, halves: usize) -> Mesh {
+        let (radii, along) = pattern.along.divided(scale, halves);
+        let (heights, up) = pattern.up.divided(scale, halves);
+        let radii = moved(radii, &along, &pattern.along.at, &self.along.at);
+        let heights = moved(heights, &up, &pattern.up.at, &self.up.at);
         let (columns, intervals) = (2 * along.len() + 1, self.along.sums.len());
         let mut elements = Vec::new();
         for (j, row) in up.iter().enumerate() {
@@ -335,6 +359,17 @@ impl Grid {
         let held = nodes.iter().map(|node| section.held(*node)).collect();
         Mesh { nodes, elements, held, places }
     }
+}
+
+/// Edges of elements, each in its interval, moved as the ends of the intervals are.
+fn moved(mut edges: Vec<f64>, intervals: &[usize], from: &[f64], to: &[f64]) -> Vec<f64> {
+    if from != to {
+        for (edge, i) in edges.iter_mut().zip(intervals.iter().copied().chain(intervals.last().copied())) {
+            let share = (*edge - from[i]) / (from[i + 1] - from[i]);
+            *edge = to[i] + share * (to[i + 1] - to[i]);
+        }
+    }
+    edges
 }
 
 impl Section {

@@ -82,7 +82,7 @@ pub struct Support {
 }
 
 /// Where the stator touches the ring: a band of the lowest face of the section.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Band {
     /// Contact radius r, the middle of the band \[m\].
     pub radius: f64,
@@ -188,6 +188,8 @@ pub enum RingError {
 pub struct Section {
     parts: Vec<Part>,
     supports: Vec<Support>,
+    /// Whose elements its mesh has, moved with the lines of this one, and the band that they are made for.
+    pattern: Option<Box<(Section, Band)>>,
 }
 
 impl Section {
@@ -219,7 +221,18 @@ impl Section {
         for (i, support) in supports.iter().enumerate() {
             support.check(&parts).map_err(|what| RingError::Support { number: i + 1, what })?;
         }
-        Ok(Self { parts, supports })
+        Ok(Self { parts, supports, pattern: None })
+    }
+
+    /// The same section whose mesh has the elements of `other` under its contact `band`, moved as its edges are, if both hang together alike: what
+    /// the elements leave of a compliance then changes smoothly from one to the other, and cancels in their difference.
+    pub fn meshed_as(&self, other: &Self, band: Band) -> Self {
+        Self { pattern: Some(Box::new((Self { pattern: None, ..other.clone() }, band))), ..self.clone() }
+    }
+
+    /// Whose elements its mesh has, if not its own, and the band that they are made for.
+    pub(super) fn pattern(&self) -> Option<(&Self, Band)> {
+        self.pattern.as_deref().map(|(section, band)| (section, *band))
     }
 
     /// The parts, in the order given.

@@ -129,6 +129,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
             [Purpose::Save(_)] => "Save the preset",
             [Purpose::Lessons] => "Open a folder of lessons",
             [Purpose::Measurements] => "Open a table of measurements",
+            [Purpose::Heights] => "Open measured heights",
             [Purpose::Picture(_)] => "Save a picture of the window",
             [Purpose::Export(export)] => export.title(),
             _ => "Open or save a preset",
@@ -157,7 +158,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     let writes = prompt
         .purposes
         .iter()
-        .any(|purpose| !matches!(purpose, Purpose::Open | Purpose::Lessons | Purpose::Measurements));
+        .any(|purpose| !matches!(purpose, Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights));
     let replaces = writes && named && cx.state.document.path() != Some(path.as_path()) && path.is_file();
     if replaces && !prompt.purposes.contains(&Purpose::Open) {
         cx.say(ui, "There is such a file already", cx.colours.alarm);
@@ -167,7 +168,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
         let mut answer = None;
         for (i, purpose) in prompt.purposes.iter().enumerate() {
             let text = match purpose {
-                Purpose::Open | Purpose::Lessons | Purpose::Measurements => "Open",
+                Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights => "Open",
                 _ if replaces => "Replace",
                 Purpose::Save(_) | Purpose::Picture(_) | Purpose::Export(_) => "Save",
             };

@@ -72,8 +72,8 @@ fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, cx: &Dra
     }
 }
 
-/// What can be exported, in groups: of the run on screen, of the pinned runs, of the sweep, of the trade-off, of the sensitivities.
-const EXPORTS: &[&[(&str, Export)]] = &[RUN, COMPARISON, SWEEP, TRADEOFF, SENSITIVITY];
+/// What can be exported, in groups: of the run on screen, of the pinned runs, of the sweep, of the trade-off, of the sensitivities, of a fit.
+const EXPORTS: &[&[(&str, Export)]] = &[RUN, COMPARISON, SWEEP, TRADEOFF, SENSITIVITY, FIT];
 
 const RUN: &[(&str, Export)] = &[
     ("All results, into a folder…", Export::Data),
@@ -98,6 +98,9 @@ const TRADEOFF: &[(&str, Export)] =
     &[("Trade-off as table…", Export::TradeoffTable), ("Trade-off as figure…", Export::TradeoffFigure)];
 
 const SENSITIVITY: &[(&str, Export)] = &[("Sensitivities, into a folder…", Export::Sensitivity)];
+
+/// What can be exported of a fit.
+pub const FIT: &[(&str, Export)] = &[("Fit, into a folder…", Export::Fit)];
 
 /// A button with a menu of exports.
 pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], cx: &DrawContext<'_>) {

@@ -3,6 +3,7 @@
 pub mod convergence;
 pub mod exports;
 pub mod field;
+pub mod held;
 pub mod lesson;
 pub mod menu;
 pub mod model;

@@ -383,6 +383,9 @@ impl Panel<'_> {
         };
         let field = field.show(ui, self.cx).labelled_by(name.id);
         let columns = match parameter.key {
+            "surface.heights_csv" => {
+                "A grid of heights after lines # dx_um = …, # dy_um = … and # height = nm, or a profile with columns x_um and z_nm"
+            }
             "rotor.green_csv" => "Columns x_mm and deflection_um_per_n",
             _ => "Columns wavenumber_per_m or harmonic, and compliance_m2_per_n",
         };

@@ -72,7 +72,7 @@ fn motor_numbers(
         banner(ui, cx.colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
     }
     let top = ui.next_widget_position();
-    headline(ui, "α", &uncertain(result.alpha, result.alpha_error), "");
+    headline(ui, "α", "α", &uncertain(result.alpha, result.alpha_error), "");
     cx.note(
         ui,
         if regime::sucks(result.alpha, result.alpha_error) {
@@ -104,7 +104,7 @@ fn motor_numbers(
 fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
     let unit = force_unit(&run.problem);
     let ratio = |load| PlateResult::ratio(load, plate);
-    headline(ui, "", &uncertain(result.film_load, result.film_load_error), unit);
+    headline(ui, "", "Film load", &uncertain(result.film_load, result.film_load_error), unit);
     cx.note(ui, "mean load of the film over the cycle");
     ui.add_space(4.0);
     number(ui, cx, "Over the cycle", &span(result.film_load_min, result.film_load_max), unit);
@@ -219,8 +219,8 @@ fn banner(ui: &mut egui::Ui, colour: Color32, title: &str, text: &str) {
     ui.add_space(6.0);
 }
 
-/// The number that matters, its error smaller; all of it smaller where it would not fit.
-fn headline(ui: &mut egui::Ui, symbol: &str, value: &str, unit: &str) {
+/// The number that matters, its error smaller; all of it smaller where it would not fit. The glossary explains it under `word`.
+pub(super) fn headline(ui: &mut egui::Ui, symbol: &str, word: &str, value: &str, unit: &str) {
     let body = TextStyle::Body.resolve(ui.style()).size;
     let (number, error) = value.split_once(" ± ").map_or((value, None), |(number, error)| (number, Some(error)));
     let (strong, weak) = (ui.visuals().strong_text_color(), ui.visuals().text_color());
@@ -257,7 +257,7 @@ fn headline(ui: &mut egui::Ui, symbol: &str, value: &str, unit: &str) {
         galley = job(room / galley.size().x * 0.98);
     }
     let label = ui.add(egui::Label::new(galley));
-    glossary::hover(ui, label, if symbol.is_empty() { "Film load" } else { symbol });
+    glossary::hover(ui, label, word);
 }
 
 /// Air and contact as parts of one bar, and what the colours mean.
@@ -301,14 +301,14 @@ fn legend(ui: &mut egui::Ui, colour: Color32, text: &str) {
     });
 }
 
-fn section(ui: &mut egui::Ui, title: &str) {
+pub(super) fn section(ui: &mut egui::Ui, title: &str) {
     ui.add_space(8.0);
     let label = ui.add(egui::Label::new(RichText::new(title).strong()).wrap());
     glossary::hover(ui, label, title);
 }
 
 /// A name at the left, its value and unit at the right; below each other where they do not fit side by side.
-fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value: &str, unit: &str) {
+pub(super) fn number(ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, value: &str, unit: &str) {
     let value = if unit.is_empty() { value.to_owned() } else { format!("{value} {unit}") };
     let (term, gap) = (name, 2.0 * ui.spacing().item_spacing.x);
     let fits = text_width(ui, name) + text_width(ui, &value) + gap < ui.available_width();
@@ -332,7 +332,7 @@ fn text_height(ui: &egui::Ui) -> f32 {
     ui.text_style_height(&TextStyle::Body)
 }
 
-fn shown(value: f64) -> String {
+pub(super) fn shown(value: f64) -> String {
     with_minus(&significant(value, DIGITS))
 }
 
@@ -341,6 +341,6 @@ fn rough(error: f64) -> String {
     significant(error, 2)
 }
 
-fn span(least: f64, most: f64) -> String {
+pub(super) fn span(least: f64, most: f64) -> String {
     format!("{} … {}", shown(least), shown(most))
 }

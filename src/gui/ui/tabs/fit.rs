@@ -1,15 +1,19 @@
-//! Keys chosen to agree with measurements: the table, what is asked for, and what was found.
+//! Keys chosen to agree with measurements, or for the optimum of a number: the table, what is asked for, and what was found.
 
-use crate::analysis::fit::{Bound, Fitted, FittedUnknown, Measured};
-use crate::digits::{signed, significant, with_error};
+use crate::analysis::fit::{Bound, FLAT, Fitted, FittedUnknown, Measured, Optimum};
+use crate::analysis::quantity::Quantity;
+use crate::digits::{percent, signed, significant, with_error};
 use crate::gui::command::FitCommand;
+use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
-use crate::gui::state::fit::{Asked, FitState, chooses};
+use crate::gui::state::fit::{FitState, Found, Sought, chooses, quantities};
 use crate::gui::state::sweep::AxisForm;
 use crate::gui::ui::chart::{SOLID, axes, chart, dots, framed, legend, level, line, place, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, beside};
+use crate::gui::ui::panels::menu::{FIT, export_button};
+use crate::problem::Problem;
 use crate::scene::Parameter;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, ComboBox, Grid, RichText, ScrollArea, TextEdit, TextStyle, Ui, Vec2b, WidgetInfo};
@@ -32,8 +36,12 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     ScrollArea::vertical().id_salt("fit").auto_shrink(false).show(ui, |ui| {
         // Room for the scroll bar, which floats.
         ui.set_max_width(ui.available_width() - 8.0);
-        table(ui, state, cx);
-        if state.measured().is_some() {
+        sought(ui, state, cx);
+        let agreement = state.sought().0 == Sought::Agreement;
+        if agreement {
+            table(ui, state, cx);
+        }
+        if state.measured().is_some() || !agreement {
             for (i, axis) in state.form().iter().enumerate() {
                 ui.push_id(i, |ui| {
                     ui.horizontal_wrapped(|ui| key(ui, i, axis, cx));
@@ -46,12 +54,71 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         } else {
             introduction(ui, cx);
         }
-        if let Some((asked, found)) = state.found() {
+        if let Some((scene, found)) = state.found() {
             ui.add_space(6.0);
-            result(ui, asked, found, (SHARE * height).max(LEAST_LINES * ui.text_style_height(&TextStyle::Body)), cx);
+            let height = (SHARE * height).max(LEAST_LINES * ui.text_style_height(&TextStyle::Body));
+            if state.stale(cx.state.document.scene()) {
+                let text = format!("Fitted to “{}” before the scene changed; fit again", scene.name);
+                cx.say(ui, text, cx.colours.alarm);
+            }
+            match &**found {
+                Found::Fit(measured, fitted) => result(ui, measured, fitted, height, cx),
+                Found::Optimum(found) => optimum(ui, found, height, cx),
+            }
         }
         ui.add_space(8.0);
     });
+}
+
+/// What is looked for: agreement with measurements, or the optimum of a number, within limits on others.
+fn sought(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
+    const KINDS: [(Sought, &str); 3] = [
+        (Sought::Agreement, "agreement with measurements"),
+        (Sought::Greatest, "the greatest value of"),
+        (Sought::Least, "the least value of"),
+    ];
+    let em = ui.text_style_height(&TextStyle::Body);
+    let (sought, name, limits) = state.sought();
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Look for");
+        let chosen = KINDS.iter().find(|(kind, _)| *kind == sought).map_or("", |(_, words)| *words);
+        let combo = ComboBox::from_id_salt("sought").selected_text(chosen).width(13.0 * em).show_ui(ui, |ui| {
+            for (kind, words) in KINDS {
+                if ui.selectable_label(kind == sought, words).clicked() {
+                    cx.push(FitCommand::Seek(kind));
+                }
+            }
+        });
+        combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "What is looked for"));
+        combo.response.hint("Values that agree best with measurements, or at which a result is as large or as small as it can be");
+        if sought == Sought::Agreement {
+            return;
+        }
+        let known = quantities(cx.state.document.scene());
+        let words = known.iter().find(|(other, _)| Some(*other) == name).map_or("", |(_, words)| words.as_str());
+        let combo = ComboBox::from_id_salt("quantity").selected_text(words).width(13.0 * em).height(24.0 * em);
+        let combo = combo.show_ui(ui, |ui| {
+            for (other, words) in &known {
+                if ui.selectable_label(Some(*other) == name, words).clicked() {
+                    cx.push(FitCommand::Quantity(other));
+                }
+            }
+        });
+        combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Number that is sought"));
+        combo.response.hint("The result whose optimum is sought");
+        ui.label("with");
+        let mut limits = limits.to_owned();
+        let field = TextEdit::singleline(&mut limits).desired_width(13.0 * em).hint_text("no limits");
+        let field = ui.add(field);
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Limits on other results"));
+        let about = "Limits on other results, divided by commas: alpha<0.3, stall_torque_nm>0.2. Their names are those of the columns that are exported";
+        if field.hint(about).changed() {
+            cx.push(FitCommand::Limits(limits));
+        }
+    });
+    if let (Some(fault), true) = (state.goal_fault(), sought != Sought::Agreement) {
+        cx.say(ui, fault, cx.colours.alarm);
+    }
 }
 
 /// Which table.
@@ -145,14 +212,23 @@ fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
             ui.spinner();
             let told = state.told().map_or_else(
                 || "Solving the starts…".to_owned(),
-                |(points, chi_squared)| format!("{points} points tried, χ² {}", significant(chi_squared, 3)),
+                |(points, best)| {
+                    let what = if state.sought().0 == Sought::Agreement { "χ²" } else { "best" };
+                    format!("{points} points tried, {what} {}", significant(best, 3))
+                },
             );
             ui.label(told);
             return;
         }
+        let agreement = state.sought().0 == Sought::Agreement;
         let good = state.faults().iter().all(Option::is_none) && !state.form().is_empty();
+        let good = good && (agreement || state.goal_fault().is_none());
         let about = "Searches on all cores; the window stays usable, and the scene as it is";
-        if ui.add_enabled(good, egui::Button::new("Fit the scene")).hint(about).clicked() {
+        if ui
+            .add_enabled(good, egui::Button::new(if agreement { "Fit the scene" } else { "Find the optimum" }))
+            .hint(about)
+            .clicked()
+        {
             cx.push(FitCommand::Start);
         }
         if state.has_room() && ui.button("Add a key…").hint("One more parameter to choose").clicked() {
@@ -167,11 +243,7 @@ fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
 }
 
 /// What was found.
-fn result(ui: &mut Ui, asked: &Asked, found: &Fitted, height: f32, cx: &DrawContext<'_>) {
-    if cx.state.fit.stale(cx.state.document.scene()) {
-        let text = format!("Fitted to “{}” before the scene changed; fit again", asked.scene.name);
-        cx.say(ui, text, cx.colours.alarm);
-    }
+fn result(ui: &mut Ui, measured: &Measured, found: &Fitted, height: f32, cx: &DrawContext<'_>) {
     for warning in &found.warnings {
         cx.say(ui, warning, cx.colours.alarm);
     }
@@ -181,10 +253,7 @@ fn result(ui: &mut Ui, asked: &Asked, found: &Fitted, height: f32, cx: &DrawCont
             ui.end_row();
         }
     });
-    let about = "Gives the scene these values: one edit, which can be undone";
-    if ui.button("Take these values").hint(about).clicked() {
-        cx.push(FitCommand::Take);
-    }
+    take(ui, cx);
     let how = match (found.errors_known, found.error_scale) {
         (true, _) => format!(
             "χ² = {} with {} degrees of freedom, from the errors in the table.",
@@ -196,8 +265,82 @@ fn result(ui: &mut Ui, asked: &Asked, found: &Fitted, height: f32, cx: &DrawCont
     };
     cx.note(ui, how);
     ui.add_space(4.0);
-    charts(ui, &asked.measured, found, height, cx);
-    rows(ui, &asked.measured, found, cx);
+    charts(ui, measured, found, height, cx);
+    rows(ui, measured, found, cx);
+}
+
+/// What is done with the values that were found.
+fn take(ui: &mut Ui, cx: &DrawContext<'_>) {
+    ui.horizontal(|ui| {
+        let about = "Gives the scene these values: one edit, which can be undone";
+        if ui.button("Take these values").hint(about).clicked() {
+            cx.push(FitCommand::Take);
+        }
+        export_button(ui, FIT, cx);
+    });
+}
+
+/// The optimum that was found.
+fn optimum(ui: &mut Ui, found: &Optimum, height: f32, cx: &DrawContext<'_>) {
+    for warning in &found.warnings {
+        cx.say(ui, warning, cx.colours.alarm);
+    }
+    let Ok(problem) = Problem::new(&found.scene) else { return };
+    let strong = ui.visuals().strong_text_color();
+    let words = |quantity: Quantity| quantity.label(&problem);
+    Grid::new("optimum").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {
+        let row = |ui: &mut Ui, name: &str, about: &str, value: String, beside: String| {
+            ui.label(RichText::new(name).color(cx.colours.quiet)).hint(about);
+            ui.label(RichText::new(value).color(strong));
+            ui.label(beside);
+            ui.end_row();
+        };
+        let before = found.before.map_or_else(
+            || "cannot be solved as the scene was".to_owned(),
+            |before| format!("{} as the scene was", with_error(before.value, before.error)),
+        );
+        let value = with_error(found.value.value, found.value.error);
+        row(ui, &words(found.goal.quantity), "The result that is sought, with its numerical error", value, before);
+        for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
+            let value = with_error(reached.value, reached.error);
+            row(ui, &words(*quantity), "A result that is limited", value, format!("allowed: {limit}"));
+        }
+        for scan in &found.lines {
+            let parameter = scan.unknown.parameter;
+            let at = match scan.at {
+                Some(Bound::Lower) => "at its lower bound; ",
+                Some(Bound::Upper) => "at its upper bound; ",
+                None => "",
+            };
+            let (from, to) = scan.flat;
+            let flat = format!("{at}within {} from {} to {}", percent(FLAT), significant(from, 3), significant(to, 3));
+            let value = format!("{} {}", significant(scan.value, 4), parameter.unit);
+            row(ui, label(parameter), parameter.about, value, flat);
+        }
+    });
+    take(ui, cx);
+    ui.add_space(4.0);
+    let unit = words(found.goal.quantity);
+    for scan in &found.lines {
+        let parameter = scan.unknown.parameter;
+        let name = format!("{unit} over {}", label(parameter));
+        let points: Vec<[f64; 2]> = scan.points.iter().filter_map(|(x, y)| Some([*x, (*y)?])).collect();
+        let [low, high] = span(points.iter().map(|point| point[1]).chain([found.value.value]));
+        let [left, right] = span(points.iter().map(|point| point[0]));
+        let margin = 0.08 * (high - low).max(1e-12);
+        title(ui, &name, "Line through the optimum");
+        let whole = place(ui, 0.7 * height);
+        let below = format!("{}, {}", label(parameter), parameter.unit);
+        let plot = chart(ui, &name, 0.7 * height).x_axis_label(below.trim_end_matches([',', ' ']).to_owned());
+        let (film, contact, at) = (cx.colours.film, cx.colours.contact, vec![[scan.value, found.value.value]]);
+        let bounds = [[left, right], [low - margin, high + margin]];
+        let shown = framed(ui, (&name, plot), bounds, move |plot| {
+            plot.line(line(&points, film, 2.0, SOLID));
+            plot.points(dots(at, contact, RADIUS));
+        });
+        shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
+        axes(ui, whole, *shown.transform.frame(), None, "Line through the optimum");
+    }
 }
 
 fn value(ui: &mut Ui, one: &FittedUnknown, cx: &DrawContext<'_>) {

@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod exact;
+mod face;
 pub mod fit;
 pub mod hold;
 pub mod labels;

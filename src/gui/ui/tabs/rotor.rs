@@ -1,7 +1,8 @@
 //! The rotor by itself: compliance by harmonic and Green's function of several models, and the section of a ring, to scale, with its
-//! mesh and as the present load bends it. The edges of its parts can be dragged. Below, the faces if they are rough (`surface`).
+//! mesh and as the present load bends it. The edges of its parts can be dragged. Below, the faces if they are rough (`surface`), and one that was measured
+//! (`face`).
 
-use super::surface;
+use super::{face, surface};
 use crate::analysis::rotor::{Bent, Curve, RotorCurves};
 use crate::digits::percent;
 use crate::gui::command::Command;
@@ -71,6 +72,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
             section(ui, &parts, [motor.contact_radius, motor.contact_width], bent, tall(2), cx);
         }
         surface::show(ui, &motor, tall(1), cx);
+        face::show(ui, tall(1), cx);
     });
 }
 

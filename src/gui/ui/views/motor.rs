@@ -3,7 +3,8 @@
 use super::motor_frame::MotorFrame;
 use super::pointer::{Readout, named};
 use super::scales::scales_of;
-use super::{loads, map, tooth, wave};
+use super::velocity::Place;
+use super::{loads, map, ring, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
 use crate::gui::derived::sample::{self, Lines};
@@ -20,6 +21,8 @@ struct Layout {
     wave: Rect,
     loads: Rect,
     map: Rect,
+    /// The whole ring, and below it the velocity across the film.
+    side: Option<[Rect; 2]>,
     /// The followed tooth, titles and axes included.
     tooth: Option<Rect>,
     readout: Rect,
@@ -34,18 +37,26 @@ impl Layout {
         let with_tooth = body > 16.0 * row + least && area.width() > 3.0 * (gutter + 5.0 * row);
         let below = if with_tooth { (0.24 * body).max(least) } else { 0.0 };
         let rest = (body - below - 4.0).max(30.0);
+        let end = area.right() - 0.5 * row;
+        let with_side = area.width() > 44.0 * row && body - below > 20.0 * row;
+        let column = if with_side { (0.29 * area.width()).min(0.55 * rest) } else { 0.0 };
         let plot = |top: f32, part: f32| {
-            let low = pos2(area.right() - 0.5 * row, top + part * rest);
+            let low = pos2(end - column, top + part * rest);
             Rect::from_min_max(pos2(area.left() + gutter, top), low)
         };
         let wave = plot(area.top() + title, 0.50);
         let loads = plot(wave.bottom() + title, 0.31);
         let map = plot(loads.bottom() + title, 0.19);
         let under = map.bottom() + axis;
-        let tooth = with_tooth
-            .then(|| Rect::from_min_max(pos2(area.left(), under + 2.0), pos2(wave.right(), under + 2.0 + below)));
+        let side = with_side.then(|| {
+            let left = wave.right() + row;
+            let ring = Rect::from_min_max(pos2(left, wave.top()), pos2(end, wave.bottom()));
+            [ring, Rect::from_min_max(pos2(left + gutter, loads.top()), pos2(end, map.bottom()))]
+        });
+        let tooth =
+            with_tooth.then(|| Rect::from_min_max(pos2(area.left(), under + 2.0), pos2(end, under + 2.0 + below)));
         let readout = Rect::from_min_max(pos2(area.left(), area.bottom() - readout), area.right_bottom());
-        Self { wave, loads, map, tooth, readout, gutter }
+        Self { wave, loads, map, side, tooth, readout, gutter }
     }
 }
 
@@ -56,6 +67,7 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let Some(area) = area(ui, recording) else { return };
     let scales = scales_of(ui, run, within);
     let place = cx.state.view.place(recording);
+    let lines = Lines::at(recording, place);
     let shown = MotorFrame {
         run: (run.number, run.fidelity),
         recording,
@@ -63,7 +75,8 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
         scales: &scales,
         place,
         cycles: cx.state.view.cycles,
-        lines: Lines::at(recording, place),
+        underside: lines.underside(recording),
+        lines,
         tooth: cx.state.view.tooth.min(recording.teeth.saturating_sub(1)),
         cursor: cx.state.view.cursor_x,
     };
@@ -76,6 +89,10 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let axes = wave::draw(&painter, &style, layout.wave, &shown);
     let charted = loads::draw(ui, &style, (layout.loads, layout.gutter), &shown);
     map::draw(ui, &painter, &style, layout.map, &shown);
+    if let Some([rect, profile]) = layout.side {
+        ring::draw(ui, &style, rect, (&shown, &axes), cx);
+        velocity(ui, &style, (profile, layout.gutter), &shown);
+    }
     if let Some(rect) = layout.tooth {
         let charts = tooth::draw(ui, &style, (rect, layout.gutter), &shown, cx);
         for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
@@ -83,6 +100,7 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
         }
         cx.mark(ui, "tooth", rect);
     }
+    wave::ellipse(&painter.with_clip_rect(area.expand(0.6 * style.row)), &style, &axes, &shown);
     readout(&shown).draw(&painter, &style, layout.readout);
 
     let wave = named(ui, layout.wave, "Motor along one wavelength: point to read values, click a tooth to follow it");
@@ -104,6 +122,27 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
         cx.mark(ui, name, rect.shrink(2.0));
     }
     style.explain(ui);
+}
+
+/// Velocity across the film under the pointer, or else over the middle of the followed tooth.
+fn velocity(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &MotorFrame<'_>) {
+    let (recording, motor) = (shown.recording, shown.motor);
+    let reach = recording.x.last().copied().unwrap_or(0.0);
+    let pointed = shown.cursor.map(|x| sample::tooth_at(x, recording.pitch, recording.teeth));
+    let (tooth, xi) = pointed.filter(|(_, xi)| xi.abs() <= reach).unwrap_or((shown.tooth, 0.0));
+    let x = tooth as f64 * recording.pitch + xi;
+    let frames = recording.frames.max(1) as f64;
+    let walls = |instant: f64| {
+        let rotor = motor.rotor_speed;
+        [rotor - motor.sliding_speed(x, instant / frames), rotor]
+    };
+    let thickness = |instant: f64| {
+        let lines = Lines::at(recording, instant);
+        Some(sample::between(&lines.film_thickness[lines.of(tooth)], sample::locate(&recording.x, xi)?))
+    };
+    let (run, gas, thickest) = (shown.run, &motor.gas, shown.scales.thickness[1]);
+    let of = Place { run, recording, gas, tooth, xi, walls: &walls, thickness: &thickness, thickest };
+    of.draw(ui, style, place, shown.place, x);
 }
 
 /// A row of values, as wide as it takes.
@@ -157,6 +196,11 @@ mod tests {
                 let mut parts = vec![layout.wave, layout.loads, layout.map];
                 parts.extend(layout.tooth);
                 parts.push(layout.readout);
+                if let Some([ring, profile]) = layout.side {
+                    assert!(ring.bottom() < profile.top() && ring.left() > layout.wave.right());
+                    assert!(profile.left() > layout.loads.right() && profile.bottom() <= layout.map.bottom());
+                    assert!(area.contains_rect(ring) && area.contains_rect(profile));
+                }
                 for pair in parts.windows(2) {
                     assert!(pair[0].bottom() <= pair[1].top() + 0.01, "{width}×{height}, {row}: {parts:?}");
                 }

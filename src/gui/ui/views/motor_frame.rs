@@ -19,6 +19,8 @@ pub(super) struct MotorFrame<'a> {
     pub(super) cycles: f64,
     /// The lines at that instant.
     pub(super) lines: Lines,
+    /// The rotor's underside, as in [`Lines::underside`].
+    pub(super) underside: Vec<[f64; 2]>,
     pub(super) tooth: usize,
     pub(super) cursor: Option<f64>,
 }

@@ -5,7 +5,6 @@ use super::field::{self, Stamp};
 use super::plate::{Loop, profile, show_loops};
 use super::pointer::named;
 use super::series::{Series, Trace};
-use super::wave::GROOVE;
 use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
@@ -16,7 +15,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, scale_bar, title_with_bar};
 use crate::problem::{Motor, Plate, Scenario};
 use crate::recording::Recording;
-use eframe::egui::{self, Color32, CursorIcon, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
+use eframe::egui::{self, Color32, CursorIcon, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 use egui_plot::{LineStyle, PlotResponse};
 
 /// Wavelengths, or lengths of plates, that differ by less are the same.
@@ -317,20 +316,12 @@ fn draw_surfaces(
         let at = |tooth: usize, node: usize, height: f64| {
             axes.at((tooth as f64 * run.recording.pitch + run.recording.x[node]) * metre, height)
         };
-        let mut underside: Vec<Pos2> = Vec::new();
-        for (tooth, groove) in run.lines.grooves(run.recording, GROOVE).iter().enumerate() {
-            let line = run.lines.of(tooth);
-            let top = run.lines.stator[line.clone()].iter().enumerate();
+        for tooth in 0..run.recording.teeth {
+            let top = run.lines.stator[run.lines.of(tooth)].iter().enumerate();
             painter.line(top.map(|(i, w)| at(tooth, i, *w)).collect(), Stroke::new(1.0, run.of.colour));
-            let rotor = line.clone().enumerate().map(|(i, k)| {
-                let height = run.lines.stator[k] + run.lines.film_thickness[k] - run.motor.spacing();
-                at(tooth, i, height)
-            });
-            underside.extend(rotor);
-            if tooth + 1 < run.recording.teeth {
-                underside.extend(groove.iter().map(|[x, height]| axes.at(x * metre, *height)));
-            }
         }
+        let underside = run.lines.underside(run.recording);
+        let underside = underside.iter().map(|[x, height]| axes.at(x * metre, *height)).collect();
         painter.line(underside, Stroke::new(2.2, run.of.colour));
     }
     axes.cursor(painter, style, cursor);

@@ -5,6 +5,8 @@ use super::map::y_labels;
 use super::pointer::{Readout, named};
 use super::scales::scales_of;
 use super::series::{Series, Trace};
+use super::velocity::Place;
+use crate::fidelity::Fidelity;
 use crate::gui::derived::format::{number, times};
 use crate::gui::derived::sample::{self, Lines};
 use crate::gui::derived::scales::{Curve, Ranges, Scales};
@@ -89,12 +91,21 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     Axes::new(last, shown.x_range(), [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
 
     let bottom = (area.bottom() - reserved - axis).max(last.bottom() + axis + title + style.row);
-    let middle = 0.5 * (area.left() + right);
-    let plots = [(area.left(), middle - 0.4 * style.row), (middle + 0.4 * style.row, right)].map(|(left, right)| {
-        Rect::from_min_max(pos2(left + gutter, last.bottom() + axis + title + 2.0), pos2(right, bottom))
-    });
+    let count = if area.width() > 40.0 * style.row { 3 } else { 2 };
+    let between = 0.8 * style.row;
+    let wide = (right - area.left() + between) / count as f32;
+    let plots: Vec<Rect> = (0..count)
+        .map(|i| {
+            let left = area.left() + i as f32 * wide;
+            let corner = pos2(left + gutter, last.bottom() + axis + title + 2.0);
+            Rect::from_min_max(corner, pos2(left + wide - between, bottom))
+        })
+        .collect();
     draw_load(ui, &style, (plots[0], gutter), &shown, cx);
     draw_loop(ui, &style, (plots[1], gutter), &shown);
+    if let Some(rect) = plots.get(2) {
+        draw_velocity(ui, &style, (*rect, gutter), &shown, (run.number, run.fidelity));
+    }
     let place = Rect::from_min_max(pos2(area.left(), area.bottom() - reserved), area.max);
     readout.draw(&painter, &style, place);
 
@@ -207,6 +218,25 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
         phase: shown.phase,
     };
     series.show(ui, style, place, cx);
+}
+
+/// Velocity across the film under the pointer, or else half-way between the middle and the end of the plate.
+fn draw_velocity(
+    ui: &mut egui::Ui,
+    style: &PlotStyle,
+    place: (Rect, f32),
+    shown: &PlateFrame<'_>,
+    run: (u64, Fidelity),
+) {
+    let Some((curves, _)) = shown.scales.tooth(0) else { return };
+    let recording = shown.recording;
+    let [left, right] = shown.x_range();
+    let xi = shown.cursor.unwrap_or(0.5 * right).clamp(left, right);
+    let frames = recording.frames.max(1) as f64;
+    let thickness = |instant: f64| Some(curves.thickness.at(instant / frames));
+    let (gas, thickest) = (&shown.plate.gas, shown.scales.thickness[1]);
+    let of = Place { run, recording, gas, tooth: 0, xi, walls: &|_| [0.0; 2], thickness: &thickness, thickest };
+    of.draw(ui, style, place, shown.place, xi);
 }
 
 /// Mean gauge pressure against the gap, once round the cycle.

@@ -78,7 +78,7 @@ mod tests {
             harness.run_steps(2);
         }
         if click {
-            let at = pos2(0.5 * size.x, 0.2 * size.y);
+            let at = pos2(0.4 * size.x, 0.2 * size.y);
             harness.hover_at(at);
             harness.run_steps(1);
             harness.drag_at(at);
@@ -147,6 +147,20 @@ mod tests {
             let touching = recording.touching;
             let lines = Lines::at(recording, place);
             let grooves = lines.grooves(recording, 3);
+            // The whole underside begins and ends half-way over a groove, and runs through all of them.
+            let underside = lines.underside(recording);
+            let (first, end) = (underside[0], underside[underside.len() - 1]);
+            assert!(
+                (end[0] - first[0] - recording.length).abs() < 1e-12
+                    && (first[0] + 0.5 * recording.pitch).abs() < 1e-12
+            );
+            assert!(
+                (end[1] - first[1]).abs() < 1e-12 && underside.windows(2).all(|pair| pair[0][0] < pair[1][0] + 1e-12)
+            );
+            let of_groove = |[x, height]: [f64; 2]| {
+                underside.iter().any(|at| (at[0] - x).abs() < 1e-12 && (at[1] - height).abs() < 1e-12)
+            };
+            assert!(grooves.iter().all(|groove| of_groove(groove[1])));
             let last = recording.x.len() - 1;
             let height = |k: usize| lines.stator[k] + lines.film_thickness[k] - motor.spacing();
             for (tooth, groove) in grooves.iter().enumerate() {

@@ -10,9 +10,7 @@ use std::f64::consts::TAU;
 
 /// Part of the height below the lowest stator top, and of the teeth in it.
 const BELOW: f32 = 0.36;
-const TOOTH: f32 = 0.15;
-/// Points of the rotor over a groove; an odd number, so that one is half-way.
-pub(super) const GROOVE: usize = 7;
+pub(super) const TOOTH: f32 = 0.15;
 /// Lines of text between two marks on a rotor that turns.
 const MARKS: f32 = 3.0;
 /// Points of an ellipse.
@@ -30,13 +28,12 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     let bottom = low - span * f64::from(BELOW) / part;
     let axes = Axes::new(rect, shown.x_range(), [bottom, bottom + span / part]);
     let scale = f64::from(rect.height()) * part / span;
-    let along = f64::from(rect.width()) / (axes.x[1] - axes.x[0]);
 
     axes.canvas(painter, style);
     scale_bar(painter, style, rect, scale);
-    let title = format!("Rotor on the travelling wave, vertical {}", times(scale / along));
+    let title = format!("Rotor on the travelling wave, vertical {}", times(axes.exaggeration()));
     let legend = [("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
-    let short = format!("Wave, vertical {}", times(scale / along));
+    let short = format!("Wave, vertical {}", times(axes.exaggeration()));
     style.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
@@ -46,9 +43,6 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     stator(painter, style, &axes, shown);
     rotor(painter, style, &axes, scale, shown);
     touching(painter, style, &axes, shown);
-    if shown.motor.rotor_speed != 0.0 {
-        ellipse(painter, style, &axes, scale, shown);
-    }
     axes.cursor(painter, style, shown.cursor);
     axes
 }
@@ -92,29 +86,18 @@ fn stator(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<
 
 fn rotor(painter: &Painter, style: &PlotStyle, axes: &Axes, scale: f64, shown: &MotorFrame<'_>) {
     let recording = shown.recording;
-    let nodes = recording.x.len();
     let lines = &shown.lines;
-    let height = |index: usize| lines.stator[index] + lines.film_thickness[index] - shown.motor.spacing();
     // The film, where there is any.
     let film = style.palette.film.gamma_multiply(0.25);
-    let mut underside = Vec::with_capacity(recording.teeth * (nodes + GROOVE));
-    let grooves = lines.grooves(recording, GROOVE);
-    let at = |[x, height]: [f64; 2]| axes.at(x, height);
-    // Half a groove at either end: the wave repeats.
-    let ahead = grooves.iter().rev().take(1).flatten().skip(GROOVE / 2);
-    underside.extend(ahead.map(|[x, height]| at([x - recording.length, *height])));
-    for (tooth, groove) in grooves.iter().enumerate() {
-        let line = lines.of(tooth).start;
+    for tooth in 0..recording.teeth {
         let middle = tooth as f64 * recording.pitch;
-        let columns = (0..nodes).map(|i| {
-            let at = axes.at(middle + recording.x[i], height(line + i));
-            (at, axes.py(lines.stator[line + i]))
+        let columns = recording.x.iter().zip(lines.of(tooth)).map(|(xi, k)| {
+            let top = lines.stator[k] + lines.film_thickness[k] - shown.motor.spacing();
+            (axes.px(middle + xi), axes.py(top), axes.py(lines.stator[k]))
         });
-        band(painter, columns.clone().map(|(at, stator)| (at.x, at.y, stator)), film);
-        underside.extend(columns.map(|(at, _)| at));
-        let shown = if tooth + 1 == recording.teeth { GROOVE / 2 + 1 } else { GROOVE };
-        underside.extend(groove.iter().take(shown).copied().map(at));
+        band(painter, columns, film);
     }
+    let underside: Vec<Pos2> = shown.underside.iter().map(|[x, height]| axes.at(*x, *height)).collect();
     let colour = style.palette.rotor;
     band(painter, underside.iter().map(|at| (at.x, at.y, axes.rect.top())), style.solid(colour));
     if shown.motor.rotor_speed != 0.0 {
@@ -139,9 +122,14 @@ fn marks(painter: &Painter, style: &PlotStyle, underside: &[Pos2], scale: f64, s
     }
 }
 
-/// The ellipse that the top of the followed tooth goes round, where it is, and its speed along the ring; `scale`: pixels per metre.
-fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, scale: f64, shown: &MotorFrame<'_>) {
+/// While the rotor turns, the ellipse that the top of the followed tooth goes round, where it is, and its speed along the ring. That of an outer
+/// tooth is wider than there is room in the view: it is drawn after all that is beside it.
+pub(super) fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: &MotorFrame<'_>) {
     let motor = shown.motor;
+    if motor.rotor_speed == 0.0 {
+        return;
+    }
+    let scale = f64::from(axes.rect.height()) / (axes.y[1] - axes.y[0]);
     let middle = shown.tooth as f64 * shown.recording.pitch;
     let centre = axes.at(middle, 0.0);
     let [high, wide] = [motor.normal_amplitude, motor.tangential_amplitude].map(|amplitude| (scale * amplitude) as f32);

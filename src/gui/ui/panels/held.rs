@@ -1,0 +1,48 @@
+//! The right panel beside a plate in the hand: the numbers of its film now.
+
+use super::results::{headline, number, section, shown, span};
+use crate::gui::derived::format::{time, uncertain};
+use crate::gui::state::hold::HoldState;
+use crate::gui::ui::context::DrawContext;
+use crate::hold::leak_time;
+use eframe::egui;
+
+/// Shows what is read off `hold`.
+pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
+    let (plate, now) = (hold.plate(), hold.now());
+    let (reading, ambient) = (now.reading, plate.gas.ambient_pressure);
+    let (unit, area) = match plate.width {
+        Some(_) => ("N", "Load / (p_a · area)"),
+        None => ("N/m", "Load / (p_a · length)"),
+    };
+    egui::ScrollArea::vertical().id_salt("held").auto_shrink(false).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 4.0;
+        // Room for the scroll bar, which floats.
+        ui.set_max_width(ui.available_width() - 8.0);
+        ui.add_space(8.0);
+        cx.note(
+            ui,
+            "The plate in your hand, at this moment. The results of the vibrating plate are beside the other tabs.",
+        );
+        ui.add_space(4.0);
+        headline(ui, "", "Force", &uncertain(reading.force, reading.error), unit);
+        cx.note(ui, "force of the film on the plate, positive if it pushes");
+        ui.add_space(4.0);
+        let [least, most] = hold.force_range();
+        number(ui, cx, "Since it was at rest", &span(least, most), unit);
+        number(ui, cx, area, &shown(reading.ratio), "");
+        section(ui, "Gap");
+        number(ui, cx, "Held gap", &shown(reading.gap * 1e6), "µm");
+        number(ui, cx, "Mean gap", &shown(plate.mean_gap * 1e6), "µm");
+        section(ui, "Film pressure");
+        number(ui, cx, "Mean pressure", &shown(reading.mean_pressure * 1e-3), "kPa");
+        let highest = now.pressure.iter().copied().fold(reading.mean_pressure, f64::max);
+        number(ui, cx, "Highest pressure", &shown(highest * 1e-3), "kPa");
+        number(ui, cx, "Boyle", &shown(ambient * plate.mean_gap / reading.gap * 1e-3), "kPa");
+        cx.note(ui, "if no gas had come or gone since the mean gap");
+        section(ui, "At this gap");
+        number(ui, cx, "Leak time", &time(leak_time(plate, reading.gap)), "");
+        number(ui, cx, "Knudsen number Kn", &shown(plate.gas.mean_free_path / reading.gap), "");
+        ui.add_space(12.0);
+    });
+}

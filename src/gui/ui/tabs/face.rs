@@ -1,0 +1,150 @@
+//! A measured face below the rotor: its heights as a map, the profile where the pointer is, and what it comes to.
+
+use crate::digits::significant;
+use crate::gui::command::FaceCommand;
+use crate::gui::derived::scales::span;
+use crate::gui::state::face::Face;
+use crate::gui::ui::cache::once;
+use crate::gui::ui::chart::{SOLID, chart, framed, line, place, title};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::gui::ui::hint::Hint;
+use crate::gui::ui::paint::{PlotStyle, field_colours, title_with_ends};
+use crate::surface::height_map::HeightMap;
+use eframe::egui::{self, Color32, ColorImage, Grid, Rect, RichText, Sense, Stroke, TextureOptions, Ui, pos2, vec2};
+use std::sync::Arc;
+
+/// Most points of the map that are drawn along a side.
+const DRAWN: usize = 512;
+/// Most points of a profile that are drawn.
+const POINTS: usize = 2000;
+
+/// Shows the face that was opened, or how to open one.
+pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
+    ui.add_space(6.0);
+    title(ui, "Measured face", "Measured face");
+    let state = &cx.state.face;
+    ui.horizontal_wrapped(|ui| {
+        let about = "A CSV file, a grid of heights or a profile, as squeezefilm surface reads it; or drop one on the window";
+        if ui.button("Open heights…").hint(about).clicked() {
+            cx.push(FaceCommand::Choose);
+        }
+        if state.running() {
+            ui.spinner();
+        }
+        let Some(face) = state.found() else { return };
+        let about = "Gives the scene what follows from two faces like this one, as much of it as its laws ask for: one edit, which can be undone";
+        if ui.button("Take roughness from it").hint(about).clicked() {
+            cx.push(FaceCommand::Take);
+        }
+        if ui.button("Forget it").hint("The face is no longer shown").clicked() {
+            cx.push(FaceCommand::Forget);
+        }
+        ui.label(&face.name);
+    });
+    if let Some(face) = state.found() {
+        let row = if face.map.ny > 1 { map(ui, face, height) } else { 0 };
+        profile(ui, &face.map, row, height, cx);
+        numbers(ui, face, cx);
+    }
+}
+
+/// The heights from above. Returns the row under the pointer, or the middle one.
+fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
+    let map = &face.map;
+    let style = PlotStyle::new(ui);
+    let [wide, tall] = [(map.nx, 0), (map.ny, 1)].map(|(points, axis)| (points as f64 * map.spacing[axis]) as f32);
+    let scale = (ui.available_width() / wide).min(height / tall);
+    let head = style.row + 6.0;
+    let size = vec2((wide * scale).max(14.0 * style.row), tall * scale + head);
+    let (area, _) = ui.allocate_exact_size(size, Sense::hover());
+    let rect = Rect::from_min_size(area.min + vec2(0.0, head), vec2(wide * scale, tall * scale));
+    let [low, high] = span(map.heights.iter().copied());
+    let picture = once(ui, "measured face", Arc::as_ptr(face) as usize, || {
+        ui.ctx().load_texture("measured face", picture(map, [low, high]), TextureOptions::LINEAR)
+    });
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    ui.painter().image(picture.id(), rect, whole, Color32::WHITE);
+    let ends = [significant(low * 1e9, 3).replace('-', "−"), format!("{} nm", significant(high * 1e9, 3))];
+    let long = format!("Heights, {} × {} µm, x along the wave", micrometres(wide), micrometres(tall));
+    let titled = Rect::from_min_max(rect.min, pos2(area.right(), rect.bottom()));
+    title_with_ends(ui.painter(), &style, titled, "Measured face", [&long, "Heights"], [&ends[0], &ends[1]]);
+    let response = ui.interact(rect, ui.scope_id().with("heights"), Sense::hover());
+    let name = "Heights of the measured face: point to see the profile along x there";
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    let share = response.hover_pos().map_or(0.5, |at| (at.y - rect.top()) / rect.height());
+    let row = ((1.0 - share) * map.ny as f32).clamp(0.0, (map.ny - 1) as f32) as usize;
+    let y = rect.bottom() - (row as f32 + 0.5) / map.ny as f32 * rect.height();
+    ui.painter().hline(rect.x_range(), y, Stroke::new(1.0, style.palette.accent));
+    style.explain(ui);
+    row
+}
+
+fn micrometres(metres: f32) -> String {
+    significant(f64::from(metres) * 1e6, 3)
+}
+
+/// The heights in the colours of fields, y upwards.
+fn picture(map: &HeightMap, [low, high]: [f64; 2]) -> ColorImage {
+    let size = [map.nx.min(DRAWN), map.ny.min(DRAWN)];
+    let colours = field_colours();
+    let at = |pixel: usize, pixels: usize, points: usize| (2 * pixel + 1) * points / (2 * pixels);
+    let colour = |k: usize| {
+        let (ix, iy) = (at(k % size[0], size[0], map.nx), at(k / size[0], size[1], map.ny));
+        let height = map.heights[(map.ny - 1 - iy) * map.nx + ix];
+        colours[(255.0 * (height - low) / (high - low).max(f64::MIN_POSITIVE)).clamp(0.0, 255.0) as usize]
+    };
+    ColorImage::new(size, (0..size[0] * size[1]).map(colour).collect())
+}
+
+fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32, cx: &DrawContext<'_>) {
+    let name = "Profile along x, nm";
+    title(ui, name, "Measured face");
+    let step = map.nx.div_ceil(POINTS);
+    let point = |i: usize| [i as f64 * map.spacing[0] * 1e6, map.heights[row * map.nx + i] * 1e9];
+    let points: Vec<[f64; 2]> = (0..map.nx).step_by(step).map(point).collect();
+    let [low, high] = span(map.heights.iter().map(|height| height * 1e9));
+    let length = (map.nx - 1) as f64 * map.spacing[0] * 1e6;
+    let whole = place(ui, 0.6 * height);
+    let plot = chart(ui, name, 0.6 * height).x_axis_label("x, µm");
+    let colour = cx.colours.film;
+    let shown = framed(ui, (name, plot), [[0.0, length], [low, high]], move |plot| {
+        plot.line(line(&points, colour, 1.5, SOLID))
+    });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    crate::gui::ui::chart::axes(ui, whole, *shown.transform.frame(), None, "Measured face");
+}
+
+/// Its statistics, and what follows from two faces like it.
+fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
+    let told = &face.told;
+    let Some(own) = told.faces.first() else { return };
+    let lengths = own.correlation_length_um.iter().flatten().map(|length| significant(*length, 3));
+    let lengths = lengths.collect::<Vec<_>>().join(", ");
+    let lengths = if lengths.is_empty() { "longer than half the face".to_owned() } else { format!("{lengths} µm") };
+    let lay = own.lay.map_or_else(|| "unknown".to_owned(), |lay| significant(lay, 3));
+    let nm = |value: f64| format!("{} nm", significant(value, 4));
+    let rows = [
+        ["Sa, Sq", &format!("{}, {}", nm(own.sa_nm), nm(own.sq_nm)), "Roughness, both faces", &nm(told.rms_nm)],
+        ["Sz", &nm(own.sz_nm), "Minimum spacing H_m", &nm(told.min_spacing_nm)],
+        [
+            "Skewness, kurtosis",
+            &format!("{:.2}, {:.2}", own.ssk, own.sku),
+            "Summit radius",
+            &format!("{} µm", significant(told.summit_radius_um, 4)),
+        ],
+        ["Correlation length", &lengths, "Summits", &format!("{} 1/mm²", significant(told.summit_density_per_mm2, 4))],
+        ["Lay", &lay, "Lay, both faces", &significant(told.lay, 3)],
+    ];
+    Grid::new("face").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
+        for [name, value, follows, of_both] in rows {
+            for (name, value) in [(name, value), (follows, of_both)] {
+                let name = ui.label(RichText::new(name).color(cx.colours.quiet));
+                glossary::here(ui, name, "Measured face");
+                ui.label(RichText::new(value).color(ui.visuals().strong_text_color()));
+            }
+            ui.end_row();
+        }
+    });
+    cx.note(ui, "At the right what follows if both faces are like it; summits are those of this resolution");
+}

@@ -1,0 +1,119 @@
+//! The whole ring beside the unrolled wave, on its scale of heights and with the colours of the pressure maps: all waves run round, and it is
+//! turned with the mouse or, once it has the keyboard, with the arrow keys. Where things are is in `derived::ring`.
+
+use super::motor_frame::MotorFrame;
+use super::wave::TOOTH;
+use crate::gui::command::Command;
+use crate::gui::derived::format::times;
+use crate::gui::derived::ring::{Face, Orbit, Part, Ring};
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::hint::describe;
+use crate::gui::ui::paint::{Axes, PlotStyle, field_colours};
+use crate::gui::ui::theme;
+use eframe::egui::epaint::{Mesh, Shape};
+use eframe::egui::{
+    self, CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
+};
+use std::f32::consts::PI;
+
+/// Name of the drawing.
+const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
+/// What a screen reader is told besides.
+const ABOUT: &str = "All waves of the ring, with teeth coloured by the pressure of the film. The rotor is lifted off, and the ring is drawn wider than it \
+     is. Arrow keys turn it while it has the keyboard, Home puts it back.";
+/// A key turns it by this much \[rad\].
+const STEP: f64 = 0.1;
+
+/// Draws the ring into `rect`, as the unrolled wave is drawn on `axes`.
+pub(super) fn draw(
+    ui: &Ui,
+    style: &PlotStyle,
+    rect: Rect,
+    (shown, axes): (&MotorFrame<'_>, &Axes),
+    cx: &DrawContext<'_>,
+) {
+    let orbit = cx.state.view.orbit;
+    let ring = Ring {
+        motor: shown.motor,
+        recording: shown.recording,
+        place: shown.place,
+        cycles: shown.cycles,
+        lines: &shown.lines,
+        underside: &shown.underside,
+        heights: axes.y,
+        tooth_height: f64::from(TOOTH) * (axes.y[1] - axes.y[0]),
+        exaggeration: axes.exaggeration(),
+        followed: shown.tooth,
+    };
+    let painter = &ui.painter_at(rect.expand2(egui::vec2(0.0, 2.0 * style.row)));
+    painter.rect_filled(rect, 2.0, style.palette.canvas);
+    let title = format!("Ring, vertical {}", times(ring.exaggeration));
+    style.title(painter, rect, "Ring", &[&title, "Ring"], &[]);
+    let scale = 0.48 * f64::from(rect.width().min(rect.height())) / ring.reach();
+    let faces = ring.faces(orbit);
+    painter.add(Shape::mesh(mesh(&faces, style, (rect, scale), shown.scales.pressure)));
+
+    let response = ui.interact(rect, ui.scope_id().with("ring"), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, NAME));
+    describe(&response, || ABOUT.to_owned());
+    if response.has_focus() {
+        painter.rect_stroke(rect, 2.0, Stroke::new(1.0, style.palette.accent), StrokeKind::Inside);
+    }
+    if let Some(turned) = turned(ui, &response, orbit) {
+        cx.push(Command::Orbit(turned));
+    }
+    response.on_hover_and_drag_cursor(CursorIcon::Grab);
+}
+
+/// From where it is seen after what mouse and keyboard did in this frame, if they did anything.
+fn turned(ui: &Ui, response: &Response, orbit: Orbit) -> Option<Orbit> {
+    if response.double_clicked() {
+        return Some(Orbit::default());
+    }
+    if response.dragged() {
+        // Half a turn from side to side: what is in front follows the pointer.
+        let part = response.drag_delta() * PI / response.rect.size();
+        return Some(orbit.turned(-f64::from(part.x), f64::from(part.y)));
+    }
+    if !response.has_focus() {
+        return None;
+    }
+    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    ui.input(|input| {
+        let steps = |more: Key, less: Key| input.num_presses(more) as f64 - input.num_presses(less) as f64;
+        let [along, up] = [steps(Key::ArrowLeft, Key::ArrowRight), steps(Key::ArrowUp, Key::ArrowDown)];
+        let moved = (along != 0.0 || up != 0.0).then(|| orbit.turned(STEP * along, STEP * up));
+        moved.or(input.key_pressed(Key::Home).then(Orbit::default))
+    })
+}
+
+/// The faces, `scale` points to a contact radius, round the middle of `rect`; `range`: pressures of the first and last colour.
+fn mesh(faces: &[Face], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f64; 2]) -> Mesh {
+    let [low, high] = range;
+    let colours = field_colours();
+    let per_colour = if high > low { 255.0 / (high - low) } else { 0.0 };
+    let palette = &style.palette;
+    let [stator, rotor] = [palette.stator, palette.rotor].map(|colour| style.solid(colour));
+    let mut mesh = Mesh::default();
+    mesh.reserve_vertices(4 * faces.len());
+    mesh.reserve_triangles(2 * faces.len());
+    for face in faces {
+        let lit = |colour| [theme::lit(colour, face.light as f32); 2];
+        let [from, to] = match face.part {
+            Part::Film(ends) => ends.map(|p| colours[((p - low) * per_colour).clamp(0.0, 255.0) as usize]),
+            Part::Stator => lit(stator),
+            Part::Followed => lit(palette.accent),
+            Part::Rotor => lit(rotor),
+            Part::Mark => [palette.canvas; 2],
+        };
+        let first = mesh.vertices.len() as u32;
+        for ([right, up], colour) in face.corners.into_iter().zip([from, to, to, from]) {
+            let at = pos2((right * scale) as f32, (-up * scale) as f32);
+            mesh.colored_vertex(rect.center() + at.to_vec2(), colour);
+        }
+        mesh.add_triangle(first, first + 1, first + 2);
+        mesh.add_triangle(first, first + 2, first + 3);
+    }
+    mesh
+}

@@ -1,0 +1,67 @@
+//! What is asked of measured faces, carried out.
+
+use super::updater::Updater;
+use crate::digits::rounded;
+use crate::export::surface::{self, Object};
+use crate::gui::command::FaceCommand;
+use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::face::Face;
+use crate::gui::state::view::Tab;
+use crate::input::read_text;
+use crate::job::task::Task;
+use crate::scene::heights::{LARGEST, keys_of};
+use crate::scene::{Kind, Value};
+use crate::surface::texture::{Pair, measured};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// The key of what roughness leaves of the gap at a hard stop.
+const SPACING: &str = "film.min_spacing_nm";
+
+impl Updater {
+    pub(super) fn face(&mut self, command: FaceCommand) {
+        match command {
+            FaceCommand::Choose => self.ask(Purpose::Heights, ""),
+            FaceCommand::Load(path) => self.load_face(path),
+            FaceCommand::Forget => self.state.face.forget(),
+            FaceCommand::Take => self.take_face(),
+        }
+    }
+
+    fn load_face(&mut self, path: PathBuf) {
+        if self.state.document.scene().kind() == Kind::Plate {
+            return self
+                .state
+                .fail("These are measured heights, and only a motor has rough faces: open a motor first.");
+        }
+        self.state.view.tab = Tab::Rotor;
+        match Task::start("face", self.wake(Duration::ZERO), move |_, _| read(&path)) {
+            Ok(task) => self.state.face.begin(task),
+            Err(error) => self.state.fail(format!("The heights cannot be read: {error}")),
+        }
+    }
+
+    /// Gives the scene what follows from two faces like this one: as much as its laws ask for.
+    fn take_face(&mut self) {
+        let Some(face) = self.state.face.found() else { return };
+        let mut next = self.state.document.scene().clone();
+        let spacing = (SPACING, rounded(face.pair.min_spacing * 1e9, 4));
+        let mut values = keys_of(&face.pair).into_iter().chain([spacing]).filter(|(key, _)| next.get(key).is_some());
+        let values: Vec<_> = values.by_ref().collect();
+        let set = values.into_iter().try_for_each(|(key, value)| next.set_value(key, Value::Number(value)));
+        match set.and_then(|()| next.check()) {
+            Ok(()) => self.change_scene(next),
+            Err(error) => self.state.fail(error),
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Face, String> {
+    let fault = |reason: String| format!("{}: {reason}", path.display());
+    let text = read_text(path, LARGEST).map_err(|error| fault(error.to_string()))?;
+    let (map, texture) = measured(&text, 1).map_err(|error| fault(error.to_string()))?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let pair = Pair::of(&texture, &texture);
+    let told = Object::new(vec![surface::Face::of(&name, &map, &texture)], &pair);
+    Ok(Face { name, map, pair, told })
+}
