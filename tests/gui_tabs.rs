@@ -682,7 +682,7 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
     // What is exported is what the command writes.
     let [ours, theirs] = ["ours", "theirs"].map(|name| folder.path().join(name));
     export(&mut window, "Fit, into a folder…", &ours);
-    let vary = ["--vary", "film.min_spacing_nm=100:400:lin", "--starts", "16", "--fidelity", "fine"];
+    let vary = ["--vary", "film.min_spacing_nm=100:400:log", "--starts", "16", "--fidelity", "fine"];
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
     command.args(["fit", "fundamental", "--quiet", "--data"]).arg(&table).args(vary).arg("--out").arg(&theirs);
     assert!(command.output().unwrap().status.success());
@@ -734,7 +734,7 @@ fn an_optimum_is_found_within_limits_and_taken() {
     let choose = |window: &mut Window, combo: &str, entry: &str| {
         window.get_by_role_and_label(Role::ComboBox, combo).click();
         window.run_steps(3);
-        window.get_by_label(entry).click();
+        window.get_by_role_and_label(Role::Button, entry).click();
         window.run_steps(3);
     };
     choose(&mut window, "What is looked for", "the greatest value of");
