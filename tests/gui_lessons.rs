@@ -12,11 +12,11 @@ use squeezefilm::gui::app::App;
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::document::Document;
-use squeezefilm::gui::state::lessons::StepWork;
+use squeezefilm::gui::state::lesson_work::{Score, Stage, StepWork};
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
-use squeezefilm::lessons::{self, Act, Doing, Prediction, Step, WindowNames, text};
+use squeezefilm::lessons::{self, Act, Doing, Kind, Prediction, Question, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::path::Path;
 use window::{Memory, Window, await_path, click, drop_file, reopen};
@@ -162,39 +162,91 @@ fn read_off(window: &mut Window) {
     });
 }
 
+/// Text of the first block, with the numbers of the run as the window shows them.
+fn first_line(window: &Window, blocks: &[text::Block], told: bool) -> String {
+    let state = window.state().state();
+    let quoted = |reading: &_| state.lessons.quoted(reading, state.document.scene(), told);
+    match &blocks[0] {
+        text::Block::Paragraph(parts) | text::Block::Item(parts) => text::plain(&text::filled(parts, &quoted)),
+        formula @ text::Block::Formula(_) => text::plain_blocks(std::slice::from_ref(formula)),
+    }
+}
+
+fn stage(window: &Window) -> Stage {
+    work(window).stage(&step(window).1)
+}
+
+fn radio(window: &mut Window, choice: &lessons::Choice) {
+    window.get_all_by_role_and_label(Role::RadioButton, &text::plain(&choice.text)).last().unwrap().click();
+    window.run_steps(3);
+}
+
+/// Goes to the next step, whatever is still to be done in this one.
+fn go_on(window: &mut Window) {
+    window.key_press(Key::PageDown);
+    window.run_steps(3);
+}
+
+/// Asks for all hints, and then to be shown how.
+fn show_me(window: &mut Window) {
+    for button in ["Give me a hint", "One more hint", "Show me"] {
+        click(window, button);
+    }
+}
+
 /// Answers the question of the step: the answer must not be seen before.
 fn predict(window: &mut Window, step: &Step) {
     let Some(question) = &step.question else { return };
-    let why = text::plain_blocks(&question.why);
-    let why = why.lines().next().unwrap();
-    assert!(!shows(window, why) && !shows(window, "Your turn"), "{}: shown before the prediction", step.title);
-    let commit = |window: &Window| window.get_by_label("This is my prediction").accesskit_node().is_disabled();
-    assert!(commit(window), "{}: nothing is predicted yet", step.title);
+    let why = first_line(window, &question.why, true);
+    let button = if question.kind == Kind::Calculate { "This is my result" } else { "This is my prediction" };
+    assert!(!shows(window, &why) && !shows(window, "Your turn"), "{}: shown before the prediction", step.title);
+    let disabled = window.get_by_label(button).accesskit_node().is_disabled();
+    assert!(disabled, "{}: nothing is predicted yet", step.title);
     match &question.answer {
         lessons::Answer::Choice { choices, right } => {
             // First another one: a prediction may be changed until it is made.
             for choice in [(right + 1) % choices.len(), *right] {
-                let label = text::plain(&choices[choice]);
-                window.get_by_role_and_label(Role::RadioButton, &label).click();
-                window.run_steps(3);
+                radio(window, &choices[choice]);
                 assert_eq!(work(window).prediction, Some(Prediction::Choice(choice)), "{}", step.title);
             }
         }
         lessons::Answer::Number { value, .. } => {
-            window.get_by_role_and_label(Role::SpinButton, "Your number").click();
-            window.run_steps(3);
-            window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-            window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&value.to_string());
-            window.step();
-            window.key_press(Key::Enter);
-            window.run_steps(3);
-            assert_eq!(work(window).prediction, Some(Prediction::Number(*value)), "{}", step.title);
+            // A calculation that is wrong is not told: it has a second try.
+            calculate(window, 7.0 * value);
+            click(window, button);
+            assert!(!work(window).committed && work(window).wrong == 1 && shows(window, "Once more"), "{}", step.title);
+            assert!(!shows(window, &why), "{}: told after the first try", step.title);
+            calculate(window, *value);
         }
     }
-    assert!(!shows(window, why), "{}: shown before the prediction was made", step.title);
-    click(window, "This is my prediction");
+    assert!(!shows(window, &why), "{}: shown before the prediction was made", step.title);
+    click(window, button);
     assert!(work(window).committed);
-    assert_eq!(shows(window, why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
+    assert_eq!(shows(window, &why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
+}
+
+/// Types a number into the field of a calculation.
+fn calculate(window: &mut Window, value: f64) {
+    window.get_by_role_and_label(Role::SpinButton, "Your number").click();
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&value.to_string());
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    let Some(Prediction::Number(given)) = work(window).prediction else { panic!("no number was given") };
+    assert!((given - value).abs() < 1e-6);
+}
+
+/// Says what was seen: first something else, which is told to be wrong.
+fn look(window: &mut Window, observe: &Question, title: &str) {
+    assert!(shows(window, "What did you see?"), "{title}");
+    assert_eq!(stage(window), Stage::Observation, "{title}: nothing is told before it was looked at");
+    let lessons::Answer::Choice { choices, right } = &observe.answer else { panic!("{title}: it has choices") };
+    radio(window, &choices[(right + 1) % choices.len()]);
+    assert!(stage(window) == Stage::Observation && shows(window, "not what your run shows"), "{title}");
+    radio(window, &choices[*right]);
+    assert_eq!((stage(window), work(window).misread), (Stage::Told, 1), "{title}");
 }
 
 /// Walks a lesson: at each task first what does not do, then what does.
@@ -209,11 +261,14 @@ fn walk(lesson: usize) {
         assert_eq!(at, number);
         window.get_by_label(&step.title);
         assert_eq!(window.state().state().document.scene(), &step.scene, "{}", step.title);
-        for block in &step.body {
-            let text = text::plain_blocks(std::slice::from_ref(block));
-            assert!(window.query_all_by_label(&text).next().is_some(), "{}: {text}", step.title);
-        }
         solved(&mut window);
+        read_off(&mut window);
+        window.run_steps(2);
+        for block in &step.body {
+            let text = first_line(&window, std::slice::from_ref(block), false);
+            assert!(window.query_all_by_label(&text).next().is_some(), "{}: {text}", step.title);
+            assert!(!text.contains('…'), "{}: a number is not known: {text}", step.title);
+        }
         predict(&mut window, &step);
         if let Some(task) = &step.task {
             let name = &step.title;
@@ -225,7 +280,15 @@ fn walk(lesson: usize) {
             act(&mut window, &task.wrong);
             assert!(!work(&window).fulfilled, "{name}: the wrong thing does it");
             assert!(shows(&window, "Not yet."), "{name}");
-            assert!(shows(&window, &text::plain_blocks(&task.hint)), "{name}");
+            // Help comes on request, one hint after the other; only then is the task shown.
+            assert_eq!(task.hints.len(), 2, "{name}");
+            for (asked, button) in ["Give me a hint", "One more hint"].into_iter().enumerate() {
+                let hint = first_line(&window, &task.hints[asked], false);
+                assert!(!shows(&window, &hint) && !shows(&window, "Show me"), "{name}");
+                click(&mut window, button);
+                assert!(shows(&window, &hint), "{name}");
+            }
+            window.get_by_label("Show me");
             click(&mut window, "Start over");
             solved(&mut window);
             assert_eq!(window.state().state().document.scene(), &step.scene, "{name}");
@@ -246,14 +309,34 @@ fn walk(lesson: usize) {
             }
             assert!(work(&window).fulfilled, "{name}: {:?}", work(&window).unmet);
             assert!(shows(&window, "✔ Done"), "{name}");
+            // Every number that is quoted from here on is known.
+            for reading in text::readings(step.told()) {
+                assert!(work(&window).readings.contains_key(&reading.source), "{name}: {}", reading.source);
+            }
+            if let Some(observe) = &step.observe {
+                look(&mut window, observe, name);
+            }
             if let Some(question) = &step.question {
-                let why = text::plain_blocks(&question.why);
-                assert!(shows(&window, why.lines().next().unwrap()) && shows(&window, "As you expected"), "{name}");
+                let why = first_line(&window, &question.why, true);
+                let title = if question.kind == Kind::Calculate { "✔ Right" } else { "As you expected" };
+                assert!(shows(&window, &why) && shows(&window, title), "{name}");
             }
         }
+        assert_eq!(stage(&window), Stage::Told);
         click(&mut window, if number + 1 == steps { "Finish" } else { "Next" });
         window.run_steps(20);
     }
+    // The recap: everything was right but the first looks.
+    let lesson_state = &window.state().state().lessons;
+    let (running, followed) = (lesson_state.running().unwrap(), &lesson_state.lessons()[lesson]);
+    assert_eq!(running.step, steps);
+    let score = Score::of(followed.steps.iter().zip(&running.work));
+    assert_eq!((score.observations[0], score.skipped[0]), (0, 0));
+    let [points, all] = score.points();
+    assert_eq!(points, all - score.observations[1]);
+    assert!(shows(&window, &format!("{points} of {all} points")) && lesson_state.progress(followed).done);
+    click(&mut window, "Close");
+    window.run_steps(20);
     solved(&mut window);
     let app = window.state();
     assert!(app.state().lessons.running().is_none() && app.state().document.scene() == &before);
@@ -302,7 +385,7 @@ fn what_is_lit_is_seen_and_its_group_opens() {
     assert!(window.query_by_role_and_label(Role::ComboBox, "Slip at the walls").is_none(), "the group is closed");
     open(&mut window, "Thin gaps and slip");
     for _ in 0..2 {
-        click(&mut window, "Next");
+        go_on(&mut window);
         window.run_steps(20);
     }
     window.get_by_role_and_label(Role::ComboBox, "Slip at the walls");
@@ -334,7 +417,7 @@ fn leaving_brings_the_students_scene_back_with_its_history() {
     assert_ne!(window.state().state().document.scene(), &own);
     type_into(&mut window, "Frequency in kHz", "3");
     assert!(!window.state().state().document.is_dirty(), "what a lesson lends is never unsaved");
-    click(&mut window, "Next");
+    go_on(&mut window);
     click(&mut window, "Leave");
     assert_eq!(window.state().state().document.scene(), &own);
     assert!(window.state().state().document.is_dirty());
@@ -376,8 +459,8 @@ fn progress_and_the_own_scene_survive_a_restart() {
     click(&mut window, "Skip the tour");
     type_into(&mut window, "Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
-    click(&mut window, "Next");
-    click(&mut window, "Next");
+    go_on(&mut window);
+    go_on(&mut window);
     let mut memory = Memory::default();
     eframe::App::save(window.state_mut(), &mut memory);
     drop(window);
@@ -574,7 +657,7 @@ fn the_example_of_the_documentation_is_a_lesson_that_works() {
     let (_, step) = step(&window);
     solved(&mut window);
     predict(&mut window, &step);
-    click(&mut window, "Show me");
+    show_me(&mut window);
     solved(&mut window);
     assert!(work(&window).fulfilled);
 }
@@ -672,8 +755,52 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
         ("mean_load_ratio > 2", "alpha > 2", line_of("check ="), &["alpha belongs to another kind of scene"]),
         ("mean_load_ratio > 2", "mean_load_ratio 2", line_of("check ="), &["2 is not expected here", "< <= >"]),
         ("check = ", "check == ", line_of("check ="), &["is not valid TOML"]),
-        ("```task", "```taks", line_of("```task"), &["a block ```taks is not known: expected setup, question or task"]),
-        ("\\frac{h_0}{h}", "\\frc{h_0}{h}", line_of("\\frac{h_0}{h}"), &["\\frc is not known in formulas"]),
+        (
+            "```task",
+            "```taks",
+            line_of("```task"),
+            &["a block ```taks is not known: expected setup, question, task or observe"],
+        ),
+        (
+            "answer = 2",
+            "answer = 2\nkind = \"guess\"",
+            line_of("answer =") + 1,
+            &["question.kind = \"guess\"", "predict, calculate"],
+        ),
+        (
+            "answer = 2",
+            "answer = 2\nkind = \"calculate\"",
+            line_of("choices ="),
+            &["question.choices does not go with"],
+        ),
+        (
+            "replies = [",
+            "replies = [\"\", ",
+            line_of("replies ="),
+            &["question.replies = 4 texts", "3, one for each choice"],
+        ),
+        ("hints = [", "hint = [", line_of("hints ="), &["task.hint is not known", "hints"]),
+        ("too_far_says = ", "then_says = ", line_of("```task"), &["task.too_far_says is missing"]),
+        (
+            "plate.amplitude_um > 0.95",
+            "plate.amplitud_um > 0.95",
+            line_of("too_far ="),
+            &["task.too_far", "did you mean"],
+        ),
+        ("{min_gap_nm:2}", "{min_gap:2}", line_of("too_far_says ="), &["{min_gap:2}", "did you mean min_gap_nm?"]),
+        (
+            "{start.max_pressure_kpa}",
+            "{alpha}",
+            line_of("{start."),
+            &["alpha belongs to another kind of scene", "write \\{"],
+        ),
+        (
+            "{start.max_pressure_kpa}",
+            "{start.max_pressure_kpa",
+            line_of("{start."),
+            &["begins with { and does not end"],
+        ),
+        ("\\frac{h_0}{h}", "\\frc{h_0}{h}", line_of("why ="), &["\\frc is not known in formulas"]),
         ("# A lesson of my own", "", 1, &["has no title"]),
     ];
     for (good, bad, line, parts) in mutations {
@@ -737,7 +864,7 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     let mut window = window("fundamental");
     type_into(&mut window, "Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
-    click(&mut window, "Next");
+    go_on(&mut window);
     solved(&mut window);
     type_into(&mut window, "Frequency in kHz", "0.5");
     let lent = window.state().state().document.scene().clone();
@@ -776,7 +903,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     let mut window = window("fundamental");
     open(&mut window, "Why the mean force");
     for _ in 0..3 {
-        click(&mut window, "Next");
+        go_on(&mut window);
     }
     let (_, step) = step(&window);
     assert_eq!(window.state().state().view.tab, Tab::Startup);
@@ -784,7 +911,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     predict(&mut window, &step);
     // In another tab, too.
     click(&mut window, "Motion");
-    click(&mut window, "Show me");
+    show_me(&mut window);
     assert_eq!(window.state().state().view.tab, Tab::Startup);
     until(&mut window, "it comes to its end", |app| {
         let running = app.state().lessons.running().unwrap();
@@ -792,7 +919,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     });
     // A start-up of before does not count when the step begins again.
     click(&mut window, "Back");
-    click(&mut window, "Next");
+    go_on(&mut window);
     assert!(window.state().state().startup.as_ref().is_none());
     click(&mut window, "Leave");
     assert_eq!(window.state().state().view.tab, Tab::Motion);
@@ -803,7 +930,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     solved(&mut window);
     predict(&mut window, &step);
     click(&mut window, "Motion");
-    click(&mut window, "Show me");
+    show_me(&mut window);
     until(&mut window, "the plate is pushed", |app| app.state().lessons.running().unwrap().work[0].fulfilled);
 }
 

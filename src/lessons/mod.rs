@@ -14,7 +14,7 @@ mod read;
 pub mod text;
 
 pub use error::{KeyFault, LessonError, LessonErrorKind};
-pub use lesson::{Act, Answer, Changes, Doing, Lesson, Prediction, Question, Step, Task, WindowNames};
+pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, Question, Step, Task, WindowNames};
 
 use crate::input::{self, ReadError};
 use crate::scene::Scene;

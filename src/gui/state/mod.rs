@@ -7,6 +7,8 @@ pub mod edits;
 pub mod exports;
 pub mod fit;
 pub mod hold;
+pub mod lesson_tabs;
+pub mod lesson_work;
 pub mod lessons;
 pub mod modal;
 pub mod pins;

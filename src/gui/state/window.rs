@@ -7,7 +7,8 @@ use super::edits::RejectedEdits;
 use super::exports::ExportState;
 use super::fit::FitState;
 use super::hold::HoldState;
-use super::lessons::{LessonState, OnScreen};
+use super::lesson_tabs::OnScreen;
+use super::lessons::LessonState;
 use super::modal::Modal;
 use super::pins::{Page, Pins};
 use super::rotor::RotorState;
@@ -193,7 +194,7 @@ impl State {
     /// Lets the lesson look at what is on screen; whether it needs another frame soon.
     pub fn observe(&mut self) -> bool {
         let Self { run, torque, startup, hold, document, lessons, .. } = self;
-        let seen = OnScreen { run: run.as_deref(), torque, startup: startup.as_ref(), hold: hold.as_ref() };
+        let seen = OnScreen { run: run.as_ref(), torque, startup: startup.as_ref(), hold: hold.as_ref() };
         lessons.observe(document, seen)
     }
 }

@@ -171,6 +171,8 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
     let mut apart = true;
     for part in parts {
         match part {
+            // Numbers are filled in by whoever knows the run.
+            Inline::Number(_) => {}
             Inline::Math(formula) => {
                 let style = MathStyle { size: look.size, colour: look.colour, display: false };
                 let set = Typeset::of(painter, &formula.nodes, style);

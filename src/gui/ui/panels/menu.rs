@@ -149,10 +149,13 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = &cx.state.lessons;
     for (i, lesson) in state.lessons().iter().enumerate() {
         let progress = state.progress(lesson);
-        let mark = match (progress.step, progress.done) {
-            (0, true) => "✔ done".to_owned(),
-            (0, false) => format!("{} steps", lesson.steps.len()),
-            (step, _) => format!("at step {} of {}", (step + 1).min(lesson.steps.len()), lesson.steps.len()),
+        let steps = lesson.steps.len();
+        let skipped = lesson.steps.iter().zip(&progress.work).filter(|(step, work)| work.is_skipped(step)).count();
+        let mark = match (progress.step, progress.done, skipped) {
+            (0, true, _) => "✔ done".to_owned(),
+            (0, false, 0) => format!("{steps} steps"),
+            (0, false, skipped) => format!("{} of {steps} done", steps - skipped),
+            (step, ..) => format!("at step {} of {steps}", (step + 1).min(steps)),
         };
         let entry = ui.add(Button::new(format!("{}  {}", i + 1, lesson.title)).shortcut_text(mark));
         if beside(ui.max_rect(), entry, &plain_blocks(&lesson.about)).clicked() {

@@ -4,6 +4,8 @@ pub mod convergence;
 pub mod exports;
 pub mod field;
 pub mod lesson;
+mod lesson_numbers;
+mod lesson_parts;
 pub mod menu;
 pub mod model;
 pub mod parameters;

@@ -1,8 +1,8 @@
 //! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
 
-use super::motor_frame::MotorFrame;
+use super::motor_frame::{FirstMotor, MotorFrame};
 use super::pointer::{Readout, named};
-use super::scales::scales_of;
+use super::scales::{FirstRun, scales_of};
 use super::{loads, map, tooth, wave};
 use crate::gui::command::Command;
 use crate::gui::derived::format::number;
@@ -50,7 +50,13 @@ impl Layout {
 }
 
 /// Draws `run` at the view's phase.
-pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+pub(super) fn show(
+    ui: &mut egui::Ui,
+    run: &SolvedScene,
+    within: Option<&Ranges>,
+    first: Option<&FirstRun<'_>>,
+    cx: &DrawContext<'_>,
+) {
     let recording = &run.solution.recording;
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let Some(area) = area(ui, recording) else { return };
@@ -66,6 +72,7 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
         lines: Lines::at(recording, place),
         tooth: cx.state.view.tooth.min(recording.teeth.saturating_sub(1)),
         cursor: cx.state.view.cursor_x,
+        first: first.and_then(FirstMotor::of),
     };
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
