@@ -9,13 +9,14 @@ use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
+use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::document::Document;
-use squeezefilm::gui::state::lesson_work::{Score, Stage, StepWork};
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::lessons::work::{Score, Stage, StepWork};
 use squeezefilm::lessons::{self, Act, Doing, Kind, Prediction, Question, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::path::Path;
@@ -496,9 +497,17 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
         assert!(spot.is_some(), "{} is on screen", stop.place);
         let callout = window.get_by_label(stop.title).rect();
         assert!(!spot.unwrap().intersects(callout), "{}: covered", stop.title);
-        click(&mut window, if i == 3 { "Done" } else { "Next" });
+        // Enter goes on as the button does, and the last card starts the first lesson.
+        if i == 1 {
+            window.key_press(Key::Enter);
+            window.run_steps(3);
+        } else {
+            click(&mut window, if i == 3 { "Start lesson 1" } else { "Next" });
+        }
     }
     assert!(window.state().state().lessons.tour.is_none());
+    assert_eq!((window.state().state().lessons.running().unwrap().lesson, step(&window).0), (0, 0));
+    click(&mut window, "Leave");
     let mut memory = Memory::default();
     eframe::App::save(window.state_mut(), &mut memory);
     drop(window);
@@ -521,6 +530,202 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     window.get_by_label(titles[0]);
     click(&mut window, "Skip the tour");
     assert!(window.query_by_label(titles[0]).is_none());
+}
+
+#[test]
+fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
+    let mut window = window("fundamental");
+    open(&mut window, "Why the mean force");
+    for _ in 0..5 {
+        go_on(&mut window);
+    }
+    let (_, step) = step(&window);
+    assert!(step.task.as_ref().unwrap().too_far.is_some());
+    solved(&mut window);
+    let drag = |window: &mut Window, value: f64, dragging: bool| {
+        let key = "plate.amplitude_um";
+        window.state_mut().carry_out(Command::Set { key, value: Value::Number(value), dragging });
+        solved(window);
+        window.run_steps(3);
+    };
+    // Past the aim and back, with the pointer down: nothing was reached.
+    for value in [0.6, 0.8, 0.7] {
+        drag(&mut window, value, true);
+        assert!(!work(&window).fulfilled, "{value}");
+    }
+    drag(&mut window, 0.7, false);
+    assert!(!work(&window).fulfilled && shows(&window, "Not yet."));
+    // The end of the slider is told to be absurd.
+    drag(&mut window, 0.999, false);
+    assert!(!work(&window).fulfilled && work(&window).too_far && shows(&window, "Too far."));
+    drag(&mut window, 0.8, true);
+    assert!(!work(&window).fulfilled, "still held");
+    drag(&mut window, 0.8, false);
+    assert!(work(&window).fulfilled);
+}
+
+#[test]
+fn a_lesson_compares_on_one_scale_and_shows_the_first_run() {
+    let mut window = window("fundamental");
+    open(&mut window, "A travelling wave");
+    for _ in 0..4 {
+        go_on(&mut window);
+    }
+    solved(&mut window);
+    let compared = |window: &Window| {
+        let state = window.state().state();
+        state.lessons.compared(state.document.scene()).map(|run| run.scene.clone())
+    };
+    assert_eq!(compared(&window), None, "nothing has changed yet");
+    let first = window.state().state().document.scene().clone();
+    change(&mut window, "stator.normal_amplitude_um", "0.65");
+    solved(&mut window);
+    window.run_steps(2);
+    assert_eq!(compared(&window), Some(first));
+    assert!(shows(&window, "About: at first"));
+    // The next step begins anew.
+    go_on(&mut window);
+    solved(&mut window);
+    assert_eq!(compared(&window), None);
+}
+
+#[test]
+fn skipped_steps_are_shown_as_skipped_and_answers_come_back() {
+    let mut window = window_with(Memory::default());
+    window.step();
+    click(&mut window, "Skip the tour");
+    open(&mut window, "Pushing on trapped air");
+    // Answered, not tried, and left.
+    let (_, first) = step(&window);
+    predict(&mut window, &first);
+    click(&mut window, "Skip");
+    let lessons_state = &window.state().state().lessons;
+    assert!(lessons_state.running().unwrap().work[0].is_skipped(&first));
+    for _ in 0..5 {
+        go_on(&mut window);
+    }
+    assert!(shows(&window, "What you found") && shows(&window, "4 steps were skipped"));
+    assert!(shows(&window, "1 of 10 points"));
+    let mut memory = Memory::default();
+    eframe::App::save(window.state_mut(), &mut memory);
+    drop(window);
+    let mut window = window_with(memory);
+    window.run_steps(2);
+    click(&mut window, "Lessons");
+    window.get_by_label_contains("2 of 6 done");
+    window.get_by_label_contains("Pushing on trapped air").click();
+    window.run_steps(4);
+    assert!(work(&window).committed && !work(&window).fulfilled && shows(&window, "Prediction made"));
+    // Once more from the start, with nothing answered.
+    for _ in 0..6 {
+        go_on(&mut window);
+    }
+    click(&mut window, "Take it again");
+    window.run_steps(3);
+    assert_eq!((step(&window).0, work(&window)), (0, StepWork::default()));
+    // The next lesson is what is lit at the end.
+    for _ in 0..6 {
+        go_on(&mut window);
+    }
+    window.key_press(Key::Enter);
+    window.run_steps(4);
+    assert_eq!(window.state().state().lessons.running().unwrap().lesson, 1);
+}
+
+#[test]
+fn the_keyboard_alone_walks_the_first_lesson() {
+    let mut window = window("fundamental");
+    window.state_mut().open_lesson(0, 0);
+    solved(&mut window);
+    let press = |window: &mut Window, key: Key| {
+        window.key_press(key);
+        window.run_steps(3);
+    };
+    let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4];
+    while window.state().state().lessons.step().is_some() {
+        let (number, step) = step(&window);
+        solved(&mut window);
+        if let Some(question) = &step.question {
+            match &question.answer {
+                lessons::Answer::Choice { right, .. } => press(&mut window, keys[*right]),
+                lessons::Answer::Number { value, .. } => {
+                    // The field comes early in the order of the Tab key.
+                    let mut tabs = 0;
+                    let field =
+                        |window: &Window| window.get_by_role_and_label(Role::SpinButton, "Your number").is_focused();
+                    while !field(&window) {
+                        press(&mut window, Key::Tab);
+                        tabs += 1;
+                        assert!(tabs < 25);
+                    }
+                    let text = value.to_string();
+                    window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&text);
+                    window.step();
+                    press(&mut window, Key::Enter);
+                }
+            }
+            press(&mut window, Key::Enter);
+            assert!(work(&window).committed, "{}", step.title);
+        }
+        if let Some(task) = &step.task {
+            match &task.example.changes[..] {
+                // The plate in the hand goes down a step with each press.
+                [] => (0..10).for_each(|_| press(&mut window, Key::ArrowDown)),
+                [(_, value), ..] => {
+                    press(&mut window, Key::Enter);
+                    window.run_steps(20);
+                    let field = labels::field_name(step.light[0]);
+                    assert!(window.get_by_role_and_label(Role::TextInput, &field).is_focused(), "{field}");
+                    window.get_by_role_and_label(Role::TextInput, &field).type_text(value);
+                    window.step();
+                    press(&mut window, Key::Enter);
+                }
+            }
+            until(&mut window, &step.title, |app| app.state().lessons.running().unwrap().work[number].fulfilled);
+            let Some(lessons::Answer::Choice { right, .. }) = step.observe.as_ref().map(|observe| &observe.answer)
+            else {
+                continue;
+            };
+            press(&mut window, keys[*right]);
+        }
+        assert_eq!(stage(&window), Stage::Told, "{}", step.title);
+        press(&mut window, Key::Enter);
+        window.run_steps(5);
+    }
+    let running = window.state().state().lessons.running().unwrap();
+    assert_eq!(running.step, window.state().state().lessons.lessons()[0].steps.len());
+}
+
+#[test]
+fn the_answer_button_is_in_sight_in_lecture_size() {
+    let scene = presets::find("fundamental").unwrap();
+    let mut window = window::open(Document::opened(scene, None), 768.0, platform());
+    window.state_mut().open_lesson(0, 2);
+    window.state_mut().carry_out(Command::ToggleLecture);
+    window.run_steps(10);
+    let button = window.get_by_label("This is my prediction").rect();
+    assert!(window.ctx.content_rect().contains_rect(button), "{button:?}");
+}
+
+#[test]
+fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
+    let folder = tempfile::tempdir().unwrap();
+    let two = format!("{GOOD}\n## Second step\n\nAs it was.\n");
+    write(folder.path(), "mine", &two);
+    let mut window = window("fundamental");
+    window.state_mut().load_lessons(folder.path());
+    let place = window.state().state().lessons.lessons().len() - 1;
+    window.state_mut().open_lesson(place, 1);
+    window.run_steps(4);
+    assert!(shows(&window, "As it was."));
+    write(folder.path(), "mine", &two.replace("As it was.", "As it is."));
+    window.key_press(Key::F5);
+    window.run_steps(6);
+    assert!(step(&window).0 == 1 && shows(&window, "As it is."));
+    // A place that is not there is named.
+    window.state_mut().open_lesson(place, 7);
+    window.run_steps(3);
+    window.get_by_label_contains("has steps 1 to 2");
 }
 
 #[test]

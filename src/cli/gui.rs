@@ -13,6 +13,7 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   squeezefilm
   squeezefilm gui levitating
+  squeezefilm gui --lesson 3 --step 4
   squeezefilm gui --lessons my-course")]
 pub(super) struct Arguments {
     /// A built-in name or a path; without it, the scene that was last open
@@ -22,6 +23,14 @@ pub(super) struct Arguments {
     /// A folder of lessons, shown beside the built-in ones; docs/lessons.md says how to write them
     #[arg(long, value_name = "DIR")]
     lessons: Option<PathBuf>,
+
+    /// Opens this lesson, by its number in the menu
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..))]
+    lesson: Option<u16>,
+
+    /// Opens the lesson at this step
+    #[arg(long, value_name = "NUMBER", requires = "lesson", value_parser = clap::value_parser!(u16).range(1..))]
+    step: Option<u16>,
 
     #[command(flatten)]
     scene: SceneOptions,
@@ -48,7 +57,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if no_display() {
         return Err(CliError::Window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
     }
-    gui::open(opened, arguments.lessons.clone()).map_err(|error| CliError::Window(error.to_string()))?;
+    let place =
+        arguments.lesson.map(|lesson| [lesson, arguments.step.unwrap_or(1)].map(|number| usize::from(number) - 1));
+    gui::open(opened, arguments.lessons.clone(), place).map_err(|error| CliError::Window(error.to_string()))?;
     Ok(Exit::Solved)
 }
 

@@ -8,6 +8,8 @@ mod fit;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;
+#[cfg(feature = "gui")]
+mod lessons;
 mod new;
 mod options;
 mod presets;
@@ -65,6 +67,8 @@ enum Command {
     Presets(presets::Arguments),
     New(new::Arguments),
     Surface(surface::Arguments),
+    #[cfg(feature = "gui")]
+    Lessons(lessons::Arguments),
 }
 
 const AFTER: &str = "\
@@ -128,6 +132,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Presets(arguments)) => presets::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Surface(arguments)) => surface::run(&arguments, &command_line(words)),
+        #[cfg(feature = "gui")]
+        Some(Command::Lessons(arguments)) => lessons::run(&arguments),
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),

@@ -1,6 +1,6 @@
 //! The application: between the frames of eframe it takes what has happened, carries out commands, and draws.
 
-use super::command::Command;
+use super::command::{Command, LessonCommand};
 use super::state::document::{Document, Next};
 use super::state::lessons::LessonState;
 use super::state::window::State;
@@ -58,6 +58,27 @@ impl App {
     /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
     pub fn load_lessons(&mut self, folder: &Path) {
         self.updater.load_lessons(folder);
+    }
+
+    /// Does what a panel or a key would ask for.
+    pub fn carry_out(&mut self, command: Command) {
+        self.updater.carry_out(command);
+    }
+
+    /// Opens a lesson at a step, both from 0; says which there are if it is none of them.
+    pub fn open_lesson(&mut self, lesson: usize, step: usize) {
+        let steps = self.state().lessons.lessons().get(lesson).map(|lesson| lesson.steps.len());
+        match steps {
+            Some(steps) if step < steps => self.updater.carry_out(LessonCommand::OpenAt(lesson, step).into()),
+            Some(steps) => {
+                let text = format!("step = {}: lesson {} has steps 1 to {steps}.", step + 1, lesson + 1);
+                self.updater.state.fail(text);
+            }
+            None => {
+                let all = self.state().lessons.lessons().len();
+                self.updater.state.fail(format!("lesson = {}: there are lessons 1 to {all}.", lesson + 1));
+            }
+        }
     }
 
     /// Escape closes the tour, then the glossary: after whatever is over them, and after a text that is being typed.

@@ -310,6 +310,8 @@ pub enum LessonCommand {
     ChooseFolder,
     /// Loads the lessons of this folder, beside those that are there.
     LoadFolder(PathBuf),
+    /// Reads the lessons of all folders again.
+    Reload,
     /// Says again what was wrong with lessons.
     Faults,
 }

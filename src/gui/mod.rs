@@ -18,11 +18,15 @@ use update::platform::Platform;
 use update::storage::StorageFile;
 
 /// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
-/// beside the built-in ones.
+/// beside the built-in ones. `place`: the lesson and the step that it opens at, from 0.
 ///
 /// # Errors
 /// If there is no display, or no way to draw on it.
-pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), eframe::Error> {
+pub fn open(
+    opened: Option<Document>,
+    lessons: Option<PathBuf>,
+    place: Option<[usize; 2]>,
+) -> Result<(), eframe::Error> {
     // Without a file of its own it keeps nothing: another window's is left alone.
     let file = eframe::storage_dir("squeezefilm").and_then(|folder| StorageFile::claim(&folder).ok());
     let storage = file.as_ref().map(|file| file.path().to_owned());
@@ -51,6 +55,9 @@ pub fn open(opened: Option<Document>, lessons: Option<PathBuf>) -> Result<(), ef
         let mut app = app::App::on_platform(context, opened, platform)?;
         if let Some(folder) = lessons {
             app.load_lessons(&folder);
+        }
+        if let Some([lesson, step]) = place {
+            app.open_lesson(lesson, step);
         }
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };

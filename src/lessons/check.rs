@@ -92,6 +92,13 @@ impl Reading {
         self.expression.value(now, start)
     }
 
+    /// What it reads off tabs.
+    pub fn live(&self) -> Vec<Live> {
+        let mut found = Vec::new();
+        self.expression.live(&mut found);
+        found
+    }
+
     /// A value of it in words: a result with its digits, a parameter as it was typed.
     pub fn text(&self, value: f64) -> String {
         let text = match self.expression {

@@ -8,10 +8,14 @@ pub mod check;
 mod error;
 pub mod formula;
 pub mod glossary;
+pub mod handout;
 mod lesson;
 pub mod live;
 mod read;
+pub mod record;
 pub mod text;
+pub mod trial;
+pub mod work;
 
 pub use error::{KeyFault, LessonError, LessonErrorKind};
 pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, Question, Step, Task, WindowNames};

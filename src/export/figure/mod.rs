@@ -25,6 +25,7 @@
 //! | fields as pictures | `plane` |
 //! | one panel as SVG, all of them | `svg`, `text`, `panel`, `drawing` |
 //! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `files` |
+//! | sheets of paper with text, to write and sketch on | `sheet` |
 //!
 //! The SVG is written here because no library drew what a journal prints: kuva 0.6 neither lines up the axes of panels, nor
 //! places a map on nodes that are not uniform, and labels a tick 4.9999999999999995e-11; plotters has whole-pixel
@@ -46,6 +47,7 @@ mod placed;
 mod plane;
 mod provenance;
 mod scale;
+mod sheet;
 mod style;
 mod svg;
 mod text;
@@ -56,6 +58,7 @@ pub use description::{Figure, Legend, Panel, Width};
 pub use files::{FigureError, Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
 pub use layers::{Anchor, Band, Categories, Contours, Direction, Grid, Layer, Line, Map, Mark, Points, Shading, Text};
 pub use provenance::Provenance;
+pub use sheet::{Piece, sheets_to_pdf};
 pub use style::{Dash, Marker, Shape, Style};
 pub use svg::escaped;
 

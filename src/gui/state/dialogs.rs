@@ -33,6 +33,8 @@ pub enum Export {
     TradeoffFigure,
     /// All that `sensitivity --out` writes.
     Sensitivity,
+    /// What was answered in lessons.
+    Answers,
 }
 
 impl Export {
@@ -51,6 +53,7 @@ impl Export {
             Self::TradeoffTable => "tradeoff.csv",
             Self::TradeoffFigure => "tradeoff.svg",
             Self::Sensitivity => "sensitivity",
+            Self::Answers => "answers.csv",
         }
     }
 
@@ -67,6 +70,7 @@ impl Export {
             Self::Sweep => "Export the sweep into a folder",
             Self::Sensitivity => "Export the sensitivities into a folder",
             Self::SweepTable | Self::TradeoffTable => "Export the table as CSV",
+            Self::Answers => "Save my answers as CSV or as JSON lines",
             Self::SweepFigure | Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
         }
     }
@@ -93,6 +97,7 @@ impl Export {
             Self::Sensitivity => {
                 "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"
             }
+            Self::Answers => "What you answered and did in lessons, to hand in: nothing leaves this computer by itself",
         }
     }
 
@@ -104,6 +109,7 @@ impl Export {
             Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
             Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
             Self::SweepTable | Self::TradeoffTable => Some(("Table", &["csv"])),
+            Self::Answers => Some(("Record", &["csv", "jsonl"])),
             Self::SweepFigure | Self::TradeoffFigure => Some(("Figure", &["svg", "png", "pdf"])),
         }
     }

@@ -2,9 +2,8 @@
 //!
 //! While a lesson runs, the student's own scene is set aside with its history, and brought back when the lesson ends.
 
-use super::document::Document;
+use super::document::{Document, absolute};
 use super::lesson_tabs::{OffTabs, OnScreen};
-use super::lesson_work::{Progress, Stage, StepWork};
 use super::tour::STOPS;
 use super::view::{Tab, View};
 use crate::analysis::quantity::Numbers;
@@ -12,12 +11,14 @@ use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
 use crate::lessons::check::{Ran, Reading};
 use crate::lessons::live::{Live, Readings};
+use crate::lessons::record::{self, Record};
 use crate::lessons::text::readings;
+use crate::lessons::work::{Progress, Stage, StepWork};
 use crate::lessons::{self, Act, Lesson, LessonError, Step, WindowNames};
 use crate::scene::Scene;
 use crate::solution::Status;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 /// Frames in which a highlighted parameter is scrolled to: a group takes some to open.
 const REVEALED: u8 = 16;
@@ -109,6 +110,8 @@ pub struct RunningLesson {
 pub struct LessonState {
     lessons: Vec<Lesson>,
     faults: Vec<LessonError>,
+    /// Folders that lessons were read from, in full.
+    folders: Vec<PathBuf>,
     running: Option<RunningLesson>,
     progress: BTreeMap<String, Progress>,
     /// The stop of the tour.
@@ -122,9 +125,18 @@ pub struct LessonState {
 impl LessonState {
     /// The built-in lessons, with the progress that was stored.
     pub fn new(progress: Option<String>) -> Self {
-        let (lessons, faults) = with_known(lessons::built_in);
+        let (lessons, faults) = window_names(lessons::built_in);
         let progress = progress.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-        Self { lessons, faults, running: None, progress, tour: None, glossary: None, highlights: Highlights::default() }
+        Self {
+            lessons,
+            faults,
+            folders: Vec::new(),
+            running: None,
+            progress,
+            tour: None,
+            glossary: None,
+            highlights: Highlights::default(),
+        }
     }
 
     /// All lessons.
@@ -135,6 +147,11 @@ impl LessonState {
     /// What is wrong with lessons that could not be read.
     pub fn faults(&self) -> &[LessonError] {
         &self.faults
+    }
+
+    /// Whether lessons were read from folders, which can be read again.
+    pub fn has_folders(&self) -> bool {
+        !self.folders.is_empty()
     }
 
     /// The lesson that is followed.
@@ -160,18 +177,34 @@ impl LessonState {
     }
 
     /// Adds the lessons of a folder; what cannot be read is in the faults. A lesson of a name that is there replaces it. Whether
-    /// the lesson that is followed was replaced.
+    /// the lesson that is followed was replaced by another text.
     pub fn load(&mut self, folder: &Path) -> bool {
-        let (lessons, faults) = with_known(|known| lessons::load(folder, known));
+        let folder = absolute(folder);
+        let (lessons, faults) = window_names(|known| lessons::load(&folder, known));
         let mut replaced = false;
         for lesson in lessons {
             match self.lessons.iter().position(|other| other.id == lesson.id) {
                 Some(place) => {
-                    replaced |= self.running.as_ref().is_some_and(|running| running.lesson == place);
+                    let followed = self.running.as_ref().is_some_and(|running| running.lesson == place);
+                    replaced |= followed && self.lessons[place] != lesson;
                     self.lessons[place] = lesson;
                 }
                 None => self.lessons.push(lesson),
             }
+        }
+        self.faults = faults;
+        if folder.is_dir() && !self.folders.contains(&folder) {
+            self.folders.push(folder);
+        }
+        replaced
+    }
+
+    /// Reads all folders again. Whether the lesson that is followed was replaced by another text.
+    pub fn reload(&mut self) -> bool {
+        let (mut replaced, mut faults) = (false, Vec::new());
+        for folder in self.folders.clone() {
+            replaced |= self.load(&folder);
+            faults.append(&mut self.faults);
         }
         self.faults = faults;
         replaced
@@ -202,6 +235,16 @@ impl LessonState {
         let done = self.progress(lesson).done || running.work.iter().zip(&lesson.steps).all(whole);
         let step = if ended { 0 } else { running.step };
         Some((lesson.id.clone(), Progress { step, done, work: running.work.clone() }))
+    }
+
+    /// What was answered and done, in all lessons.
+    pub fn records(&self) -> Vec<Record> {
+        let present = self.present();
+        let of = |lesson: &Lesson| match &present {
+            Some((id, progress)) if *id == lesson.id => record::of(lesson, &progress.work),
+            _ => self.progress.get(&lesson.id).map(|progress| record::of(lesson, &progress.work)).unwrap_or_default(),
+        };
+        self.lessons.iter().flat_map(of).collect()
     }
 
     /// Keeps what was done in the lesson that is followed.
@@ -468,8 +511,8 @@ fn tab(name: &str) -> Option<Tab> {
     Tab::ALL.iter().map(|(tab, _)| *tab).find(|tab| named(*tab))
 }
 
-/// Calls `read` with what the window has.
-fn with_known<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
+/// Calls `read` with what lessons may name in the window.
+pub fn window_names<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
     let labels = |plate| -> Vec<&str> {
         Tab::ALL.iter().filter(|(tab, _)| tab.is_of(plate)).map(|(tab, _)| tab.label(plate)).collect()
     };

@@ -8,7 +8,6 @@ pub mod exports;
 pub mod fit;
 pub mod hold;
 pub mod lesson_tabs;
-pub mod lesson_work;
 pub mod lessons;
 pub mod modal;
 pub mod pins;

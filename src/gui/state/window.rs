@@ -163,6 +163,7 @@ impl State {
                 self.sweep.swept().is_some_and(|swept| !swept.rows().is_empty())
             }
             Export::Sensitivity => self.sensitivity.found().is_some(),
+            Export::Answers => !self.lessons.records().is_empty(),
             Export::TradeoffTable | Export::TradeoffFigure => {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff().points.is_empty())
             }

@@ -122,6 +122,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             idle(key(NONE, Key::Num2), "Second answer", || choose(1)),
             idle(key(NONE, Key::Num3), "Third answer", || choose(2)),
             idle(key(NONE, Key::Num4), "Fourth answer", || choose(3)),
+            window(key(NONE, Key::F5), "Read the lessons of folders again", || Command::Lesson(LessonCommand::Reload)),
             idle(key(NONE, Key::H), "Hint", || Command::Lesson(LessonCommand::Hint)),
         ],
     ),

@@ -53,12 +53,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let size = if state.lecture { ", lecture" } else { "" };
         format!("{name}{size}{}", if side.most(width) < side.default { ", narrow" } else { "" })
     };
-    if state.view.parameters {
-        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).frame(side).show(ui, |ui| {
-            cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
-            parameters::show(ui, cx);
-        });
-    }
+    // A lesson comes first for the keyboard.
     if state.view.results && state.lessons.running().is_some_and(|running| !running.all_results) {
         LESSON.fit(egui::Panel::right(id("lesson", &LESSON)), width).frame(side).show(ui, |ui| lesson::show(ui, cx));
     } else if state.view.results {
@@ -71,6 +66,12 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             if let Some(run) = &state.run {
                 results::show(ui, run, cx);
             }
+        });
+    }
+    if state.view.parameters {
+        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).frame(side).show(ui, |ui| {
+            cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
+            parameters::show(ui, cx);
         });
     }
     egui::CentralPanel::default().frame(central).show(ui, |ui| {

@@ -1,11 +1,12 @@
 //! What is asked of lessons, carried out.
 
 use super::updater::Updater;
-use crate::gui::command::{HoldCommand, LessonCommand};
+use crate::gui::command::{Command, HoldCommand, LessonCommand};
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::lesson_work::{Stage, StepWork};
+use crate::gui::state::tour::STOPS;
 use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
+use crate::lessons::work::{Stage, StepWork};
 use crate::lessons::{Act, Prediction, Step};
 use std::path::Path;
 
@@ -14,6 +15,16 @@ impl Updater {
     pub fn load_lessons(&mut self, folder: &Path) {
         if self.state.lessons.load(folder) {
             self.leave_lesson();
+        }
+        self.say_faults();
+    }
+
+    /// Reads all folders of lessons again; a lesson that is followed goes on at its step.
+    fn reload_lessons(&mut self) {
+        let place = self.state.lessons.running().map(|running| (running.lesson, running.step));
+        let changed = self.state.lessons.reload();
+        if let (true, Some((lesson, step))) = (changed, place) {
+            self.teach(LessonCommand::OpenAt(lesson, step));
         }
         self.say_faults();
     }
@@ -55,6 +66,7 @@ impl Updater {
             LessonCommand::ChooseFolder => return self.ask(Purpose::Lessons, ""),
             LessonCommand::LoadFolder(folder) => return self.load_lessons(&folder),
             LessonCommand::Faults => return self.say_faults(),
+            LessonCommand::Reload => return self.reload_lessons(),
             LessonCommand::Predict(_) | LessonCommand::Commit | LessonCommand::Observe(_) | LessonCommand::Hint => {
                 if let Some((step, work)) = lessons.step_and_work() {
                     answer(&command, step, work);
@@ -82,8 +94,15 @@ impl Updater {
         }
     }
 
-    /// Does what comes next in a lesson.
+    /// Does what comes next in the tour, whose last stop leads to the first lesson, or in a lesson.
     fn go_on(&mut self) {
+        if let Some(stop) = self.state.lessons.tour {
+            match stop + 1 < STOPS.len() {
+                true => self.carry_out(Command::Tour(Some(stop + 1))),
+                false => self.teach(LessonCommand::OpenAt(0, 0)),
+            }
+            return;
+        }
         match self.state.lessons.stage() {
             Some(Stage::Question) => self.teach(LessonCommand::Commit),
             Some(Stage::Task) => self.state.lessons.enter_marked(),

@@ -2,11 +2,11 @@
 
 use super::{lesson_numbers, lesson_parts};
 use crate::gui::command::{Command, LessonCommand};
-use crate::gui::state::lesson_work::{Score, Stage, StepWork, answer_words};
 use crate::gui::state::lessons::RunningLesson;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::keys;
 use crate::gui::ui::rich::Look;
+use crate::lessons::work::{Score, Stage, StepWork, answer_words};
 use crate::lessons::{Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, Response, RichText, Stroke, TextStyle, Ui, vec2};
 

@@ -1,10 +1,10 @@
 //! What a step of a lesson asks, has one do, and explains, in tinted boxes.
 
 use crate::gui::command::LessonCommand;
-use crate::gui::state::lesson_work::{Stage, StepWork, answer_words};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::rich::{self, Look};
 use crate::lessons::text::{self, Block, Inline, filled};
+use crate::lessons::work::{Stage, StepWork, answer_words};
 use crate::lessons::{Answer, Choice, Kind, Prediction, Question, Step, Task};
 use eframe::egui::{self, Color32, RichText, Ui, vec2};
 

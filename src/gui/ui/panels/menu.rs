@@ -8,7 +8,8 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
-use crate::scene::presets;
+use crate::scene::table1::published;
+use crate::scene::{Scene, presets};
 use eframe::egui::{self, Button};
 
 /// Shows the menus.
@@ -167,6 +168,8 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let running = state.running().is_some();
     item(ui, "Leave the lesson", running, Command::Lesson(LessonCommand::Leave), cx);
     item(ui, "Open a folder of lessons…", true, Command::Lesson(LessonCommand::ChooseFolder), cx);
+    export_item(ui, "Save my answers…", Export::Answers, cx.state.can_export(Export::Answers), cx);
+    item(ui, "Read lessons of folders again", state.has_folders(), Command::Lesson(LessonCommand::Reload), cx);
     if !state.faults().is_empty() {
         item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
     }
@@ -180,11 +183,20 @@ fn built_in(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command, cx: &DrawContext<'_>) {
     let room = 0.85 * ui.ctx().content_rect().height();
     egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
-        let mut kind = "motor";
-        for preset in presets::BUILT_IN {
-            // Built-in presets parse: a test opens every one.
-            let Ok(scene) = preset.scene() else { continue };
-            if std::mem::replace(&mut kind, scene.scene()) != kind {
+        // Plates, the motor, what goes beyond the table, and its rows.
+        let group = |name: &str, scene: &Scene| match (scene.scene(), name) {
+            ("plate", _) => 0,
+            (_, "fundamental") => 1,
+            _ if published().iter().any(|row| row.preset == name) => 3,
+            _ => 2,
+        };
+        // Built-in presets parse: a test opens every one.
+        let read = presets::BUILT_IN.iter().filter_map(|preset| Some((preset, preset.scene().ok()?)));
+        let mut all: Vec<_> = read.map(|(preset, scene)| (group(preset.name, &scene), preset, scene)).collect();
+        all.sort_by_key(|(group, ..)| *group);
+        let mut last = 0;
+        for (group, preset, scene) in &all {
+            if std::mem::replace(&mut last, *group) != *group {
                 ui.separator();
             }
             let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));

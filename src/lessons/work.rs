@@ -1,6 +1,7 @@
 //! What a student did in a lesson, step by step: answers, tasks, what was skipped. It is kept from window to window.
 
-use crate::lessons::{Answer, Kind, Prediction, Question, Step};
+use super::lesson::{Answer, Kind, Prediction, Question, Step};
+use super::text::plain;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -164,9 +165,7 @@ impl Score {
 /// The right answer in words: what a recap says of a step.
 pub fn answer_words(question: &Question) -> String {
     match &question.answer {
-        Answer::Choice { choices, right } => {
-            choices.get(*right).map(|choice| crate::lessons::text::plain(&choice.text)).unwrap_or_default()
-        }
+        Answer::Choice { choices, right } => choices.get(*right).map(|choice| plain(&choice.text)).unwrap_or_default(),
         Answer::Number { value, unit, .. } => format!("{value} {unit}").trim().to_owned(),
     }
 }
