@@ -189,3 +189,71 @@ fn wrong(records: &[&Record]) -> String {
 pub fn student(path: &Path) -> String {
     path.file_stem().map_or_else(|| "student".to_owned(), |name| name.to_string_lossy().into_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lessons::{WindowNames, built_in};
+
+    fn lesson() -> Lesson {
+        const TABS: &[&str] = &["Motion", "Hold", "Exact", "Start-up", "Torque"];
+        const PLACES: &[&str] =
+            &["held plate", "gap", "pressure", "loop", "loads", "start", "wave", "least gap", "map"];
+        let (lessons, _) = built_in(WindowNames { tabs: [TABS; 2], places: PLACES });
+        lessons.into_iter().find(|lesson| lesson.id == "1-trapped-air").unwrap()
+    }
+
+    fn answered(prediction: usize, skipped: bool) -> Vec<Record> {
+        let lesson = lesson();
+        let mut work = vec![StepWork::default(); lesson.steps.len()];
+        work[0] = StepWork {
+            prediction: Some(Prediction::Choice(prediction)),
+            committed: true,
+            fulfilled: !skipped,
+            shown: true,
+            hints: 2,
+            left: true,
+            ..StepWork::default()
+        };
+        if !skipped {
+            work[0].observed = Some(2);
+        }
+        of(&lesson, &work)
+    }
+
+    #[test]
+    fn what_was_done_is_told_and_read_again() {
+        let records = answered(2, false);
+        let kinds: Vec<(&str, &str, Option<bool>)> =
+            records.iter().map(|record| (record.kind.as_str(), record.verb.as_str(), record.success)).collect();
+        let all = [
+            ("prediction", "answered", Some(true)),
+            ("task", "completed", Some(false)),
+            ("observation", "answered", Some(true)),
+            ("step", "completed", None),
+        ];
+        assert_eq!(kinds, all);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("anna.csv");
+        let mut file = std::fs::File::create(&path).unwrap();
+        crate::export::csv::rows(&records, &mut file).unwrap();
+        assert_eq!((read(&path).unwrap(), student(&path).as_str()), (records.clone(), "anna"));
+        let statements = statements("anna", &records);
+        for (line, record) in statements.lines().zip(&records) {
+            let statement: serde_json::Value = serde_json::from_str(line).unwrap();
+            let verb = statement["verb"]["id"].as_str().unwrap();
+            assert!(verb.starts_with("http") && verb.ends_with(&record.verb));
+            assert_eq!(statement["result"]["success"].as_bool(), record.success);
+        }
+        std::fs::write(&path, "lesson,step\n1,x\n").unwrap();
+        assert!(read(&path).unwrap_err().to_string().contains("is not a record of answers"));
+    }
+
+    #[test]
+    fn a_class_is_counted() {
+        let page = summary(&[answered(2, false), answered(0, true), answered(0, true)]);
+        assert!(page.contains("3 records"));
+        assert!(page.contains("33 %") && page.contains("It moves aside, like water: its pressure hardly changes (2)"));
+        assert!(page.contains("1  Push on it"));
+    }
+}
