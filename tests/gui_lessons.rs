@@ -708,6 +708,21 @@ fn the_answer_button_is_in_sight_in_lecture_size() {
 }
 
 #[test]
+fn an_explanation_on_hover_does_not_cover_what_a_step_looks_at() {
+    let mut window = window("fundamental");
+    window.state_mut().open_lesson(0, 1);
+    solved(&mut window);
+    window.run_steps(4);
+    let ring = squeezefilm::gui::ui::highlight::place(&window.ctx, "gap").unwrap();
+    window.get_by_label("About: Gap").hover();
+    window.run_steps(40);
+    let term = lessons::glossary::find("Gap").unwrap();
+    let text = text::plain_blocks(&term.text[..1]);
+    let explained = window.get_all_by_label(&text).last().unwrap().rect();
+    assert!(!explained.intersects(ring), "{explained:?} {ring:?}");
+}
+
+#[test]
 fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     let folder = tempfile::tempdir().unwrap();
     let two = format!("{GOOD}\n## Second step\n\nAs it was.\n");
