@@ -169,7 +169,7 @@ fn first_line(window: &Window, blocks: &[text::Block], told: bool) -> String {
     let quoted = |reading: &_| state.lessons.quoted(reading, state.document.scene(), told);
     match &blocks[0] {
         text::Block::Paragraph(parts) | text::Block::Item(parts) => text::plain(&text::filled(parts, &quoted)),
-        formula @ text::Block::Formula(_) => text::plain_blocks(std::slice::from_ref(formula)),
+        other => text::plain_blocks(std::slice::from_ref(other)),
     }
 }
 
@@ -737,6 +737,19 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     window.key_press(Key::F5);
     window.run_steps(6);
     assert!(step(&window).0 == 1 && shows(&window, "As it is."));
+    // A picture beside the text, and one that is not there.
+    let mut encoder = png::Encoder::new(std::fs::File::create(folder.path().join("mine/a.png")).unwrap(), 3, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header().unwrap().write_image_data(&[99; 18]).unwrap();
+    write(folder.path(), "mine", &two.replace("As it was.", "![A grey square](a.png)"));
+    window.key_press(Key::F5);
+    window.run_steps(6);
+    assert!(window.query_by_role_and_label(Role::Image, "A grey square").is_some());
+    write(folder.path(), "mine", &two.replace("As it was.", "![A grey square](b.png)"));
+    window.key_press(Key::F5);
+    window.run_steps(6);
+    window.get_by_label_contains("picture b.png: there is no such file beside lesson.md");
+    click(&mut window, "Close");
     // A place that is not there is named.
     window.state_mut().open_lesson(place, 7);
     window.run_steps(3);

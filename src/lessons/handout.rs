@@ -91,6 +91,7 @@ fn lines<'a>(blocks: &'a [Block], known: &'a BTreeMap<String, f64>) -> impl Iter
         Block::Paragraph(parts) => with_numbers(parts, known),
         Block::Item(parts) => format!("•  {}", with_numbers(parts, known)),
         Block::Formula(formula) => lowered(&formula.plain()),
+        Block::Picture(picture) => format!("({})", picture.alternative),
     })
 }
 

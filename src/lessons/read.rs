@@ -7,7 +7,8 @@ use super::error::{LessonError, LessonErrorKind};
 use super::lesson::{Lesson, Step, WindowNames};
 use std::path::Path;
 use step::{BLOCKS, Raw};
-use table::{Beside, Piece, Reader};
+pub(super) use table::Beside;
+use table::{Piece, Reader};
 
 /// Reads a lesson.
 ///

@@ -3,6 +3,7 @@
 
 use super::check::{CheckError, Reading};
 use super::formula::{Formula, FormulaError};
+use super::picture::{Picture, PictureError};
 use std::borrow::Cow;
 
 /// A part of a line.
@@ -23,6 +24,18 @@ pub enum Inline {
 
 /// Reads what is between the braces of a number.
 pub type Numbers<'a> = &'a dyn Fn(&str) -> Result<Reading, CheckError>;
+
+/// Reads the picture in a file, with what it shows in words.
+pub type Pictures<'a> = &'a dyn Fn(&str, &str) -> Result<Picture, PictureError>;
+
+/// What a text takes from elsewhere.
+#[derive(Clone, Copy)]
+pub struct Outside<'a> {
+    /// Numbers of the run.
+    pub numbers: Numbers<'a>,
+    /// Pictures beside the text.
+    pub pictures: Pictures<'a>,
+}
 
 /// How words look.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,13 +60,15 @@ pub enum Block {
     Item(Vec<Inline>),
     /// A formula on its own.
     Formula(Formula),
+    /// A picture.
+    Picture(Picture),
 }
 
-/// Reads blocks from Markdown; a fault comes with its line, from 0. Without `numbers` braces are like any other character.
+/// Reads blocks from Markdown; a fault comes with its line, from 0. Without `outside` there are neither numbers of a run nor pictures.
 ///
 /// # Errors
 /// A formula or a number that cannot be read, or a dollar without its partner.
-pub fn blocks(source: &str, numbers: Option<Numbers<'_>>) -> Result<Vec<Block>, (usize, TextError)> {
+pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, (usize, TextError)> {
     let mut blocks = Vec::new();
     let mut lines = source.lines().enumerate().peekable();
     while let Some((number, line)) = lines.next() {
@@ -73,6 +88,12 @@ pub fn blocks(source: &str, numbers: Option<Numbers<'_>>) -> Result<Vec<Block>, 
             blocks.push(Block::Formula(formula));
             continue;
         }
+        if let (Some((alternative, file)), Some(outside)) = (picture(line), outside) {
+            let read = (outside.pictures)(file, alternative);
+            let read = read.map_err(|error| (number, TextError::Picture(file.to_owned(), error)))?;
+            blocks.push(Block::Picture(read));
+            continue;
+        }
         let item = line.strip_prefix("* ").or_else(|| line.strip_prefix("- "));
         let mut text = item.unwrap_or(line).to_owned();
         while let Some((_, next)) = lines.peek() {
@@ -84,10 +105,15 @@ pub fn blocks(source: &str, numbers: Option<Numbers<'_>>) -> Result<Vec<Block>, 
             text.push_str(next);
             lines.next();
         }
-        let inline = inline(&text, numbers).map_err(|error| (number, error))?;
+        let inline = inline(&text, outside.map(|outside| outside.numbers)).map_err(|error| (number, error))?;
         blocks.push(if item.is_some() { Block::Item(inline) } else { Block::Paragraph(inline) });
     }
     Ok(blocks)
+}
+
+/// What a picture shows and its file, of a line `![what it shows](file.png)`.
+fn picture(line: &str) -> Option<(&str, &str)> {
+    line.strip_prefix("![")?.strip_suffix(')')?.split_once("](")
 }
 
 /// Why a text cannot be read.
@@ -102,6 +128,9 @@ pub enum TextError {
     /// A number of the run that cannot be read.
     #[error("{{{0}}}: {1}; write \\{{ for the brace itself")]
     Number(String, CheckError),
+    /// A picture that cannot be shown.
+    #[error("picture {0}: {1}")]
+    Picture(String, PictureError),
     /// A number without its end.
     #[error("a number of the run begins with {{ and does not end; write \\{{ for the brace itself")]
     Brace,
@@ -188,7 +217,7 @@ pub fn filled<'a>(parts: &'a [Inline], value: &dyn Fn(&Reading) -> String) -> Co
 pub fn readings<'a>(blocks: impl IntoIterator<Item = &'a Block>) -> impl Iterator<Item = &'a Reading> {
     let parts = blocks.into_iter().flat_map(|block| match block {
         Block::Paragraph(parts) | Block::Item(parts) => parts.as_slice(),
-        Block::Formula(_) => &[],
+        Block::Formula(_) | Block::Picture(_) => &[],
     });
     parts.filter_map(|part| if let Inline::Number(reading) = part { Some(reading) } else { None })
 }
@@ -200,6 +229,7 @@ pub fn plain_blocks(blocks: &[Block]) -> String {
         .map(|block| match block {
             Block::Paragraph(parts) | Block::Item(parts) => plain(parts),
             Block::Formula(formula) => formula.plain(),
+            Block::Picture(picture) => picture.alternative.clone(),
         })
         .collect();
     lines.join("\n")

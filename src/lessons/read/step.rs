@@ -76,7 +76,7 @@ impl Reader<'_> {
         if let Some((name, line)) = preset {
             self.scene = None;
             let built_in = || presets::BUILT_IN.iter().find(|preset| preset.name == name).map(|preset| preset.scene());
-            match (self.beside)(&name).or_else(built_in) {
+            match (self.beside.preset)(&name).or_else(built_in) {
                 Some(Ok(scene)) => self.scene = Some(scene),
                 Some(Err(error)) => self.key_fault(line, SETUP, "preset", KeyFault::Scene(error)),
                 None => self.fault(line, LessonErrorKind::NoPreset { name }),

@@ -3,14 +3,20 @@
 use crate::lessons::check::Reading;
 use crate::lessons::error::{KeyFault, LessonError, LessonErrorKind};
 use crate::lessons::lesson::WindowNames;
-use crate::lessons::text::{self, Block, Inline, TextError};
+use crate::lessons::text::{self, Block, Inline, Outside, Pictures, TextError};
 use crate::scene::{Scene, SceneError};
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Looks for a preset beside the lesson.
-pub(super) type Beside<'a> = &'a dyn Fn(&str) -> Option<Result<Scene, SceneError>>;
+/// What is beside the lesson.
+#[derive(Clone, Copy)]
+pub(in crate::lessons) struct Beside<'a> {
+    /// Looks for a preset.
+    pub(in crate::lessons) preset: &'a dyn Fn(&str) -> Option<Result<Scene, SceneError>>,
+    /// Looks for a picture.
+    pub(in crate::lessons) pictures: Pictures<'a>,
+}
 
 /// A part of the file with the line it begins at, from 1.
 pub(super) struct Piece {
@@ -79,7 +85,10 @@ impl Reader<'_> {
     /// Text that may quote numbers of a run of the present scene; a fault comes with its line, from 0.
     fn formatted(&self, text: &str) -> Result<Vec<Block>, (usize, TextError)> {
         match &self.scene {
-            Some(scene) => text::blocks(text, Some(&|number| Reading::parse(number, scene))),
+            Some(scene) => {
+                let numbers = |number: &str| Reading::parse(number, scene);
+                text::blocks(text, Some(Outside { numbers: &numbers, pictures: self.beside.pictures }))
+            }
             None => text::blocks(text, None),
         }
     }
