@@ -223,6 +223,7 @@ fn predict(window: &mut Window, step: &Step) {
     assert!(!shows(window, &why), "{}: shown before the prediction was made", step.title);
     click(window, button);
     assert!(work(window).committed);
+    let why = first_line(window, &question.why, true);
     assert_eq!(shows(window, &why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
 }
 
@@ -670,7 +671,12 @@ fn the_keyboard_alone_walks_the_first_lesson() {
         if let Some(task) = &step.task {
             match &task.example.changes[..] {
                 // The plate in the hand goes down a step with each press.
-                [] => (0..10).for_each(|_| press(&mut window, Key::ArrowDown)),
+                [] => {
+                    for _ in 0..10 {
+                        window.key_press(Key::ArrowDown);
+                        window.step();
+                    }
+                }
                 [(_, value), ..] => {
                     press(&mut window, Key::Enter);
                     window.run_steps(20);
