@@ -4,19 +4,15 @@
 
 use super::document::{Document, absolute};
 use super::lesson_tabs::{OffTabs, OnScreen};
+use super::running_lesson::{RunningLesson, StartingPoint};
 use super::tour::STOPS;
 use super::view::{Tab, View};
-use crate::analysis::quantity::Numbers;
-use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::lessons::check::{Ran, Reading};
-use crate::lessons::live::{Live, Readings};
+use crate::lessons::check::Reading;
 use crate::lessons::record::{self, Record};
-use crate::lessons::text::readings;
 use crate::lessons::work::{Progress, Stage, StepWork};
 use crate::lessons::{self, Act, Lesson, LessonError, Step, WindowNames};
 use crate::scene::Scene;
-use crate::solution::Status;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -60,49 +56,6 @@ impl Highlights {
     pub fn has(&self, name: &str) -> bool {
         self.names.iter().any(|other| other == name)
     }
-}
-
-/// The run that a step compares with.
-#[derive(Clone, Debug)]
-pub struct StartingPoint {
-    /// The scene that the step began with.
-    pub scene: Scene,
-    /// Its run, the finest so far.
-    pub run: Option<Arc<SolvedScene>>,
-    /// Its results.
-    pub numbers: Numbers,
-}
-
-impl StartingPoint {
-    fn of(scene: Scene) -> Self {
-        Self { scene, run: None, numbers: Numbers::default() }
-    }
-}
-
-/// The lesson that is followed.
-#[derive(Debug)]
-pub struct RunningLesson {
-    /// Its place in the list.
-    pub lesson: usize,
-    /// Its step.
-    pub step: usize,
-    /// What was done, by step.
-    pub work: Vec<StepWork>,
-    /// Whether all results are shown in place of the text.
-    pub all_results: bool,
-    /// The student's own scene.
-    student: Document,
-    /// What was shown before the lesson: the tab, and whether parameters and results were.
-    before: (Tab, bool, bool),
-    /// What the step began with.
-    pub start: StartingPoint,
-    /// The newest run of the present scene.
-    pub newest: Option<Numbers>,
-    /// What is read off the tabs.
-    pub tabs: OffTabs,
-    reveal: u8,
-    /// Whether the marked parameter takes the keyboard.
-    enter: bool,
 }
 
 /// Lessons, tour and glossary.
@@ -252,20 +205,9 @@ impl LessonState {
         self.progress.extend(self.present());
     }
 
-    /// What a text quotes: of the run on screen or, for what is `told` once a task is done, of the run that did it.
+    /// What a text quotes: of the run of `scene` on screen or, for what is `told` once a task is done, of the run that did it.
     pub fn quoted(&self, reading: &Reading, scene: &Scene, told: bool) -> String {
-        let value = self.running.as_ref().and_then(|running| {
-            let kept =
-                running.work.get(running.step).filter(|_| told).and_then(|work| work.readings.get(&reading.source));
-            if let Some(kept) = kept {
-                return Some(*kept);
-            }
-            let (start, tabs) = (&running.start, &running.tabs);
-            let empty = Numbers::default();
-            let numbers = running.newest.as_ref().unwrap_or(&empty);
-            let now = Ran { scene, numbers, live: &tabs.now };
-            reading.value(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start })
-        });
+        let value = self.running.as_ref().and_then(|running| running.value(reading, scene, told));
         value.map_or_else(|| "…".to_owned(), |value| reading.text(value))
     }
 
@@ -456,52 +398,10 @@ impl LessonState {
         let step = self.lessons.get(running.lesson).and_then(|lesson| lesson.steps.get(running.step));
         let marked = step.and_then(|step| step.light.first().copied());
         self.highlights.enter = marked.filter(|_| enter).map(|parameter| parameter.key);
-        self.judge(document, seen);
+        if let Some(lesson) = self.lessons.get(running.lesson) {
+            running.judge(lesson, document, seen);
+        }
         self.highlights.reveal || self.highlights.enter.is_some()
-    }
-
-    fn judge(&mut self, document: &Document, seen: OnScreen<'_>) {
-        let Some(running) = &mut self.running else { return };
-        running.newest = None;
-        running.tabs.now = Readings::default();
-        let scene = document.scene();
-        let Some(run) = seen.run.filter(|run| run.scene == *scene && run.solution.status == Status::Converged) else {
-            return;
-        };
-        let numbers = Numbers::of(&run.problem, &run.solution);
-        running.newest = Some(numbers);
-        running.tabs.read(run, seen);
-        let start = &mut running.start;
-        if run.scene == start.scene && start.run.as_ref().is_none_or(|found| found.fidelity <= run.fidelity) {
-            (start.run, start.numbers) = (Some(Arc::clone(run)), numbers);
-            for live in Live::all().filter(|live| !live.is_done_by_hand()) {
-                if let Some(value) = running.tabs.now.get(live) {
-                    running.tabs.start.set(live, value);
-                }
-            }
-        }
-        let step = self.lessons.get(running.lesson).and_then(|lesson| lesson.steps.get(running.step));
-        let Some((step, task)) = step.and_then(|step| Some((step, step.task.as_ref()?))) else { return };
-        let Some(work) = running.work.get_mut(running.step) else { return };
-        // A draft is good enough to look at, not to judge by; and a value counts when the pointer has let go of it.
-        let ready = run.fidelity >= document.target().min(Fidelity::Standard) && !document.is_dragging();
-        if !ready || work.stage(step) != Stage::Task {
-            return;
-        }
-        let (tabs, start) = (&running.tabs, &running.start);
-        work.tried = run.scene != start.scene
-            || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
-        let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
-        let start = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
-        work.unmet = task.check.unmet(now, start);
-        let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, start).is_none());
-        work.too_far = work.unmet.is_none() && beyond;
-        if work.unmet.is_none() && !beyond {
-            work.fulfilled = true;
-            let quoted =
-                readings(step.told()).filter_map(|reading| Some((reading.source.clone(), reading.value(now, start)?)));
-            work.readings = quoted.collect();
-        }
     }
 }
 

@@ -12,6 +12,7 @@ pub mod lessons;
 pub mod modal;
 pub mod pins;
 pub mod rotor;
+pub mod running_lesson;
 pub mod sensitivity;
 pub mod startup;
 pub mod sweep;

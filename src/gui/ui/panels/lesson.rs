@@ -2,7 +2,7 @@
 
 use super::{lesson_numbers, lesson_parts};
 use crate::gui::command::{Command, LessonCommand};
-use crate::gui::state::lessons::RunningLesson;
+use crate::gui::state::running_lesson::RunningLesson;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::keys;
 use crate::gui::ui::rich::Look;
