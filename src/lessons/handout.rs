@@ -9,8 +9,9 @@ use crate::export::figure::{Axis, Figure, FigureError, Panel, Piece, sheets_to_p
 use crate::export::html::Page;
 use std::collections::BTreeMap;
 
-/// Lines to write a reason on.
-const ROOM: usize = 2;
+/// Lines to write a reason on, and to calculate on.
+const REASON: usize = 1;
+const CALCULATION: usize = 3;
 /// Height of axes on a page of the web \[mm\].
 const AXES: f64 = 38.0;
 
@@ -29,7 +30,7 @@ const SKETCHES: &[(&str, [&str; 2])] = &[
 /// # Errors
 /// Why a scene of it was not solved.
 pub fn sheet(lesson: &Lesson, answers: bool, cancel: &Cancel) -> Result<Vec<Piece>, String> {
-    let kind = if answers { "Answers" } else { "Name:                                            Date:" };
+    let kind = if answers { "Answers" } else { "Name ______________________  Date ______________" };
     let mut pieces = vec![Piece::Title(lesson.title.clone()), Piece::Text(kind.to_owned())];
     for (i, step) in lesson.steps.iter().enumerate() {
         let known = quoted(step, cancel).map_err(|error| format!("{}, {}: {error}", lesson.title, step.title))?;
@@ -48,10 +49,10 @@ fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool)
         match (&question.answer, answers) {
             (Answer::Number { value, unit, .. }, true) => pieces.push(Piece::Answer(format!("{value} {unit}"))),
             (_, true) => {}
-            (Answer::Number { .. }, false) => pieces.push(Piece::Room(ROOM)),
+            (Answer::Number { .. }, false) => pieces.push(Piece::Room(CALCULATION)),
             (Answer::Choice { .. }, false) => {
                 pieces.push(Piece::Text("Because".to_owned()));
-                pieces.push(Piece::Room(ROOM));
+                pieces.push(Piece::Room(REASON));
             }
         }
     }
