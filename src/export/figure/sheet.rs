@@ -182,7 +182,7 @@ mod tests {
             pdf.windows(12).filter(|part| *part == b"/Type /Page\n").count()
         };
         assert_eq!(pages(&[some(110), some(3)]), 2);
-        assert_eq!(pages(&[some(300)]), 2);
+        assert_eq!(pages(&[some(200)]), 2);
         assert_eq!(
             pages(&[vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)]]),
             1
