@@ -1,4 +1,4 @@
-//! Text files from outside: presets, compliance tables, lessons. Nothing else in the program opens one.
+//! Files from outside: presets, compliance tables, lessons and their pictures. Nothing else in the program opens one.
 
 use crate::platform::handed_over;
 use std::io::Read;
@@ -21,15 +21,15 @@ pub enum ReadError {
     NotText,
 }
 
-/// The text of a regular file of up to `limit` \[MB\]. Whatever else the path names is refused without being opened.
+/// The bytes of a regular file of up to `limit` \[MB\]. Whatever else the path names is refused without being opened.
 ///
 /// # Errors
 ///
-/// [`ReadError`]: there is no such file, it is something else than a file, too large, or no text.
-pub fn read_text(path: &Path, limit: u64) -> Result<String, ReadError> {
+/// [`ReadError`]: there is no such file, it is something else than a file, or too large.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let system = |error: std::io::Error| ReadError::System(error.to_string());
     if let Some(bytes) = handed_over(path) {
-        return String::from_utf8(bytes).map_err(|_| ReadError::NotText);
+        return Ok(bytes);
     }
     let about = std::fs::metadata(path).map_err(system)?;
     if !about.is_file() {
@@ -44,5 +44,14 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, ReadError> {
     if about.len().max(bytes.len() as u64) > most {
         return Err(ReadError::TooLarge(limit));
     }
-    String::from_utf8(bytes).map_err(|_| ReadError::NotText)
+    Ok(bytes)
+}
+
+/// The text of a regular file of up to `limit` \[MB\]. Whatever else the path names is refused without being opened.
+///
+/// # Errors
+///
+/// [`ReadError`]: there is no such file, it is something else than a file, too large, or no text.
+pub fn read_text(path: &Path, limit: u64) -> Result<String, ReadError> {
+    String::from_utf8(read_bytes(path, limit)?).map_err(|_| ReadError::NotText)
 }

@@ -9,14 +9,16 @@ use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
+use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::document::Document;
-use squeezefilm::gui::state::lessons::StepWork;
+use squeezefilm::gui::state::link::Link;
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
-use squeezefilm::lessons::{self, Act, Doing, Prediction, Step, WindowNames, text};
+use squeezefilm::lessons::work::{Score, Stage, StepWork};
+use squeezefilm::lessons::{self, Act, Doing, Kind, Prediction, Question, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
 use std::path::Path;
 use window::{Memory, Window, await_path, click, drop_file, reopen};
@@ -162,39 +164,92 @@ fn read_off(window: &mut Window) {
     });
 }
 
+/// Text of the first block, with the numbers of the run as the window shows them.
+fn first_line(window: &Window, blocks: &[text::Block], told: bool) -> String {
+    let state = window.state().state();
+    let quoted = |reading: &_| state.lessons.quoted(reading, state.document.scene(), told);
+    match &blocks[0] {
+        text::Block::Paragraph(parts) | text::Block::Item(parts) => text::plain(&text::filled(parts, &quoted)),
+        other => text::plain_blocks(std::slice::from_ref(other)),
+    }
+}
+
+fn stage(window: &Window) -> Stage {
+    work(window).stage(&step(window).1)
+}
+
+fn radio(window: &mut Window, choice: &lessons::Choice) {
+    window.get_all_by_role_and_label(Role::RadioButton, &text::plain(&choice.text)).last().unwrap().click();
+    window.run_steps(3);
+}
+
+/// Goes to the next step, whatever is still to be done in this one.
+fn go_on(window: &mut Window) {
+    window.key_press(Key::PageDown);
+    window.run_steps(3);
+}
+
+/// Asks for all hints, and then to be shown how.
+fn show_me(window: &mut Window) {
+    for button in ["Give me a hint", "One more hint", "Show me"] {
+        click(window, button);
+    }
+}
+
 /// Answers the question of the step: the answer must not be seen before.
 fn predict(window: &mut Window, step: &Step) {
     let Some(question) = &step.question else { return };
-    let why = text::plain_blocks(&question.why);
-    let why = why.lines().next().unwrap();
-    assert!(!shows(window, why) && !shows(window, "Your turn"), "{}: shown before the prediction", step.title);
-    let commit = |window: &Window| window.get_by_label("This is my prediction").accesskit_node().is_disabled();
-    assert!(commit(window), "{}: nothing is predicted yet", step.title);
+    let why = first_line(window, &question.why, true);
+    let button = if question.kind == Kind::Calculate { "This is my result" } else { "This is my prediction" };
+    assert!(!shows(window, &why) && !shows(window, "Your turn"), "{}: shown before the prediction", step.title);
+    let disabled = window.get_by_label(button).accesskit_node().is_disabled();
+    assert!(disabled, "{}: nothing is predicted yet", step.title);
     match &question.answer {
         lessons::Answer::Choice { choices, right } => {
             // First another one: a prediction may be changed until it is made.
             for choice in [(right + 1) % choices.len(), *right] {
-                let label = text::plain(&choices[choice]);
-                window.get_by_role_and_label(Role::RadioButton, &label).click();
-                window.run_steps(3);
+                radio(window, &choices[choice]);
                 assert_eq!(work(window).prediction, Some(Prediction::Choice(choice)), "{}", step.title);
             }
         }
         lessons::Answer::Number { value, .. } => {
-            window.get_by_role_and_label(Role::SpinButton, "Your number").click();
-            window.run_steps(3);
-            window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-            window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&value.to_string());
-            window.step();
-            window.key_press(Key::Enter);
-            window.run_steps(3);
-            assert_eq!(work(window).prediction, Some(Prediction::Number(*value)), "{}", step.title);
+            // A calculation that is wrong is not told: it has a second try.
+            calculate(window, 7.0 * value);
+            click(window, button);
+            assert!(!work(window).committed && work(window).wrong == 1 && shows(window, "Once more"), "{}", step.title);
+            assert!(!shows(window, &why), "{}: told after the first try", step.title);
+            calculate(window, *value);
         }
     }
-    assert!(!shows(window, why), "{}: shown before the prediction was made", step.title);
-    click(window, "This is my prediction");
+    assert!(!shows(window, &why), "{}: shown before the prediction was made", step.title);
+    click(window, button);
     assert!(work(window).committed);
-    assert_eq!(shows(window, why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
+    let why = first_line(window, &question.why, true);
+    assert_eq!(shows(window, &why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
+}
+
+/// Types a number into the field of a calculation.
+fn calculate(window: &mut Window, value: f64) {
+    window.get_by_role_and_label(Role::SpinButton, "Your number").click();
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&value.to_string());
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    let Some(Prediction::Number(given)) = work(window).prediction else { panic!("no number was given") };
+    assert!((given - value).abs() < 1e-6);
+}
+
+/// Says what was seen: first something else, which is told to be wrong.
+fn look(window: &mut Window, observe: &Question, title: &str) {
+    assert!(shows(window, "What did you see?"), "{title}");
+    assert_eq!(stage(window), Stage::Observation, "{title}: nothing is told before it was looked at");
+    let lessons::Answer::Choice { choices, right } = &observe.answer else { panic!("{title}: it has choices") };
+    radio(window, &choices[(right + 1) % choices.len()]);
+    assert!(stage(window) == Stage::Observation && shows(window, "not what your run shows"), "{title}");
+    radio(window, &choices[*right]);
+    assert_eq!((stage(window), work(window).misread), (Stage::Told, 1), "{title}");
 }
 
 /// Walks a lesson: at each task first what does not do, then what does.
@@ -209,11 +264,14 @@ fn walk(lesson: usize) {
         assert_eq!(at, number);
         window.get_by_label(&step.title);
         assert_eq!(window.state().state().document.scene(), &step.scene, "{}", step.title);
-        for block in &step.body {
-            let text = text::plain_blocks(std::slice::from_ref(block));
-            assert!(window.query_all_by_label(&text).next().is_some(), "{}: {text}", step.title);
-        }
         solved(&mut window);
+        read_off(&mut window);
+        window.run_steps(2);
+        for block in &step.body {
+            let text = first_line(&window, std::slice::from_ref(block), false);
+            assert!(window.query_all_by_label(&text).next().is_some(), "{}: {text}", step.title);
+            assert!(!text.contains('…'), "{}: a number is not known: {text}", step.title);
+        }
         predict(&mut window, &step);
         if let Some(task) = &step.task {
             let name = &step.title;
@@ -225,7 +283,15 @@ fn walk(lesson: usize) {
             act(&mut window, &task.wrong);
             assert!(!work(&window).fulfilled, "{name}: the wrong thing does it");
             assert!(shows(&window, "Not yet."), "{name}");
-            assert!(shows(&window, &text::plain_blocks(&task.hint)), "{name}");
+            // Help comes on request, one hint after the other; only then is the task shown.
+            assert_eq!(task.hints.len(), 2, "{name}");
+            for (asked, button) in ["Give me a hint", "One more hint"].into_iter().enumerate() {
+                let hint = first_line(&window, &task.hints[asked], false);
+                assert!(!shows(&window, &hint) && !shows(&window, "Show me"), "{name}");
+                click(&mut window, button);
+                assert!(shows(&window, &hint), "{name}");
+            }
+            window.get_by_label("Show me");
             click(&mut window, "Start over");
             solved(&mut window);
             assert_eq!(window.state().state().document.scene(), &step.scene, "{name}");
@@ -246,14 +312,34 @@ fn walk(lesson: usize) {
             }
             assert!(work(&window).fulfilled, "{name}: {:?}", work(&window).unmet);
             assert!(shows(&window, "✔ Done"), "{name}");
+            // Every number that is quoted from here on is known.
+            for reading in text::readings(step.told()) {
+                assert!(work(&window).readings.contains_key(&reading.source), "{name}: {}", reading.source);
+            }
+            if let Some(observe) = &step.observe {
+                look(&mut window, observe, name);
+            }
             if let Some(question) = &step.question {
-                let why = text::plain_blocks(&question.why);
-                assert!(shows(&window, why.lines().next().unwrap()) && shows(&window, "As you expected"), "{name}");
+                let why = first_line(&window, &question.why, true);
+                let title = if question.kind == Kind::Calculate { "✔ Right" } else { "As you expected" };
+                assert!(shows(&window, &why) && shows(&window, title), "{name}");
             }
         }
+        assert_eq!(stage(&window), Stage::Told);
         click(&mut window, if number + 1 == steps { "Finish" } else { "Next" });
         window.run_steps(20);
     }
+    // The recap: everything was right but the first looks.
+    let lesson_state = &window.state().state().lessons;
+    let (running, followed) = (lesson_state.running().unwrap(), &lesson_state.lessons()[lesson]);
+    assert_eq!(running.step, steps);
+    let score = Score::of(followed.steps.iter().zip(&running.work));
+    assert_eq!((score.observations[0], score.skipped[0]), (0, 0));
+    let [points, all] = score.points();
+    assert_eq!(points, all - score.observations[1]);
+    assert!(shows(&window, &format!("{points} of {all} points")) && lesson_state.progress(followed).done);
+    click(&mut window, "Close");
+    window.run_steps(20);
     solved(&mut window);
     let app = window.state();
     assert!(app.state().lessons.running().is_none() && app.state().document.scene() == &before);
@@ -302,7 +388,7 @@ fn what_is_lit_is_seen_and_its_group_opens() {
     assert!(window.query_by_role_and_label(Role::ComboBox, "Slip at the walls").is_none(), "the group is closed");
     open(&mut window, "Thin gaps and slip");
     for _ in 0..2 {
-        click(&mut window, "Next");
+        go_on(&mut window);
         window.run_steps(20);
     }
     window.get_by_role_and_label(Role::ComboBox, "Slip at the walls");
@@ -334,7 +420,7 @@ fn leaving_brings_the_students_scene_back_with_its_history() {
     assert_ne!(window.state().state().document.scene(), &own);
     type_into(&mut window, "Frequency in kHz", "3");
     assert!(!window.state().state().document.is_dirty(), "what a lesson lends is never unsaved");
-    click(&mut window, "Next");
+    go_on(&mut window);
     click(&mut window, "Leave");
     assert_eq!(window.state().state().document.scene(), &own);
     assert!(window.state().state().document.is_dirty());
@@ -376,8 +462,8 @@ fn progress_and_the_own_scene_survive_a_restart() {
     click(&mut window, "Skip the tour");
     type_into(&mut window, "Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
-    click(&mut window, "Next");
-    click(&mut window, "Next");
+    go_on(&mut window);
+    go_on(&mut window);
     let mut memory = Memory::default();
     eframe::App::save(window.state_mut(), &mut memory);
     drop(window);
@@ -413,9 +499,17 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
         assert!(spot.is_some(), "{} is on screen", stop.place);
         let callout = window.get_by_label(stop.title).rect();
         assert!(!spot.unwrap().intersects(callout), "{}: covered", stop.title);
-        click(&mut window, if i == 3 { "Done" } else { "Next" });
+        // Enter goes on as the button does, and the last card starts the first lesson.
+        if i == 1 {
+            window.key_press(Key::Enter);
+            window.run_steps(3);
+        } else {
+            click(&mut window, if i == 3 { "Start lesson 1" } else { "Next" });
+        }
     }
     assert!(window.state().state().lessons.tour.is_none());
+    assert_eq!((window.state().state().lessons.running().unwrap().lesson, step(&window).0), (0, 0));
+    click(&mut window, "Leave");
     let mut memory = Memory::default();
     eframe::App::save(window.state_mut(), &mut memory);
     drop(window);
@@ -438,6 +532,235 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     window.get_by_label(titles[0]);
     click(&mut window, "Skip the tour");
     assert!(window.query_by_label(titles[0]).is_none());
+}
+
+#[test]
+fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
+    let mut window = window("fundamental");
+    open(&mut window, "Why the mean force");
+    for _ in 0..5 {
+        go_on(&mut window);
+    }
+    let (_, step) = step(&window);
+    assert!(step.task.as_ref().unwrap().too_far.is_some());
+    solved(&mut window);
+    let drag = |window: &mut Window, value: f64, dragging: bool| {
+        let key = "plate.amplitude_um";
+        window.state_mut().carry_out(Command::Set { key, value: Value::Number(value), dragging });
+        solved(window);
+        window.run_steps(3);
+    };
+    // Past the aim and back, with the pointer down: nothing was reached.
+    for value in [0.6, 0.8, 0.7] {
+        drag(&mut window, value, true);
+        assert!(!work(&window).fulfilled, "{value}");
+    }
+    drag(&mut window, 0.7, false);
+    assert!(!work(&window).fulfilled && shows(&window, "Not yet."));
+    // The end of the slider is told to be absurd.
+    drag(&mut window, 0.999, false);
+    assert!(!work(&window).fulfilled && work(&window).too_far && shows(&window, "Too far."));
+    drag(&mut window, 0.8, true);
+    assert!(!work(&window).fulfilled, "still held");
+    drag(&mut window, 0.8, false);
+    assert!(work(&window).fulfilled);
+}
+
+#[test]
+fn a_lesson_compares_on_one_scale_and_shows_the_first_run() {
+    let mut window = window("fundamental");
+    open(&mut window, "A travelling wave");
+    for _ in 0..4 {
+        go_on(&mut window);
+    }
+    solved(&mut window);
+    let compared = |window: &Window| {
+        let state = window.state().state();
+        state.lessons.compared(state.document.scene()).map(|run| run.scene.clone())
+    };
+    assert_eq!(compared(&window), None, "nothing has changed yet");
+    let first = window.state().state().document.scene().clone();
+    change(&mut window, "stator.normal_amplitude_um", "0.65");
+    solved(&mut window);
+    window.run_steps(2);
+    assert_eq!(compared(&window), Some(first));
+    assert!(shows(&window, "About: at first"));
+    // The next step begins anew.
+    go_on(&mut window);
+    solved(&mut window);
+    assert_eq!(compared(&window), None);
+}
+
+#[test]
+fn skipped_steps_are_shown_as_skipped_and_answers_come_back() {
+    let mut window = window_with(Memory::default());
+    window.step();
+    click(&mut window, "Skip the tour");
+    open(&mut window, "Pushing on trapped air");
+    // Answered, not tried, and left.
+    let (_, first) = step(&window);
+    predict(&mut window, &first);
+    click(&mut window, "Skip");
+    let lessons_state = &window.state().state().lessons;
+    assert!(lessons_state.running().unwrap().work[0].is_skipped(&first));
+    for _ in 0..5 {
+        go_on(&mut window);
+    }
+    assert!(shows(&window, "What you found") && shows(&window, "4 steps were skipped"));
+    assert!(shows(&window, "1 of 10 points"));
+    let mut memory = Memory::default();
+    eframe::App::save(window.state_mut(), &mut memory);
+    drop(window);
+    let mut window = window_with(memory);
+    window.run_steps(2);
+    click(&mut window, "Lessons");
+    window.get_by_label_contains("2 of 6 done");
+    window.get_by_label_contains("Pushing on trapped air").click();
+    window.run_steps(4);
+    assert!(work(&window).committed && !work(&window).fulfilled && shows(&window, "Prediction made"));
+    // Once more from the start, with nothing answered.
+    for _ in 0..6 {
+        go_on(&mut window);
+    }
+    click(&mut window, "Take it again");
+    window.run_steps(3);
+    assert_eq!((step(&window).0, work(&window)), (0, StepWork::default()));
+    // The next lesson is what is lit at the end.
+    for _ in 0..6 {
+        go_on(&mut window);
+    }
+    window.key_press(Key::Enter);
+    window.run_steps(4);
+    assert_eq!(window.state().state().lessons.running().unwrap().lesson, 1);
+}
+
+#[test]
+fn the_keyboard_alone_walks_the_first_lesson() {
+    let mut window = window("fundamental");
+    window.state_mut().follow(Link::Lesson { lesson: 1, step: 1 });
+    solved(&mut window);
+    let press = |window: &mut Window, key: Key| {
+        window.key_press(key);
+        window.run_steps(3);
+    };
+    let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4];
+    while window.state().state().lessons.step().is_some() {
+        let (number, step) = step(&window);
+        solved(&mut window);
+        if let Some(question) = &step.question {
+            match &question.answer {
+                lessons::Answer::Choice { right, .. } => press(&mut window, keys[*right]),
+                lessons::Answer::Number { value, .. } => {
+                    // The field comes early in the order of the Tab key.
+                    let mut tabs = 0;
+                    let field =
+                        |window: &Window| window.get_by_role_and_label(Role::SpinButton, "Your number").is_focused();
+                    while !field(&window) {
+                        press(&mut window, Key::Tab);
+                        tabs += 1;
+                        assert!(tabs < 25);
+                    }
+                    let text = value.to_string();
+                    window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&text);
+                    window.step();
+                    press(&mut window, Key::Enter);
+                }
+            }
+            press(&mut window, Key::Enter);
+            assert!(work(&window).committed, "{}", step.title);
+        }
+        if let Some(task) = &step.task {
+            match &task.example.changes[..] {
+                // The plate in the hand goes down a step with each press.
+                [] => {
+                    for _ in 0..10 {
+                        window.key_press(Key::ArrowDown);
+                        window.step();
+                    }
+                }
+                [(_, value), ..] => {
+                    press(&mut window, Key::Enter);
+                    window.run_steps(20);
+                    let field = labels::field_name(step.light[0]);
+                    assert!(window.get_by_role_and_label(Role::TextInput, &field).is_focused(), "{field}");
+                    window.get_by_role_and_label(Role::TextInput, &field).type_text(value);
+                    window.step();
+                    press(&mut window, Key::Enter);
+                }
+            }
+            until(&mut window, &step.title, |app| app.state().lessons.running().unwrap().work[number].fulfilled);
+            let Some(lessons::Answer::Choice { right, .. }) = step.observe.as_ref().map(|observe| &observe.answer)
+            else {
+                continue;
+            };
+            press(&mut window, keys[*right]);
+        }
+        assert_eq!(stage(&window), Stage::Told, "{}", step.title);
+        press(&mut window, Key::Enter);
+        window.run_steps(5);
+    }
+    let running = window.state().state().lessons.running().unwrap();
+    assert_eq!(running.step, window.state().state().lessons.lessons()[0].steps.len());
+}
+
+#[test]
+fn the_answer_button_is_in_sight_in_lecture_size() {
+    let scene = presets::find("fundamental").unwrap();
+    let mut window = window::open(Document::opened(scene, None), 768.0, platform());
+    window.state_mut().follow(Link::Lesson { lesson: 1, step: 3 });
+    window.state_mut().carry_out(Command::ToggleLecture);
+    window.run_steps(10);
+    let button = window.get_by_label("This is my prediction").rect();
+    assert!(window.ctx.content_rect().contains_rect(button), "{button:?}");
+}
+
+#[test]
+fn an_explanation_on_hover_does_not_cover_what_a_step_looks_at() {
+    let mut window = window("fundamental");
+    window.state_mut().follow(Link::Lesson { lesson: 1, step: 2 });
+    solved(&mut window);
+    window.run_steps(4);
+    let ring = squeezefilm::gui::ui::highlight::place(&window.ctx, "gap").unwrap();
+    window.get_by_label("About: Gap").hover();
+    window.run_steps(40);
+    let term = lessons::glossary::find("Gap").unwrap();
+    let text = text::plain_blocks(&term.text[..1]);
+    let explained = window.get_all_by_label(&text).last().unwrap().rect();
+    assert!(!explained.intersects(ring), "{explained:?} {ring:?}");
+}
+
+#[test]
+fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
+    let folder = tempfile::tempdir().unwrap();
+    let two = format!("{GOOD}\n## Second step\n\nAs it was.\n");
+    write(folder.path(), "mine", &two);
+    let mut window = window("fundamental");
+    window.state_mut().load_lessons(folder.path());
+    let place = window.state().state().lessons.lessons().len() - 1;
+    window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 2 });
+    window.run_steps(4);
+    assert!(shows(&window, "As it was."));
+    write(folder.path(), "mine", &two.replace("As it was.", "As it is."));
+    window.key_press(Key::F5);
+    window.run_steps(6);
+    assert!(step(&window).0 == 1 && shows(&window, "As it is."));
+    // A picture beside the text, and one that is not there.
+    let mut encoder = png::Encoder::new(std::fs::File::create(folder.path().join("mine/a.png")).unwrap(), 3, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header().unwrap().write_image_data(&[99; 18]).unwrap();
+    write(folder.path(), "mine", &two.replace("As it was.", "![A grey square](a.png)"));
+    window.key_press(Key::F5);
+    window.run_steps(6);
+    assert!(window.query_by_role_and_label(Role::Image, "A grey square").is_some());
+    write(folder.path(), "mine", &two.replace("As it was.", "![A grey square](b.png)"));
+    window.key_press(Key::F5);
+    window.run_steps(6);
+    window.get_by_label_contains("picture b.png: there is no such file beside lesson.md");
+    click(&mut window, "Close");
+    // A place that is not there is named.
+    window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 8 });
+    window.run_steps(3);
+    window.get_by_label_contains("step=8 in a link: lesson");
 }
 
 #[test]
@@ -574,7 +897,7 @@ fn the_example_of_the_documentation_is_a_lesson_that_works() {
     let (_, step) = step(&window);
     solved(&mut window);
     predict(&mut window, &step);
-    click(&mut window, "Show me");
+    show_me(&mut window);
     solved(&mut window);
     assert!(work(&window).fulfilled);
 }
@@ -672,8 +995,52 @@ fn broken_lessons_are_reported_with_file_line_and_what_is_allowed() {
         ("mean_load_ratio > 2", "alpha > 2", line_of("check ="), &["alpha belongs to another kind of scene"]),
         ("mean_load_ratio > 2", "mean_load_ratio 2", line_of("check ="), &["2 is not expected here", "< <= >"]),
         ("check = ", "check == ", line_of("check ="), &["is not valid TOML"]),
-        ("```task", "```taks", line_of("```task"), &["a block ```taks is not known: expected setup, question or task"]),
-        ("\\frac{h_0}{h}", "\\frc{h_0}{h}", line_of("\\frac{h_0}{h}"), &["\\frc is not known in formulas"]),
+        (
+            "```task",
+            "```taks",
+            line_of("```task"),
+            &["a block ```taks is not known: expected setup, question, task or observe"],
+        ),
+        (
+            "answer = 2",
+            "answer = 2\nkind = \"guess\"",
+            line_of("answer =") + 1,
+            &["question.kind = \"guess\"", "predict, calculate"],
+        ),
+        (
+            "answer = 2",
+            "answer = 2\nkind = \"calculate\"",
+            line_of("choices ="),
+            &["question.choices does not go with"],
+        ),
+        (
+            "replies = [",
+            "replies = [\"\", ",
+            line_of("replies ="),
+            &["question.replies = 4 texts", "3, one for each choice"],
+        ),
+        ("hints = [", "hint = [", line_of("hints ="), &["task.hint is not known", "hints"]),
+        ("too_far_says = ", "then_says = ", line_of("```task"), &["task.too_far_says is missing"]),
+        (
+            "plate.amplitude_um > 0.95",
+            "plate.amplitud_um > 0.95",
+            line_of("too_far ="),
+            &["task.too_far", "did you mean"],
+        ),
+        ("{min_gap_nm:2}", "{min_gap:2}", line_of("too_far_says ="), &["{min_gap:2}", "did you mean min_gap_nm?"]),
+        (
+            "{start.max_pressure_kpa}",
+            "{alpha}",
+            line_of("{start."),
+            &["alpha belongs to another kind of scene", "write \\{"],
+        ),
+        (
+            "{start.max_pressure_kpa}",
+            "{start.max_pressure_kpa",
+            line_of("{start."),
+            &["begins with { and does not end"],
+        ),
+        ("\\frac{h_0}{h}", "\\frc{h_0}{h}", line_of("why ="), &["\\frc is not known in formulas"]),
         ("# A lesson of my own", "", 1, &["has no title"]),
     ];
     for (good, bad, line, parts) in mutations {
@@ -737,7 +1104,7 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     let mut window = window("fundamental");
     type_into(&mut window, "Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
-    click(&mut window, "Next");
+    go_on(&mut window);
     solved(&mut window);
     type_into(&mut window, "Frequency in kHz", "0.5");
     let lent = window.state().state().document.scene().clone();
@@ -776,7 +1143,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     let mut window = window("fundamental");
     open(&mut window, "Why the mean force");
     for _ in 0..3 {
-        click(&mut window, "Next");
+        go_on(&mut window);
     }
     let (_, step) = step(&window);
     assert_eq!(window.state().state().view.tab, Tab::Startup);
@@ -784,7 +1151,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     predict(&mut window, &step);
     // In another tab, too.
     click(&mut window, "Motion");
-    click(&mut window, "Show me");
+    show_me(&mut window);
     assert_eq!(window.state().state().view.tab, Tab::Startup);
     until(&mut window, "it comes to its end", |app| {
         let running = app.state().lessons.running().unwrap();
@@ -792,7 +1159,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     });
     // A start-up of before does not count when the step begins again.
     click(&mut window, "Back");
-    click(&mut window, "Next");
+    go_on(&mut window);
     assert!(window.state().state().startup.as_ref().is_none());
     click(&mut window, "Leave");
     assert_eq!(window.state().state().view.tab, Tab::Motion);
@@ -803,7 +1170,7 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
     solved(&mut window);
     predict(&mut window, &step);
     click(&mut window, "Motion");
-    click(&mut window, "Show me");
+    show_me(&mut window);
     until(&mut window, "the plate is pushed", |app| app.state().lessons.running().unwrap().work[0].fulfilled);
 }
 

@@ -23,98 +23,19 @@ const SMALL: &str = "plate.amplitude_um=0.1";
 const THIN: [&str; 3] = ["plate.mean_gap_um=0.2", "plate.amplitude_um=0.1", "plate.frequency_khz=0.4"];
 const THICK: [&str; 3] = ["plate.mean_gap_um=5", "plate.amplitude_um=2.5", "plate.frequency_khz=250"];
 
-#[expect(clippy::approx_constant, reason = "0.318 N·m is a torque")]
+/// What lessons say of other runs than the one on screen: numbers of that one come from the run itself.
 const CLAIMS: &[Claim] = &[
-    (1, "Your run says 114", "plate-trapped", &[SMALL], "max_pressure_kpa", 114.0, 0.005),
-    (1, "The program says 241 kPa", "plate-trapped", &[], "max_pressure_kpa", 241.0, 0.005),
-    (2, "101.6 kPa at most", "plate-viscous", &[SMALL], "max_pressure_kpa", 101.6, 0.0005),
-    (2, "In lesson 1 the same swing made 114", "plate-trapped", &[SMALL], "max_pressure_kpa", 114.0, 0.005),
-    (2, "pushes with 0.00185", "plate-viscous", &[SMALL], "load_ratio_max", 0.00185, 0.005),
-    (2, "pulls with 0.00185", "plate-viscous", &[SMALL], "load_ratio_min", -0.00185, 0.005),
-    (3, "$\\sigma$ is 13", "plate-crossover", &[SMALL], "squeeze_number", 13.0, 0.05),
-    (3, "13 at 1 kHz", "plate-crossover", &[SMALL], "squeeze_number", 13.0, 0.05),
-    (
-        3,
-        "is only 3.4",
-        "plate-crossover",
-        &["plate.mean_gap_um=2", "plate.amplitude_um=0.2"],
-        "squeeze_number",
-        3.4,
-        0.02,
-    ),
+    (2, "In lesson 1 the same movement made 114", "plate-trapped", &[SMALL], "max_pressure_kpa", 114.0, 0.005),
     (3, "is 13.5 again", "plate-crossover", &[SMALL], "squeeze_number", 13.5, 0.005),
     (3, "the thinner film had 0.065", "plate-crossover", &[SMALL], "load_ratio_max", 0.065, 0.008),
-    (
-        3,
-        "The greatest load ratio is 0.070 now",
-        "plate-crossover",
-        &["plate.mean_gap_um=2", "plate.amplitude_um=0.2", "plate.frequency_khz=4"],
-        "load_ratio_max",
-        0.070,
-        0.008,
-    ),
-    (4, "The run says 0.331", "plate-trapped", &[], "mean_load_ratio", 0.331, 0.002),
-    (4, "1.29 atmospheres of push", "plate-trapped", &[], "load_ratio_max", 1.29, 0.003),
-    (4, "only 0.22 of pull", "plate-trapped", &[], "load_ratio_min", -0.22, 0.01),
     (4, "from 0.150", "plate-crossover", &[], "mean_load_ratio", 0.150, 0.004),
-    (4, "to 0.326", "plate-crossover", &["plate.frequency_khz=100"], "mean_load_ratio", 0.326, 0.002),
-    (5, "instead of 0.257", "plate-crossover", &THIN, "mean_load_ratio", 0.257, 0.003),
-    (
-        5,
-        "0.314 instead of 0.257",
-        "plate-crossover",
-        &["film.slip=none", THIN[0], THIN[1], THIN[2]],
-        "mean_load_ratio",
-        0.314,
-        0.003,
-    ),
-    (5, "instead of 0.309", "plate-crossover", &THICK, "mean_load_ratio", 0.309, 0.002),
-    (
-        5,
-        "0.314 instead of 0.309",
-        "plate-crossover",
-        &["film.slip=none", THICK[0], THICK[1], THICK[2]],
-        "mean_load_ratio",
-        0.314,
-        0.003,
-    ),
-    (
-        5,
-        "0.243 instead of 0.257",
-        "plate-crossover",
-        &["film.slip=fukui-kaneko", THIN[0], THIN[1], THIN[2]],
-        "mean_load_ratio",
-        0.243,
-        0.003,
-    ),
-    (5, "Kn is 0.013", "plate-crossover", &THICK, "knudsen_number", 0.013, 0.02),
-    (5, "= 0.32 $$", "plate-crossover", &THIN, "knudsen_number", 0.32, 1e-6),
-    (6, "instead of 3.3 on average", "fundamental", &[], "teeth_in_contact", 3.3, 0.02),
-    (6, "5.6", "fundamental", &["stator.normal_amplitude_um=0.65"], "teeth_in_contact", 5.6, 0.01),
-    (7, "the air carries 0.60 N", "fundamental", &[], "film_load_n", 0.60, 0.008),
-    (7, "is 0.246", "fundamental", &[], "alpha", 0.246, 0.003),
-    (7, "the converged value is 0.499", "fundamental", &["film.min_spacing_nm=100"], "alpha", 0.499, 0.003),
-    (7, "the whole: 0.523", "fundamental", &["rotor.contact_width_mm=0.6"], "alpha", 0.523, 0.002),
-    (7, "it does get out: 0.081", "fundamental", &["stator.frequency_khz=3"], "alpha", 0.081, 0.006),
-    (
-        7,
-        "number of the closed film is still 3000",
-        "fundamental",
-        &["stator.frequency_khz=3"],
-        "squeeze_number",
-        3000.0,
-        0.02,
-    ),
+    (7, "the squeeze number is still 3000", "fundamental", &["stator.frequency_khz=3"], "squeeze_number", 3000.0, 0.02),
     (7, "is 0.274, hardly more than at 30 kHz", "fundamental", &["stator.frequency_khz=100"], "alpha", 0.274, 0.004),
-    (7, "0.240 instead of 0.246", "fundamental", &["stator.tooth_radius_m=3"], "alpha", 0.240, 0.003),
-    (8, "is 0.246. What torque", "fundamental", &[], "alpha", 0.246, 0.003),
+    (8, "(1 - 0.246)", "fundamental", &[], "alpha", 0.246, 0.003),
     (8, "answer = 0.2625", "fundamental", &[], "max_torque_nm", 0.2625, 0.002),
-    (8, "0.086, a third of 0.246", "fundamental", &["rotor.contact_width_mm=0.15"], "alpha", 0.086, 0.01),
-    (8, "0.318 N·m. The price", "fundamental", &["rotor.contact_width_mm=0.15"], "stall_torque_nm", 0.318, 0.003),
-    (8, "0.174 N·m are left", "min-spacing-100nm", &[], "stall_torque_nm", 0.174, 0.005),
     (
         8,
-        "A third of a micrometre or so does it",
+        "About a third of a micrometre is enough",
         "fundamental",
         &["film.min_spacing_nm=333"],
         "stall_torque_nm",
@@ -122,7 +43,6 @@ const CLAIMS: &[Claim] = &[
         0.01,
     ),
     (8, "At 5 kHz you are there", "fundamental", &["stator.frequency_khz=5"], "stall_torque_nm", 0.305, 0.005),
-    (8, "the thinnest film is 333 nm", "fundamental", &["motor.load_per_wave_n=0.3"], "min_gap_nm", 333.0, 0.01),
 ];
 
 fn numbers(preset: &str, set: &[&str]) -> Numbers {
@@ -166,12 +86,14 @@ fn ratios_of_lessons_are_those_of_the_program() {
         assert!((ratio / stated - 1.0).abs() < tolerance, "lesson {lesson}, “{words}”: {ratio}");
     };
     let closer = [SMALL, "plate.mean_gap_um=0.5"];
-    about(1, "2.4 times what it was", ratio("plate-trapped", &[SMALL], &closer, "load_ratio_max"), 2.4, 0.01);
-    about(2, "the run says 6.9", ratio("plate-viscous", &[SMALL], &closer, "load_ratio_max"), 6.9, 0.01);
-    let slow = [SMALL, "plate.frequency_khz=0.05"];
-    about(3, "fifteen times smaller", 1.0 / ratio("plate-crossover", &[SMALL], &slow, "load_ratio_max"), 15.0, 0.05);
-    let half = ["plate.amplitude_um=0.25"];
-    about(4, "a little more, 4.5", ratio("plate-trapped", &half, &[], "mean_load_ratio"), 4.5, 0.01);
+    says(1, "It doubles, or a little more");
+    assert!((2.0..2.5).contains(&ratio("plate-trapped", &[SMALL], &closer, "load_ratio_max")));
+    says(2, "It becomes seven or eight times as large");
+    assert!((6.5..8.0).contains(&ratio("plate-viscous", &[SMALL], &closer, "load_ratio_max")));
+    says(4, "four times the force. It is even a little more");
+    assert!((4.0..5.0).contains(&ratio("plate-trapped", &["plate.amplitude_um=0.25"], &[], "mean_load_ratio")));
+    let narrow = ratio("fundamental", &[], &["rotor.contact_width_mm=0.15"], "alpha");
+    about(8, "about a third of", narrow, 0.35, 0.02);
     let viscous = numbers("plate-viscous", &[SMALL]);
     says(2, "less than a hundredth of either");
     let [mean, most] = [Quantity::LoadRatio, Quantity::LoadRatioMax].map(|quantity| viscous.get(quantity).unwrap());
@@ -187,9 +109,9 @@ fn ratios_of_lessons_are_those_of_the_program() {
         1.22,
         0.02,
     );
-    says(5, "carries 6 % too much");
-    let kinetic = ["film.slip=fukui-kaneko", THIN[0], THIN[1], THIN[2]];
-    assert!((ratio("plate-crossover", &kinetic, &THIN, "mean_load_ratio") - 1.06).abs() < 0.005);
+    let thick = ["film.slip=none", THICK[0], THICK[1], THICK[2]];
+    says(5, "By a per cent or two");
+    assert!((1.01..1.02).contains(&ratio("plate-crossover", &THICK, &thick, "mean_load_ratio")));
 }
 
 /// A lesson says `words`, and `computed` is what is `stated` there, to within a share of it.
@@ -219,7 +141,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let sigma = number("plate-crossover", &small, "squeeze_number");
     let slip = sigma / exact_of_runs::effective_squeeze_number(&plate(&small));
     states(3, "$Q = 1.38$", slip, 1.38, 0.005);
-    states(3, "The lines cross at $\\sigma/Q = 10$, so at $\\sigma = 14$", sigma, 14.0, 0.02);
+    states(3, "$\\sigma/Q = 10$, so $\\sigma = 14$", sigma, 14.0, 0.02);
     says(3, "answer = 1.03");
     let before = number("plate-crossover", &["plate.frequency_khz=0.2"], "squeeze_number");
     states(3, "Here $\\\\sigma$ is 2.7, at 0.2 kHz", before, 2.7, 0.01);
@@ -245,7 +167,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
         })
         .collect();
     states(4, "In the first cycle the mean load ratio is 0.17", trapped[0], 0.17, 0.01);
-    states(4, "From 0.17 up to 0.33, and no further", *trapped.last().unwrap(), 0.33, 0.005);
+    states(4, "abs(startup.mean_load_ratio - 0.33)", *trapped.last().unwrap(), 0.33, 0.005);
     assert!(trapped.windows(2).all(|pair| pair[1] > pair[0] - 1e-4), "it pumps up: {trapped:?}");
     states(4, "about two hundred cycles", trapped.len() as f64, 200.0, 0.1);
     let motor: Vec<f64> = cycles("fundamental")
@@ -271,14 +193,12 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let words = "it runs at 58 rpm with film and at 57 without";
     states(8, words, idle(&usual.with_film), 58.0, 0.009);
     states(8, words, idle(&usual.without_film), 57.0, 0.009);
-    states(6, "as drives it at the crest: 58 rpm", idle(&usual.with_film), 58.0, 0.009);
-    states(6, "where it would do 62 rpm", usual.rpm(usual.surface_speed), 62.0, 0.005);
+    states(6, "as fast as a rotor at 62 rpm would be", usual.rpm(usual.surface_speed), 62.0, 0.005);
+    says(8, "friction that drives is back");
     let polished = merit("min-spacing-100nm", &[]);
-    states(8, "back from 0.83 W", polished.with_film.max_power.value, 0.83, 0.006);
-    states(8, "without film it would be 1.33 W", polished.without_film.max_power.value, 1.333, 0.004);
     let narrow = merit("min-spacing-100nm", &["rotor.contact_width_mm=0.12"]);
-    assert!(narrow.with_film.max_power.value > 1.2 && narrow.with_film.stall_torque.value > 0.30);
-    says(8, "to over 1.2 W");
+    assert!(narrow.with_film.max_power.value > 1.2 * polished.with_film.max_power.value);
+    assert!(narrow.with_film.stall_torque.value > 0.30);
 }
 
 #[test]
@@ -286,9 +206,8 @@ fn what_lessons_compute_by_hand_is_right() {
     // Lesson 1: a fingertip of air, and Boyle's pressure at half the gap and at nine tenths.
     says(1, "answer = 10.1");
     assert!((101_325.0 * 1e-4 / 1e-6 * 1e-6 - 10.1f64).abs() < 0.05);
-    says(1, "Boyle would say 203 kPa");
-    says(1, "a ninth higher: about 113 kPa");
-    assert!((2.0 * 101.325 - 203.0f64).abs() < 0.5 && (101.325 / 0.9 - 113.0f64).abs() < 0.5);
+    says(1, "Boyle's law gives 203 kPa");
+    assert!((2.0 * 101.325 - 203.0f64).abs() < 0.5);
     // Lesson 3: where damping is greatest, and where spring and damper are equal.
     says(3, "There the damper is at its strongest, too.");
     let (spring, damper) = exact::linear_strip(10.0, 0.0);
@@ -328,7 +247,7 @@ fn what_lessons_compute_by_hand_is_right() {
     let get = |key: &str| scene.get(key).unwrap().as_number().unwrap();
     assert_eq!(get("motor.waves") * get("stator.teeth_per_wave"), 63.0);
     assert_eq!(2.0 * get("motor.contact_radius_mm"), 58.0);
-    says(7, "lower by 0.13 µm");
+    says(7, "lower than its middle by 0.13 µm");
     let half: f64 = 0.5e-3 * get("stator.tooth_width_mm");
     assert!((half * half / (2.0 * 3.0) - 0.13e-6).abs() < 0.01e-6);
     says(7, "thirty times smaller");

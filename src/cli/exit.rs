@@ -10,6 +10,7 @@ use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
 use crate::export::files::ExportError;
 use crate::export::sweep::ReadError;
+use crate::lessons::record::RecordError;
 use crate::scene::SceneError;
 use crate::solution::Status;
 use crate::solve::SolveError;
@@ -99,6 +100,9 @@ pub(super) enum CliError {
     /// What a new motor is made of.
     #[error("{0}")]
     Answers(String),
+    /// A record of answers.
+    #[error(transparent)]
+    Record(#[from] RecordError),
     /// Options that do not go together.
     #[error("{0}")]
     Usage(&'static str),
@@ -171,6 +175,7 @@ impl CliError {
             | Self::Resume { .. }
             | Self::Busy { .. }
             | Self::Answers(_)
+            | Self::Record(_)
             | Self::Usage(_)
             | Self::Input(_)
             | Self::Figure(FigureError::Extension { .. })

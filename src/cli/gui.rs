@@ -15,6 +15,7 @@ use std::path::PathBuf;
   squeezefilm
   squeezefilm gui levitating
   squeezefilm gui '#fundamental&film.min_spacing_nm=100&tab=torque'
+  squeezefilm gui --lesson 3 --step 4
   squeezefilm gui --lessons my-course")]
 pub(super) struct Arguments {
     /// A built-in name, a path, or a link to a scene or a lesson; without it, the scene that was last open
@@ -24,6 +25,14 @@ pub(super) struct Arguments {
     /// A folder of lessons, shown beside the built-in ones; docs/lessons.md says how to write them
     #[arg(long, value_name = "DIR")]
     lessons: Option<PathBuf>,
+
+    /// Opens this lesson, by its number in the menu
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..))]
+    lesson: Option<u16>,
+
+    /// Opens the lesson at this step
+    #[arg(long, value_name = "NUMBER", requires = "lesson", value_parser = clap::value_parser!(u16).range(1..))]
+    step: Option<u16>,
 
     #[command(flatten)]
     scene: SceneOptions,
@@ -56,7 +65,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if no_display() {
         return Err(CliError::Window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
     }
-    gui::open(opened, arguments.lessons.clone(), link).map_err(|error| CliError::Window(error.to_string()))?;
+    let step = arguments.step.map_or(1, usize::from);
+    let lesson = arguments.lesson.map(|lesson| Link::Lesson { lesson: lesson.into(), step });
+    gui::open(opened, arguments.lessons.clone(), link.or(lesson))
+        .map_err(|error| CliError::Window(error.to_string()))?;
     Ok(Exit::Solved)
 }
 

@@ -9,6 +9,8 @@ mod fit;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;
+#[cfg(feature = "gui")]
+mod lessons;
 mod new;
 mod options;
 mod presets;
@@ -68,6 +70,8 @@ enum Command {
     Surface(surface::Arguments),
     Completions(completions::CompletionsArguments),
     Man(completions::ManArguments),
+    #[cfg(feature = "gui")]
+    Lessons(lessons::Arguments),
 }
 
 const AFTER: &str = "\
@@ -133,6 +137,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Surface(arguments)) => surface::run(&arguments, &command_line(words)),
         Some(Command::Completions(arguments)) => completions::completions(&arguments),
         Some(Command::Man(arguments)) => completions::man(&arguments),
+        #[cfg(feature = "gui")]
+        Some(Command::Lessons(arguments)) => lessons::run(&arguments),
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),

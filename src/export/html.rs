@@ -154,6 +154,22 @@ impl Page {
         self.body.push_str("</ul>\n");
     }
 
+    /// Choices with a box to tick; one may be ticked.
+    pub fn choices<S: AsRef<str>>(&mut self, items: impl IntoIterator<Item = (S, bool)>) {
+        self.body.push_str("<ul class=\"choices\">\n");
+        for (item, ticked) in items {
+            let _ = writeln!(self.body, "<li>{} {}</li>", if ticked { "☑" } else { "☐" }, escaped(item.as_ref()));
+        }
+        self.body.push_str("</ul>\n");
+    }
+
+    /// Ruled lines to write on.
+    pub fn room(&mut self, lines: usize) {
+        for _ in 0..lines {
+            self.body.push_str("<hr class=\"room\"/>\n");
+        }
+    }
+
     /// Text as it is: a command, a file.
     pub fn code(&mut self, text: &str) {
         let _ = writeln!(self.body, "<pre>{}</pre>", escaped(text));

@@ -66,6 +66,11 @@ impl App {
         self.updater.load_lessons(folder);
     }
 
+    /// Does what a panel or a key would ask for.
+    pub fn carry_out(&mut self, command: Command) {
+        self.updater.carry_out(command);
+    }
+
     /// Shows what a link leads to.
     pub fn follow(&mut self, link: Link) {
         self.updater.follow(link);

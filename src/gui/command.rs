@@ -309,7 +309,11 @@ pub enum HoldCommand {
 pub enum LessonCommand {
     /// Begins a lesson, by its place in the list, at the step where it was left.
     Open(usize),
-    /// The step after this one; after the last, the lesson is done.
+    /// Begins a lesson at a step.
+    OpenAt(usize, usize),
+    /// Begins the lesson that is followed once more, with nothing answered.
+    Again,
+    /// The step after this one; after the last comes the recap, and then the lesson ends.
     Next,
     /// The step before this one.
     Back,
@@ -319,6 +323,14 @@ pub enum LessonCommand {
     Predict(Prediction),
     /// Keeps to that answer.
     Commit,
+    /// Says what was seen.
+    Observe(usize),
+    /// Answers what is asked now with this choice.
+    Choose(usize),
+    /// Does what comes next: keeps to an answer, goes to the marked parameter, goes to the next step.
+    GoOn,
+    /// Asks for one more hint.
+    Hint,
     /// Makes the changes that fulfil the task.
     ShowMe,
     /// Sets the step's scene up again.
@@ -329,6 +341,8 @@ pub enum LessonCommand {
     ChooseFolder,
     /// Loads the lessons of this folder, beside those that are there.
     LoadFolder(PathBuf),
+    /// Reads the lessons of all folders again.
+    Reload,
     /// Says again what was wrong with lessons.
     Faults,
 }

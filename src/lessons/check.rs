@@ -17,9 +17,10 @@ pub use name::{Name, Ran, UnknownName, name};
 pub use parse::CheckError;
 
 use super::live::Live;
+use crate::digits::{short, significant};
 use crate::scene::Scene;
-use comparison::Comparison;
-use parse::comparisons;
+use comparison::{Comparison, Expression};
+use parse::{comparisons, expression};
 
 /// A check, as it was written and as it is evaluated.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +52,60 @@ impl Check {
     /// What first does not hold for `now`, when the step began with `start`, in words; `None` if everything holds.
     pub fn unmet(&self, now: Ran<'_>, start: Ran<'_>) -> Option<String> {
         self.comparisons.iter().find_map(|comparison| comparison.unmet(now, start))
+    }
+}
+
+/// A number that a text quotes, as it was written and as it is evaluated: a sum as on one side of a comparison, and after a colon
+/// its digits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// As written.
+    pub source: String,
+    expression: Expression,
+    digits: usize,
+}
+
+impl Reading {
+    /// Digits unless the text says.
+    const DIGITS: usize = 3;
+
+    /// Reads a number for steps on `scene`.
+    ///
+    /// # Errors
+    /// Unknown names, names of another kind of scene, and what is no sum.
+    pub fn parse(source: &str, scene: &Scene) -> Result<Self, CheckError> {
+        let (sum, digits) = match source.rsplit_once(':') {
+            None => (source, Self::DIGITS),
+            Some((sum, digits)) => match digits.trim().parse() {
+                Ok(digits @ 1..=9) => (sum, digits),
+                _ => {
+                    let expected = "expected a number of digits, 1 to 9";
+                    return Err(CheckError::Unexpected { found: digits.trim().to_owned(), expected });
+                }
+            },
+        };
+        Ok(Self { source: source.trim().to_owned(), expression: expression(sum, scene)?, digits })
+    }
+
+    /// Its value for `now`, when the step began with `start`; `None` while that is not known.
+    pub fn value(&self, now: Ran<'_>, start: Ran<'_>) -> Option<f64> {
+        self.expression.value(now, start)
+    }
+
+    /// What it reads off tabs.
+    pub fn live(&self) -> Vec<Live> {
+        let mut found = Vec::new();
+        self.expression.live(&mut found);
+        found
+    }
+
+    /// A value of it in words: a result with its digits, a parameter as it was typed.
+    pub fn text(&self, value: f64) -> String {
+        let text = match self.expression {
+            Expression::Name { name: Name::Key(_), .. } => short(value, self.digits),
+            _ => significant(value, self.digits),
+        };
+        text.replace('-', "−")
     }
 }
 
@@ -118,6 +173,38 @@ mod tests {
     }
 
     #[test]
+    fn numbers_that_a_text_quotes_are_those_of_the_run() {
+        let start = Scene::motor();
+        let mut scene = start.clone();
+        scene.set("film.min_spacing_nm", "100").unwrap();
+        let (mut before, mut after) = (Numbers::default(), Numbers::default());
+        before.set(Quantity::Alpha, 0.25);
+        after.set(Quantity::Alpha, 0.5);
+        let live = Readings::default();
+        let now = Ran { scene: &scene, numbers: &after, live: &live };
+        let start = Ran { scene: &start, numbers: &before, live: &live };
+        let quoted = |source: &str| {
+            let reading = Reading::parse(source, &scene).unwrap();
+            reading.value(now, start).map(|value| reading.text(value))
+        };
+        assert_eq!(quoted("alpha").unwrap(), "0.500");
+        assert_eq!(quoted("alpha / start.alpha : 2").unwrap(), "2.0");
+        assert_eq!(quoted("-start.alpha:1").unwrap(), "−0.2");
+        assert_eq!(quoted("film.min_spacing_nm").unwrap(), "100");
+        assert_eq!(quoted("film_load_n"), None, "not known yet");
+        for (source, part) in [
+            ("alhpa", "did you mean alpha?"),
+            ("alpha:0", "0 is not expected here: expected a number of digits"),
+            ("alpha > 1", "> is not expected here: expected + - * /"),
+            ("film.slip", "film.slip is no number"),
+            ("hold.gap_um", "belongs to another kind of scene"),
+        ] {
+            let error = Reading::parse(source, &scene).unwrap_err().to_string();
+            assert!(error.contains(part), "{source}: {error}");
+        }
+    }
+
+    #[test]
     fn what_is_wrong_is_named() {
         for (source, part) in [
             ("alhpa > 1", "alhpa is neither a result nor a key of the scene: did you mean alpha?"),
@@ -127,10 +214,10 @@ mod tests {
             ("mean_load_ratio > 1", "belongs to another kind of scene"),
             ("hold.gap_um > 1", "hold.gap_um belongs to another kind of scene; this step's is a motor"),
             ("startup.cycle > 1", "did you mean startup.cycles?"),
-            ("alpha", "the end of the check is not expected here: expected one of <"),
-            ("alpha > ", "the end of the check is not expected"),
+            ("alpha", "the end is not expected here: expected one of <"),
+            ("alpha > ", "the end is not expected"),
             ("alpha > 1 alpha", "alpha is not expected here: expected and"),
-            ("alpha > 1 and", "the end of the check"),
+            ("alpha > 1 and", "the end is not expected"),
             ("(alpha > 1", "> is not expected here: expected )"),
             ("alpha ~ 1", "~ is not expected"),
             ("1.2.3 < alpha", "1.2.3 is not expected"),
@@ -139,7 +226,7 @@ mod tests {
             ("film.slip = \"none", "closing quote"),
             ("alpha = \"none\"", "\"none\" is not expected"),
             ("2 * film.slip > 1", "film.slip is no number"),
-            ("", "the end of the check"),
+            ("", "the end is not expected"),
         ] {
             let error = Check::parse(source, &Scene::motor()).unwrap_err().to_string();
             assert!(error.contains(part), "{source}: {error}");

@@ -52,7 +52,7 @@ pub enum LessonErrorKind {
     #[error("the block ```{0} is never closed: expected a line ``` below it")]
     OpenBlock(String),
     /// A block of another kind.
-    #[error("a block ```{found} is not known: expected setup, question or task")]
+    #[error("a block ```{found} is not known: expected setup, question, task or observe")]
     UnknownBlock {
         /// Its kind.
         found: String,
@@ -63,6 +63,9 @@ pub enum LessonErrorKind {
     /// The second block of a kind in one step.
     #[error("this step has two blocks ```{0}: keep one")]
     BlockTwice(&'static str),
+    /// What was seen is asked, and nothing was to be done.
+    #[error("a block ```observe asks what was seen after a task, and this step has no ```task")]
+    ObserveWithoutTask,
     /// Not TOML.
     #[error("is not valid TOML: {0}")]
     Syntax(String),
@@ -110,6 +113,9 @@ pub enum KeyFault {
     /// The number is out of the range that is allowed.
     #[error(" = {0} is out of range: allowed {1}")]
     OutOfRange(String, String),
+    /// It does not go together with another key.
+    #[error(" does not go with {0}")]
+    NotWith(&'static str),
     /// A preset or a change of it is not allowed: every fault of the scene.
     #[error(": {0}")]
     Scene(SceneError),

@@ -51,7 +51,7 @@ pub fn terms() -> &'static [Term] {
 fn read(source: &str) -> Result<Vec<Term>, String> {
     let file: File = toml::from_str(source).map_err(|error| error.to_string())?;
     let term = |entry: Entry| {
-        let text = text::blocks(&entry.text).map_err(|(_, error)| format!("{}: {error}", entry.name))?;
+        let text = text::blocks(&entry.text, None).map_err(|(_, error)| format!("{}: {error}", entry.name))?;
         Ok(Term { name: entry.name, symbol: entry.symbol, also: entry.also, text })
     };
     file.term.into_iter().map(term).collect()

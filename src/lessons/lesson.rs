@@ -3,6 +3,7 @@
 use super::check::{Check, Name};
 use super::text::{Block, Inline};
 use crate::scene::{Parameter, Scene};
+use serde::{Deserialize, Serialize};
 
 /// What a lesson may name in the window.
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,17 +50,34 @@ pub struct Step {
     pub question: Option<Question>,
     /// What is to be done.
     pub task: Option<Task>,
+    /// What is asked once it is done, before anything is explained.
+    pub observe: Option<Question>,
 }
 
 /// A question, answered before the answer is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
+    /// What the answer comes from.
+    pub kind: Kind,
     /// What is asked.
     pub ask: Vec<Block>,
     /// The answer.
     pub answer: Answer,
+    /// Help after a first wrong calculation.
+    pub hint: Vec<Block>,
     /// Why it is so.
     pub why: Vec<Block>,
+}
+
+/// What an answer comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A guess with reasons: made once, and not held against anyone.
+    Predict,
+    /// Arithmetic: it has a second try.
+    Calculate,
+    /// What was seen on the screen: one looks again until it is right.
+    Observe,
 }
 
 /// The answer to a question.
@@ -68,7 +86,7 @@ pub enum Answer {
     /// One of several.
     Choice {
         /// All.
-        choices: Vec<Vec<Inline>>,
+        choices: Vec<Choice>,
         /// The right one.
         right: usize,
     },
@@ -78,9 +96,18 @@ pub enum Answer {
         value: f64,
         /// Its unit; empty for a pure number.
         unit: String,
-        /// How far a good prediction may be off, relative.
+        /// How far a good answer may be off, relative.
         within: f64,
     },
+}
+
+/// One of several answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// In words.
+    pub text: Vec<Inline>,
+    /// What is said to whoever chose it, although it is wrong; may be empty.
+    pub reply: Vec<Block>,
 }
 
 /// Changes of a scene, by key, as after `--set`.
@@ -118,8 +145,10 @@ pub struct Task {
     pub ask: Vec<Block>,
     /// What the student's run is checked for.
     pub check: Check,
-    /// Help while it does not hold.
-    pub hint: Vec<Block>,
+    /// What goes beyond the aim although the check holds, and what is said then.
+    pub too_far: Option<(Check, Vec<Block>)>,
+    /// Help, given one after the other on request.
+    pub hints: Vec<Vec<Block>>,
     /// What would do, shown on request.
     pub example: Doing,
     /// What would not do: for tests.
@@ -129,9 +158,9 @@ pub struct Task {
 }
 
 impl Answer {
-    /// Whether a prediction is right.
-    pub fn is_right(&self, prediction: Prediction) -> bool {
-        match (self, prediction) {
+    /// Whether an answer is right.
+    pub fn is_right(&self, given: Prediction) -> bool {
+        match (self, given) {
             (Self::Choice { right, .. }, Prediction::Choice(choice)) => *right == choice,
             (Self::Number { value, within, .. }, Prediction::Number(number)) => {
                 (number - value).abs() <= within * value.abs() * (1.0 + 1e-9)
@@ -139,10 +168,44 @@ impl Answer {
             _ => false,
         }
     }
+
+    /// Whether an answer is of this kind, and one of the choices.
+    pub fn takes(&self, given: Prediction) -> bool {
+        match (self, given) {
+            (Self::Choice { choices, .. }, Prediction::Choice(choice)) => choice < choices.len(),
+            (Self::Number { .. }, Prediction::Number(_)) => true,
+            _ => false,
+        }
+    }
+
+    /// What is said to whoever gave this wrong answer; empty if nothing is.
+    pub fn reply(&self, given: Prediction) -> &[Block] {
+        match (self, given) {
+            (Self::Choice { choices, .. }, Prediction::Choice(choice)) => {
+                choices.get(choice).map_or(&[], |choice| choice.reply.as_slice())
+            }
+            _ => &[],
+        }
+    }
 }
 
-/// What a student predicts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+impl Step {
+    /// What is said once everything is done: it may quote numbers of the run that did it.
+    pub fn told(&self) -> impl Iterator<Item = &Block> {
+        let questions = [&self.question, &self.observe].into_iter().flatten();
+        let said = questions.flat_map(|question| {
+            let replies = match &question.answer {
+                Answer::Choice { choices, .. } => choices.as_slice(),
+                Answer::Number { .. } => &[],
+            };
+            question.why.iter().chain(replies.iter().flat_map(|choice| &choice.reply))
+        });
+        said.chain(self.task.iter().flat_map(|task| &task.then))
+    }
+}
+
+/// What a student answers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Prediction {
     /// One of several.
     Choice(usize),

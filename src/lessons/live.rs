@@ -1,9 +1,13 @@
 //! Numbers that are not of the run itself but read off a tab: of a plate in the hand, of a start-up, of a motor's curves over
 //! speed, of a plate beside its exact results. Whoever shows the tab hands them in.
 
+use crate::analysis::exact;
 use crate::analysis::quantity::numbers;
-use crate::problem::Scenario;
+use crate::analysis::torque::TorqueCurves;
+use crate::problem::{Plate, Scenario};
+use crate::recording::Recording;
 use crate::scene::Belongs;
+use crate::solution::{Outcome, PlateResult};
 
 numbers! {
     /// One number read off a tab, whose name is the last.
@@ -49,5 +53,47 @@ impl Live {
     /// Whether the student makes it by doing something that leaves the scene as it is.
     pub fn is_done_by_hand(self) -> bool {
         matches!(self.tab(), "Hold" | "Start-up")
+    }
+}
+
+impl Readings {
+    /// Reads off a plate in the hand: its gap \[m\] and the mean absolute pressure \[Pa\] below it.
+    pub fn read_held(&mut self, gap: f64, mean_pressure: f64) {
+        self.set(Live::HeldGap, gap * 1e6);
+        self.set(Live::HeldPressure, mean_pressure * 1e-3);
+    }
+
+    /// Reads off a cycle of a start-up: its number, what is still to come, and what came of it.
+    pub fn read_cycle(&mut self, number: usize, remaining: f64, outcome: &Outcome, scenario: &Scenario) {
+        self.set(Live::Cycles, number as f64);
+        self.set(Live::Remaining, remaining);
+        match (outcome, scenario) {
+            (Outcome::Motor(result), _) => self.set(Live::StartAlpha, result.alpha),
+            (Outcome::Plate(result), Scenario::Plate(plate)) => {
+                self.set(Live::StartLoadRatio, PlateResult::ratio(result.film_load, plate));
+            }
+            _ => {}
+        }
+    }
+
+    /// Reads off the curves of a motor over speed.
+    pub fn read_torque(&mut self, curves: &TorqueCurves) {
+        let (with, without) = (&curves.with_film, &curves.without_film);
+        self.set(Live::Stall, with.stall_torque.value);
+        self.set(Live::PresentTorque, with.present.torque.value);
+        self.set(Live::DryStall, without.stall_torque.value);
+        self.set(Live::Output, with.max_power.value);
+        self.set(Live::DryOutput, without.max_power.value);
+        if let Some(speed) = with.no_load_speed {
+            self.set(Live::NoLoad, curves.rpm(speed.value));
+        }
+    }
+
+    /// Reads off a plate beside its exact results.
+    pub fn read_exact(&mut self, plate: &Plate, recording: &Recording) {
+        if let Some(found) = exact::solved(plate, recording) {
+            self.set(Live::Spring, found.spring.value);
+            self.set(Live::Damping, found.damping.value);
+        }
     }
 }

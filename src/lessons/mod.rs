@@ -8,16 +8,23 @@ pub mod check;
 mod error;
 pub mod formula;
 pub mod glossary;
+pub mod handout;
 mod lesson;
 pub mod live;
+pub mod picture;
 mod read;
+pub mod record;
 pub mod text;
+pub mod trial;
+pub mod work;
 
 pub use error::{KeyFault, LessonError, LessonErrorKind};
-pub use lesson::{Act, Answer, Changes, Doing, Lesson, Prediction, Question, Step, Task, WindowNames};
+pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, Question, Step, Task, WindowNames};
 
 use crate::input::{self, ReadError};
 use crate::scene::Scene;
+use picture::{Picture, PictureError};
+use read::Beside;
 use std::path::{Path, PathBuf};
 
 /// Largest `lesson.md` read \[MB\].
@@ -66,7 +73,9 @@ pub fn built_in(names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
             let found = lesson.presets.iter().find(|(file, _)| *file == name)?;
             Some(Scene::from_toml(found.1, name))
         };
-        read::lesson(lesson.id, lesson.text, &Path::new(lesson.id).join(FILE), names, &preset)
+        let pictures = |_: &str, _: &str| Err(PictureError::Missing);
+        let beside = Beside { preset: &preset, pictures: &pictures };
+        read::lesson(lesson.id, lesson.text, &Path::new(lesson.id).join(FILE), names, beside)
     }))
 }
 
@@ -98,13 +107,17 @@ fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonE
     let text = input::read_text(&path, LARGEST_FILE).map_err(|error| fault(LessonErrorKind::Unreadable(error)))?;
     let absolute = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let id = absolute.file_name().map_or_else(|| "lesson".to_owned(), |name| name.to_string_lossy().into_owned());
-    let preset = |name: &str| {
-        let path = folder.join(name);
-        // A name stays in the lesson's folder.
+    // A name stays in the lesson's folder.
+    let inside = |name: &str| {
         let inside = Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)));
-        (inside && path.is_file()).then(|| Scene::load(&path))
+        Some(folder.join(name)).filter(|path| inside && path.is_file())
     };
-    read::lesson(&id, &text, &path, names, &preset)
+    let preset = |name: &str| inside(name).map(|path| Scene::load(&path));
+    let pictures = |name: &str, alternative: &str| match inside(name) {
+        Some(path) => Picture::load(&path, alternative),
+        None => Err(PictureError::Missing),
+    };
+    read::lesson(&id, &text, &path, names, Beside { preset: &preset, pictures: &pictures })
 }
 
 fn collect(results: impl IntoIterator<Item = Result<Lesson, Vec<LessonError>>>) -> (Vec<Lesson>, Vec<LessonError>) {

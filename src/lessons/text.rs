@@ -1,7 +1,10 @@
 //! The text of lessons and of the glossary: a part of Markdown. Paragraphs, lists, **strong**, *slanted*, `code`, formulas
-//! `$…$` in a line and `$$…$$` on their own.
+//! `$…$` in a line and `$$…$$` on their own, and `{…}`, a number of the run.
 
+use super::check::{CheckError, Reading};
 use super::formula::{Formula, FormulaError};
+use super::picture::{Picture, PictureError};
+use std::borrow::Cow;
 
 /// A part of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +18,23 @@ pub enum Inline {
     },
     /// A formula.
     Math(Formula),
+    /// A number of the run.
+    Number(Reading),
+}
+
+/// Reads what is between the braces of a number.
+pub type Numbers<'a> = &'a dyn Fn(&str) -> Result<Reading, CheckError>;
+
+/// Reads the picture in a file, with what it shows in words.
+pub type Pictures<'a> = &'a dyn Fn(&str, &str) -> Result<Picture, PictureError>;
+
+/// What a text takes from elsewhere.
+#[derive(Clone, Copy)]
+pub struct Outside<'a> {
+    /// Numbers of the run.
+    pub numbers: Numbers<'a>,
+    /// Pictures beside the text.
+    pub pictures: Pictures<'a>,
 }
 
 /// How words look.
@@ -40,13 +60,15 @@ pub enum Block {
     Item(Vec<Inline>),
     /// A formula on its own.
     Formula(Formula),
+    /// A picture.
+    Picture(Picture),
 }
 
-/// Reads blocks from Markdown; a fault comes with its line, from 0.
+/// Reads blocks from Markdown; a fault comes with its line, from 0. Without `outside` there are neither numbers of a run nor pictures.
 ///
 /// # Errors
-/// A formula that cannot be read, or a dollar without its partner.
-pub fn blocks(source: &str) -> Result<Vec<Block>, (usize, TextError)> {
+/// A formula or a number that cannot be read, or a dollar without its partner.
+pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, (usize, TextError)> {
     let mut blocks = Vec::new();
     let mut lines = source.lines().enumerate().peekable();
     while let Some((number, line)) = lines.next() {
@@ -66,6 +88,12 @@ pub fn blocks(source: &str) -> Result<Vec<Block>, (usize, TextError)> {
             blocks.push(Block::Formula(formula));
             continue;
         }
+        if let (Some((alternative, file)), Some(outside)) = (picture(line), outside) {
+            let read = (outside.pictures)(file, alternative);
+            let read = read.map_err(|error| (number, TextError::Picture(file.to_owned(), error)))?;
+            blocks.push(Block::Picture(read));
+            continue;
+        }
         let item = line.strip_prefix("* ").or_else(|| line.strip_prefix("- "));
         let mut text = item.unwrap_or(line).to_owned();
         while let Some((_, next)) = lines.peek() {
@@ -77,10 +105,15 @@ pub fn blocks(source: &str) -> Result<Vec<Block>, (usize, TextError)> {
             text.push_str(next);
             lines.next();
         }
-        let inline = inline(&text).map_err(|error| (number, error))?;
+        let inline = inline(&text, outside.map(|outside| outside.numbers)).map_err(|error| (number, error))?;
         blocks.push(if item.is_some() { Block::Item(inline) } else { Block::Paragraph(inline) });
     }
     Ok(blocks)
+}
+
+/// What a picture shows and its file, of a line `![what it shows](file.png)`.
+fn picture(line: &str) -> Option<(&str, &str)> {
+    line.strip_prefix("![")?.strip_suffix(')')?.split_once("](")
 }
 
 /// Why a text cannot be read.
@@ -92,13 +125,22 @@ pub enum TextError {
     /// A formula without its end.
     #[error("a formula begins with $ and does not end; write \\$ for the sign itself")]
     Dollar,
+    /// A number of the run that cannot be read.
+    #[error("{{{0}}}: {1}; write \\{{ for the brace itself")]
+    Number(String, CheckError),
+    /// A picture that cannot be shown.
+    #[error("picture {0}: {1}")]
+    Picture(String, PictureError),
+    /// A number without its end.
+    #[error("a number of the run begins with {{ and does not end; write \\{{ for the brace itself")]
+    Brace,
 }
 
 /// Reads one line.
 ///
 /// # Errors
 /// As [`blocks`].
-pub fn inline(source: &str) -> Result<Vec<Inline>, TextError> {
+pub fn inline(source: &str, numbers: Option<Numbers<'_>>) -> Result<Vec<Inline>, TextError> {
     let mut parts = Vec::new();
     let mut text = String::new();
     let mut style = Style::Plain;
@@ -118,6 +160,15 @@ pub fn inline(source: &str) -> Result<Vec<Inline>, TextError> {
             let Some(end) = after.find('$') else { return Err(TextError::Dollar) };
             flush(&mut text, style, &mut parts);
             parts.push(Inline::Math(Formula::parse(&after[..end])?));
+            rest = &after[end + 1..];
+            continue;
+        }
+        if let (true, Some(numbers), Some(after)) = (style != Style::Code, numbers, rest.strip_prefix('{')) {
+            let Some(end) = after.find('}') else { return Err(TextError::Brace) };
+            let number = after[..end].trim();
+            flush(&mut text, style, &mut parts);
+            let reading = numbers(number).map_err(|error| TextError::Number(number.to_owned(), error))?;
+            parts.push(Inline::Number(reading));
             rest = &after[end + 1..];
             continue;
         }
@@ -145,8 +196,30 @@ pub fn plain(parts: &[Inline]) -> String {
         .map(|part| match part {
             Inline::Text { text, .. } => text.clone(),
             Inline::Math(formula) => formula.plain(),
+            Inline::Number(reading) => format!("{{{}}}", reading.source),
         })
         .collect()
+}
+
+/// `parts` with what `value` makes of each number.
+pub fn filled<'a>(parts: &'a [Inline], value: &dyn Fn(&Reading) -> String) -> Cow<'a, [Inline]> {
+    if !parts.iter().any(|part| matches!(part, Inline::Number(_))) {
+        return Cow::Borrowed(parts);
+    }
+    let fill = |part: &Inline| match part {
+        Inline::Number(reading) => Inline::Text { text: value(reading), style: Style::Plain },
+        other => other.clone(),
+    };
+    Cow::Owned(parts.iter().map(fill).collect())
+}
+
+/// The numbers of the run in blocks.
+pub fn readings<'a>(blocks: impl IntoIterator<Item = &'a Block>) -> impl Iterator<Item = &'a Reading> {
+    let parts = blocks.into_iter().flat_map(|block| match block {
+        Block::Paragraph(parts) | Block::Item(parts) => parts.as_slice(),
+        Block::Formula(_) | Block::Picture(_) => &[],
+    });
+    parts.filter_map(|part| if let Inline::Number(reading) = part { Some(reading) } else { None })
 }
 
 /// Blocks as plain text, a line each.
@@ -156,6 +229,7 @@ pub fn plain_blocks(blocks: &[Block]) -> String {
         .map(|block| match block {
             Block::Paragraph(parts) | Block::Item(parts) => plain(parts),
             Block::Formula(formula) => formula.plain(),
+            Block::Picture(picture) => picture.alternative.clone(),
         })
         .collect();
     lines.join("\n")
@@ -167,22 +241,22 @@ mod tests {
 
     #[test]
     fn the_marks_of_a_line() {
-        let parts = inline(r"a **b** *c* `d` $h_0$ 5 \$, 2 * 3").unwrap();
+        let parts = inline(r"a **b** *c* `d` $h_0$ 5 \$, 2 * 3", None).unwrap();
         assert_eq!(plain(&parts), "a b c d h_0 5 $, 2 * 3");
         let styles: Vec<Style> =
             parts.iter().filter_map(|p| if let Inline::Text { style, .. } = p { Some(*style) } else { None }).collect();
         assert_eq!(styles[1], Style::Strong);
         assert_eq!(styles[3], Style::Slanted);
         assert_eq!(styles[5], Style::Code);
-        assert_eq!(inline("costs $5").unwrap_err(), TextError::Dollar);
+        assert_eq!(inline("costs $5", None).unwrap_err(), TextError::Dollar);
     }
 
     #[test]
     fn blocks_of_a_text() {
-        let read = blocks("One\nline.\n\n* first\n  and more\n* second\n\n$$ a =\nb $$\nlast").unwrap();
+        let read = blocks("One\nline.\n\n* first\n  and more\n* second\n\n$$ a =\nb $$\nlast", None).unwrap();
         assert_eq!(plain_blocks(&read), "One line.\nfirst and more\nsecond\na = b\nlast");
         assert!(matches!(read[3], Block::Formula(_)));
-        assert_eq!(blocks("fine\n\n$x").unwrap_err().0, 2);
-        assert_eq!(blocks("$$ x").unwrap_err(), (0, TextError::Dollar));
+        assert_eq!(blocks("fine\n\n$x", None).unwrap_err().0, 2);
+        assert_eq!(blocks("$$ x", None).unwrap_err(), (0, TextError::Dollar));
     }
 }

@@ -25,6 +25,7 @@
 //! | fields as pictures | `plane` |
 //! | one panel as SVG, all of them | `svg`, `text`, `panel`, `drawing` |
 //! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `render`, `files` |
+//! | sheets of paper with text, to write and sketch on | `sheet` |
 //!
 //! The SVG is written here because no library drew what a journal prints: kuva 0.6 neither lines up the axes of panels, nor
 //! places a map on nodes that are not uniform, and labels a tick 4.9999999999999995e-11; plotters has whole-pixel
@@ -49,6 +50,7 @@ mod provenance;
 #[cfg_attr(not(feature = "render"), path = "not_rendered.rs")]
 mod render;
 mod scale;
+mod sheet;
 mod style;
 mod svg;
 mod text;
@@ -60,6 +62,7 @@ pub use error::FigureError;
 pub use files::{Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
 pub use layers::{Anchor, Band, Categories, Contours, Direction, Grid, Layer, Line, Map, Mark, Points, Shading, Text};
 pub use provenance::Provenance;
+pub use sheet::{Piece, sheets_to_pdf};
 pub use style::{Dash, Marker, Shape, Style};
 pub use svg::escaped;
 

@@ -12,3 +12,8 @@ pub(super) fn pixels(_: &Drawing, _: &str, _: f64, _: [f64; 2]) -> Result<Pixels
 pub(super) fn pdf(_: &Drawing, _: &str, _: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
     Err(FigureError::NotBuilt)
 }
+
+/// None.
+pub(super) fn svg_pages(_: &str, _: [f64; 2], _: &[String]) -> Result<Vec<u8>, FigureError> {
+    Err(FigureError::NotBuilt)
+}

@@ -3,7 +3,7 @@
 use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
 use super::svg::{Picture, Rect};
-use super::text::{FALLBACK, SANS};
+use super::text::{FALLBACK, FAMILIES, SANS};
 
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Ref, TextStr};
 use resvg::tiny_skia::{Pixmap, PixmapPaint, Transform};
@@ -127,6 +127,41 @@ fn page(drawing: &Drawing, tree: &Tree, facts: &[(&'static str, String)]) -> Res
         };
     }
     about.finish();
+    Ok(pdf.finish())
+}
+
+/// Pages of a size \[pt\], each the body of an SVG, as one PDF, their text as text.
+pub(super) fn svg_pages(title: &str, [width, height]: [f64; 2], pages: &[String]) -> Result<Vec<u8>, FigureError> {
+    let failed = |error: String| FigureError::Draw(error);
+    let mut next = Ref::new(1);
+    let [catalog, tree, info] = [(); 3].map(|()| next.bump());
+    let leaves: Vec<Ref> = pages.iter().map(|_| next.bump()).collect();
+    let mut pdf = Pdf::new();
+    pdf.catalog(catalog).pages(tree);
+    pdf.pages(tree).kids(leaves.iter().copied()).count(i32::try_from(leaves.len()).unwrap_or(i32::MAX));
+    let [w, h] = [width, height].map(|length| length as f32);
+    for (body, leaf) in pages.iter().zip(leaves) {
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="{FAMILIES}">{body}</svg>"#
+        );
+        let drawing = Tree::from_str(&svg, &options()).map_err(|error| failed(error.to_string()))?;
+        let settings = svg2pdf::ConversionOptions { pdfa: false, ..svg2pdf::ConversionOptions::default() };
+        let (chunk, drawn) = svg2pdf::to_chunk(&drawing, settings).map_err(|error| failed(error.to_string()))?;
+        let mut renamed = HashMap::new();
+        let content = next.bump();
+        let chunk = chunk.renumber(|old| *renamed.entry(old).or_insert_with(|| next.bump()));
+        let drawn = renamed.get(&drawn).copied().ok_or_else(|| failed("the drawing has no page".to_owned()))?;
+        let mut page = pdf.page(leaf);
+        page.media_box(pdf_writer::Rect::new(0.0, 0.0, w, h)).parent(tree).contents(content);
+        page.resources().x_objects().pair(Name(b"Drawing"), drawn);
+        page.finish();
+        let mut operations = Content::new();
+        operations.transform([w, 0.0, 0.0, h, 0.0, 0.0]);
+        operations.x_object(Name(b"Drawing"));
+        pdf.stream(content, &operations.finish());
+        pdf.extend(&chunk);
+    }
+    pdf.document_info(info).title(TextStr(title)).creator(TextStr("squeezefilm"));
     Ok(pdf.finish())
 }
 

@@ -35,6 +35,8 @@ pub enum Export {
     Sensitivity,
     /// All that `fit --out` writes.
     Fit,
+    /// What was answered in lessons.
+    Answers,
 }
 
 impl Export {
@@ -54,6 +56,7 @@ impl Export {
             Self::TradeoffFigure => "tradeoff.svg",
             Self::Sensitivity => "sensitivity",
             Self::Fit => "fit",
+            Self::Answers => "answers.csv",
         }
     }
 
@@ -71,6 +74,7 @@ impl Export {
             Self::Sensitivity => "Export the sensitivities into a folder",
             Self::Fit => "Export what was fitted into a folder",
             Self::SweepTable | Self::TradeoffTable => "Export the table as CSV",
+            Self::Answers => "Save my answers as CSV or as JSON lines",
             Self::SweepFigure | Self::TradeoffFigure => "Export the figure as SVG, PNG or PDF",
         }
     }
@@ -100,6 +104,7 @@ impl Export {
             Self::Sensitivity => {
                 "Derivatives and uncertainties as CSV and JSON, a chart for each result, the random scenes, the scene"
             }
+            Self::Answers => "What you answered and did in lessons, to hand in: nothing leaves this computer by itself",
         }
     }
 
@@ -111,6 +116,7 @@ impl Export {
             Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
             Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
             Self::SweepTable | Self::TradeoffTable => Some(("Table", &["csv"])),
+            Self::Answers => Some(("Record", &["csv", "jsonl"])),
             Self::SweepFigure | Self::TradeoffFigure => {
                 Some(("Figure", if cfg!(feature = "render") { &["svg", "png", "pdf"] } else { &["svg"] }))
             }

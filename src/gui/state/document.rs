@@ -116,6 +116,11 @@ impl Document {
         }
     }
 
+    /// Whether a pointer holds a parameter.
+    pub fn is_dragging(&self) -> bool {
+        self.dragging.is_some()
+    }
+
     /// The pointer has let go of what it dragged: the next edit is another one.
     pub fn end_drag(&mut self) {
         self.dragging = None;

@@ -2,30 +2,22 @@
 //!
 //! While a lesson runs, the student's own scene is set aside with its history, and brought back when the lesson ends.
 
-use super::document::Document;
-use super::hold::HoldState;
-use super::startup::{Point, StartupState};
-use super::torque::TorqueState;
+use super::document::{Document, absolute};
+use super::lesson_tabs::{OffTabs, OnScreen};
+use super::running_lesson::{RunningLesson, StartingPoint};
 use super::tour::STOPS;
 use super::view::{Tab, View};
-use crate::analysis::exact;
-use crate::analysis::quantity::Numbers;
-use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::lessons::check::Ran;
-use crate::lessons::live::{Live, Readings};
-use crate::lessons::{self, Act, Lesson, LessonError, Prediction, Step, WindowNames};
-use crate::problem::{Plate, Scenario};
+use crate::lessons::check::Reading;
+use crate::lessons::record::{self, Record};
+use crate::lessons::work::{Progress, Stage, StepWork};
+use crate::lessons::{self, Act, Lesson, LessonError, Step, WindowNames};
 use crate::scene::Scene;
-use crate::solution::{Outcome, PlateResult, Status};
 use std::collections::BTreeMap;
-use std::path::Path;
-
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 /// Frames in which a highlighted parameter is scrolled to: a group takes some to open.
 const REVEALED: u8 = 16;
-/// A held plate this near to its mean gap has not been moved, relative.
-const AT_REST: f64 = 0.01;
-
 /// Parts of the window that lessons can highlight.
 pub const PLACES: &[&str] = &[
     "parameters",
@@ -55,6 +47,8 @@ pub struct Highlights {
     names: Vec<String>,
     /// Whether highlighted parameters are scrolled to, and their group opened.
     pub reveal: bool,
+    /// A parameter whose field takes the keyboard, once it is drawn.
+    pub enter: Option<&'static str>,
 }
 
 impl Highlights {
@@ -64,92 +58,13 @@ impl Highlights {
     }
 }
 
-/// How far a lesson was followed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Progress {
-    /// The step that comes next.
-    pub step: usize,
-    /// Whether it was once followed to its end.
-    pub done: bool,
-}
-
-/// What a student did in one step.
-#[derive(Clone, Debug, Default)]
-pub struct StepWork {
-    /// What was answered, if anything yet.
-    pub prediction: Option<Prediction>,
-    /// Whether it was committed to.
-    pub committed: bool,
-    /// Whether the task was fulfilled.
-    pub fulfilled: bool,
-    /// Why it is not, of the newest run.
-    pub unmet: Option<String>,
-    /// Whether anything was tried.
-    pub tried: bool,
-}
-
-/// The run that a step compares with.
-#[derive(Clone, Debug)]
-pub struct StartingPoint {
-    /// The scene that the step began with.
-    pub scene: Scene,
-    fidelity: Option<Fidelity>,
-    /// Its results.
-    pub numbers: Numbers,
-    /// What was read off the tabs.
-    pub live: Readings,
-}
-
-impl StartingPoint {
-    fn of(scene: Scene) -> Self {
-        Self { scene, fidelity: None, numbers: Numbers::default(), live: Readings::default() }
-    }
-}
-
-/// What the window shows, to be read by a check.
-#[derive(Clone, Copy, Debug)]
-pub struct OnScreen<'a> {
-    /// The run on screen.
-    pub run: Option<&'a SolvedScene>,
-    /// Torque over speed.
-    pub torque: &'a TorqueState,
-    /// The start-up.
-    pub startup: Option<&'a StartupState>,
-    /// The plate in the hand.
-    pub hold: Option<&'a HoldState>,
-}
-
-/// The lesson that is followed.
-#[derive(Debug)]
-pub struct RunningLesson {
-    /// Its place in the list.
-    pub lesson: usize,
-    /// Its step.
-    pub step: usize,
-    /// What was done, by step.
-    pub work: Vec<StepWork>,
-    /// Whether all results are shown in place of the text.
-    pub all_results: bool,
-    /// The student's own scene.
-    student: Document,
-    /// What was shown before the lesson: the tab, and whether parameters and results were.
-    before: (Tab, bool, bool),
-    /// What the step began with.
-    pub start: StartingPoint,
-    /// The newest run of the present scene.
-    pub newest: Option<Numbers>,
-    /// What is read off the tabs now.
-    pub live: Readings,
-    /// Whether the held plate was at rest since the step was set up: what was done with it before does not count.
-    rested: bool,
-    reveal: u8,
-}
-
 /// Lessons, tour and glossary.
 #[derive(Debug)]
 pub struct LessonState {
     lessons: Vec<Lesson>,
     faults: Vec<LessonError>,
+    /// Folders that lessons were read from, in full.
+    folders: Vec<PathBuf>,
     running: Option<RunningLesson>,
     progress: BTreeMap<String, Progress>,
     /// The stop of the tour.
@@ -163,9 +78,18 @@ pub struct LessonState {
 impl LessonState {
     /// The built-in lessons, with the progress that was stored.
     pub fn new(progress: Option<String>) -> Self {
-        let (lessons, faults) = with_known(lessons::built_in);
-        let progress = progress.map(|text| read_progress(&text)).unwrap_or_default();
-        Self { lessons, faults, running: None, progress, tour: None, glossary: None, highlights: Highlights::default() }
+        let (lessons, faults) = window_names(lessons::built_in);
+        let progress = progress.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
+        Self {
+            lessons,
+            faults,
+            folders: Vec::new(),
+            running: None,
+            progress,
+            tour: None,
+            glossary: None,
+            highlights: Highlights::default(),
+        }
     }
 
     /// All lessons.
@@ -176,6 +100,11 @@ impl LessonState {
     /// What is wrong with lessons that could not be read.
     pub fn faults(&self) -> &[LessonError] {
         &self.faults
+    }
+
+    /// Whether lessons were read from folders, which can be read again.
+    pub fn has_folders(&self) -> bool {
+        !self.folders.is_empty()
     }
 
     /// The lesson that is followed.
@@ -190,9 +119,9 @@ impl LessonState {
         Some((lesson, lesson.steps.get(running.step)?))
     }
 
-    /// How far a lesson was followed.
+    /// How far a lesson was followed, and what was done in it.
     pub fn progress(&self, lesson: &Lesson) -> Progress {
-        self.progress.get(&lesson.id).copied().unwrap_or_default()
+        self.progress.get(&lesson.id).cloned().unwrap_or_default()
     }
 
     /// The student's own scene: set aside during a lesson.
@@ -201,18 +130,34 @@ impl LessonState {
     }
 
     /// Adds the lessons of a folder; what cannot be read is in the faults. A lesson of a name that is there replaces it. Whether
-    /// the lesson that is followed was replaced.
+    /// the lesson that is followed was replaced by another text.
     pub fn load(&mut self, folder: &Path) -> bool {
-        let (lessons, faults) = with_known(|known| lessons::load(folder, known));
+        let folder = absolute(folder);
+        let (lessons, faults) = window_names(|known| lessons::load(&folder, known));
         let mut replaced = false;
         for lesson in lessons {
             match self.lessons.iter().position(|other| other.id == lesson.id) {
                 Some(place) => {
-                    replaced |= self.running.as_ref().is_some_and(|running| running.lesson == place);
+                    let followed = self.running.as_ref().is_some_and(|running| running.lesson == place);
+                    replaced |= followed && self.lessons[place] != lesson;
                     self.lessons[place] = lesson;
                 }
                 None => self.lessons.push(lesson),
             }
+        }
+        self.faults = faults;
+        if folder.is_dir() && !self.folders.contains(&folder) {
+            self.folders.push(folder);
+        }
+        replaced
+    }
+
+    /// Reads all folders again. Whether the lesson that is followed was replaced by another text.
+    pub fn reload(&mut self) -> bool {
+        let (mut replaced, mut faults) = (false, Vec::new());
+        for folder in self.folders.clone() {
+            replaced |= self.load(&folder);
+            faults.append(&mut self.faults);
         }
         self.faults = faults;
         replaced
@@ -224,18 +169,87 @@ impl LessonState {
         lines.join("\n")
     }
 
-    /// Progress as text, a line for each lesson.
+    /// Progress and answers of all lessons, as text.
     pub fn progress_text(&self) -> String {
-        let line = |(id, progress): (&String, &Progress)| {
-            format!("{} {} {id}", progress.step, if progress.done { "done" } else { "open" })
+        let mut all = self.progress.clone();
+        if let Some((id, progress)) = self.present() {
+            all.insert(id, progress);
+        }
+        // Names and plain data: this cannot fail.
+        serde_json::to_string(&all).unwrap_or_default()
+    }
+
+    /// Progress in the lesson that is followed.
+    fn present(&self) -> Option<(String, Progress)> {
+        let running = self.running.as_ref()?;
+        let lesson = self.lessons.get(running.lesson)?;
+        let ended = running.step >= lesson.steps.len();
+        let whole = |(work, step): (&StepWork, &Step)| work.left && work.stage(step) == Stage::Told;
+        let done = self.progress(lesson).done || running.work.iter().zip(&lesson.steps).all(whole);
+        let step = if ended { 0 } else { running.step };
+        Some((lesson.id.clone(), Progress { step, done, work: running.work.clone() }))
+    }
+
+    /// What was answered and done, in all lessons.
+    pub fn records(&self) -> Vec<Record> {
+        let present = self.present();
+        let of = |lesson: &Lesson| match &present {
+            Some((id, progress)) if *id == lesson.id => record::of(lesson, &progress.work),
+            _ => self.progress.get(&lesson.id).map(|progress| record::of(lesson, &progress.work)).unwrap_or_default(),
         };
-        self.progress.iter().map(line).collect::<Vec<_>>().join("\n")
+        self.lessons.iter().flat_map(of).collect()
+    }
+
+    /// Keeps what was done in the lesson that is followed.
+    fn keep(&mut self) {
+        self.progress.extend(self.present());
+    }
+
+    /// What a text quotes: of the run of `scene` on screen or, for what is `told` once a task is done, of the run that did it.
+    pub fn quoted(&self, reading: &Reading, scene: &Scene, told: bool) -> String {
+        let value = self.running.as_ref().and_then(|running| running.value(reading, scene, told));
+        value.map_or_else(|| "…".to_owned(), |value| reading.text(value))
     }
 
     /// The student's work on the step on screen.
     pub fn work(&mut self) -> Option<&mut StepWork> {
         let running = self.running.as_mut()?;
         running.work.get_mut(running.step)
+    }
+
+    /// The step on screen, and the student's work on it.
+    pub fn step_and_work(&mut self) -> Option<(&Step, &mut StepWork)> {
+        let running = self.running.as_mut()?;
+        let step = self.lessons.get(running.lesson)?.steps.get(running.step)?;
+        Some((step, running.work.get_mut(running.step)?))
+    }
+
+    /// What the step on screen waits for.
+    pub fn stage(&self) -> Option<Stage> {
+        let (_, step) = self.step()?;
+        let running = self.running.as_ref()?;
+        Some(running.work.get(running.step)?.stage(step))
+    }
+
+    /// The run that a step began with, to be compared with the one on screen: while something is done to another scene.
+    pub fn compared(&self, scene: &Scene) -> Option<&Arc<SolvedScene>> {
+        let running = self.running.as_ref()?;
+        let (_, step) = self.step()?;
+        let start = &running.start;
+        start.run.as_ref().filter(|_| step.task.is_some() && start.scene != *scene)
+    }
+
+    /// Lets the marked parameter take the keyboard.
+    pub fn enter_marked(&mut self) {
+        if let Some(running) = &mut self.running {
+            (running.enter, running.reveal) = (true, REVEALED);
+        }
+    }
+
+    /// The lesson after the one that is followed.
+    pub fn following(&self) -> Option<usize> {
+        let next = self.running.as_ref()?.lesson + 1;
+        (next < self.lessons.len()).then_some(next)
     }
 
     /// Shows all results in place of the lesson's text, or the text again.
@@ -253,45 +267,57 @@ impl LessonState {
         }
     }
 
-    /// Begins a lesson, by its place in the list, at the step where it was left; whether there is such a lesson.
-    pub fn open(&mut self, lesson: usize, document: &mut Document, view: &mut View) -> bool {
+    /// Begins a lesson, by its place in the list, at a step or where it was left; whether there is such a lesson.
+    pub fn open(&mut self, lesson: usize, step: Option<usize>, document: &mut Document, view: &mut View) -> bool {
         self.leave(document, view);
         let Some(chosen) = self.lessons.get(lesson) else { return false };
-        let progress = self.progress.get(&chosen.id).copied().unwrap_or_default();
-        let step = if progress.step < chosen.steps.len() { progress.step } else { 0 };
-        let (steps, scene) = (chosen.steps.len(), chosen.steps[step].scene.clone());
+        let Progress { step: last, mut work, .. } = self.progress(chosen);
+        let step = step.unwrap_or(last);
+        let step = if step < chosen.steps.len() { step } else { 0 };
+        work.resize(chosen.steps.len(), StepWork::default());
+        let scene = chosen.steps[step].scene.clone();
         let practice = Document::practice(scene.clone()).with_target(document.target());
         self.tour = None;
         self.running = Some(RunningLesson {
             lesson,
             step,
-            work: vec![StepWork::default(); steps],
+            work,
             all_results: false,
             student: std::mem::replace(document, practice),
             before: (view.tab, view.parameters, view.results),
             start: StartingPoint::of(scene),
             newest: None,
-            live: Readings::default(),
-            rested: false,
+            tabs: OffTabs::default(),
             reveal: 0,
+            enter: false,
         });
         self.set_up(document, view, true);
         true
     }
 
-    /// To a step further on or back; whether the scene has to be solved anew.
+    /// Begins the lesson that is followed once more, with nothing answered; whether there is one.
+    pub fn again(&mut self, document: &mut Document, view: &mut View) -> bool {
+        let Some(running) = &mut self.running else { return false };
+        running.work.fill(StepWork::default());
+        let lesson = running.lesson;
+        self.open(lesson, Some(0), document, view)
+    }
+
+    /// To a step further on or back; the recap comes after the last, and after that the lesson ends. Whether the scene has to be solved anew.
     pub fn turn(&mut self, by: isize, document: &mut Document, view: &mut View) -> bool {
         let Some(running) = &mut self.running else { return false };
         let Some(lesson) = self.lessons.get(running.lesson) else { return false };
         let Some(to) = running.step.checked_add_signed(by) else { return false };
-        let progress = self.progress.entry(lesson.id.clone()).or_default();
-        if to >= lesson.steps.len() {
-            *progress = Progress { step: 0, done: true };
+        if to > lesson.steps.len() {
             return self.leave(document, view);
         }
+        if let Some(work) = running.work.get_mut(running.step) {
+            work.left |= by > 0;
+        }
         running.step = to;
-        progress.step = to;
-        let again = by < 0 || lesson.steps[to].sets;
+        running.all_results = false;
+        let again = by < 0 || lesson.steps.get(to).is_some_and(|step| step.sets);
+        self.keep();
         self.set_up(document, view, again)
     }
 
@@ -313,12 +339,15 @@ impl LessonState {
             document.change(step.scene.clone(), document.target());
         }
         running.start = StartingPoint::of(document.scene().clone());
-        (running.live, running.rested) = (Readings::default(), false);
+        running.tabs = OffTabs::default();
         changed
     }
 
     /// Makes the changes that fulfil the task; whether the scene has to be solved anew.
-    pub fn show_me(&self, document: &mut Document) -> bool {
+    pub fn show_me(&mut self, document: &mut Document) -> bool {
+        if let Some(work) = self.work() {
+            work.shown |= !work.fulfilled;
+        }
         let Some(task) = self.step().and_then(|(_, step)| step.task.as_ref()) else { return false };
         let mut next = document.scene().clone();
         let changes = &task.example.changes;
@@ -342,6 +371,7 @@ impl LessonState {
 
     /// Ends the lesson; whether there was one.
     pub fn leave(&mut self, document: &mut Document, view: &mut View) -> bool {
+        self.keep();
         let Some(running) = self.running.take() else { return false };
         *document = running.student.with_target(document.target());
         (view.tab, view.parameters, view.results) = running.before;
@@ -363,101 +393,15 @@ impl LessonState {
         };
         self.highlights.reveal = running.reveal > 0;
         running.reveal = running.reveal.saturating_sub(1);
-        self.judge(document, seen);
-        self.highlights.reveal
-    }
-
-    fn judge(&mut self, document: &Document, seen: OnScreen<'_>) {
-        let Some(running) = &mut self.running else { return };
-        running.newest = None;
-        running.live = Readings::default();
-        let scene = document.scene();
-        let Some(run) = seen.run.filter(|run| run.scene == *scene && run.solution.status == Status::Converged) else {
-            return;
-        };
-        let numbers = Numbers::of(&run.problem, &run.solution);
-        running.newest = Some(numbers);
-        running.read_tabs(run, seen);
-        if run.scene == running.start.scene && running.start.fidelity.is_none_or(|found| found <= run.fidelity) {
-            running.start.fidelity = Some(run.fidelity);
-            running.start.numbers = numbers;
-            for live in Live::all().filter(|live| !live.is_done_by_hand()) {
-                if let Some(value) = running.live.get(live) {
-                    running.start.live.set(live, value);
-                }
-            }
-        }
+        // Once its group has opened.
+        let enter = running.reveal == 0 && std::mem::take(&mut running.enter);
         let step = self.lessons.get(running.lesson).and_then(|lesson| lesson.steps.get(running.step));
-        let Some((step, task)) = step.and_then(|step| Some((step, step.task.as_ref()?))) else { return };
-        let Some(work) = running.work.get_mut(running.step) else { return };
-        // A draft is good enough to look at, not to judge by.
-        let asked = step.question.is_some() && !work.committed;
-        if run.fidelity < document.target().min(Fidelity::Standard) || asked {
-            return;
+        let marked = step.and_then(|step| step.light.first().copied());
+        self.highlights.enter = marked.filter(|_| enter).map(|parameter| parameter.key);
+        if let Some(lesson) = self.lessons.get(running.lesson) {
+            running.judge(lesson, document, seen);
         }
-        let (now, start) = (&running.live, &running.start);
-        work.tried = run.scene != start.scene
-            || task.check.live().any(|live| live.is_done_by_hand() && now.get(live) != start.live.get(live));
-        let now = Ran { scene: &run.scene, numbers: &numbers, live: now };
-        work.unmet = task.check.unmet(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &start.live });
-        work.fulfilled |= work.unmet.is_none();
-    }
-}
-
-impl RunningLesson {
-    /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
-    fn read_tabs(&mut self, run: &SolvedScene, seen: OnScreen<'_>) {
-        let live = &mut self.live;
-        if let Some(hold) = seen.hold.filter(|hold| !hold.stale(&run.scene)) {
-            let (plate, now) = (hold.plate(), hold.now().reading);
-            self.rested |= (now.gap / plate.mean_gap - 1.0).abs() < AT_REST;
-            let rest = (plate.mean_gap, plate.gas.ambient_pressure);
-            let present = if self.rested { (now.gap, now.mean_pressure) } else { rest };
-            for (readings, (gap, pressure)) in [(&mut self.start.live, rest), (&mut *live, present)] {
-                readings.set(Live::HeldGap, gap * 1e6);
-                readings.set(Live::HeldPressure, pressure * 1e-3);
-            }
-        }
-        if let Some(startup) = seen.startup.filter(|startup| !startup.stale(&run.scene)) {
-            let points = startup.points();
-            for (readings, point) in [(&mut self.start.live, points.first()), (&mut *live, points.last())] {
-                point.into_iter().for_each(|point| read_cycle(readings, point, &run.problem.scenario));
-            }
-        }
-        match (&run.problem.scenario, seen.torque.of(run)) {
-            (Scenario::Plate(plate), _) => read_exact(live, run, plate),
-            (Scenario::Motor(_), Some(merit)) => {
-                let (with, without) = (&merit.with_film, &merit.without_film);
-                live.set(Live::Stall, with.stall_torque.value);
-                live.set(Live::PresentTorque, with.present.torque.value);
-                live.set(Live::DryStall, without.stall_torque.value);
-                live.set(Live::Output, with.max_power.value);
-                live.set(Live::DryOutput, without.max_power.value);
-                if let Some(speed) = with.no_load_speed {
-                    live.set(Live::NoLoad, merit.rpm(speed.value));
-                }
-            }
-            (Scenario::Motor(_), None) => {}
-        }
-    }
-}
-
-fn read_cycle(readings: &mut Readings, point: &Point, scenario: &Scenario) {
-    readings.set(Live::Cycles, point.number as f64);
-    readings.set(Live::Remaining, point.remaining);
-    match (point.outcome, scenario) {
-        (Outcome::Motor(result), _) => readings.set(Live::StartAlpha, result.alpha),
-        (Outcome::Plate(result), Scenario::Plate(plate)) => {
-            readings.set(Live::StartLoadRatio, PlateResult::ratio(result.film_load, plate));
-        }
-        _ => {}
-    }
-}
-
-fn read_exact(readings: &mut Readings, run: &SolvedScene, plate: &Plate) {
-    if let Some(found) = exact::solved(plate, &run.solution.recording) {
-        readings.set(Live::Spring, found.spring.value);
-        readings.set(Live::Damping, found.damping.value);
+        self.highlights.reveal || self.highlights.enter.is_some()
     }
 }
 
@@ -467,8 +411,8 @@ fn tab(name: &str) -> Option<Tab> {
     Tab::ALL.iter().map(|(tab, _)| *tab).find(|tab| named(*tab))
 }
 
-/// Calls `read` with what the window has.
-fn with_known<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
+/// Calls `read` with what lessons may name in the window.
+pub fn window_names<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
     let labels = |plate| -> Vec<&str> {
         Tab::ALL.iter().filter(|(tab, _)| tab.is_of(plate)).map(|(tab, _)| tab.label(plate)).collect()
     };
@@ -476,27 +420,20 @@ fn with_known<R>(read: impl FnOnce(WindowNames<'_>) -> R) -> R {
     read(WindowNames { tabs: [&motor, &plate], places: PLACES })
 }
 
-fn read_progress(text: &str) -> BTreeMap<String, Progress> {
-    let line = |line: &str| {
-        let mut parts = line.splitn(3, ' ');
-        let step = parts.next()?.parse().ok()?;
-        let done = parts.next()? == "done";
-        Some((parts.next()?.to_owned(), Progress { step, done }))
-    };
-    text.lines().filter_map(line).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lessons::Prediction;
 
     #[test]
     fn progress_is_read_as_it_was_written() {
         let mut lessons_state = LessonState::new(None);
-        lessons_state.progress.insert("a lesson with spaces".to_owned(), Progress { step: 3, done: false });
-        lessons_state.progress.insert("b".to_owned(), Progress { step: 0, done: true });
+        let work = StepWork { prediction: Some(Prediction::Number(0.1)), committed: true, ..StepWork::default() };
+        let open = Progress { step: 3, done: false, work: vec![work, StepWork::default()] };
+        lessons_state.progress.insert("a lesson with spaces".to_owned(), open);
+        lessons_state.progress.insert("b".to_owned(), Progress { step: 0, done: true, work: Vec::new() });
         let read = LessonState::new(Some(lessons_state.progress_text()));
         assert_eq!(read.progress, lessons_state.progress);
-        assert!(read_progress("nonsense\n\n3\nx open y").is_empty());
+        assert!(LessonState::new(Some("nonsense".to_owned())).progress.is_empty());
     }
 }

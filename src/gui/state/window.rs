@@ -8,7 +8,8 @@ use super::exports::ExportState;
 use super::face::FaceState;
 use super::fit::FitState;
 use super::hold::HoldState;
-use super::lessons::{LessonState, OnScreen};
+use super::lesson_tabs::OnScreen;
+use super::lessons::LessonState;
 use super::modal::Modal;
 use super::pins::{Page, Pins};
 use super::rotor::RotorState;
@@ -172,6 +173,7 @@ impl State {
             }
             Export::Sensitivity => self.sensitivity.found().is_some(),
             Export::Fit => self.fit.found().is_some(),
+            Export::Answers => !self.lessons.records().is_empty(),
             Export::TradeoffTable | Export::TradeoffFigure => {
                 self.tradeoff.as_ref().is_some_and(|measured| !measured.tradeoff().points.is_empty())
             }
@@ -203,7 +205,7 @@ impl State {
     /// Lets the lesson look at what is on screen; whether it needs another frame soon.
     pub fn observe(&mut self) -> bool {
         let Self { run, torque, startup, hold, document, lessons, .. } = self;
-        let seen = OnScreen { run: run.as_deref(), torque, startup: startup.as_ref(), hold: hold.as_ref() };
+        let seen = OnScreen { run: run.as_ref(), torque, startup: startup.as_ref(), hold: hold.as_ref() };
         lessons.observe(document, seen)
     }
 }

@@ -1,11 +1,14 @@
 //! The glossary on hover, beside what is pointed at.
 
+use super::highlight::ring_round;
 use super::rich::{self, Look};
 use crate::gui::ui::hint::{beside_with, describe};
 use crate::lessons::glossary::{Term, find};
 use crate::lessons::text::plain_blocks;
 use eframe::egui::{self, Id, RichText, Ui};
 
+/// The title of a view stands this near to its ring.
+const RING_NEAR: f32 = 24.0;
 /// Widest explanation on hover.
 const WIDTH: f32 = 320.0;
 
@@ -43,8 +46,9 @@ fn explain(ui: &Ui, response: egui::Response, word: &str, panel: Option<egui::Re
                 ui.set_max_width(WIDTH);
                 explanation(ui, term);
             };
-            match panel {
-                Some(panel) => beside_with(panel, response, add),
+            // What a lesson asks to look at is not covered either.
+            match panel.or_else(|| ring_round(ui.ctx(), response.rect.expand(RING_NEAR))) {
+                Some(rect) => beside_with(rect, response, add),
                 None => response.on_hover_ui(add),
             }
         }

@@ -16,8 +16,26 @@ pub fn place(ctx: &Context, name: &str) -> Option<Rect> {
     (now.saturating_sub(frame) <= 1).then_some(rect)
 }
 
+fn rings_id() -> Id {
+    Id::unique("highlight, rings")
+}
+
+/// The ring of this frame or the one before that `rect` touches: what pops up there keeps out of it.
+pub fn ring_round(ctx: &Context, rect: Rect) -> Option<Rect> {
+    let now = ctx.cumulative_frame_nr();
+    let rings: Vec<(u64, Rect)> = ctx.data(|data| data.get_temp(rings_id())).unwrap_or_default();
+    let fresh = rings.into_iter().filter(|(frame, _)| now.saturating_sub(*frame) <= 1);
+    fresh.map(|(_, ring)| ring).find(|ring| ring.expand(HIGHLIGHT.gap).intersects(rect))
+}
+
 /// A ring with a glow round `rect`.
 pub fn ring(ui: &Ui, rect: Rect) {
+    let now = ui.ctx().cumulative_frame_nr();
+    ui.ctx().data_mut(|data| {
+        let rings: &mut Vec<(u64, Rect)> = data.get_temp_mut_or_default(rings_id());
+        rings.retain(|(frame, _)| now.saturating_sub(*frame) <= 1);
+        rings.push((now, rect));
+    });
     let colour = palette(ui.visuals().dark_mode).accent;
     let rect = rect.expand(HIGHLIGHT.gap);
     let corner = CornerRadius::same(HIGHLIGHT.corner);

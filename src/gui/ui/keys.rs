@@ -77,6 +77,12 @@ const MOTION: &str = "Motion";
 const HOLDING: &str = "Held plate";
 const HOLD_STEP: f64 = 0.05;
 
+const GO_ON: Command = Command::Lesson(LessonCommand::GoOn);
+
+fn choose(choice: usize) -> Command {
+    Command::Lesson(LessonCommand::Choose(choice))
+}
+
 /// All shortcuts, in the groups and the order in which the sheet lists them.
 pub const GROUPS: &[(&str, &[Shortcut])] = &[
     (
@@ -111,6 +117,13 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
         &[
             idle(key(NONE, Key::PageDown), "Next step", || Command::Lesson(LessonCommand::Next)),
             idle(key(NONE, Key::PageUp), "Step before", || Command::Lesson(LessonCommand::Back)),
+            idle(key(NONE, Key::Enter), "Keep to an answer, go to the marked parameter, go on", || GO_ON),
+            idle(key(NONE, Key::Num1), "First answer", || choose(0)),
+            idle(key(NONE, Key::Num2), "Second answer", || choose(1)),
+            idle(key(NONE, Key::Num3), "Third answer", || choose(2)),
+            idle(key(NONE, Key::Num4), "Fourth answer", || choose(3)),
+            window(key(NONE, Key::F5), "Read the lessons of folders again", || Command::Lesson(LessonCommand::Reload)),
+            idle(key(NONE, Key::H), "Hint", || Command::Lesson(LessonCommand::Hint)),
         ],
     ),
     (

@@ -53,12 +53,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         let size = if state.lecture { ", lecture" } else { "" };
         format!("{name}{size}{}", if side.most(width) < side.default { ", narrow" } else { "" })
     };
-    if state.view.parameters {
-        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).frame(side).show(ui, |ui| {
-            cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
-            parameters::show(ui, cx);
-        });
-    }
+    // A lesson comes first for the keyboard.
     if state.view.results && state.lessons.running().is_some_and(|running| !running.all_results) {
         LESSON.fit(egui::Panel::right(id("lesson", &LESSON)), width).frame(side).show(ui, |ui| lesson::show(ui, cx));
     } else if state.view.results {
@@ -73,6 +68,12 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             } else if let Some(run) = &state.run {
                 results::show(ui, run, cx);
             }
+        });
+    }
+    if state.view.parameters {
+        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).frame(side).show(ui, |ui| {
+            cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
+            parameters::show(ui, cx);
         });
     }
     egui::CentralPanel::default().frame(central).show(ui, |ui| {
@@ -94,7 +95,10 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn middle(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     match (cx.state.view.tab, &cx.state.run) {
-        (Tab::Motion, Some(run)) => views::run::show(ui, run, None, cx),
+        (Tab::Motion, Some(run)) => {
+            let first = cx.state.lessons.compared(cx.state.document.scene());
+            views::run::show_compared(ui, run, first.map(AsRef::as_ref), cx);
+        }
         (Tab::Torque, Some(run)) => match run.problem.scenario {
             Scenario::Motor(_) => tabs::torque::show(ui, run, cx),
             Scenario::Plate(_) => tabs::exact::show(ui, run, cx),

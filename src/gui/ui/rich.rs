@@ -1,7 +1,9 @@
 //! Text with formulas in it, broken into lines.
 
 use super::formula::{Style as MathStyle, Typeset, galley};
+use crate::gui::ui::cache::once;
 use crate::gui::ui::theme::{MATHEMATICS, palette};
+use crate::lessons::picture::Picture;
 use crate::lessons::text::{Block, Inline, Style, plain};
 use eframe::egui::{self, Color32, FontId, Galley, Rect, Response, Sense, TextStyle, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -40,6 +42,7 @@ pub(in crate::gui) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
         match block {
             Block::Paragraph(parts) => drop(paragraph(ui, parts, look)),
             Block::Item(parts) => drop(item(ui, parts, look)),
+            Block::Picture(picture) => shown(ui, picture),
             Block::Formula(formula) => {
                 let room = ui.available_width();
                 let mut size = MATHEMATICS.display * look.size;
@@ -62,6 +65,17 @@ pub(in crate::gui) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
             }
         }
     }
+}
+
+/// A picture, as wide as it is or as there is room.
+fn shown(ui: &mut Ui, picture: &Picture) {
+    let place = picture.rgba.as_ptr() as usize;
+    let texture = once(ui, &format!("picture at {place}"), (place, picture.size), || {
+        let image = egui::ColorImage::from_rgba_unmultiplied(picture.size, &picture.rgba);
+        ui.ctx().load_texture("picture of a lesson", image, egui::TextureOptions::LINEAR)
+    });
+    let image = egui::Image::new(texture.as_ref()).max_width(ui.available_width()).alt_text(&picture.alternative);
+    ui.add(image);
 }
 
 /// One piece that is not broken.
@@ -171,6 +185,8 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
     let mut apart = true;
     for part in parts {
         match part {
+            // Numbers are filled in by whoever knows the run.
+            Inline::Number(_) => {}
             Inline::Math(formula) => {
                 let style = MathStyle { size: look.size, colour: look.colour, display: false };
                 let set = Typeset::of(painter, &formula.nodes, style);

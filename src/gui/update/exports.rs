@@ -18,6 +18,7 @@ use crate::gui::state::fit::Found;
 use crate::gui::state::pins::{fidelity, to_compare};
 use crate::job::SolvedScene;
 use crate::job::task::Task;
+use crate::lessons::record;
 use crate::motor::MotorError;
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -155,6 +156,17 @@ impl Updater {
                         }
                         Found::Optimum(optimum) => files::optimum(&path, of, optimum, &[], &BESIDE_DATA)?,
                     })
+                })
+            }
+            Export::Answers => {
+                let records = self.state.lessons.records();
+                Box::new(move |_| {
+                    let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
+                    write_file(&path, |out| match lines {
+                        true => out.write_all(record::statements(&record::student(&path), &records).as_bytes()),
+                        false => csv::rows(&records, out),
+                    })?;
+                    Ok(vec![path])
                 })
             }
             Export::TradeoffTable | Export::TradeoffFigure => {

@@ -1,11 +1,13 @@
 //! What is asked of lessons, carried out.
 
 use super::updater::Updater;
-use crate::gui::command::{HoldCommand, LessonCommand};
+use crate::gui::command::{Command, HoldCommand, LessonCommand};
 use crate::gui::state::dialogs::Purpose;
+use crate::gui::state::tour::STOPS;
 use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
-use crate::lessons::Act;
+use crate::lessons::work::{Stage, StepWork};
+use crate::lessons::{Act, Prediction, Step};
 use std::path::Path;
 
 impl Updater {
@@ -13,6 +15,16 @@ impl Updater {
     pub fn load_lessons(&mut self, folder: &Path) {
         if self.state.lessons.load(folder) {
             self.leave_lesson();
+        }
+        self.say_faults();
+    }
+
+    /// Reads all folders of lessons again; a lesson that is followed goes on at its step.
+    fn reload_lessons(&mut self) {
+        let place = self.state.lessons.running().map(|running| (running.lesson, running.step));
+        let changed = self.state.lessons.reload();
+        if let (true, Some((lesson, step))) = (changed, place) {
+            self.teach(LessonCommand::OpenAt(lesson, step));
         }
         self.say_faults();
     }
@@ -28,35 +40,39 @@ impl Updater {
         let State { document, view, lessons, .. } = &mut self.state;
         let sets_up = matches!(
             command,
-            LessonCommand::Open(_) | LessonCommand::Next | LessonCommand::Back | LessonCommand::SetUp
+            LessonCommand::Open(_)
+                | LessonCommand::OpenAt(..)
+                | LessonCommand::Again
+                | LessonCommand::Next
+                | LessonCommand::Back
+                | LessonCommand::SetUp
         );
         let shows = command == LessonCommand::ShowMe;
         let replaced = match command {
-            LessonCommand::Open(lesson) => lessons.open(lesson, document, view),
+            LessonCommand::Open(lesson) => lessons.open(lesson, None, document, view),
+            LessonCommand::OpenAt(lesson, step) => lessons.open(lesson, Some(step), document, view),
+            LessonCommand::Again => lessons.again(document, view),
             LessonCommand::Next => lessons.turn(1, document, view),
             LessonCommand::Back => lessons.turn(-1, document, view),
             LessonCommand::Leave => lessons.leave(document, view),
             LessonCommand::SetUp => lessons.set_up(document, view, true),
             LessonCommand::ShowMe => lessons.show_me(document),
-            LessonCommand::Predict(prediction) => {
-                if let Some(work) = lessons.work().filter(|work| !work.committed) {
-                    work.prediction = Some(prediction);
-                }
-                false
-            }
-            LessonCommand::Commit => {
-                if let Some(work) = lessons.work().filter(|work| work.prediction.is_some()) {
-                    work.committed = true;
-                }
-                false
-            }
             LessonCommand::AllResults(all) => {
                 lessons.show_all_results(all);
                 false
             }
+            LessonCommand::Choose(choice) => return self.choose(choice),
+            LessonCommand::GoOn => return self.go_on(),
             LessonCommand::ChooseFolder => return self.ask(Purpose::Lessons, ""),
             LessonCommand::LoadFolder(folder) => return self.load_lessons(&folder),
             LessonCommand::Faults => return self.say_faults(),
+            LessonCommand::Reload => return self.reload_lessons(),
+            LessonCommand::Predict(_) | LessonCommand::Commit | LessonCommand::Observe(_) | LessonCommand::Hint => {
+                if let Some((step, work)) = lessons.step_and_work() {
+                    answer(&command, step, work);
+                }
+                false
+            }
         };
         if replaced {
             self.scene_replaced();
@@ -66,6 +82,37 @@ impl Updater {
         }
         if shows {
             self.state.lessons.acts().into_iter().for_each(|act| self.act(act));
+        }
+    }
+
+    /// Answers what the step asks now with one of its choices.
+    fn choose(&mut self, choice: usize) {
+        match self.state.lessons.stage() {
+            Some(Stage::Question) => self.teach(LessonCommand::Predict(Prediction::Choice(choice))),
+            Some(Stage::Observation) => self.teach(LessonCommand::Observe(choice)),
+            _ => {}
+        }
+    }
+
+    /// Does what comes next in the tour, whose last stop leads to the first lesson, or in a lesson.
+    fn go_on(&mut self) {
+        if let Some(stop) = self.state.lessons.tour {
+            match stop + 1 < STOPS.len() {
+                true => self.carry_out(Command::Tour(Some(stop + 1))),
+                false => self.teach(LessonCommand::OpenAt(0, 0)),
+            }
+            return;
+        }
+        match self.state.lessons.stage() {
+            Some(Stage::Question) => self.teach(LessonCommand::Commit),
+            Some(Stage::Task) => self.state.lessons.enter_marked(),
+            Some(Stage::Observation) => {}
+            Some(Stage::Told) => self.teach(LessonCommand::Next),
+            None => {
+                if let Some(next) = self.state.lessons.following() {
+                    self.teach(LessonCommand::Open(next));
+                }
+            }
         }
     }
 
@@ -100,5 +147,22 @@ impl Updater {
         if lessons.leave(document, view) {
             self.scene_replaced();
         }
+    }
+}
+
+/// An answer, or a request for help, in a step.
+fn answer(command: &LessonCommand, step: &Step, work: &mut StepWork) {
+    match (command, &step.question, &step.observe, &step.task) {
+        (LessonCommand::Predict(prediction), Some(question), ..) if question.answer.takes(*prediction) => {
+            work.predict(*prediction);
+        }
+        (LessonCommand::Commit, Some(question), ..) => work.commit(question),
+        (LessonCommand::Observe(choice), _, Some(observe), _)
+            if work.stage(step) == Stage::Observation && observe.answer.takes(Prediction::Choice(*choice)) =>
+        {
+            work.observe(observe, *choice);
+        }
+        (LessonCommand::Hint, _, _, Some(task)) => work.hints = (work.hints + 1).min(task.hints.len()),
+        _ => {}
     }
 }

@@ -50,11 +50,7 @@ impl Updater {
                 if step > most {
                     return self.state.fail(format!("step={step} in a link: lesson {lesson} has {most} steps"));
                 }
-                self.carry_out(LessonCommand::Open(lesson - 1).into());
-                let target = step - 1;
-                let present = self.state.lessons.running().map_or(target, |running| running.step);
-                let turn = if target > present { LessonCommand::Next } else { LessonCommand::Back };
-                (0..target.abs_diff(present)).for_each(|_| self.carry_out(turn.clone().into()));
+                self.carry_out(LessonCommand::OpenAt(lesson - 1, step - 1).into());
             }
         }
     }

@@ -111,7 +111,8 @@ impl Expression {
         }
     }
 
-    fn value(&self, now: Ran<'_>, begun: Ran<'_>) -> Option<f64> {
+    /// Its value for `now`, when the step began with `begun`.
+    pub(super) fn value(&self, now: Ran<'_>, begun: Ran<'_>) -> Option<f64> {
         let value = match self {
             Self::Number(number) => *number,
             Self::Text(_) => return None,

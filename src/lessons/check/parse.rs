@@ -148,6 +148,18 @@ pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>
     Ok(comparisons)
 }
 
+/// Reads a sum for steps on `scene`.
+pub(super) fn expression(source: &str, scene: &Scene) -> Result<Expression, CheckError> {
+    let tokens = tokens(source)?;
+    let mut reader = Reader { tokens: &tokens, at: 0, scene, depth: 0 };
+    let sum = reader.sum()?;
+    if reader.at < tokens.len() {
+        return Err(reader.unexpected("expected + - * / or the end of the number"));
+    }
+    numeric(&sum)?;
+    Ok(sum)
+}
+
 struct Reader<'a> {
     tokens: &'a [Token],
     at: usize,
@@ -163,7 +175,7 @@ impl Reader<'_> {
     }
 
     fn unexpected(&self, expected: &'static str) -> CheckError {
-        let found = self.tokens.get(self.at).map_or_else(|| "the end of the check".to_owned(), Token::text);
+        let found = self.tokens.get(self.at).map_or_else(|| "the end".to_owned(), Token::text);
         CheckError::Unexpected { found, expected }
     }
 

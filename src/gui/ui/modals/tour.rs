@@ -1,6 +1,6 @@
 //! A stop of the tour: a few words beside the part of the window that has the ring.
 
-use crate::gui::command::Command;
+use crate::gui::command::{Command, LessonCommand};
 use crate::gui::state::tour::STOPS;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::{highlight, keys};
@@ -68,8 +68,13 @@ pub fn show(ctx: &egui::Context, stop: usize, cx: &DrawContext<'_>) {
                     cx.push(Command::Tour(None));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    if ui.button(if last { "Done" } else { "Next" }).clicked() {
-                        cx.push(Command::Tour((!last).then_some(stop + 1)));
+                    let text = if last { "Start lesson 1" } else { "Next" };
+                    let lit = egui::Button::new(RichText::new(text).strong()).fill(ui.visuals().selection.bg_fill);
+                    if ui.add(lit).on_hover_text("Enter").clicked() {
+                        cx.push(LessonCommand::GoOn);
+                    }
+                    if last && ui.button("Close").clicked() {
+                        cx.push(Command::Tour(None));
                     }
                     if stop > 0 && ui.button("Back").clicked() {
                         cx.push(Command::Tour(Some(stop - 1)));

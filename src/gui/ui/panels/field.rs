@@ -138,6 +138,11 @@ pub fn holds_text(ui: &egui::Ui, key: &'static str) -> bool {
     ui.data(|data| data.get_temp::<Edit>(id_of(key))).is_some()
 }
 
+/// Puts the cursor into the field of `key`.
+pub fn enter(ui: &egui::Ui, key: &'static str) {
+    ui.memory_mut(|memory| memory.request_focus(id_of(key)));
+}
+
 fn id_of(key: &'static str) -> Id {
     Id::unique(("parameter", key))
 }

@@ -9,7 +9,8 @@ use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
-use crate::scene::presets;
+use crate::scene::table1::published;
+use crate::scene::{Scene, presets};
 use eframe::egui::{self, Button};
 
 /// Shows the menus.
@@ -160,10 +161,13 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = &cx.state.lessons;
     for (i, lesson) in state.lessons().iter().enumerate() {
         let progress = state.progress(lesson);
-        let mark = match (progress.step, progress.done) {
-            (0, true) => "✔ done".to_owned(),
-            (0, false) => format!("{} steps", lesson.steps.len()),
-            (step, _) => format!("at step {} of {}", (step + 1).min(lesson.steps.len()), lesson.steps.len()),
+        let steps = lesson.steps.len();
+        let skipped = lesson.steps.iter().zip(&progress.work).filter(|(step, work)| work.is_skipped(step)).count();
+        let mark = match (progress.step, progress.done, skipped) {
+            (0, true, _) => "✔ done".to_owned(),
+            (0, false, 0) => format!("{steps} steps"),
+            (0, false, skipped) => format!("{} of {steps} done", steps - skipped),
+            (step, ..) => format!("at step {} of {steps}", (step + 1).min(steps)),
         };
         let entry = ui.add(Button::new(format!("{}  {}", i + 1, lesson.title)).shortcut_text(mark));
         if beside(ui.max_rect(), entry, &plain_blocks(&lesson.about)).clicked() {
@@ -176,7 +180,9 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     item(ui, "Leave the lesson", running, Command::Lesson(LessonCommand::Leave), cx);
     if HAS_FILES {
         item(ui, "Open a folder of lessons…", true, Command::Lesson(LessonCommand::ChooseFolder), cx);
+        item(ui, "Read lessons of folders again", state.has_folders(), Command::Lesson(LessonCommand::Reload), cx);
     }
+    export_item(ui, "Save my answers…", Export::Answers, cx.state.can_export(Export::Answers), cx);
     if !state.faults().is_empty() {
         item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
     }
@@ -190,11 +196,20 @@ fn built_in(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command, cx: &DrawContext<'_>) {
     let room = 0.85 * ui.ctx().content_rect().height();
     egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
-        let mut kind = "motor";
-        for preset in presets::BUILT_IN {
-            // Built-in presets parse: a test opens every one.
-            let Ok(scene) = preset.scene() else { continue };
-            if std::mem::replace(&mut kind, scene.scene()) != kind {
+        // Plates, the motor, what goes beyond the table, and its rows.
+        let group = |name: &str, scene: &Scene| match (scene.scene(), name) {
+            ("plate", _) => 0,
+            (_, "fundamental") => 1,
+            _ if published().iter().any(|row| row.preset == name) => 3,
+            _ => 2,
+        };
+        // Built-in presets parse: a test opens every one.
+        let read = presets::BUILT_IN.iter().filter_map(|preset| Some((preset, preset.scene().ok()?)));
+        let mut all: Vec<_> = read.map(|(preset, scene)| (group(preset.name, &scene), preset, scene)).collect();
+        all.sort_by_key(|(group, ..)| *group);
+        let mut last = 0;
+        for (group, preset, scene) in &all {
+            if std::mem::replace(&mut last, *group) != *group {
                 ui.separator();
             }
             let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));

@@ -5,6 +5,8 @@ pub mod exports;
 pub mod field;
 pub mod held;
 pub mod lesson;
+mod lesson_numbers;
+mod lesson_parts;
 pub mod menu;
 pub mod model;
 pub mod parameters;

@@ -170,6 +170,9 @@ impl Panel<'_> {
             if highlights.reveal {
                 ui.scroll_to_rect(row.response.rect.expand(ui.text_style_height(&TextStyle::Body)), None);
             }
+            if highlights.enter == Some(parameter.key) {
+                field::enter(ui, parameter.key);
+            }
         }
         ui.add_space(4.0);
     }

@@ -61,7 +61,7 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
 
     fn read(linear: &str) -> Vec<Block> {
         // They are built in; a test reads them.
-        [LOAD, linear, TRAPPED, INVARIANT].into_iter().flat_map(|text| blocks(text).unwrap_or_default()).collect()
+        [LOAD, linear, TRAPPED, INVARIANT].into_iter().flat_map(|text| blocks(text, None).unwrap_or_default()).collect()
     }
 
     /// Of a strip, or of a plate of finite width.
@@ -77,7 +77,7 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
         #[test]
         fn every_note_is_read() {
             for text in [LOAD, STRIP, RECTANGLE, TRAPPED, INVARIANT] {
-                assert!(blocks(text).unwrap().iter().any(|block| matches!(block, Block::Formula(_))), "{text}");
+                assert!(blocks(text, None).unwrap().iter().any(|block| matches!(block, Block::Formula(_))), "{text}");
             }
         }
     }

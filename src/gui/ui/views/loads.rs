@@ -30,6 +30,17 @@ pub(super) fn draw(
         let column = Span::new("", left..=right).fill(style.palette.accent.gamma_multiply(0.10));
         plot.span(column);
         plot.hline(level(0.0, style.palette.quiet, 1.0));
+        if let Some(first) = &shown.first {
+            let (recording, kilo) = (first.recording, 1e-3 / first.motor.contact_width);
+            for tooth in 0..recording.teeth {
+                let (nodes, middle) = (first.lines.of(tooth), tooth as f64 * recording.pitch);
+                for field in [&first.lines.contact, &first.lines.film] {
+                    let loads = recording.x.iter().zip(&field[nodes.clone()]);
+                    let curve: Vec<_> = loads.map(|(x, load)| [(middle + x) * 1e3, load * kilo]).collect();
+                    plot.line(line(&curve, style.palette.quiet, 1.2, LineStyle::Solid));
+                }
+            }
+        }
         for tooth in 0..recording.teeth {
             let nodes = shown.lines.of(tooth);
             let middle = tooth as f64 * recording.pitch;

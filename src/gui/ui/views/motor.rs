@@ -1,8 +1,8 @@
 //! The motor: wave, pressures and maps on one x axis, from half a pitch before tooth 0 so that it is whole.
 
-use super::motor_frame::MotorFrame;
+use super::motor_frame::{FirstMotor, MotorFrame};
 use super::pointer::{Readout, named};
-use super::scales::scales_of;
+use super::scales::{FirstRun, scales_of};
 use super::velocity::Place;
 use super::{loads, map, ring, tooth, wave};
 use crate::gui::command::Command;
@@ -61,7 +61,13 @@ impl Layout {
 }
 
 /// Draws `run` at the view's phase.
-pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+pub(super) fn show(
+    ui: &mut egui::Ui,
+    run: &SolvedScene,
+    within: Option<&Ranges>,
+    first: Option<&FirstRun<'_>>,
+    cx: &DrawContext<'_>,
+) {
     let recording = &run.solution.recording;
     let Scenario::Motor(motor) = &run.problem.scenario else { return };
     let Some(area) = area(ui, recording) else { return };
@@ -79,6 +85,7 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
         lines,
         tooth: cx.state.view.tooth.min(recording.teeth.saturating_sub(1)),
         cursor: cx.state.view.cursor_x,
+        first: first.and_then(FirstMotor::of),
     };
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);

@@ -1,9 +1,10 @@
 //! A motor at one instant: what its views draw.
 
+use super::scales::FirstRun;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::sample::Lines;
 use crate::gui::derived::scales::Scales;
-use crate::problem::Motor;
+use crate::problem::{Motor, Scenario};
 use crate::recording::Recording;
 
 /// A motor at one instant.
@@ -23,6 +24,24 @@ pub(super) struct MotorFrame<'a> {
     pub(super) underside: Vec<[f64; 2]>,
     pub(super) tooth: usize,
     pub(super) cursor: Option<f64>,
+    pub(super) first: Option<FirstMotor<'a>>,
+}
+
+/// The motor that it is compared with, at the same phase of its own cycle.
+pub(super) struct FirstMotor<'a> {
+    pub(super) recording: &'a Recording,
+    pub(super) motor: &'a Motor,
+    pub(super) lines: Lines,
+    pub(super) scales: &'a Scales,
+}
+
+impl<'a> FirstMotor<'a> {
+    /// Of a run that is a motor's.
+    pub(super) fn of(first: &'a FirstRun<'a>) -> Option<Self> {
+        let Scenario::Motor(motor) = first.scenario else { return None };
+        let lines = Lines::at(first.recording, first.place);
+        Some(Self { recording: first.recording, motor, lines, scales: &first.scales })
+    }
 }
 
 impl MotorFrame<'_> {

@@ -3,7 +3,7 @@
 use super::field::{self, Stamp};
 use super::map::y_labels;
 use super::pointer::{Readout, named};
-use super::scales::scales_of;
+use super::scales::{FirstRun, scales_of};
 use super::series::{Series, Trace};
 use super::velocity::Place;
 use crate::fidelity::Fidelity;
@@ -32,6 +32,7 @@ struct PlateFrame<'a> {
     phase: f64,
     lines: Lines,
     cursor: Option<f64>,
+    first: Option<&'a FirstRun<'a>>,
 }
 
 impl PlateFrame<'_> {
@@ -45,7 +46,13 @@ impl PlateFrame<'_> {
 }
 
 /// Draws `run` at the view's phase.
-pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+pub(super) fn show(
+    ui: &mut egui::Ui,
+    run: &SolvedScene,
+    within: Option<&Ranges>,
+    first: Option<&FirstRun<'_>>,
+    cx: &DrawContext<'_>,
+) {
     let recording = &run.solution.recording;
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let Some(area) = area(ui, recording) else { return };
@@ -53,7 +60,8 @@ pub(super) fn show(ui: &mut egui::Ui, run: &SolvedScene, within: Option<&Ranges>
     let place = cx.state.view.place(recording);
     let phase = place / recording.frames.max(1) as f64;
     let lines = Lines::at(recording, place);
-    let shown = PlateFrame { recording, plate, scales: &scales, place, phase, lines, cursor: cx.state.view.cursor_x };
+    let cursor = cx.state.view.cursor_x;
+    let shown = PlateFrame { recording, plate, scales: &scales, place, phase, lines, cursor, first };
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
     let gutter = style.width(&painter, "−0.000") + 6.0;
@@ -177,6 +185,9 @@ fn draw_profile(
     let name = "Pressure along the plate: point to read values";
     Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(ambient * 1e-3, quiet, 1.0));
+        if let Some(first) = shown.first {
+            plot.line(line(&profile(first.recording, first.place), quiet, 1.4, LineStyle::dashed_loose()));
+        }
         plot.line(line(&profile(shown.recording, shown.place), film, 1.8, LineStyle::Solid));
         if let Some(x) = shown.cursor {
             plot.vline(upright(x * 1e3, style.palette.accent, 1.0));
@@ -206,12 +217,16 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
     let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
+    let first = shown.first.and_then(|first| first.scales.tooth(0));
+    let first = first.map(|(curves, lag)| Trace { curve: &curves.film, lag, offset: 0.0, colour: style.palette.quiet });
+    let legend = [("at first", style.palette.quiet)];
+    let present = Trace { curve, lag, offset: 0.0, colour: style.palette.film };
     let series = Series {
         name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],
         word: "Film load",
-        legend: &[],
-        traces: &[Trace { curve, lag, offset: 0.0, colour: style.palette.film }],
+        legend: if first.is_some() { &legend } else { &[] },
+        traces: &first.into_iter().chain([present]).collect::<Vec<_>>(),
         range: [low, high],
         unit,
         period: shown.recording.period,
@@ -245,7 +260,16 @@ fn draw_loop(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
     let Some((curves, _)) = shown.scales.tooth(0) else { return };
     let at = |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
     let ranges = [shown.scales.thickness.map(|gap| gap * 1e6), shown.scales.tooth_load.map(|load| load / area * 1e-3)];
-    show_loops(ui, style, place, ("gap, µm", ranges), &[(style.palette.film, Box::new(at))], shown.phase);
+    let mut loops: Vec<Loop<'_>> = Vec::new();
+    if let Some((Scenario::Plate(plate), (curves, _))) =
+        shown.first.and_then(|first| Some((first.scenario, first.scales.tooth(0)?)))
+    {
+        let area = plate.area();
+        let at = move |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
+        loops.push((style.palette.quiet, Box::new(at)));
+    }
+    loops.push((style.palette.film, Box::new(at)));
+    show_loops(ui, style, place, ("gap, µm", ranges), &loops, shown.phase);
 }
 
 /// A curve over the phase, and its colour.

@@ -1,5 +1,6 @@
 //! One run in the middle of the window.
 
+use super::scales::{FirstRun, in_common};
 use super::{motor, plate};
 use crate::gui::derived::scales::Ranges;
 use crate::gui::ui::context::DrawContext;
@@ -9,9 +10,22 @@ use eframe::egui::Ui;
 
 /// Draws `run` at the view's phase; the axes have the ranges `within`, if it is one cycle of several.
 pub fn show(ui: &mut Ui, run: &SolvedScene, within: Option<&Ranges>, cx: &DrawContext<'_>) {
+    draw(ui, run, within, None, cx);
+}
+
+/// Draws `run` at the view's phase, and behind it the run that it is compared with, on one scale.
+pub fn show_compared(ui: &mut Ui, run: &SolvedScene, first: Option<&SolvedScene>, cx: &DrawContext<'_>) {
+    let plate = |run: &SolvedScene| matches!(run.problem.scenario, Scenario::Plate(_));
+    let first = first.filter(|first| plate(first) == plate(run) && first.number != run.number);
+    let within = first.map(|first| in_common(ui, run, first));
+    let first = first.map(|first| FirstRun::new(ui, first, &cx.state.view));
+    draw(ui, run, within.as_ref(), first.as_ref(), cx);
+}
+
+fn draw(ui: &mut Ui, run: &SolvedScene, within: Option<&Ranges>, first: Option<&FirstRun<'_>>, cx: &DrawContext<'_>) {
     match run.problem.scenario {
-        Scenario::Motor(_) => motor::show(ui, run, within, cx),
-        Scenario::Plate(_) => plate::show(ui, run, within, cx),
+        Scenario::Motor(_) => motor::show(ui, run, within, first, cx),
+        Scenario::Plate(_) => plate::show(ui, run, within, first, cx),
     }
 }
 

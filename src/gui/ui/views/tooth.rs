@@ -45,24 +45,38 @@ pub(super) fn draw(
     let Some((curves, lag)) = shown.scales.tooth(shown.tooth) else { return [gap_chart, loads_chart] };
     let minimum = shown.motor.spacing();
     let text = style.text;
-    let spacing = [Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text }];
-    let [low, high] = curves.thickness.range();
+    // The same tooth of the run that this one is compared with, behind it.
+    let quiet = style.palette.quiet;
+    let first = shown.first.as_ref().and_then(|first| Some((first, first.scales.tooth(shown.tooth)?)));
+    let before = first.map(|(first, (curves, lag))| Trace {
+        curve: &curves.thickness,
+        lag,
+        offset: -first.motor.spacing(),
+        colour: quiet,
+    });
+    let present = Trace { curve: &curves.thickness, lag, offset: -minimum, colour: text };
+    let [low, high] = before.iter().chain([&present]).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], trace| {
+        let [least, most] = trace.curve.range().map(|value| value + trace.offset);
+        [low.min(least), high.max(most)]
+    });
+    let spacing: Vec<Trace<'_>> = before.into_iter().chain([present]).collect();
     let series = Series {
         name: "Least gap over the cycle",
         titles: &[&format!("Least gap of tooth {}, µm", shown.tooth), "Least gap, µm", "Gap, µm"],
         word: "Least gap",
         legend: &[],
         traces: &spacing,
-        range: [(low - minimum).min(0.0), (high - minimum).max(0.0)],
+        range: [low.min(0.0), high.max(0.0)],
         unit: 1e-6,
         period: recording.period,
         phase: shown.phase(),
     };
     series.show(ui, style, (gap_chart, gutter), cx);
-    let loads = [
-        Trace { curve: &curves.contact, lag, offset: 0.0, colour: style.palette.contact },
-        Trace { curve: &curves.film, lag, offset: 0.0, colour: style.palette.film },
-    ];
+    let trace = |curve, lag, colour| Trace { curve, lag, offset: 0.0, colour };
+    let before = first.map(|(_, (curves, lag))| [&curves.contact, &curves.film].map(|curve| trace(curve, lag, quiet)));
+    let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
+    let present = present.map(|(curve, colour)| trace(curve, lag, colour));
+    let loads: Vec<Trace<'_>> = before.into_iter().flatten().chain(present).collect();
     let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
     let series = Series {
         name: "Loads over the cycle",

@@ -2,7 +2,7 @@
 //! touch. Heights are exaggerated; the factor and a scale bar are given. While the rotor turns, what drives it is drawn as well, on the scale of
 //! the heights: the way of the followed tooth's top round its ellipse, with its speed along the ring, and marks that the rotor takes along.
 
-use super::motor_frame::MotorFrame;
+use super::motor_frame::{FirstMotor, MotorFrame};
 use crate::gui::derived::format::times;
 use crate::gui::ui::paint::{Axes, PlotStyle, band, scale_bar};
 use eframe::egui::{Align2, Painter, Pos2, Rect, Stroke, pos2, vec2};
@@ -32,7 +32,9 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     axes.canvas(painter, style);
     scale_bar(painter, style, rect, scale);
     let title = format!("Rotor on the travelling wave, vertical {}", times(axes.exaggeration()));
-    let legend = [("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
+    let mut legend =
+        vec![("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
+    legend.extend(shown.first.as_ref().map(|_| ("at first", style.palette.quiet)));
     let short = format!("Wave, vertical {}", times(axes.exaggeration()));
     style.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
 
@@ -43,6 +45,9 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     stator(painter, style, &axes, shown);
     rotor(painter, style, &axes, scale, shown);
     touching(painter, style, &axes, shown);
+    if let Some(first) = &shown.first {
+        outline(painter, style, &axes, first);
+    }
     axes.cursor(painter, style, shown.cursor);
     axes
 }
@@ -143,6 +148,21 @@ pub(super) fn ellipse(painter: &Painter, style: &PlotStyle, axes: &Axes, shown: 
     let (top, along) = (at(phase), wide * (TAU * phase).cos() as f32);
     painter.circle_filled(top, 4.0, style.palette.accent);
     painter.arrow(top, vec2(along, 0.0), Stroke::new(2.5, style.palette.accent));
+}
+
+/// The tops of the teeth and the rotor's underside above them, of the motor that this one is compared with.
+fn outline(painter: &Painter, style: &PlotStyle, axes: &Axes, first: &FirstMotor<'_>) {
+    let stroke = Stroke::new(1.5, style.palette.quiet);
+    let (recording, lines) = (first.recording, &first.lines);
+    for tooth in 0..recording.teeth {
+        let middle = tooth as f64 * recording.pitch;
+        let underside = |k: usize| lines.stator[k] + lines.film_thickness[k] - first.motor.spacing();
+        let top = |k: usize| lines.stator[k];
+        for height in [&top as &dyn Fn(usize) -> f64, &underside] {
+            let points = recording.x.iter().zip(lines.of(tooth)).map(|(x, k)| axes.at(middle + x, height(k)));
+            painter.line(points.collect(), stroke);
+        }
+    }
 }
 
 /// A thick line wherever the contact carries load.

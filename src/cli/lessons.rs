@@ -1,0 +1,131 @@
+//! `squeezefilm lessons`: lessons that a teacher has written, tried; and lessons on paper.
+
+use super::exit::{CliError, Exit};
+use super::interrupt::cancel_on_interrupt;
+use super::progress::Bar;
+use super::terminal;
+use crate::atomic::write_file;
+use crate::export::figure::Piece;
+use crate::gui::state::lessons::window_names;
+use crate::lessons::record::RecordError;
+use crate::lessons::{self, Lesson, LessonError, handout, record, trial};
+use clap::{Args, Subcommand};
+use std::path::{Path, PathBuf};
+
+/// Tries lessons of your own, and prints lessons on paper
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  squeezefilm lessons check my-course
+  squeezefilm lessons print --out handouts
+  squeezefilm lessons print my-course --out handouts
+  squeezefilm lessons summary answers/*.csv --out class.html")]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Reads the lessons of a folder and tries every task: try has to fulfil its check, wrong must not
+    Check {
+        /// A folder of lessons, or one lesson
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
+    /// Writes sheets to work on and sheets with the answers, as HTML and PDF, a page for each lesson
+    Print {
+        /// A folder of lessons, or one lesson; without it, the built-in lessons
+        #[arg(value_name = "DIR")]
+        folder: Option<PathBuf>,
+        /// Folder for worksheets and answers
+        #[arg(long, value_name = "DIR", default_value = "handouts")]
+        out: PathBuf,
+    },
+    /// Writes a page on the answers of a class, from the records that students saved as CSV
+    Summary {
+        /// Records, one for each student
+        #[arg(value_name = "FILE", required = true)]
+        records: Vec<PathBuf>,
+        /// The page
+        #[arg(long, value_name = "FILE", default_value = "summary.html")]
+        out: PathBuf,
+    },
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    match &arguments.command {
+        Command::Check { folder } => check(folder),
+        Command::Print { folder, out } => print(folder.as_deref(), out),
+        Command::Summary { records, out } => summary(records, out),
+    }
+}
+
+/// Lessons of a folder, or those that are built in; what cannot be read is said.
+fn read(folder: Option<&Path>) -> (Vec<Lesson>, Vec<LessonError>) {
+    let read = |names: lessons::WindowNames<'_>| match folder {
+        Some(folder) => lessons::load(folder, names),
+        None => lessons::built_in(names),
+    };
+    let (lessons, faults) = window_names(read);
+    faults.iter().for_each(|fault| terminal::error(&fault.to_string()));
+    (lessons, faults)
+}
+
+fn check(folder: &Path) -> Result<Exit, CliError> {
+    let (lessons, faults) = read(Some(folder));
+    let cancel = cancel_on_interrupt();
+    let mut failed = !faults.is_empty();
+    for lesson in &lessons {
+        let bar = Bar::rows(lesson.steps.len());
+        let findings = trial::lesson(lesson, &mut |step| bar.point_done(&lesson.steps[step].title), &cancel);
+        drop(bar);
+        if cancel.is_cancelled() {
+            return Ok(Exit::Other);
+        }
+        let errors = findings.iter().filter(|finding| finding.fault.is_error()).count();
+        failed |= errors > 0;
+        let tasks = lesson.steps.iter().filter(|step| step.task.is_some()).count();
+        let words = match errors {
+            0 => "all done by try, none by wrong".to_owned(),
+            1 => "1 error".to_owned(),
+            errors => format!("{errors} errors"),
+        };
+        terminal::text(&format!(
+            "{}: {}, {} steps, {tasks} tasks: {words}\n",
+            lesson.id,
+            lesson.title,
+            lesson.steps.len()
+        ));
+        for finding in &findings {
+            let kind = if finding.fault.is_error() { "error" } else { "warning" };
+            terminal::text(&format!("  {kind}: step {}, {}: {}\n", finding.step, finding.title, finding.fault));
+        }
+    }
+    Ok(if failed { Exit::BadInput } else { Exit::Solved })
+}
+
+fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
+    let (lessons, faults) = read(folder);
+    let cancel = cancel_on_interrupt();
+    for (name, title, answers) in [("worksheets", "Worksheets", false), ("answers", "Answers", true)] {
+        let sheets: Result<Vec<Vec<Piece>>, String> =
+            lessons.iter().map(|lesson| handout::sheet(lesson, answers, &cancel)).collect();
+        let sheets = sheets.map_err(CliError::Answers)?;
+        let html = handout::to_html(title, &sheets).into_bytes();
+        let pdf = handout::to_pdf(title, &sheets)?;
+        for (bytes, extension) in [(html, "html"), (pdf, "pdf")] {
+            let path = out.join(format!("{name}.{extension}"));
+            write_file(&path, |file| file.write_all(&bytes))?;
+            terminal::note(&format!("{}", path.display()));
+        }
+    }
+    Ok(if faults.is_empty() { Exit::Solved } else { Exit::BadInput })
+}
+
+fn summary(records: &[PathBuf], out: &Path) -> Result<Exit, CliError> {
+    let class: Result<Vec<_>, RecordError> = records.iter().map(|path| record::read(path)).collect();
+    let page = record::summary(&class?);
+    write_file(out, |file| file.write_all(page.as_bytes()))?;
+    terminal::note(&out.display().to_string());
+    Ok(Exit::Solved)
+}

@@ -1,0 +1,192 @@
+//! Sheets of paper: headings, text, room to write in and axes to sketch in, as a PDF of A4 pages in two columns. Each sheet is set in the
+//! largest type in which it fits on one page.
+
+use super::colour::Colour;
+use super::error::FigureError;
+use super::render::svg_pages;
+use super::svg::{Pen, Rect, Svg, Type};
+use super::text::wrapped;
+use serde::{Deserialize, Serialize};
+
+/// A4 \[pt\].
+pub(super) const PAGE: [f64; 2] = [595.28, 841.89];
+const MARGIN: f64 = 42.0;
+const COLUMNS: usize = 2;
+/// Between columns.
+const GUTTER: f64 = 22.0;
+/// Sizes of type \[pt\], the largest first; the last continues on a further page.
+const SIZES: [f64; 6] = [10.5, 9.8, 9.1, 8.4, 7.7, 7.0];
+/// Heights in sizes of type.
+const LINE: f64 = 1.32;
+const RULED: f64 = 1.9;
+const AXES: f64 = 6.5;
+const INDENT: f64 = 1.4;
+
+/// A part of a sheet, below what comes before it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Piece {
+    /// The title of the sheet.
+    Title(String),
+    /// A heading.
+    Heading(String),
+    /// A paragraph.
+    Text(String),
+    /// A choice, with a box to tick, ticked or not.
+    Choice(String, bool),
+    /// A paragraph that stands out.
+    Answer(String),
+    /// Ruled lines to write on.
+    Room(usize),
+    /// Empty axes to sketch in: what is along them.
+    Axes([String; 2]),
+}
+
+/// The sheets as a PDF, each beginning on a page of its own.
+///
+/// # Errors
+/// [`FigureError`] if the pages cannot be made.
+pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, FigureError> {
+    let mut pages = Vec::new();
+    for sheet in sheets {
+        let mut set = SIZES.iter().map(|size| set(sheet, *size));
+        let mut last = Vec::new();
+        for pages in set.by_ref() {
+            last = pages;
+            if last.len() < 2 {
+                break;
+            }
+        }
+        pages.append(&mut last);
+    }
+    svg_pages(title, PAGE, &pages)
+}
+
+/// A sheet in type of this size: the body of each of its pages.
+fn set(sheet: &[Piece], size: f64) -> Vec<String> {
+    let mut setter = Setter { pages: vec![Svg::default()], column: 0, y: MARGIN, size };
+    for piece in sheet {
+        match piece {
+            Piece::Title(text) => setter.words(text, 0.0, 1.6, Colour::FILM, 0.0),
+            Piece::Heading(text) => setter.words(text, 0.0, 1.15, Colour::BLACK, 0.8),
+            Piece::Text(text) => setter.words(text, 0.0, 1.0, Colour::BLACK, 0.25),
+            Piece::Answer(text) => setter.words(text, 0.0, 1.0, Colour::FILM, 0.25),
+            Piece::Choice(text, ticked) => {
+                let indent = INDENT * size;
+                let colour = if *ticked { Colour::FILM } else { Colour::BLACK };
+                setter.words(text, indent, 1.0, colour, 0.2);
+                setter.tick(text, indent, *ticked);
+            }
+            Piece::Room(lines) => setter.ruled(*lines),
+            Piece::Axes(names) => setter.axes(names),
+        }
+    }
+    setter.pages.into_iter().map(|page| page.body).collect()
+}
+
+struct Setter {
+    pages: Vec<Svg>,
+    column: usize,
+    /// Where the next piece begins.
+    y: f64,
+    size: f64,
+}
+
+impl Setter {
+    fn width() -> f64 {
+        (PAGE[0] - 2.0 * MARGIN - (COLUMNS as f64 - 1.0) * GUTTER) / COLUMNS as f64
+    }
+
+    /// The left edge of the column.
+    fn left(&self) -> f64 {
+        MARGIN + self.column as f64 * (Self::width() + GUTTER)
+    }
+
+    /// Takes this height, in the next column if this one has not got it; where it begins.
+    fn take(&mut self, height: f64) -> f64 {
+        if self.y + height > PAGE[1] - MARGIN && self.y > MARGIN {
+            self.y = MARGIN;
+            self.column += 1;
+            if self.column == COLUMNS {
+                self.column = 0;
+                self.pages.push(Svg::default());
+            }
+        }
+        self.y += height;
+        self.y - height
+    }
+
+    fn draw(&mut self, draw: impl FnOnce(&mut Svg)) {
+        if let Some(page) = self.pages.last_mut() {
+            draw(page);
+        }
+    }
+
+    /// Words in lines, with room above.
+    fn words(&mut self, text: &str, indent: f64, scale: f64, colour: Colour, above: f64) {
+        let size = scale * self.size;
+        let lines = wrapped(text, size, Self::width() - indent);
+        let above = above * self.size;
+        let top = self.take(above + lines.len() as f64 * LINE * size) + above;
+        let (left, style) = (self.left() + indent, Type { colour, ..Type::new(size, "start") });
+        self.draw(|page| {
+            for (i, line) in lines.iter().enumerate() {
+                page.text([left, top + (i as f64 * LINE + 0.95) * size], line, &style);
+            }
+        });
+    }
+
+    /// A box in front of the words that were just written.
+    fn tick(&mut self, text: &str, indent: f64, ticked: bool) {
+        let size = self.size;
+        let lines = wrapped(text, size, Self::width() - indent).len() as f64;
+        let top = self.y - lines * LINE * size + 0.25 * size;
+        let square = Rect { x: self.left(), y: top, width: 0.75 * size, height: 0.75 * size };
+        let fill = ticked.then_some((Colour::FILM, 1.0));
+        self.draw(|page| page.rect(&square, Some(&Pen::solid(Colour::QUIET, 0.6)), fill));
+    }
+
+    fn ruled(&mut self, lines: usize) {
+        for _ in 0..lines {
+            let y = self.take(RULED * self.size) + RULED * self.size;
+            let (left, right) = (self.left(), self.left() + Self::width());
+            self.draw(|page| page.segments(&[[left, y, right, y]], &Pen::solid(Colour::QUIET, 0.4)));
+        }
+        self.y += 0.3 * self.size;
+    }
+
+    fn axes(&mut self, [along, up]: &[String; 2]) {
+        let size = self.size;
+        let top = self.take((AXES + 2.0) * size) + 0.6 * size;
+        let (left, bottom) = (self.left() + 0.5 * size, top + AXES * size);
+        let right = self.left() + 0.9 * Self::width();
+        self.draw(|page| {
+            page.segments(&[[left, top, left, bottom], [left, bottom, right, bottom]], &Pen::solid(Colour::BLACK, 0.8));
+            page.text([right, bottom + size], along, &Type::new(0.85 * size, "end"));
+            page.text([left + 0.5 * size, top + 0.6 * size], up, &Type::new(0.85 * size, "start"));
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_is_one_page_if_it_can_be() {
+        let some = |count: usize| vec![Piece::Text("a line of words that is not long".to_owned()); count];
+        assert_eq!(set(&some(80), SIZES[0]).len(), 1);
+        assert!(set(&some(110), SIZES[0]).len() > 1 && set(&some(110), SIZES[5]).len() == 1);
+        let pages = |sheets: &[Vec<Piece>]| {
+            let pdf = sheets_to_pdf("Title", sheets).unwrap();
+            assert!(pdf.starts_with(b"%PDF"));
+            pdf.windows(12).filter(|part| *part == b"/Type /Page\n").count()
+        };
+        assert_eq!(pages(&[some(110), some(3)]), 2);
+        assert_eq!(pages(&[some(200)]), 2);
+        assert_eq!(
+            pages(&[vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)]]),
+            1
+        );
+    }
+}

@@ -1,0 +1,64 @@
+//! What a lesson reads off the tabs: of a plate in the hand, of a start-up, of torque over speed, of a plate beside its exact results.
+
+use super::hold::HoldState;
+use super::startup::StartupState;
+use super::torque::TorqueState;
+use crate::job::SolvedScene;
+use crate::lessons::live::Readings;
+use crate::problem::Scenario;
+use std::sync::Arc;
+
+/// A held plate this near to its mean gap has not been moved, relative.
+const AT_REST: f64 = 0.01;
+
+/// What the window shows, to be read by a check.
+#[derive(Clone, Copy, Debug)]
+pub struct OnScreen<'a> {
+    /// The run on screen.
+    pub run: Option<&'a Arc<SolvedScene>>,
+    /// Torque over speed.
+    pub torque: &'a TorqueState,
+    /// The start-up.
+    pub startup: Option<&'a StartupState>,
+    /// The plate in the hand.
+    pub hold: Option<&'a HoldState>,
+}
+
+/// Numbers that are read off the tabs.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OffTabs {
+    /// What was read off when the step began.
+    pub start: Readings,
+    /// What is read off now.
+    pub now: Readings,
+    /// Whether the held plate was at rest since the step was set up: what was done with it before does not count.
+    rested: bool,
+}
+
+impl OffTabs {
+    /// Reads off the tabs what they show of `run`; of a start-up and of a held plate also what they began with.
+    pub fn read(&mut self, run: &SolvedScene, seen: OnScreen<'_>) {
+        self.now = Readings::default();
+        if let Some(hold) = seen.hold.filter(|hold| !hold.stale(&run.scene)) {
+            let (plate, now) = (hold.plate(), hold.now().reading);
+            self.rested |= (now.gap / plate.mean_gap - 1.0).abs() < AT_REST;
+            let rest = (plate.mean_gap, plate.gas.ambient_pressure);
+            let present = if self.rested { (now.gap, now.mean_pressure) } else { rest };
+            self.start.read_held(rest.0, rest.1);
+            self.now.read_held(present.0, present.1);
+        }
+        if let Some(startup) = seen.startup.filter(|startup| !startup.stale(&run.scene)) {
+            let points = startup.points();
+            for (readings, point) in [(&mut self.start, points.first()), (&mut self.now, points.last())] {
+                if let Some(point) = point {
+                    readings.read_cycle(point.number, point.remaining, &point.outcome, &run.problem.scenario);
+                }
+            }
+        }
+        match (&run.problem.scenario, seen.torque.of(run)) {
+            (Scenario::Plate(plate), _) => self.now.read_exact(plate, &run.solution.recording),
+            (Scenario::Motor(_), Some(curves)) => self.now.read_torque(curves),
+            (Scenario::Motor(_), None) => {}
+        }
+    }
+}

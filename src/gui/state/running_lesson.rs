@@ -1,0 +1,119 @@
+//! The lesson that is followed: its step, what was done, and the run that the step began with.
+
+use super::document::Document;
+use super::lesson_tabs::{OffTabs, OnScreen};
+use super::view::Tab;
+use crate::analysis::quantity::Numbers;
+use crate::fidelity::Fidelity;
+use crate::job::SolvedScene;
+use crate::lessons::Lesson;
+use crate::lessons::check::{Ran, Reading};
+use crate::lessons::live::{Live, Readings};
+use crate::lessons::text::readings;
+use crate::lessons::work::{Stage, StepWork};
+use crate::scene::Scene;
+use crate::solution::Status;
+use std::sync::Arc;
+
+/// The run that a step compares with.
+#[derive(Clone, Debug)]
+pub struct StartingPoint {
+    /// The scene that the step began with.
+    pub scene: Scene,
+    /// Its run, the finest so far.
+    pub run: Option<Arc<SolvedScene>>,
+    /// Its results.
+    pub numbers: Numbers,
+}
+
+impl StartingPoint {
+    pub(super) fn of(scene: Scene) -> Self {
+        Self { scene, run: None, numbers: Numbers::default() }
+    }
+}
+
+/// The lesson that is followed.
+#[derive(Debug)]
+pub struct RunningLesson {
+    /// Its place in the list.
+    pub lesson: usize,
+    /// Its step.
+    pub step: usize,
+    /// What was done, by step.
+    pub work: Vec<StepWork>,
+    /// Whether all results are shown in place of the text.
+    pub all_results: bool,
+    /// The student's own scene.
+    pub(super) student: Document,
+    /// What was shown before the lesson: the tab, and whether parameters and results were.
+    pub(super) before: (Tab, bool, bool),
+    /// What the step began with.
+    pub start: StartingPoint,
+    /// The newest run of the present scene.
+    pub newest: Option<Numbers>,
+    /// What is read off the tabs.
+    pub tabs: OffTabs,
+    pub(super) reveal: u8,
+    /// Whether the marked parameter takes the keyboard.
+    pub(super) enter: bool,
+}
+
+impl RunningLesson {
+    /// The value of what a text quotes: of the run of `scene` or, for what is `told` once a task is done, of the run that did it.
+    pub(super) fn value(&self, reading: &Reading, scene: &Scene, told: bool) -> Option<f64> {
+        let kept = self.work.get(self.step).filter(|_| told).and_then(|work| work.readings.get(&reading.source));
+        if let Some(kept) = kept {
+            return Some(*kept);
+        }
+        let empty = Numbers::default();
+        let numbers = self.newest.as_ref().unwrap_or(&empty);
+        let (start, tabs) = (&self.start, &self.tabs);
+        let now = Ran { scene, numbers, live: &tabs.now };
+        reading.value(now, Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start })
+    }
+
+    /// Looks at the run on screen: what the step began with, and whether its task is fulfilled.
+    pub(super) fn judge(&mut self, lesson: &Lesson, document: &Document, seen: OnScreen<'_>) {
+        self.newest = None;
+        self.tabs.now = Readings::default();
+        let scene = document.scene();
+        let Some(run) = seen.run.filter(|run| run.scene == *scene && run.solution.status == Status::Converged) else {
+            return;
+        };
+        let numbers = Numbers::of(&run.problem, &run.solution);
+        self.newest = Some(numbers);
+        self.tabs.read(run, seen);
+        let start = &mut self.start;
+        if run.scene == start.scene && start.run.as_ref().is_none_or(|found| found.fidelity <= run.fidelity) {
+            (start.run, start.numbers) = (Some(Arc::clone(run)), numbers);
+            for live in Live::all().filter(|live| !live.is_done_by_hand()) {
+                if let Some(value) = self.tabs.now.get(live) {
+                    self.tabs.start.set(live, value);
+                }
+            }
+        }
+        let Some((step, task)) = lesson.steps.get(self.step).and_then(|step| Some((step, step.task.as_ref()?))) else {
+            return;
+        };
+        let Some(work) = self.work.get_mut(self.step) else { return };
+        // A draft is good enough to look at, not to judge by; and a value counts when the pointer has let go of it.
+        let ready = run.fidelity >= document.target().min(Fidelity::Standard) && !document.is_dragging();
+        if !ready || work.stage(step) != Stage::Task {
+            return;
+        }
+        let (tabs, start) = (&self.tabs, &self.start);
+        work.tried = run.scene != start.scene
+            || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
+        let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
+        let start = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
+        work.unmet = task.check.unmet(now, start);
+        let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, start).is_none());
+        work.too_far = work.unmet.is_none() && beyond;
+        if work.unmet.is_none() && !beyond {
+            work.fulfilled = true;
+            let quoted =
+                readings(step.told()).filter_map(|reading| Some((reading.source.clone(), reading.value(now, start)?)));
+            work.readings = quoted.collect();
+        }
+    }
+}

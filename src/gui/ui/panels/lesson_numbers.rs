@@ -1,0 +1,95 @@
+//! The numbers that a step of a lesson is about.
+
+use crate::digits::capitalised;
+use crate::gui::derived::format::digits;
+use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::glossary;
+use crate::lessons::Step;
+use crate::lessons::check::Name;
+use crate::lessons::live::Live;
+use crate::scene::Value;
+use eframe::egui::{self, Align, Layout, RichText, TextStyle, Ui, vec2};
+
+/// Digits of the numbers beside the text.
+const DIGITS: usize = 4;
+/// Widths of the columns of numbers, in heights of the text: the first two have room for a sign.
+const NUMBER_WIDTHS: [f32; 3] = [4.5, 4.5, 3.7];
+/// Changes smaller than this are none, relative.
+const UNCHANGED: f64 = 5e-4;
+
+/// The numbers that the step is about: at its beginning, now, and their ratio.
+pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
+    let scene = cx.state.document.scene();
+    let Some(running) = cx.state.lessons.running() else { return };
+    if step.show.is_empty() {
+        return;
+    }
+    let value = |name: Name, start: bool| match name {
+        Name::Quantity(quantity) => {
+            let numbers = if start { Some(&running.start.numbers) } else { running.newest.as_ref() };
+            numbers.and_then(|numbers| numbers.get(quantity))
+        }
+        Name::Live(live) => if start { &running.tabs.start } else { &running.tabs.now }.get(live),
+        Name::Key(parameter) => {
+            let scene = if start { &running.start.scene } else { scene };
+            scene.get(parameter.key).and_then(|value| value.as_number())
+        }
+    };
+    let shown = |name: Name, value: Option<f64>| match (name, value) {
+        (_, None) => "…".to_owned(),
+        // A parameter as it was typed, a result with its digits.
+        (Name::Key(_), Some(value)) => Value::Number(value).to_string().replace('-', "−"),
+        (Name::Live(Live::Cycles), Some(value)) => format!("{value}"),
+        (Name::Quantity(_) | Name::Live(_), Some(value)) => digits(value, DIGITS),
+    };
+    // Three columns of numbers; the names have what is left.
+    let em = ui.text_style_height(&TextStyle::Body);
+    let row = |ui: &mut Ui, name: &mut dyn FnMut(&mut Ui), cells: [RichText; 3]| {
+        let height = ui.spacing().interact_size.y.min(1.3 * em);
+        ui.allocate_ui_with_layout(vec2(ui.available_width(), height), Layout::right_to_left(Align::Center), |ui| {
+            for (cell, width) in cells.into_iter().zip(NUMBER_WIDTHS).rev() {
+                let width = vec2(width * em, height);
+                ui.allocate_ui_with_layout(width, Layout::right_to_left(Align::Center), |ui| {
+                    ui.set_min_width(width.x);
+                    ui.add(egui::Label::new(cell).extend());
+                });
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| name(ui));
+        });
+    };
+    let quiet = |text: &str| RichText::new(text).color(cx.colours.quiet);
+    let table = ui.scope(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
+        row(ui, &mut |ui| drop(ui.label(quiet("Your run"))), [quiet("at first"), quiet("now"), quiet("")]);
+        for &shown_name in &step.show {
+            let words = shown_name.words();
+            let unit = match shown_name.unit(scene) {
+                "" => String::new(),
+                unit => format!(", {unit}"),
+            };
+            let (first, now) = (value(shown_name, true), value(shown_name, false));
+            let ratio = match (first, now) {
+                (Some(first), Some(now)) if first.abs() > 0.0 && (now / first - 1.0).abs() > UNCHANGED => {
+                    format!("× {}", digits(now / first, 3))
+                }
+                _ => String::new(),
+            };
+            let mut name = |ui: &mut Ui| {
+                let label = ui.add(egui::Label::new(format!("{}{unit}", capitalised(&words))).truncate());
+                glossary::hover(ui, label, &words);
+            };
+            let present = RichText::new(shown(shown_name, now)).strong().color(ui.visuals().strong_text_color());
+            row(
+                ui,
+                &mut name,
+                [quiet(&shown(shown_name, first)), present, RichText::new(ratio).color(cx.colours.film)],
+            );
+        }
+    });
+    // The ring stands outside of what the panel clips.
+    ui.scope(|ui| {
+        ui.set_clip_rect(ui.clip_rect().expand(8.0));
+        cx.mark(ui, "numbers", table.response.rect);
+    });
+    ui.add_space(6.0);
+}

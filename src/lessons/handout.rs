@@ -1,0 +1,155 @@
+//! Lessons on paper: a sheet for each with room for predictions and axes to sketch in, and a sheet with the answers.
+
+use super::check::Reading;
+use super::lesson::{Answer, Kind, Lesson, Question, Step};
+use super::text::{Block, Inline, filled, plain};
+use super::trial::{Quoted, quoted};
+use crate::control::Cancel;
+use crate::export::figure::{Axis, Figure, FigureError, Panel, Piece, sheets_to_pdf};
+use crate::export::html::Page;
+use std::collections::BTreeMap;
+
+/// Lines to write a reason on, and to calculate on.
+const REASON: usize = 1;
+const CALCULATION: usize = 3;
+/// Height of axes on a page of the web \[mm\].
+const AXES: f64 = 38.0;
+
+/// What a student draws in a part of the window that a step looks at: along, and up.
+const SKETCHES: &[(&str, [&str; 2])] = &[
+    ("loop", ["gap", "mean pressure"]),
+    ("loads", ["time, one cycle", "force of the film"]),
+    ("pressure", ["place", "pressure"]),
+    ("history", ["cycles", "mean force"]),
+    ("start", ["cycles", "mean force"]),
+    ("torque", ["speed", "torque"]),
+];
+
+/// The sheet of a lesson: to write on, or with `answers`. Numbers of runs are computed where the answers quote them.
+///
+/// # Errors
+/// Why a scene of it was not solved.
+pub fn sheet(lesson: &Lesson, answers: bool, cancel: &Cancel) -> Result<Vec<Piece>, String> {
+    let kind = if answers { "Answers" } else { "Name ______________________  Date ______________" };
+    let mut pieces = vec![Piece::Title(lesson.title.clone()), Piece::Text(kind.to_owned())];
+    for (i, step) in lesson.steps.iter().enumerate() {
+        let known = quoted(step, cancel).map_err(|error| format!("{}, {}: {error}", lesson.title, step.title))?;
+        if step.question.is_some() || step.task.is_some() {
+            pieces.push(Piece::Heading(format!("{}  {}", i + 1, step.title)));
+            on_paper(&mut pieces, step, &known, answers);
+        }
+    }
+    Ok(pieces)
+}
+
+fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool) {
+    if let Some(question) = &step.question {
+        pieces.extend(lines(&question.ask, &known.before).map(Piece::Text));
+        choices(pieces, question, answers);
+        match (&question.answer, answers) {
+            (Answer::Number { value, unit, .. }, true) => pieces.push(Piece::Answer(format!("{value} {unit}"))),
+            (_, true) => {}
+            (Answer::Number { .. }, false) => pieces.push(Piece::Room(CALCULATION)),
+            (Answer::Choice { .. }, false) => {
+                pieces.push(Piece::Text("Because".to_owned()));
+                pieces.push(Piece::Room(REASON));
+            }
+        }
+    }
+    if let Some(task) = &step.task {
+        pieces.extend(lines(&task.ask, &known.before).map(Piece::Text));
+        let sketch = step.look.iter().find_map(|place| SKETCHES.iter().find(|(known, _)| known == place));
+        if let (Some((_, axes)), false) = (sketch, answers) {
+            let kind = step.question.as_ref().map_or(Kind::Predict, |question| question.kind);
+            let before = if kind == Kind::Predict { "dashed what you expect, " } else { "" };
+            pieces.push(Piece::Text(format!("Sketch: {before}solid what you saw.")));
+            pieces.push(Piece::Axes(axes.map(str::to_owned)));
+        }
+        if let (Some(observe), false) = (step.observe.as_ref().filter(|observe| !observe.ask.is_empty()), answers) {
+            pieces.extend(lines(&observe.ask, &known.told).map(Piece::Text));
+            choices(pieces, observe, answers);
+        }
+    }
+    if answers {
+        let why = step.question.iter().flat_map(|question| &question.why);
+        let told: Vec<&Block> = why.chain(step.task.iter().flat_map(|task| &task.then)).collect();
+        pieces.extend(
+            told.into_iter().flat_map(|block| lines(std::slice::from_ref(block), &known.told)).map(Piece::Answer),
+        );
+    }
+}
+
+fn choices(pieces: &mut Vec<Piece>, question: &Question, answers: bool) {
+    if let Answer::Choice { choices, right } = &question.answer {
+        let boxes = choices.iter().enumerate();
+        pieces.extend(boxes.map(|(i, choice)| Piece::Choice(on_a_line(&choice.text), answers && i == *right)));
+    }
+}
+
+/// Blocks as lines, with the numbers that they quote.
+fn lines<'a>(blocks: &'a [Block], known: &'a BTreeMap<String, f64>) -> impl Iterator<Item = String> + 'a {
+    blocks.iter().map(|block| match block {
+        Block::Paragraph(parts) => with_numbers(parts, known),
+        Block::Item(parts) => format!("•  {}", with_numbers(parts, known)),
+        Block::Formula(formula) => lowered(&formula.plain()),
+        Block::Picture(picture) => format!("({})", picture.alternative),
+    })
+}
+
+fn with_numbers(parts: &[Inline], known: &BTreeMap<String, f64>) -> String {
+    let value =
+        |reading: &Reading| known.get(&reading.source).map_or_else(|| "…".to_owned(), |value| reading.text(*value));
+    on_a_line(&filled(parts, &value))
+}
+
+fn on_a_line(parts: &[Inline]) -> String {
+    lowered(&plain(parts))
+}
+
+/// Indices and exponents of one character, as figures have them.
+fn lowered(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        out.push(c);
+        if let (true, Some(next)) = (matches!(c, '_' | '^'), rest.peek().filter(|next| next.is_alphanumeric())) {
+            out.push_str(&format!("{{{next}}}"));
+            rest.next();
+        }
+    }
+    out
+}
+
+/// Sheets as a PDF.
+///
+/// # Errors
+/// [`FigureError`] if its pages cannot be made.
+pub fn to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, FigureError> {
+    sheets_to_pdf(title, sheets)
+}
+
+/// Sheets as one page of the web, which prints each on paper of its own.
+pub fn to_html(title: &str, sheets: &[Vec<Piece>]) -> String {
+    let mut page = Page::new("squeezefilm, lessons", title, "");
+    for piece in sheets.iter().flatten() {
+        match piece {
+            Piece::Title(text) => page.section(text),
+            Piece::Heading(text) => page.heading(text),
+            Piece::Text(text) => page.text(&flat(text)),
+            Piece::Answer(text) => page.note(&flat(text)),
+            Piece::Choice(text, ticked) => page.choices([(flat(text).as_str(), *ticked)]),
+            Piece::Room(lines) => page.room(*lines),
+            Piece::Axes([along, up]) => {
+                let [x, y] = [along, up].map(|name| Axis { names: vec![(-1.0, String::new())], ..Axis::new(name, "") });
+                let panel = Panel::new("", x.fixed(0.0, 1.0), y.fixed(0.0, 1.0)).height(AXES);
+                page.figures([("", &Figure::default().panel(panel))]);
+            }
+        }
+    }
+    page.finish("Printed by squeezefilm lessons print")
+}
+
+/// Without the braces of indices.
+fn flat(text: &str) -> String {
+    text.replace(['{', '}'], "")
+}

@@ -1,0 +1,98 @@
+//! Pictures in a lesson: PNG files in its folder.
+
+use crate::input::{ReadError, read_bytes};
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Largest file \[MB\], and most pixels along a side.
+const LARGEST: u64 = 4;
+const MOST: u32 = 4096;
+
+/// A picture and what it shows.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// What it shows, in words, for whoever cannot see it.
+    pub alternative: String,
+    /// Pixels across and down.
+    pub size: [usize; 2],
+    /// Red, green, blue and opacity of each pixel, row by row from the top.
+    pub rgba: Arc<[u8]>,
+}
+
+impl fmt::Debug for Picture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Picture({}, {:?})", self.alternative, self.size)
+    }
+}
+
+/// Why a picture cannot be shown.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PictureError {
+    /// It is not in the lesson's folder.
+    #[error("there is no such file beside lesson.md")]
+    Missing,
+    /// The file.
+    #[error("{0}")]
+    Unreadable(ReadError),
+    /// What is in it.
+    #[error("is not a PNG picture: {0}")]
+    NoPicture(String),
+    /// Its size.
+    #[error("has {0} × {1} pixels: allowed are {MOST} along a side")]
+    TooLarge(u32, u32),
+}
+
+impl Picture {
+    /// Reads a PNG file.
+    ///
+    /// # Errors
+    /// [`PictureError`].
+    pub fn load(path: &Path, alternative: &str) -> Result<Self, PictureError> {
+        let bytes = read_bytes(path, LARGEST).map_err(PictureError::Unreadable)?;
+        let fault = |error: png::DecodingError| PictureError::NoPicture(error.to_string());
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::normalize_to_color8() | png::Transformations::ALPHA);
+        let mut reader = decoder.read_info().map_err(fault)?;
+        let (width, height) = reader.info().size();
+        if width > MOST || height > MOST {
+            return Err(PictureError::TooLarge(width, height));
+        }
+        let size = reader.output_buffer_size().ok_or(PictureError::TooLarge(width, height))?;
+        let mut pixels = vec![0; size];
+        let frame = reader.next_frame(&mut pixels).map_err(fault)?;
+        pixels.truncate(frame.buffer_size());
+        let rgba: Vec<u8> = match frame.color_type {
+            png::ColorType::GrayscaleAlpha => pixels.chunks_exact(2).flat_map(|p| [p[0], p[0], p[0], p[1]]).collect(),
+            _ => pixels,
+        };
+        let size = [width, height].map(|side| side as usize);
+        Ok(Self { alternative: alternative.to_owned(), size, rgba: rgba.into() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_read_and_anything_else_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        for (colour, bytes, first) in [
+            (png::ColorType::Grayscale, vec![9; 6], [9, 9, 9, 255]),
+            (png::ColorType::Rgb, vec![7; 18], [7, 7, 7, 255]),
+            (png::ColorType::Rgba, vec![5; 24], [5, 5, 5, 5]),
+        ] {
+            let mut encoder = png::Encoder::new(std::fs::File::create(&path).unwrap(), 3, 2);
+            encoder.set_color(colour);
+            encoder.set_depth(png::BitDepth::Eight);
+            encoder.write_header().unwrap().write_image_data(&bytes).unwrap();
+            let read = Picture::load(&path, "grey").unwrap();
+            assert_eq!((read.size, read.rgba.len(), &read.rgba[..4]), ([3, 2], 24, &first[..]));
+        }
+        std::fs::write(&path, "no picture").unwrap();
+        assert!(Picture::load(&path, "").unwrap_err().to_string().contains("is not a PNG picture"));
+        assert!(Picture::load(folder.path(), "").unwrap_err().to_string().contains("a folder"));
+    }
+}

@@ -1,0 +1,297 @@
+//! The blocks of a step: what is set up, asked, and to be done.
+
+use super::table::{Piece, Reader, Table};
+use crate::analysis::quantity::Quantity;
+use crate::lessons::check::{Check, Name, name};
+use crate::lessons::error::{KeyFault, LessonErrorKind};
+use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Kind, Question, Step, Task};
+use crate::lessons::live::Live;
+use crate::scene::{Parameter, Scene, presets};
+
+/// The blocks of a step.
+pub(super) const BLOCKS: [&str; 4] = [SETUP, QUESTION, TASK, OBSERVE];
+const SETUP: &str = "setup";
+const QUESTION: &str = "question";
+const TASK: &str = "task";
+const OBSERVE: &str = "observe";
+const SETUP_KEYS: &[&str] = &["preset", "set", "light", "look", "tab", "show"];
+const QUESTION_KEYS: &[&str] = &["kind", "ask", "choices", "answer", "unit", "within", "replies", "hint", "why"];
+const OBSERVE_KEYS: &[&str] = &["ask", "choices", "answer", "replies"];
+const TASK_KEYS: &[&str] = &["ask", "check", "too_far", "too_far_says", "hints", "try", "wrong", "then"];
+/// In `try` and `wrong`: the start-up is started.
+const START_UP: &str = "start-up";
+/// How far a good answer that is a number may be off, unless the lesson says.
+const WITHIN: f64 = 0.2;
+/// What the kind of a question is called.
+const KINDS: [(&str, Kind); 2] = [("predict", Kind::Predict), ("calculate", Kind::Calculate)];
+
+/// A step as it stands in the file.
+pub(super) struct Raw {
+    pub(super) line: usize,
+    pub(super) title: String,
+    pub(super) body: Vec<Piece>,
+    pub(super) blocks: Vec<(&'static str, Piece)>,
+}
+
+impl Reader<'_> {
+    pub(super) fn step(&mut self, raw: &Raw) -> Option<Step> {
+        let block = |kind: &str| raw.blocks.iter().find(|(found, _)| *found == kind).map(|(_, piece)| piece);
+        let mut setup = Setup::default();
+        if let Some(piece) = block(SETUP) {
+            self.table(SETUP, SETUP_KEYS, piece, |reader, table| setup = reader.setup(table));
+        }
+        if self.scene.is_none() {
+            if setup.faulty {
+                return None;
+            }
+            self.fault(raw.line, LessonErrorKind::NoScene);
+            return None;
+        }
+        let scene = self.scene.clone()?;
+        let body = self.text(&raw.body);
+        let (mut question, mut task, mut observe) = (None, None, None);
+        if let Some(piece) = block(QUESTION) {
+            self.table(QUESTION, QUESTION_KEYS, piece, |reader, table| question = reader.question(table));
+        }
+        if let Some(piece) = block(TASK) {
+            self.table(TASK, TASK_KEYS, piece, |reader, table| task = reader.task(table, &scene));
+        }
+        match block(OBSERVE) {
+            Some(piece) if task.is_none() => self.fault(piece.line - 1, LessonErrorKind::ObserveWithoutTask),
+            Some(piece) => {
+                self.table(OBSERVE, OBSERVE_KEYS, piece, |reader, table| observe = reader.question(table));
+            }
+            None => observe = question.as_ref().filter(|_| task.is_some()).and_then(same_choices),
+        }
+        let Setup { sets, light, look, tab, show, .. } = setup;
+        Some(Step { title: raw.title.clone(), body, scene, sets, light, look, tab, show, question, task, observe })
+    }
+
+    fn setup(&mut self, table: &Table<'_>) -> Setup {
+        let faults = self.faults.len();
+        let mut setup = Setup::default();
+        let preset = self.string(table, "preset");
+        let changes = self.changes(table, "set");
+        setup.sets = preset.is_some() || !changes.is_empty();
+        if let Some((name, line)) = preset {
+            self.scene = None;
+            let built_in = || presets::BUILT_IN.iter().find(|preset| preset.name == name).map(|preset| preset.scene());
+            match (self.beside.preset)(&name).or_else(built_in) {
+                Some(Ok(scene)) => self.scene = Some(scene),
+                Some(Err(error)) => self.key_fault(line, SETUP, "preset", KeyFault::Scene(error)),
+                None => self.fault(line, LessonErrorKind::NoPreset { name }),
+            }
+        }
+        if let Some(mut scene) = self.scene.clone() {
+            if let Err(error) = scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+                self.key_fault(table.line_of("set"), SETUP, "set", KeyFault::Scene(error));
+            }
+            self.scene = Some(scene);
+        }
+        for (key, line) in self.strings(table, "light") {
+            match (Parameter::find(&key), &self.scene) {
+                (Some(parameter), Some(scene)) if scene.parameters().any(|other| other.key == parameter.key) => {
+                    setup.light.push(parameter);
+                }
+                (_, Some(scene)) => {
+                    let allowed: Vec<&str> = scene.parameters().map(|parameter| parameter.key).collect();
+                    let allowed = allowed.join(", ");
+                    self.key_fault(line, SETUP, "light", KeyFault::NotOneOf(key, allowed));
+                }
+                (_, None) => {}
+            }
+        }
+        for (place, line) in self.strings(table, "look") {
+            if self.names.places.contains(&place.as_str()) {
+                setup.look.push(place);
+            } else {
+                let allowed = self.names.places.join(", ");
+                self.key_fault(line, SETUP, "look", KeyFault::NotOneOf(place, allowed));
+            }
+        }
+        if let Some((tab, line)) = self.string(table, "tab") {
+            let plate = self.scene.as_ref().is_some_and(|scene| scene.scene() == "plate");
+            let tabs = self.names.tabs[usize::from(plate)];
+            if tabs.iter().any(|known| known.eq_ignore_ascii_case(&tab)) {
+                setup.tab = Some(tab);
+            } else {
+                let allowed = tabs.join(", ");
+                self.key_fault(line, SETUP, "tab", KeyFault::NotOneOf(tab, allowed));
+            }
+        }
+        for (shown, line) in self.strings(table, "show") {
+            let found = name(&shown).ok().filter(|name| self.scene.as_ref().is_none_or(|scene| name.belongs(scene)));
+            match found {
+                Some(name) => setup.show.push(name),
+                None => {
+                    let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
+                    let allowed: Vec<&str> = results.collect();
+                    let allowed = format!("{}, or a key of this scene", allowed.join(", "));
+                    self.key_fault(line, SETUP, "show", KeyFault::NotOneOf(shown, allowed));
+                }
+            }
+        }
+        setup.faulty = self.faults.len() > faults;
+        setup
+    }
+
+    /// A question, or what is asked about what was seen: that has choices, and is explained elsewhere.
+    fn question(&mut self, table: &Table<'_>) -> Option<Question> {
+        let observes = table.block == OBSERVE;
+        let kind = if observes { Kind::Observe } else { self.kind(table) };
+        let ask = self.blocks(table, "ask", (!observes).then_some("what is asked"));
+        let why = self.blocks(table, "why", (!observes).then_some("what is said once the answer is given"));
+        let hint = self.blocks(table, "hint", None);
+        let answer = if table.get("choices").is_some() || observes {
+            if kind == Kind::Calculate {
+                let line = table.line_of("choices");
+                let fault = KeyFault::NotWith("kind = \"calculate\": a calculation ends in a number");
+                self.key_fault(line, table.block, "choices", fault);
+                return None;
+            }
+            self.choices(table)?
+        } else {
+            if table.get("answer").is_none() {
+                let why = "a number, or with choices the number of the right one";
+                self.key_fault(table.first_line(), QUESTION, "answer", KeyFault::Missing(why));
+            }
+            let (value, _) = self.number(table, "answer")?;
+            let unit = self.string(table, "unit").map_or_else(String::new, |(unit, _)| unit);
+            let (within, line) = self.number(table, "within").unwrap_or((WITHIN, table.first_line()));
+            if !(within > 0.0 && within <= 1.0) {
+                let (found, allowed) = (within.to_string(), "above 0 to 1, relative to the answer".to_owned());
+                self.key_fault(line, QUESTION, "within", KeyFault::OutOfRange(found, allowed));
+            }
+            Answer::Number { value, unit, within }
+        };
+        Some(Question { kind, ask, answer, hint, why })
+    }
+
+    fn kind(&mut self, table: &Table<'_>) -> Kind {
+        let Some((name, line)) = self.string(table, "kind") else { return Kind::Predict };
+        let found = KINDS.iter().find(|(known, _)| *known == name);
+        found.map_or_else(
+            || {
+                let allowed = KINDS.map(|(known, _)| known).join(", ");
+                self.key_fault(line, QUESTION, "kind", KeyFault::NotOneOf(name, allowed));
+                Kind::Predict
+            },
+            |(_, kind)| *kind,
+        )
+    }
+
+    /// Choices with their replies, and which of them is right.
+    fn choices(&mut self, table: &Table<'_>) -> Option<Answer> {
+        let choices = self.lines(table, "choices");
+        for (key, why) in [("choices", "a list of answers"), ("answer", "the number of the right choice, from 1")] {
+            if table.get(key).is_none() {
+                self.key_fault(table.first_line(), table.block, key, KeyFault::Missing(why));
+            }
+        }
+        let replies = self.texts(table, "replies");
+        let (answer, line) = self.number(table, "answer")?;
+        let choices = choices?;
+        let right = answer.fract() == 0.0 && answer >= 1.0 && answer <= choices.len() as f64;
+        if !right || choices.len() < 2 {
+            let allowed = format!("1 to {}, of at least 2 choices", choices.len());
+            self.key_fault(line, table.block, "answer", KeyFault::OutOfRange(answer.to_string(), allowed));
+            return None;
+        }
+        if !replies.is_empty() && replies.len() != choices.len() {
+            let allowed = format!("{}, one for each choice, \"\" for the right one", choices.len());
+            let found = format!("{} texts", replies.len());
+            self.key_fault(table.line_of("replies"), table.block, "replies", KeyFault::OutOfRange(found, allowed));
+        }
+        let replies = replies.into_iter().chain(std::iter::repeat(Vec::new()));
+        let choices = choices.into_iter().zip(replies).map(|(text, reply)| Choice { text, reply }).collect();
+        Some(Answer::Choice { choices, right: answer as usize - 1 })
+    }
+
+    fn task(&mut self, table: &Table<'_>, scene: &Scene) -> Option<Task> {
+        let ask = self.blocks(table, "ask", Some("what is to be done"));
+        if table.get("hints").is_none() {
+            let why = "texts that help, given one after the other on request";
+            self.key_fault(table.first_line(), TASK, "hints", KeyFault::Missing(why));
+        }
+        let hints = self.texts(table, "hints");
+        let then = self.blocks(table, "then", None);
+        let example = self.doing(table, "try", scene);
+        let wrong = self.doing(table, "wrong", scene);
+        let limit = self.check(table, "too_far", scene);
+        let says = limit.as_ref().map(|_| self.blocks(table, "too_far_says", Some("what is said beyond the aim")));
+        if table.get("check").is_none() {
+            let why = "what the run is checked for, as alpha > 1.5 * start.alpha";
+            self.key_fault(table.first_line(), TASK, "check", KeyFault::Missing(why));
+        }
+        let check = self.check(table, "check", scene)?;
+        Some(Task { ask, check, too_far: limit.zip(says), hints, example, wrong, then })
+    }
+
+    fn check(&mut self, table: &Table<'_>, key: &'static str, scene: &Scene) -> Option<Check> {
+        let (source, line) = self.string(table, key)?;
+        match Check::parse(&source, scene) {
+            Ok(check) => Some(check),
+            Err(error) => {
+                self.key_fault(line, TASK, key, KeyFault::Check(source, error));
+                None
+            }
+        }
+    }
+
+    /// Changes that `scene` takes, and what is done in a tab.
+    fn doing(&mut self, table: &Table<'_>, key: &'static str, scene: &Scene) -> Doing {
+        let mut doing = Doing::default();
+        for (text, line) in self.strings(table, key) {
+            if text.trim() == START_UP {
+                doing.acts.push(Act::StartUp);
+                continue;
+            }
+            let Some((name, value)) = self.change(table, key, &text, line) else { continue };
+            match value.parse::<f64>() {
+                Ok(gap) if name == Live::HeldGap.name() && scene.scene() == "plate" && gap > 0.0 && gap.is_finite() => {
+                    doing.acts.push(Act::Hold(gap));
+                }
+                _ => doing.changes.push((name, value)),
+            }
+        }
+        let mut changed = scene.clone();
+        if let Err(error) = changed.set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+            self.key_fault(table.line_of(key), TASK, key, KeyFault::Scene(error));
+        }
+        doing
+    }
+
+    fn changes(&mut self, table: &Table<'_>, key: &'static str) -> Changes {
+        let strings = self.strings(table, key);
+        strings.into_iter().filter_map(|(text, line)| self.change(table, key, &text, line)).collect()
+    }
+
+    /// Reads `key = value`.
+    fn change(&mut self, table: &Table<'_>, key: &'static str, text: &str, line: usize) -> Option<(String, String)> {
+        let Some((name, value)) = text.split_once('=') else {
+            self.key_fault(line, table.block, key, KeyFault::NoChange(text.to_owned()));
+            return None;
+        };
+        let value = value.trim();
+        let bare = value.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(value);
+        Some((name.trim().to_owned(), bare.to_owned()))
+    }
+}
+
+/// What was predicted can be seen: the same choices once more.
+fn same_choices(asked: &Question) -> Option<Question> {
+    let Answer::Choice { choices, right } = &asked.answer else { return None };
+    let choices = choices.iter().map(|choice| Choice { text: choice.text.clone(), reply: Vec::new() }).collect();
+    let answer = Answer::Choice { choices, right: *right };
+    Some(Question { kind: Kind::Observe, ask: Vec::new(), hint: Vec::new(), why: Vec::new(), answer })
+}
+
+#[derive(Default)]
+struct Setup {
+    sets: bool,
+    light: Vec<&'static Parameter>,
+    look: Vec<String>,
+    tab: Option<String>,
+    show: Vec<Name>,
+    faulty: bool,
+}

@@ -1,0 +1,317 @@
+//! Tries the tasks of a lesson without a window: does what `try` and `wrong` say, and looks whether the check holds.
+
+use super::check::{Check, Ran, Reading};
+use super::lesson::{Act, Answer, Doing, Lesson, Step, Task};
+use super::live::{Live, Readings};
+use super::text::readings;
+use crate::analysis::quantity::Numbers;
+use crate::analysis::torque::TorqueCurves;
+use crate::control::{Cancel, Progress};
+use crate::fidelity::Fidelity;
+use crate::hold::{Hold, leak_time};
+use crate::plan::Plan;
+use crate::problem::{Numerics, Problem, Scenario};
+use crate::scene::Scene;
+use crate::solution::Status;
+use crate::solve::{Settings, solve};
+use crate::startup::{self, startup};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// As a window judges by.
+const FIDELITY: Fidelity = Fidelity::Standard;
+/// A push by hand, and how long the plate is then kept, in leak times; and how often it is looked at meanwhile.
+const PUSH: f64 = 0.1;
+const KEPT: f64 = 8.0;
+const LOOKS: usize = 80;
+
+/// What is wrong with a step, or looks as if it were.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Number of the step, from 1.
+    pub step: usize,
+    /// Its title.
+    pub title: String,
+    /// What it is.
+    pub fault: Fault,
+}
+
+/// What can be wrong with a step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// The task is done before anything was done.
+    TrueFromStart,
+    /// What `try` does is not enough, and why.
+    TryFails(String),
+    /// What `try` does goes too far.
+    TryTooFar,
+    /// What `wrong` does fulfils the task.
+    WrongPasses,
+    /// There is no `try`.
+    NoTry,
+    /// There is no `wrong`.
+    NoWrong,
+    /// A text quotes a number that the run does not have, as written.
+    Unknown(String),
+    /// A wrong choice without a reply, from 1.
+    NoReply(usize),
+    /// The scene could not be solved, and why.
+    Unsolved(String),
+}
+
+impl Fault {
+    /// Whether the step cannot be done as it is; anything else is advice.
+    pub fn is_error(&self) -> bool {
+        !matches!(self, Self::NoTry | Self::NoWrong | Self::NoReply(_))
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TrueFromStart => f.write_str("the check holds from the start: there is nothing to do"),
+            Self::TryFails(unmet) => write!(f, "try does not fulfil the check: {unmet}"),
+            Self::TryTooFar => f.write_str("try goes too far: too_far holds"),
+            Self::WrongPasses => f.write_str("wrong fulfils the check"),
+            Self::NoTry => f.write_str("no try: nobody can be shown how, and the check is not tried"),
+            Self::NoWrong => f.write_str("no wrong: it is not tried whether the check can fail"),
+            Self::Unknown(source) => write!(f, "{{{source}}} is not known in the run that does the task"),
+            Self::NoReply(choice) => write!(f, "choice {choice} is wrong and has no reply"),
+            Self::Unsolved(why) => write!(f, "the scene was not solved: {why}"),
+        }
+    }
+}
+
+/// Tries every task of a lesson, until it is cancelled; `each` is told the number of each step before.
+pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(usize), cancel: &Cancel) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for (i, step) in lesson.steps.iter().enumerate() {
+        if cancel.is_cancelled() {
+            break;
+        }
+        each(i);
+        let faults = replies(step).into_iter().chain(step.task.iter().flat_map(|task| task_faults(step, task, cancel)));
+        findings.extend(faults.map(|fault| Finding { step: i + 1, title: step.title.clone(), fault }));
+    }
+    findings
+}
+
+/// What the texts of a step quote: of the run that it begins with, and of the one that does the task.
+#[derive(Clone, Debug, Default)]
+pub struct Quoted {
+    /// By what is written between the braces: above the task.
+    pub before: BTreeMap<String, f64>,
+    /// And once it is done.
+    pub told: BTreeMap<String, f64>,
+}
+
+/// What the texts of a step quote, if its task is done as `try` says.
+///
+/// # Errors
+/// Why a scene of it was not solved.
+pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
+    let asked = step.question.iter().flat_map(|question| &question.ask);
+    let above: Vec<&Reading> = readings(step.body.iter().chain(asked)).collect();
+    if above.is_empty() && readings(step.told()).next().is_none() {
+        return Ok(Quoted::default());
+    }
+    let wanted = wanted(step);
+    let start = Run::of(&step.scene, &wanted, cancel)?;
+    let (now, mut known) = (start.ran(&start.live), Quoted::default());
+    known.before = above.into_iter().filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
+    known.told = match &step.task {
+        Some(task) if !task.example.is_empty() => act(step, task, &task.example, &start, &wanted, cancel)?.known,
+        _ => readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect(),
+    };
+    Ok(known)
+}
+
+/// What a step reads off tabs.
+fn wanted(step: &Step) -> Vec<Live> {
+    let asked = step.question.iter().flat_map(|question| &question.ask);
+    let quoted = readings(step.body.iter().chain(asked)).chain(readings(step.told()));
+    step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live)).collect()
+}
+
+/// Wrong choices of the question without a reply.
+fn replies(step: &Step) -> Vec<Fault> {
+    let Some(Answer::Choice { choices, right }) = step.question.as_ref().map(|question| &question.answer) else {
+        return Vec::new();
+    };
+    let silent = choices.iter().enumerate().filter(|(i, choice)| i != right && choice.reply.is_empty());
+    silent.map(|(i, _)| Fault::NoReply(i + 1)).collect()
+}
+
+/// A run, and what is read off the tabs beside it.
+struct Run {
+    scene: Scene,
+    problem: Problem,
+    numbers: Numbers,
+    live: Readings,
+}
+
+impl Run {
+    fn of(scene: &Scene, wanted: &[Live], cancel: &Cancel) -> Result<Self, String> {
+        let problem = Problem::new(scene).map_err(|error| error.to_string())?;
+        let settings = Settings { fidelity: FIDELITY, ..Settings::default() };
+        let solution = solve(&problem, &settings, &mut |_: &Progress| (), cancel).map_err(|error| error.to_string())?;
+        if solution.status != Status::Converged {
+            return Err("it did not converge".to_owned());
+        }
+        let numbers = Numbers::of(&problem, &solution);
+        let mut live = Readings::default();
+        match &problem.scenario {
+            Scenario::Plate(plate) => {
+                live.read_exact(plate, &solution.recording);
+                live.read_held(plate.mean_gap, plate.gas.ambient_pressure);
+            }
+            Scenario::Motor(_) if wanted.iter().any(|live| live.tab() == Live::Stall.tab()) => {
+                let curves = TorqueCurves::of_solve(&problem, FIDELITY, &solution, cancel);
+                if let Some(curves) = curves.map_err(|error| error.to_string())? {
+                    live.read_torque(&curves);
+                }
+            }
+            Scenario::Motor(_) => {}
+        }
+        Ok(Self { scene: scene.clone(), problem, numbers, live })
+    }
+
+    fn ran<'a>(&'a self, live: &'a Readings) -> Ran<'a> {
+        Ran { scene: &self.scene, numbers: &self.numbers, live }
+    }
+}
+
+/// What came of doing something.
+struct Outcome {
+    /// Why the check does not hold; nothing if it did, at any time.
+    unmet: Option<String>,
+    too_far: bool,
+    /// The numbers that texts quote, as they are once it holds.
+    known: BTreeMap<String, f64>,
+}
+
+fn task_faults(step: &Step, task: &Task, cancel: &Cancel) -> Vec<Fault> {
+    match try_task(step, task, cancel) {
+        Ok(faults) => faults,
+        Err(why) => vec![Fault::Unsolved(why)],
+    }
+}
+
+fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Fault>, String> {
+    let wanted = wanted(step);
+    let start = Run::of(&step.scene, &wanted, cancel)?;
+    let mut faults = Vec::new();
+    let by_hand = task.check.live().any(Live::is_done_by_hand);
+    if !by_hand && task.check.unmet(start.ran(&start.live), start.ran(&start.live)).is_none() {
+        faults.push(Fault::TrueFromStart);
+    }
+    if task.example.is_empty() {
+        faults.push(Fault::NoTry);
+    } else {
+        let done = act(step, task, &task.example, &start, &wanted, cancel)?;
+        match done.unmet {
+            Some(unmet) => faults.push(Fault::TryFails(unmet)),
+            None if done.too_far => faults.push(Fault::TryTooFar),
+            None => {
+                let lacks = |reading: &&Reading| !done.known.contains_key(&reading.source);
+                let unknown = readings(step.told()).filter(lacks).map(|reading| reading.source.clone());
+                faults.extend(unknown.map(Fault::Unknown));
+            }
+        }
+    }
+    if task.wrong.is_empty() {
+        faults.push(Fault::NoWrong);
+    } else if act(step, task, &task.wrong, &start, &wanted, cancel)?.unmet.is_none() {
+        faults.push(Fault::WrongPasses);
+    }
+    Ok(faults)
+}
+
+/// Does what is said, and looks at the check whenever something has changed.
+fn act(
+    step: &Step,
+    task: &Task,
+    doing: &Doing,
+    start: &Run,
+    wanted: &[Live],
+    cancel: &Cancel,
+) -> Result<Outcome, String> {
+    let mut scene = step.scene.clone();
+    scene
+        .set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))
+        .map_err(|error| error.to_string())?;
+    let run = Run::of(&scene, wanted, cancel)?;
+    let mut look = Look { task, step, run: &run, start, began: start.live, outcome: None };
+    look.at(&run.live);
+    for act in &doing.acts {
+        match act {
+            Act::Hold(gap) => hold(&run, gap * 1e-6, &mut |live| look.at(live))?,
+            Act::StartUp => start_up(&run, &mut look, cancel)?,
+        }
+    }
+    Ok(look.outcome.unwrap_or(Outcome { unmet: None, too_far: false, known: BTreeMap::new() }))
+}
+
+/// Looks at the check while something goes on: what holds once, holds.
+struct Look<'a> {
+    task: &'a Task,
+    step: &'a Step,
+    run: &'a Run,
+    start: &'a Run,
+    /// What was read off the tabs at first.
+    began: Readings,
+    outcome: Option<Outcome>,
+}
+
+impl Look<'_> {
+    fn at(&mut self, live: &Readings) {
+        if self.outcome.as_ref().is_some_and(|outcome| outcome.unmet.is_none()) {
+            return;
+        }
+        let (now, start) = (self.run.ran(live), self.start.ran(&self.began));
+        let unmet = self.task.check.unmet(now, start);
+        let holds = |limit: &Check| limit.unmet(now, start).is_none();
+        let too_far = self.task.too_far.as_ref().is_some_and(|(limit, _)| holds(limit));
+        let quoted = unmet.is_none().then(|| readings(self.step.told())).into_iter().flatten();
+        let known = quoted.filter_map(|of| Some((of.source.clone(), of.value(now, start)?))).collect();
+        self.outcome = Some(Outcome { unmet, too_far, known });
+    }
+}
+
+/// Pushes the plate of a run to `gap` \[m\] and keeps it there.
+fn hold(run: &Run, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), String> {
+    let Scenario::Plate(plate) = &run.problem.scenario else { return Err("a motor is not held".to_owned()) };
+    let mut held = Hold::new(plate, &Plan::plate(plate, FIDELITY, &Numerics::default()));
+    let leak = leak_time(plate, plate.mean_gap);
+    let mut live = run.live;
+    let mut time = PUSH * leak;
+    for _ in 0..LOOKS {
+        held.advance(gap, time).map_err(|error| error.to_string())?;
+        let reading = held.reading();
+        live.read_held(reading.gap, reading.mean_pressure);
+        look(&live);
+        time = KEPT * leak / LOOKS as f64;
+    }
+    Ok(())
+}
+
+/// Starts a run from rest.
+fn start_up(run: &Run, look: &mut Look<'_>, cancel: &Cancel) -> Result<(), String> {
+    let settings = startup::Settings { fidelity: FIDELITY, ..startup::Settings::default() };
+    // A cycle that comes again, on finer grids, replaces the one before.
+    let mut cycles = BTreeMap::new();
+    let mut each = |cycle: startup::Cycle| {
+        cycles.insert(cycle.number, (cycle.remaining, cycle.outcome));
+    };
+    startup(&run.problem, &settings, &mut each, cancel).map_err(|error| error.to_string())?;
+    let scenario = &run.problem.scenario;
+    for (number, (remaining, outcome)) in cycles {
+        let mut live = run.live;
+        live.read_cycle(number, remaining, &outcome, scenario);
+        if number == 1 {
+            look.began.read_cycle(number, remaining, &outcome, scenario);
+        }
+        look.at(&live);
+    }
+    Ok(())
+}
