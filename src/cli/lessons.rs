@@ -4,7 +4,7 @@ use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
 use super::progress::Bar;
 use super::terminal;
-use crate::atomic::write_file;
+use crate::atomic::{Staged, write_file};
 use crate::export::figure::Piece;
 use crate::gui::state::lessons::window_names;
 use crate::lessons::record::RecordError;
@@ -107,6 +107,7 @@ fn check(folder: &Path) -> Result<Exit, CliError> {
 fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
     let (lessons, faults) = read(folder);
     let cancel = cancel_on_interrupt();
+    let mut staged = Staged::new(out)?;
     for (name, title, answers) in [("worksheets", "Worksheets", false), ("answers", "Answers", true)] {
         let sheets: Result<Vec<Vec<Piece>>, String> =
             lessons.iter().map(|lesson| handout::sheet(lesson, answers, &cancel)).collect();
@@ -114,11 +115,11 @@ fn print(folder: Option<&Path>, out: &Path) -> Result<Exit, CliError> {
         let html = handout::to_html(title, &sheets).into_bytes();
         let pdf = handout::to_pdf(title, &sheets)?;
         for (bytes, extension) in [(html, "html"), (pdf, "pdf")] {
-            let path = out.join(format!("{name}.{extension}"));
-            write_file(&path, |file| file.write_all(&bytes))?;
-            terminal::note(&format!("{}", path.display()));
+            staged.add(format!("{name}.{extension}"), |file| file.write_all(&bytes))?;
         }
     }
+    let written = staged.commit()?;
+    written.iter().for_each(|path| terminal::note(&path.display().to_string()));
     Ok(if faults.is_empty() { Exit::Solved } else { Exit::BadInput })
 }
 

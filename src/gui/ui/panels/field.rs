@@ -138,9 +138,10 @@ pub fn holds_text(ui: &egui::Ui, key: &'static str) -> bool {
     ui.data(|data| data.get_temp::<Edit>(id_of(key))).is_some()
 }
 
-/// Puts the cursor into the field of `key`.
-pub fn enter(ui: &egui::Ui, key: &'static str) {
+/// Puts the cursor into the field of `key`, which shows `value`: what is typed replaces it.
+pub fn enter(ui: &egui::Ui, key: &'static str, value: &Value) {
     ui.memory_mut(|memory| memory.request_focus(id_of(key)));
+    select_all(ui, id_of(key), &plain(value));
 }
 
 fn id_of(key: &'static str) -> Id {

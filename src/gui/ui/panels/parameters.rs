@@ -170,8 +170,8 @@ impl Panel<'_> {
             if highlights.reveal {
                 ui.scroll_to_rect(row.response.rect.expand(ui.text_style_height(&TextStyle::Body)), None);
             }
-            if highlights.enter == Some(parameter.key) {
-                field::enter(ui, parameter.key);
+            if let (true, Some(value)) = (highlights.enter == Some(parameter.key), self.scene.get(parameter.key)) {
+                field::enter(ui, parameter.key, &value);
             }
         }
         ui.add_space(4.0);
