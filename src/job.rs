@@ -17,7 +17,7 @@ use crate::fidelity::Fidelity;
 use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::solution::{Solution, Status};
+use crate::solution::{Solution, Status, settled};
 use crate::solve::{Settings, solve_from};
 use std::collections::HashMap;
 use std::sync::mpsc::{Receiver, channel};
@@ -32,7 +32,7 @@ pub struct SolvedScene {
     pub number: u64,
     /// What was solved.
     pub scene: Scene,
-    /// The same, checked and in SI units.
+    /// The same, checked and in SI units; a plate that floats is at the gap that was found.
     pub problem: Problem,
     /// At which fidelity.
     pub fidelity: Fidelity,
@@ -242,7 +242,7 @@ fn refine(
                 tell(Event::Solved(Arc::new(SolvedScene {
                     number,
                     scene: request.scene.clone(),
-                    problem: request.problem.clone(),
+                    problem: settled(&request.problem, &solution.outcome).into_owned(),
                     fidelity,
                     validity: outside(&request.problem, Some(&solution)),
                     solution,

@@ -9,10 +9,10 @@
 //! | array | shape | what |
 //! | --- | --- | --- |
 //! | `time_s` | frames | the instants of one cycle |
-//! | `x_m`, `node_length_m` | nodes | along a tooth from its middle (a plate: from its own), and the length each node stands for |
+//! | `x_m`, `node_length_m` | nodes | along a tooth from its middle (a plate: from its own), and the length each node stands for (a round plate: `radius_m`, `node_area_m2`) |
 //! | `tooth_middle_m` | teeth | where the middles of the teeth are (motor) |
 //! | `stator_nm`, `gap_nm`, `contact_n_per_m` | frames × teeth × nodes | fields on the lines of all teeth (motor) |
-//! | `film_thickness_nm`, `film_n_per_m` | frames × teeth × nodes, of a plate frames × nodes | the same of both scenes (a strip: `film_n_per_m2`) |
+//! | `film_thickness_nm`, `film_n_per_m` | frames × teeth × nodes, of a plate frames × nodes | the same of both scenes (a strip or a round plate: `film_n_per_m2`) |
 //! | `map_x_m`, `map_y_m` | | where the pressure is, of a symmetric film only the half that was solved |
 //! | `pressure_kpa` | frames × map_x × map_y | absolute, under the first tooth |
 //! | `film_load_n`, `contact_load_n`, `teeth_in_contact` | frames | on one wavelength (a strip: `film_load_n_per_m`) |
@@ -34,8 +34,9 @@ pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dy
     let (frames, nodes, teeth) = (recording.frames, recording.x.len(), recording.teeth);
     let times: Vec<f64> = (0..frames).map(|frame| recording.time(frame)).collect();
     archive.numbers("time_s", &[frames], times)?;
-    archive.numbers("x_m", &[nodes], recording.x.iter().copied())?;
-    archive.numbers("node_length_m", &[nodes], recording.node_length.iter().copied())?;
+    let names = if recording.radial { ["radius_m", "node_area_m2"] } else { ["x_m", "node_length_m"] };
+    archive.numbers(names[0], &[nodes], recording.x.iter().copied())?;
+    archive.numbers(names[1], &[nodes], recording.node_length.iter().copied())?;
     let (film, load) = match &problem.scenario {
         Scenario::Motor(motor) => {
             let shape = [frames, teeth, nodes];
@@ -48,7 +49,8 @@ pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dy
             archive.numbers("teeth_in_contact", &[frames], recording.teeth_in_contact.iter().map(|n| *n as f64))?;
             ("film_n_per_m", "film_load_n")
         }
-        Scenario::Plate(plate) if plate.width.is_none() => ("film_n_per_m2", "film_load_n_per_m"),
+        Scenario::Plate(plate) if plate.is_strip() => ("film_n_per_m2", "film_load_n_per_m"),
+        Scenario::Plate(_) if recording.radial => ("film_n_per_m2", "film_load_n"),
         Scenario::Plate(_) => ("film_n_per_m", "film_load_n"),
     };
     let shape: &[usize] =

@@ -12,7 +12,7 @@ use crate::memory;
 use crate::motor::{self, Warm};
 use crate::plan::Plan;
 use crate::plate;
-use crate::problem::{Problem, Scenario};
+use crate::problem::{Plate, Problem, Scenario};
 use crate::solution::{Outcome, Solution, Status};
 
 /// What a cycle has to repeat to, relative: the change of the trapped gas, and of the load.
@@ -65,6 +65,7 @@ impl Centre {
                 let solved = found.map(of);
                 Ok(Self { plan, warm, problem: problem.clone(), solved })
             }
+            Scenario::Plate(Plate { load: Some(_), .. }) => Err(SolveError::FloatingNear),
             Scenario::Plate(plate) => {
                 let plan = plate_plan(plate, problem, &settings, &spec);
                 let _taken = memory::take(memory::plate(plate, &plan), cancel)?;
