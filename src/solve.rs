@@ -90,12 +90,14 @@ pub enum SolveError {
 }
 
 impl SolveError {
-    /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]).
+    /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]), but of a plate that does not
+    /// float.
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::PaperPlate | Self::PaperSurface | Self::FloatingNear | Self::Memory(_) => true,
             Self::Motor(MotorError::Rotor(rotor)) => !rotor.is_cancelled(),
-            Self::Motor(_) | Self::Plate(_) | Self::Float(_) => false,
+            Self::Float(error) => matches!(error, FloatError::Rests { .. } | FloatError::High | FloatError::Memory(_)),
+            Self::Motor(_) | Self::Plate(_) => false,
         }
     }
 }

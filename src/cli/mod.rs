@@ -4,6 +4,7 @@ mod animate;
 mod columns;
 mod compare;
 mod exit;
+mod fall;
 mod fit;
 #[cfg(feature = "gui")]
 mod gui;

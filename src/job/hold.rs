@@ -51,6 +51,8 @@ struct Target {
     slowed: f64,
     reset: bool,
     closed: bool,
+    /// It is let go, and whether the face below it vibrates.
+    free: Option<bool>,
 }
 
 #[derive(Debug)]
@@ -84,7 +86,7 @@ impl HeldPlate {
     ) -> std::io::Result<Self> {
         let plan = Plan::plate(&plate, Fidelity::Standard, &Numerics::default());
         let hold = Hold::new(&plate, &plan);
-        let target = Target { gap: plate.mean_gap, slowed, reset: false, closed: false };
+        let target = Target { gap: plate.mean_gap, slowed, reset: false, closed: false, free: None };
         let shared = Arc::new(Shared {
             target: Mutex::new(target),
             changed: Condvar::new(),
@@ -104,7 +106,12 @@ impl HeldPlate {
     /// Moves the plate to `gap` \[m\], or as near as it may come.
     pub fn move_to(&self, gap: f64) {
         let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|target| target.gap = gap);
+        self.ask(|target| (target.gap, target.free) = (gap, None));
+    }
+
+    /// Lets a plate under a load go, above a face that vibrates or stands still.
+    pub fn let_go(&self, vibrates: bool) {
+        self.ask(|target| target.free = Some(vibrates));
     }
 
     /// Takes `slowed` seconds for a second of the film from now on.
@@ -115,7 +122,7 @@ impl HeldPlate {
     /// Puts the film to rest at the mean gap.
     pub fn reset(&self) {
         let gap = self.plate.mean_gap;
-        self.ask(|target| (target.gap, target.reset) = (gap, true));
+        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
     }
 
     /// The newest snapshot, and what was read off since the last time.
@@ -165,7 +172,11 @@ fn follow(shared: &Shared, mut hold: Hold, now: fn() -> Instant, wake: &dyn Fn()
                     return;
                 }
                 let there = (target.gap - hold.gap()).abs() <= THERE * hold.gap();
-                if target.reset || !there || hold.unrest() > AT_REST {
+                let moves = match target.free {
+                    Some(vibrates) => vibrates || !hold.is_still(),
+                    None => !there,
+                };
+                if target.reset || moves || hold.unrest() > AT_REST {
                     break;
                 }
                 last = None;
@@ -186,24 +197,36 @@ fn follow(shared: &Shared, mut hold: Hold, now: fn() -> Instant, wake: &dyn Fn()
         let toward = target.gap - hold.gap();
         let near = toward.abs() <= THERE * hold.gap();
         let gap = if near { target.gap } else { hold.gap() + toward * (1.0 - (-elapsed / HAND).exp()) };
-        let mut failure = None;
+        let (mut failure, mut mean) = (None, None);
         if target.reset {
             hold.reset();
         } else {
-            failure = match caught(|| hold.advance(gap, elapsed / target.slowed)) {
-                Ok(Ok(())) => None,
+            let time = elapsed / target.slowed;
+            let moved = caught(|| match target.free {
+                Some(vibrates) => hold.fall(time, vibrates).map(Some),
+                None => hold.advance(gap, time).map(|()| None),
+            });
+            failure = match moved {
+                Ok(Ok(read)) => {
+                    mean = read;
+                    None
+                }
                 Ok(Err(error)) => Some(error.to_string()),
                 Err(panic) => Some(format!("the film failed: {panic}")),
             };
             if failure.is_some() {
                 hold.reset();
-                lock(&shared.target).gap = hold.gap();
+                let mut target = lock(&shared.target);
+                (target.gap, target.free) = (hold.gap(), None);
             }
         }
         number += 1;
         {
             let mut published = lock(&shared.published);
-            published.0 = Arc::new(snapshot(&hold, number, pace, failure));
+            let mut taken = snapshot(&hold, number, pace, failure);
+            // Of a plate that shakes, what a slow eye sees.
+            taken.reading = mean.unwrap_or(taken.reading);
+            published.0 = Arc::new(taken);
             if target.reset {
                 published.1.clear();
             }
