@@ -94,6 +94,15 @@ impl Tradeoff {
         Self { points, reference: reference.map(|(i, _)| i), judged }
     }
 
+    /// What errors are those of, in a word or two.
+    pub fn of_what(&self) -> &'static str {
+        match self.judged {
+            Quantity::Alpha => "α",
+            Quantity::MeanGap => "the mean gap",
+            _ => "the film load",
+        }
+    }
+
     /// The cheapest setting that meets an accuracy, or the most accurate that keeps a budget; `None` if none does.
     pub fn choose(&self, target: Target) -> Option<usize> {
         let known = self.points.iter().enumerate().filter_map(|(i, point)| Some((i, point.median, point.error?)));
