@@ -36,6 +36,8 @@ const REPEATING: f64 = 1e-6;
 const NOTHING: f64 = -30.0;
 /// How exactly the amplitude is told that is needed to float, relative.
 const NEEDED: f64 = 0.02;
+/// By how much larger an amplitude is tried at least.
+const LEAST_GROWTH: f64 = 1.2;
 /// Largest amplitude that is tried for it \[m\].
 const LARGEST_AMPLITUDE: f64 = 1e-3;
 
@@ -194,9 +196,11 @@ impl Way<'_> {
                 slope = if secant < -0.1 { secant.max(-12.0) } else { slope };
             }
             let target = if plan.accuracy > 0.0 { SHARE * plan.accuracy } else { ON_GIVEN_GRIDS };
-            let close =
-                (carried.value - self.load).abs() <= (SHARE * carried.error).max(within.max(target) * self.load);
-            if close || solves == MOST_SOLVES || high - low < 1e-12 && solves > 1 {
+            // What the load is known to is no reason to be content with more than a little.
+            let known = SHARE * (carried.error / self.load).min(ROUGHLY);
+            let close = (carried.value / self.load - 1.0).abs() <= known.max(within.max(target));
+            let enough = solves == MOST_SOLVES || solves > 1 && (high - low < 1e-12 || self.cancel.is_spent());
+            if close || enough {
                 return Ok(Sought { x, slope, found, plan });
             }
             self.warm = (!plan.turned).then_some(found);
@@ -262,7 +266,7 @@ impl Way<'_> {
         let mut of_low = if low > self.plate.amplitude { carried(self, low)? } else { share };
         let mut high = low;
         while of_low < 1.0 {
-            high = low * of_low.max(1e-3).powi(-2).clamp(1.0 + NEEDED, 4.0);
+            high = low * of_low.max(1e-3).powi(-2).clamp(LEAST_GROWTH, 4.0);
             if high > LARGEST_AMPLITUDE - spacing {
                 return Ok(None);
             }
