@@ -71,11 +71,6 @@ pub enum SolveError {
     /// A plate that does not float.
     #[error(transparent)]
     Float(#[from] FloatError),
-    /// Derivatives of a plate that floats.
-    #[error(
-        "derivatives are known of a plate whose gap is given: give plate.mean_gap_um in place of plate.load_n or plate.mass_g"
-    )]
-    FloatingNear,
     /// The paper has no plate.
     #[error("method = paper is for motors: it has no plate scene; allowed here: auto")]
     PaperPlate,
@@ -94,7 +89,7 @@ impl SolveError {
     /// float.
     pub fn is_bad_input(&self) -> bool {
         match self {
-            Self::PaperPlate | Self::PaperSurface | Self::FloatingNear | Self::Memory(_) => true,
+            Self::PaperPlate | Self::PaperSurface | Self::Memory(_) => true,
             Self::Motor(MotorError::Rotor(rotor)) => !rotor.is_cancelled(),
             Self::Float(error) => matches!(error, FloatError::Rests { .. } | FloatError::High | FloatError::Memory(_)),
             Self::Motor(_) | Self::Plate(_) => false,
