@@ -216,9 +216,9 @@ fn dropped_it_settles_where_the_periodic_solve_floats_and_sinks_when_the_vibrati
     for set in [&[][..], &[("plate.shape", "ring"), ("plate.inner_radius_mm", "4"), ("plate.mass_g", "20")]] {
         let (plate, gap) = floating(set);
         let cycle = 1.0 / plate.frequency;
-        for from in [2.0, 0.6] {
+        for from in [1.4, 0.8] {
             let mut hold = dropped(&plate, from * gap);
-            hold.fall(1500.0 * cycle, true).unwrap();
+            hold.fall(800.0 * cycle, true).unwrap();
             let before = hold.height();
             hold.fall(20.0 * cycle, true).unwrap();
             println!("{set:?}, from {from}: {} of {gap}, {:?}", hold.height(), hold.free());
@@ -244,7 +244,7 @@ fn without_vibration_a_disc_sinks_as_reynolds_has_it_and_comes_to_rest() {
     let rate = 4.0 * plate.load.unwrap() / (3.0 * std::f64::consts::PI * plate.gas.viscosity * plate.radius().powi(4));
     let start = 3e-6;
     let mut hold = dropped(&plate, start);
-    let time = 1.0 / (rate * start * start);
+    let time = 0.01 / (rate * start * start);
     hold.fall(0.2 * time, false).unwrap();
     let from = hold.gap().powi(-2);
     hold.fall(time, false).unwrap();
@@ -252,24 +252,25 @@ fn without_vibration_a_disc_sinks_as_reynolds_has_it_and_comes_to_rest() {
     println!("sinking: {found:e}, Reynolds {rate:e}");
     assert!((found / rate - 1.0).abs() < 0.01, "{found} {rate}");
     // To its roughness, and no further.
-    let mut hold = dropped(&Plate { min_spacing: 2e-6, ..plate }, start);
-    hold.fall(3.0 * time, false).unwrap();
-    assert_eq!((hold.gap(), hold.is_still()), (2e-6, true));
+    let least = 0.997 * start;
+    let mut hold = dropped(&Plate { min_spacing: least, ..plate }, start);
+    hold.fall(2.0 * time, false).unwrap();
+    assert_eq!((hold.gap(), hold.is_still()), (least, true));
     assert!(hold.free().rests > 0);
 }
 
 #[test]
 fn energy_only_leaves_a_plate_that_bounces() {
     // Fast on a film that has no time to leak: it bounces, and each time a little lower.
-    let (plate, gap) = floating(&[("plate.radius_mm", "50"), ("plate.mass_g", "50"), ("film.min_spacing_nm", "5")]);
+    let (plate, gap) = floating(&[("plate.radius_mm", "50"), ("plate.mass_g", "5000"), ("film.min_spacing_nm", "5")]);
     let mut hold = dropped(&plate, 1.5 * gap);
     let mass = plate.load.unwrap() / GRAVITY;
     let energy =
         |hold: &Hold| 0.5 * mass * hold.free().speed.powi(2) + mass * GRAVITY * hold.gap() + hold.free_energy();
     let start = energy(&hold);
     let (mut last, mut kinetic, mut turns, mut up) = (start, 0.0f64, 0, false);
-    let tick = 0.02 * leak_time(&plate, gap).min(1e-2);
-    for _ in 0..1500 {
+    let tick = 0.003 * leak_time(&plate, gap);
+    for _ in 0..600 {
         hold.fall(tick, false).unwrap();
         let now = energy(&hold);
         kinetic = kinetic.max(0.5 * mass * hold.free().speed.powi(2));
@@ -281,7 +282,7 @@ fn energy_only_leaves_a_plate_that_bounces() {
         up = rises;
     }
     println!("energy {start:e} to {last:e}, kinetic up to {kinetic:e}, {turns} turns");
-    assert!(last < start && hold.free().rests == 0);
+    assert!(last < start && turns > 3 && hold.free().rests == 0);
 }
 
 #[test]

@@ -169,7 +169,8 @@ impl Parameter {
     /// comes after that, and a table of harmonics needs the wavelength.
     pub(super) fn rank(&self) -> u8 {
         match self.kind {
-            _ if self.selects() => 0,
+            // A plate under a load heeds other keys.
+            _ if self.selects() || self.instead_of == Some("plate.mean_gap_um") => 0,
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 3,
             // After the array that it is a value of.
             _ if self.key.matches('.').count() > 1 => 4,
