@@ -5,6 +5,7 @@
 //! were. The scratch folder holds a lock while its writer lives. A folder whose lock nobody holds is what a killed run left,
 //! and the next run that writes there removes it.
 
+use crate::platform::{HAS_FILES, hand_out};
 use same_file::Handle;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -34,6 +35,11 @@ pub struct WriteError {
 /// [`WriteError`]; then an older file of that name is as it was.
 pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     let failed = |source| WriteError { path: path.to_owned(), source };
+    if !HAS_FILES {
+        let mut content = Vec::new();
+        let handed = write(&mut content).and_then(|()| hand_out(path, vec![(path.to_owned(), content)]));
+        return handed.map_err(failed);
+    }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| failed(ErrorKind::InvalidFilename.into()))?;
     let mut staged = Staged::within(folder, false).map_err(failed)?;
@@ -54,6 +60,8 @@ pub struct Staged {
     made: bool,
     /// The final path of each file; the nth is the file `n` of the scratch folder.
     targets: Vec<PathBuf>,
+    /// Their contents, where there are no files.
+    contents: Vec<Vec<u8>>,
     /// Only dropping takes them out. The lock goes first.
     scratch: Option<(Lock, TempDir)>,
 }
@@ -66,12 +74,18 @@ impl Staged {
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
         let failed = |source| WriteError { path: folder.to_owned(), source };
         let made = !folder.exists();
-        fs::create_dir_all(folder).map_err(failed)?;
+        if HAS_FILES {
+            fs::create_dir_all(folder).map_err(failed)?;
+        }
         Self::within(folder, made).map_err(failed)
     }
 
     fn within(folder: &Path, made: bool) -> io::Result<Self> {
-        let mut staged = Self { folder: folder.to_owned(), made, targets: Vec::new(), scratch: None };
+        let (targets, contents) = (Vec::new(), Vec::new());
+        let mut staged = Self { folder: folder.to_owned(), made, targets, contents, scratch: None };
+        if !HAS_FILES {
+            return Ok(staged);
+        }
         remove_leftovers(folder);
         while staged.scratch.is_none() {
             let scratch = tempfile::Builder::new().prefix(PREFIX).suffix(SCRATCH).tempdir_in(folder)?;
@@ -103,6 +117,12 @@ impl Staged {
         let path = self.folder.join(name);
         let new = self.scratch(self.targets.len(), NEW);
         let written = (|| {
+            if !HAS_FILES {
+                let mut content = Vec::new();
+                write(&mut content)?;
+                self.contents.push(content);
+                return Ok(());
+            }
             let mut buffered = BufWriter::new(File::create_new(new)?);
             write(&mut buffered)?;
             let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
@@ -125,6 +145,11 @@ impl Staged {
     /// # Errors
     /// [`WriteError`] naming the file that could not have its name; then older files are as they were.
     pub fn commit(mut self) -> Result<Vec<PathBuf>, WriteError> {
+        if !HAS_FILES {
+            let files = self.targets.iter().cloned().zip(std::mem::take(&mut self.contents)).collect();
+            hand_out(&self.folder, files).map_err(|source| WriteError { path: self.folder.clone(), source })?;
+            return Ok(std::mem::take(&mut self.targets));
+        }
         if let Some(folder) = self.targets.iter().find(|path| path.is_dir()) {
             return Err(WriteError { path: folder.clone(), source: ErrorKind::IsADirectory.into() });
         }

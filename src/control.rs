@@ -1,5 +1,7 @@
 //! What a caller holds over a running solve: cancellation and progress. No clock, no terminal.
 
+use serde::{Deserialize, Serialize};
+
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -81,7 +83,7 @@ impl Cancel {
 }
 
 /// A solve's progress after one round of its outer iteration.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
     /// Which grid is being solved, from 0.
     pub level: usize,

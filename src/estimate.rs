@@ -5,8 +5,10 @@
 //! instants of first touch make the next error term irregular, so that the spread |e₂₃ − e₁₂| is taken as it is (a
 //! third-order remainder would be a seventh of it), but never less than a fraction of the correction itself.
 
+use serde::{Deserialize, Serialize};
+
 /// A result and its estimated absolute error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The extrapolated result.
     pub value: f64,

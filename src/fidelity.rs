@@ -5,12 +5,14 @@
 //! zero spacing (the scheme is of second order in both), and how they come closer is the error estimate. Finer grids follow until that
 //! is what was asked for (`ladder`). The measured error and cost of each level are in `docs/validation.md`.
 
+use serde::{Deserialize, Serialize};
+
 use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
 /// How much accuracy to buy. The more exact is the greater one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Fidelity {
     /// For dragging a slider: 2 %.
     Draft,

@@ -1,5 +1,6 @@
 //! Text files from outside: presets, compliance tables, lessons. Nothing else in the program opens one.
 
+use crate::platform::handed_over;
 use std::io::Read;
 use std::path::Path;
 
@@ -27,6 +28,9 @@ pub enum ReadError {
 /// [`ReadError`]: there is no such file, it is something else than a file, too large, or no text.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, ReadError> {
     let system = |error: std::io::Error| ReadError::System(error.to_string());
+    if let Some(bytes) = handed_over(path) {
+        return String::from_utf8(bytes).map_err(|_| ReadError::NotText);
+    }
     let about = std::fs::metadata(path).map_err(system)?;
     if !about.is_file() {
         return Err(ReadError::NotAFile(if about.is_dir() { "a folder" } else { "a pipe or a device" }));

@@ -1,29 +1,45 @@
-//! The background solver: one named worker thread, the newest request wins, results stream back as they improve.
+//! The background solver: the newest request wins, results stream back as they improve.
 //!
-//! A request is a checked problem. The worker solves it at draft, then standard, then fine, and sends each result; a newer
-//! request cancels the running solve. A panic in a solver becomes an event. On drop the worker is cancelled and joined.
-//! No window in here: whoever owns the [`Solver`] passes a `wake` function, called after every event.
+//! A request is a checked problem. It is solved at draft, then standard, then fine, and each result is sent; a newer request cancels the
+//! running solve. A panic in a solver becomes an event. No window in here: whoever owns the [`Solver`] passes a `wake` function, called
+//! after every event. In a process a named thread solves (`thread`), which is cancelled and joined on drop; on a page it is a worker
+//! (`page`), to which scenes are sent as bytes, and which is ended and replaced when it is cancelled.
 
+pub mod fit;
 pub mod hold;
+#[cfg(target_arch = "wasm32")]
+mod line;
+#[cfg(target_arch = "wasm32")]
+mod page;
+pub mod pin;
+pub mod rotor;
 pub mod sensitivity;
+#[cfg(target_arch = "wasm32")]
+pub mod serve;
 pub mod startup;
+pub mod sweep;
 pub mod task;
+#[cfg(not(target_arch = "wasm32"))]
+mod thread;
+pub mod torque;
 pub mod tradeoff;
+pub mod work;
+
+#[cfg(target_arch = "wasm32")]
+pub use page::Solver;
+#[cfg(not(target_arch = "wasm32"))]
+pub use thread::Solver;
 
 use crate::analysis::attempt::caught;
-use crate::analysis::validity::{Excess, outside};
+use crate::analysis::validity::Excess;
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::solution::{Solution, Status, settled};
+use crate::solution::{Solution, Status};
 use crate::solve::{Settings, solve_from};
-use std::collections::HashMap;
-use std::sync::mpsc::{Receiver, channel};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread::JoinHandle;
-use std::time::Instant;
+use std::sync::Arc;
 
 /// A scene and what came of solving it at one fidelity: immutable, shared.
 #[derive(Debug)]
@@ -89,253 +105,25 @@ pub struct Request {
     pub fidelities: Vec<Fidelity>,
 }
 
-#[derive(Debug, Default)]
-struct Slot {
-    waiting: Option<(u64, Request)>,
-    running: Option<Cancel>,
-    closed: bool,
-}
-
-#[derive(Debug, Default)]
-struct Shared {
-    slot: Mutex<Slot>,
-    changed: Condvar,
-}
-
-impl Shared {
-    fn lock(&self) -> MutexGuard<'_, Slot> {
-        // The slot holds plain data that is never left half-changed.
-        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-/// The worker and the way to it.
-#[derive(Debug)]
-pub struct Solver {
-    shared: Arc<Shared>,
-    events: Option<Receiver<Event>>,
-    worker: Option<JoinHandle<()>>,
-    next: u64,
-}
-
-impl Solver {
-    /// Starts the worker. `wake` is called after every event, from the worker's thread.
-    pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        Self::start_with_clock(Instant::now, wake)
-    }
-
-    /// As [`Self::start`], with the clock that measures the solves.
-    pub fn start_with_clock(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        let shared = Arc::new(Shared::default());
-        let (sender, events) = channel();
-        let theirs = Arc::clone(&shared);
-        let worker = std::thread::Builder::new().name("squeezefilm-solver".to_owned()).spawn(move || {
-            let tell = |event: Event| {
-                let sent = sender.send(event).is_ok();
-                wake();
-                sent
-            };
-            work(&theirs, now, &tell);
-        })?;
-        Ok(Self { shared, events: Some(events), worker: Some(worker), next: 0 })
-    }
-
-    /// Solves `request` instead of whatever is running or waiting. Returns its number.
-    pub fn submit(&mut self, request: Request) -> u64 {
-        self.next += 1;
-        let mut slot = self.shared.lock();
-        slot.waiting = Some((self.next, request));
-        if let Some(running) = &slot.running {
-            running.cancel();
-        }
-        self.shared.changed.notify_all();
-        self.next
-    }
-
-    /// Cancels what is running and forgets what is waiting.
-    pub fn cancel(&self) {
-        let mut slot = self.shared.lock();
-        slot.waiting = None;
-        if let Some(running) = &slot.running {
-            running.cancel();
-        }
-    }
-
-    /// Events that have arrived.
-    pub fn drain(&self) -> impl Iterator<Item = Event> {
-        self.events.iter().flat_map(Receiver::try_iter)
-    }
-}
-
-impl Drop for Solver {
-    fn drop(&mut self) {
-        {
-            let mut slot = self.shared.lock();
-            slot.closed = true;
-            slot.waiting = None;
-            if let Some(running) = &slot.running {
-                running.cancel();
-            }
-            self.shared.changed.notify_all();
-        }
-        self.events = None;
-        if let Some(worker) = self.worker.take() {
-            // A worker that panicked outside a solve has nothing left to tell.
-            let _ = worker.join();
-        }
-    }
-}
-
-fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
-    // A slider moves in small steps: each solve starts from the last one of its fidelity.
-    let mut warm = HashMap::new();
-    loop {
-        let (number, request, cancel) = {
-            let mut slot = shared.lock();
-            loop {
-                if slot.closed {
-                    return;
-                }
-                if let Some((number, request)) = slot.waiting.take() {
-                    let cancel = Cancel::new();
-                    slot.running = Some(cancel.clone());
-                    break (number, request, cancel);
-                }
-                slot = shared.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
-            }
-        };
-        let cancelled = !refine(number, &request, &mut warm, &cancel, now, tell);
-        shared.lock().running = None;
-        if !tell(Event::Done { number, cancelled }) {
-            return;
-        }
-    }
-}
-
-/// Solves at every fidelity of the request; false if cancelled.
-fn refine(
-    number: u64,
-    request: &Request,
-    warm: &mut HashMap<Fidelity, Warm>,
+/// One fidelity of a request, solved: what it came to, or what the user is told. `None` if it was cancelled.
+fn solved(
+    problem: &Problem,
+    fidelity: Fidelity,
+    warm: &mut Warm,
     cancel: &Cancel,
-    now: fn() -> Instant,
-    tell: &dyn Fn(Event) -> bool,
-) -> bool {
-    for &fidelity in &request.fidelities {
-        if cancel.is_cancelled() {
-            return false;
-        }
-        let mut history = Vec::new();
-        let started = now();
-        let mut listen = |progress: &Progress| {
-            history.push(*progress);
-            tell(Event::Progress { number, fidelity, progress: *progress });
-        };
-        let settings = Settings { fidelity, ..Settings::default() };
-        let warm = warm.entry(fidelity).or_default();
-        let started_warm = !warm.is_empty();
-        let solved = caught(|| solve_from(warm, &request.problem, &settings, &mut listen, cancel));
-        let wall_s = now().duration_since(started).as_secs_f64();
-        let message = match solved {
-            Ok(Ok(solution)) if solution.status == Status::Cancelled => return false,
-            Ok(Ok(solution)) => {
-                tell(Event::Solved(Arc::new(SolvedScene {
-                    number,
-                    scene: request.scene.clone(),
-                    problem: settled(&request.problem, &solution.outcome).into_owned(),
-                    fidelity,
-                    validity: outside(&request.problem, Some(&solution)),
-                    solution,
-                    wall_s,
-                    warm: started_warm,
-                    history,
-                })));
-                continue;
-            }
-            Ok(Err(_)) if cancel.is_cancelled() => return false,
-            Ok(Err(error)) => error.to_string(),
-            Err(panic) => format!("the solver failed at {fidelity}: {panic}"),
-        };
-        tell(Event::Failed { number, message });
-        return true;
-    }
-    true
+    mut listen: impl FnMut(&Progress),
+) -> Option<Result<Solution, String>> {
+    let settings = Settings { fidelity, ..Settings::default() };
+    Some(match caught(|| solve_from(warm, problem, &settings, &mut listen, cancel)) {
+        Ok(Ok(solution)) if solution.status == Status::Cancelled => return None,
+        Ok(Ok(solution)) => Ok(solution),
+        Ok(Err(_)) if cancel.is_cancelled() => return None,
+        Ok(Err(error)) => Err(error.to_string()),
+        Err(panic) => Err(failure(fidelity, &panic)),
+    })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::problem::Scenario;
-    use crate::scene::presets;
-    use std::time::Duration;
-
-    fn request(preset: &str, fidelities: &[Fidelity]) -> Request {
-        let scene = presets::find(preset).unwrap();
-        Request { problem: Problem::new(&scene).unwrap(), scene, fidelities: fidelities.to_vec() }
-    }
-
-    fn until_done(solver: &Solver, number: u64) -> Vec<Event> {
-        let mut seen = Vec::new();
-        for _ in 0..6000 {
-            seen.extend(solver.drain());
-            if seen.iter().any(|event| matches!(event, Event::Done { number: n, .. } if *n == number)) {
-                return seen;
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        panic!("request {number} is not done: {} events", seen.len());
-    }
-
-    #[test]
-    fn results_come_coarse_to_fine() {
-        let mut solver = Solver::start(|| ()).unwrap();
-        let number = solver.submit(request("plate-crossover", &[Fidelity::Draft, Fidelity::Standard]));
-        let events = until_done(&solver, number);
-        let solved: Vec<Fidelity> =
-            events.iter().filter_map(|e| if let Event::Solved(run) = e { Some(run.fidelity) } else { None }).collect();
-        assert_eq!(solved, [Fidelity::Draft, Fidelity::Standard]);
-        assert!(events.iter().any(|event| matches!(event, Event::Progress { .. })));
-    }
-
-    #[test]
-    fn the_newest_request_wins() {
-        let mut solver = Solver::start(|| ()).unwrap();
-        let mut last = 0;
-        for _ in 0..50 {
-            last = solver.submit(request("fundamental", &[Fidelity::Reference]));
-        }
-        last = last.max(solver.submit(request("plate-trapped", &[Fidelity::Draft])));
-        let events = until_done(&solver, last);
-        let finished: Vec<u64> =
-            events.iter().filter_map(|e| if let Event::Solved(run) = e { Some(run.number) } else { None }).collect();
-        assert_eq!(finished, [last]);
-    }
-
-    #[test]
-    fn a_panic_in_a_solver_is_an_event_and_the_worker_lives_on() {
-        let mut solver = Solver::start(|| ()).unwrap();
-        let mut broken = request("fundamental", &[Fidelity::Draft]);
-        // A problem that no scene can make: the solver divides by the number of teeth.
-        if let Scenario::Motor(motor) = &mut broken.problem.scenario {
-            motor.teeth = 0;
-        }
-        let number = solver.submit(broken);
-        let events = until_done(&solver, number);
-        assert!(events.iter().any(|event| matches!(event, Event::Failed { message, .. } if message.contains("draft"))));
-        let number = solver.submit(request("plate-crossover", &[Fidelity::Draft]));
-        assert!(until_done(&solver, number).iter().any(|event| matches!(event, Event::Solved(_))));
-    }
-
-    #[test]
-    fn cancelling_and_dropping_end_a_long_solve() {
-        let mut solver = Solver::start(|| ()).unwrap();
-        // Asked for what takes seconds.
-        let number = solver.submit(request("fundamental", &[Fidelity::to(1e-6)]));
-        std::thread::sleep(Duration::from_millis(50));
-        solver.cancel();
-        let events = until_done(&solver, number);
-        assert!(matches!(events.last(), Some(Event::Done { cancelled: true, .. })));
-        solver.submit(request("fundamental", &[Fidelity::Reference]));
-        drop(solver);
-    }
+/// What the user is told of a panic.
+fn failure(fidelity: Fidelity, panic: &str) -> String {
+    format!("the solver failed at {fidelity}: {panic}")
 }

@@ -46,6 +46,7 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`numerics`] | five-point systems, graded nodes, Anderson acceleration; no physics |
+//! | [`platform`] | where the program runs: a process or a page |
 //! | [`control`], [`digits`] | cancellation and progress; numbers for people |
 //! | [`budget`] | the memory that all solves of the process share |
 //! | [`atomic`] | files that appear whole or not at all; locks between processes |
@@ -98,6 +99,7 @@ pub mod numerics;
 pub mod paper;
 pub mod plan;
 pub mod plate;
+pub mod platform;
 pub mod problem;
 pub mod recording;
 pub mod rotor;

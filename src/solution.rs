@@ -4,11 +4,11 @@ use crate::estimate::Estimate;
 use crate::plan::Decision;
 use crate::problem::{Plate, Problem, Scenario};
 use crate::recording::Recording;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// How a solve ended. None of these is an error: what was reached is always reported.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Status {
     /// The cycle repeats to the tolerance.
     Converged,
@@ -29,7 +29,7 @@ pub enum Status {
 }
 
 /// Why a solve was content with the grids it had.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StoppedBy {
     /// The stated error is what was asked for.
     Accuracy,
@@ -52,7 +52,7 @@ impl StoppedBy {
 }
 
 /// The accuracy of the headline, relative to it; that of α to a hundredth of the load where the film carries less than that.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Asked for; 0 on grids that the scene prescribes.
     pub asked: f64,
@@ -63,7 +63,7 @@ pub struct Accuracy {
 }
 
 /// Results of a motor scene: cycle means for one wavelength.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MotorResult {
     /// α: the film's share of the load.
     pub alpha: f64,
@@ -101,7 +101,7 @@ pub struct MotorResult {
 }
 
 /// The motor at one speed of its rotor; the whole ring.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Surface speed of the rotor \[m/s\].
     pub speed: f64,
@@ -116,7 +116,7 @@ pub struct Point {
 }
 
 /// Torque, power and efficiency with the film, or without it; the whole ring.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Performance {
     /// Torque at rest \[N m\].
     pub stall_torque: Estimate,
@@ -139,7 +139,7 @@ pub struct Performance {
 }
 
 /// How a plate floats under its load.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Floating {
     /// Mean gap at which the film carries the load \[m\].
     pub mean_gap: Estimate,
@@ -151,7 +151,7 @@ pub struct Floating {
 }
 
 /// Results of a plate scene. Forces of a strip are per metre of width.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlateResult {
     /// Cycle mean of the net gauge force \[N or N/m\].
     pub film_load: f64,
@@ -174,7 +174,7 @@ pub struct PlateResult {
 }
 
 /// The result of either scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
     /// Of a motor.
     Motor(MotorResult),
@@ -194,7 +194,7 @@ pub fn settled<'a>(problem: &'a Problem, outcome: &Outcome) -> Cow<'a, Problem> 
 }
 
 /// What the solve cost, counted; no clock in here.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stats {
     /// Time steps of one tooth's film.
     pub film_steps: u64,
@@ -222,7 +222,7 @@ pub struct Stats {
 }
 
 /// What was modelled, in words for the user.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Model {
     /// `draft`, `standard`, … or `paper mesh`.
     pub fidelity: String,
@@ -241,7 +241,7 @@ pub struct Model {
 }
 
 /// Everything a solve returns.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Solution {
     /// How it ended.
     pub status: Status,

@@ -17,9 +17,10 @@ use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
 use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, StoppedBy};
 use crate::surface::Surface;
+use serde::{Deserialize, Serialize};
 
 /// How to solve.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Method {
     /// Ours: only what the scene needs, at a fidelity.
     #[default]
@@ -39,7 +40,7 @@ impl Method {
 }
 
 /// What of the fields is kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Record {
     /// All of them.
     #[default]
@@ -49,7 +50,7 @@ pub enum Record {
 }
 
 /// What a caller chooses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Accuracy of `Method::Auto`.
     pub fidelity: Fidelity,

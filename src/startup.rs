@@ -19,14 +19,15 @@ use crate::plan::{Grid, Plan};
 use crate::plate;
 use crate::problem::{Numerics, Problem, Scenario, Time};
 use crate::recording::Recording;
-use crate::solution::{Accuracy, Outcome, Solution, Stats, Status, settled};
+use crate::solution::{Accuracy, Outcome, PlateResult, Solution, Stats, Status, settled};
 use crate::solve::{self, Record, SolveError, accuracy, solve};
+use serde::{Deserialize, Serialize};
 
 /// Share of the error asked for that the nodes across may have.
 const WIDTH_AIM: f64 = 0.3;
 
 /// One cycle of the transient.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cycle {
     /// From 1. A cycle whose number was there before is the same one on finer grids, and replaces it.
     pub number: usize,
@@ -41,7 +42,7 @@ pub struct Cycle {
 }
 
 /// How a start-up is computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// How exact every cycle's headline is to be, as a share of the greatest of them.
     pub fidelity: Fidelity,
@@ -60,7 +61,7 @@ impl Default for Settings {
 }
 
 /// How a start-up ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Startup {
     /// Converged: the cycle repeats, and film and contact agreed in every step on the way.
     pub status: Status,
@@ -78,6 +79,22 @@ pub struct Startup {
     pub stats: Stats,
     /// What the user should know of the scene.
     pub warnings: Vec<String>,
+}
+
+impl Startup {
+    /// One that was ended before anything is known of it.
+    pub fn cancelled() -> Self {
+        Self {
+            status: Status::Cancelled,
+            cycles: 0,
+            outcome: Outcome::Plate(PlateResult::default()),
+            remaining: f64::INFINITY,
+            accuracy: Accuracy::default(),
+            steady: None,
+            stats: Stats::default(),
+            warnings: Vec::new(),
+        }
+    }
 }
 
 /// Starts `problem` from rest and hands over each cycle as it is completed.

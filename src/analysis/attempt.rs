@@ -5,10 +5,11 @@ use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::solution::{Solution, Status};
 use crate::solve::{Settings, solve_from};
+use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How one solve among many ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RunStatus {
     /// Not solved yet.
     Waiting,

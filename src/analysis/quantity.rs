@@ -12,7 +12,7 @@ macro_rules! numbers {
     ($(#[$about:meta])* $Enum:ident, $(#[$all:meta])* $Known:ident: $More:ty;
      $($variant:ident $name:literal $words:literal $unit:literal $belongs:ident $($more:expr)?;)*) => {
         $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
         pub enum $Enum {
             $(#[doc = $words] $variant,)*
         }
@@ -40,6 +40,21 @@ macro_rules! numbers {
         $(#[$all])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $Known([Option<f64>; TABLE.len()]);
+
+        /// In bytes: all of them in order.
+        impl serde::Serialize for $Known {
+            fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                self.0[..].serialize(to)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $Known {
+            fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                let all = <Vec<Option<f64>>>::deserialize(from)?;
+                let count = all.len();
+                all.try_into().map(Self).map_err(|_| serde::de::Error::invalid_length(count, &stringify!($Known)))
+            }
+        }
 
         impl Default for $Known {
             fn default() -> Self {

@@ -7,6 +7,7 @@ use crate::recording::LineLoads;
 use crate::rotor::ring::{Deflection, Mesh, Section};
 use crate::rotor::{self, Compliances, RotorError};
 use crate::scene::Scene;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::f64::consts::TAU;
 
 /// Harmonics that are shown, and that the Green's function is the sum of: those of the paper's 180 nodes in a wavelength.
@@ -14,11 +15,27 @@ const HARMONICS: usize = 90;
 /// Harmonics of the load that bend the section as it is drawn.
 const BENDING: u32 = 4;
 
+/// What the present model is called.
+const PRESENT: &str = "present rotor";
+/// The models beside it: what each is called, and the value of `rotor.model`.
+const OTHERS: [(&str, &str); 2] = [("beam fitted to Table I", "beam"), ("ring of the preset", "ring")];
+
+/// One of these names.
+pub type Name = &'static str;
+
+/// One of these names, read from bytes.
+fn known_name<'de, D: Deserializer<'de>>(from: D) -> Result<Name, D::Error> {
+    let found = String::deserialize(from)?;
+    let mut names = OTHERS.into_iter().map(|(name, _)| name);
+    Ok(names.find(|name| *name == found).unwrap_or(PRESENT))
+}
+
 /// One model of the rotor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// What it is called.
-    pub name: &'static str,
+    #[serde(deserialize_with = "known_name")]
+    pub name: Name,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
     pub compliance: Vec<f64>,
     /// (x \[m\], deflection \[m/N\] under a unit force in every wavelength, the mean left out) at the nodes of the paper's mesh, λ/180 apart,
@@ -27,7 +44,7 @@ pub struct Curve {
 }
 
 /// The cross-section of a ring, its mesh, and how each harmonic of a line load bends it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bent {
     /// The section.
     pub section: Section,
@@ -38,7 +55,7 @@ pub struct Bent {
 }
 
 /// What is known of a rotor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RotorCurves {
     /// The present model, and then the others that have the same wave: the beam fitted to Table I and the ring of the preset.
     pub curves: Vec<Curve>,
@@ -64,8 +81,8 @@ impl RotorCurves {
 
     fn computed(motor: &Motor, cancel: &Cancel) -> Result<Option<Self>, RotorError> {
         let present = motor.compliances(HARMONICS, cancel)?;
-        let mut curves = vec![curve("present rotor", &present)];
-        for (name, model) in [("beam fitted to Table I", "beam"), ("ring of the preset", "ring")] {
+        let mut curves = vec![curve(PRESENT, &present)];
+        for (name, model) in OTHERS {
             if cancel.is_cancelled() {
                 return Ok(None);
             }

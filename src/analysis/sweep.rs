@@ -24,6 +24,8 @@ use crate::solution::Status;
 use crate::solve::{Method, Record, Settings, check};
 use fnv::FnvHasher;
 use rayon::prelude::*;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::hash::Hasher;
 use std::ops::Range;
 
@@ -31,7 +33,7 @@ use std::ops::Range;
 const CHUNK: usize = 4;
 
 /// One point of a sweep.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Which point, from 0; the last axis varies fastest.
     pub point: usize,
@@ -42,6 +44,7 @@ pub struct Row {
     /// The numbers; none if it failed.
     pub numbers: Numbers,
     /// Names of the limits of the model that it exceeds; none if it failed.
+    #[serde(deserialize_with = "validity::known_names")]
     pub outside: Vec<&'static str>,
 }
 
@@ -49,6 +52,7 @@ pub struct Row {
 #[derive(Clone, Debug)]
 pub struct Sweep {
     scene: Scene,
+    vary: Vec<Vary>,
     settings: Settings,
     axes: Vec<Axis>,
     points: Vec<Point>,
@@ -61,6 +65,20 @@ pub struct Sweep {
 struct Point {
     values: Vec<f64>,
     problem: Result<Problem, String>,
+}
+
+/// In bytes a sweep is what it was made of.
+impl Serialize for Sweep {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        (&self.scene, &self.vary, &self.settings).serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Sweep {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let (scene, vary, settings) = <(Scene, Vec<Vary>, Settings)>::deserialize(from)?;
+        Self::new(&scene, &vary, &settings).map_err(D::Error::custom)
+    }
 }
 
 impl Sweep {
@@ -104,7 +122,8 @@ impl Sweep {
             };
             Point { values, problem }
         });
-        Ok(Self { scene: scene.clone(), settings: *settings, points: points.collect(), axes, first })
+        let vary = vary.to_vec();
+        Ok(Self { scene: scene.clone(), vary, settings: *settings, points: points.collect(), axes, first })
     }
 
     /// The axes; the last varies fastest.

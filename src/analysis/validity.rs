@@ -25,6 +25,7 @@
 
 mod limits;
 
+pub(super) use limits::known_names;
 pub use limits::{Excess, NAMES, mach};
 
 use crate::plan::Choice;

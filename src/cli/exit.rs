@@ -122,6 +122,10 @@ pub(super) enum CliError {
         /// The system's reason.
         reason: String,
     },
+    /// A link in place of a preset.
+    #[cfg(feature = "gui")]
+    #[error(transparent)]
+    Link(#[from] crate::gui::state::link::LinkError),
     /// The window.
     #[cfg(feature = "gui")]
     #[error(
@@ -171,6 +175,8 @@ impl CliError {
             | Self::Input(_)
             | Self::Figure(FigureError::Extension { .. })
             | Self::Animation(AnimationError::Extension { .. }) => Exit::BadInput,
+            #[cfg(feature = "gui")]
+            Self::Link(_) => Exit::BadInput,
             #[cfg(feature = "gui")]
             Self::Window(_) => Exit::Other,
             Self::Solve(_)

@@ -4,6 +4,7 @@ use super::exit::{CliError, Exit};
 use super::options::{MemoryOptions, STANDARD_INPUT, SceneOptions};
 use crate::gui;
 use crate::gui::state::document::Document;
+use crate::gui::state::link::Link;
 use crate::scene::presets::BUILT_IN;
 use clap::Args;
 use std::path::PathBuf;
@@ -13,9 +14,10 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   squeezefilm
   squeezefilm gui levitating
+  squeezefilm gui '#fundamental&film.min_spacing_nm=100&tab=torque'
   squeezefilm gui --lessons my-course")]
 pub(super) struct Arguments {
-    /// A built-in name or a path; without it, the scene that was last open
+    /// A built-in name, a path, or a link to a scene or a lesson; without it, the scene that was last open
     #[arg(value_name = "PRESET")]
     preset: Option<String>,
 
@@ -31,7 +33,13 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    let linked = arguments.preset.as_deref().filter(|preset| Link::is_link(preset));
+    let link = linked.map(Link::read).transpose().map_err(CliError::Link)?;
     let opened = match &arguments.preset {
+        Some(_) if link.is_some() && !arguments.scene.changes.is_empty() => {
+            return Err(CliError::Usage("a link says itself what is changed: leave --set away"));
+        }
+        Some(_) if link.is_some() => None,
         Some(preset) => {
             let built_in = BUILT_IN.iter().any(|built_in| built_in.name == preset);
             // What --set changed is not in the file.
@@ -48,7 +56,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if no_display() {
         return Err(CliError::Window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
     }
-    gui::open(opened, arguments.lessons.clone()).map_err(|error| CliError::Window(error.to_string()))?;
+    gui::open(opened, arguments.lessons.clone(), link).map_err(|error| CliError::Window(error.to_string()))?;
     Ok(Exit::Solved)
 }
 

@@ -1,6 +1,7 @@
 //! Ctrl-C: the first asks the solver to stop, the second ends the program.
 
 use crate::control::Cancel;
+use crate::platform::on_interrupt;
 
 /// What a shell reports for a program ended by Ctrl-C.
 const KILLED: i32 = 130;
@@ -9,8 +10,7 @@ const KILLED: i32 = 130;
 pub(super) fn cancel_on_interrupt() -> Cancel {
     let cancel = Cancel::new();
     let raised = cancel.clone();
-    // Without a handler Ctrl-C ends the program at once, which is all that would be lost.
-    let _ = ctrlc::set_handler(move || {
+    on_interrupt(move || {
         if raised.is_cancelled() {
             std::process::exit(KILLED);
         }

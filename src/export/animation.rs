@@ -8,7 +8,8 @@
 
 use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
-use super::{mp4, video};
+use super::film::Film;
+pub use super::film::LONG_ENOUGH;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
@@ -197,33 +198,6 @@ fn on_screen(seconds: f64) -> f64 {
 /// Why a file was not written.
 fn stopped(error: WriteError, cancel: &Cancel) -> AnimationError {
     if cancel.is_cancelled() { AnimationError::Cancelled } else { error.into() }
-}
-
-/// A cycle as an MP4.
-struct Film {
-    size: [u32; 2],
-    count: usize,
-    seconds: f64,
-}
-
-impl Film {
-    /// Writes it as often as [`LONG_ENOUGH`] asks.
-    fn write(
-        &self,
-        picture: &video::Picture<'_>,
-        source: &str,
-        out: &mut dyn Write,
-        done: &dyn Fn(),
-        cancel: &Cancel,
-    ) -> io::Result<()> {
-        // A frame stays for the cycle's milliseconds in units that are as many to the millisecond as there are frames.
-        let step = (1000.0 * self.seconds).round() as u32;
-        let timescale = u32::try_from(1000 * self.count).map_err(io::Error::other)?;
-        let cycles = (LONG_ENOUGH / self.seconds).ceil() as u32;
-        let video = video::encode(self.count, picture, self.size, [step, timescale], done, cancel)?;
-        check(cancel)?;
-        mp4::write(&video, &mp4::Timing { timescale, step, cycles }, source, out)
-    }
 }
 
 /// How many frames an animation of at most `most` has: every second, third, … time step, if that leaves nearly so many.
@@ -440,8 +414,6 @@ fn side(length: u32) -> io::Result<u16> {
     u16::try_from(length).map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
 }
 
-/// A video has whole cycles, and lasts at least this \[s\].
-pub const LONG_ENOUGH: f64 = 12.0;
 /// The palette's colour for what has not changed.
 const TRANSPARENT: u8 = 255;
 /// Colours that are kept as they are.

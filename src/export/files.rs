@@ -219,6 +219,9 @@ pub fn animated_frames(solution: &Solution, options: &Options, format: super::an
 
 /// Animations of several runs as GIF, each with its name.
 fn moving(runs: &[ComparedRun], folder: &Path, control: &Control<'_>) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
+    if !cfg!(feature = "render") {
+        return Ok(Vec::new());
+    }
     let options = Options::default();
     let all = compare::frames(runs, options.frames);
     let drawn = control.counted(all, |done| movies(runs, &options, done, control.cancel))?;

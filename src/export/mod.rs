@@ -9,10 +9,12 @@ pub mod fall;
 pub mod figure;
 pub mod figures;
 pub mod files;
+mod film;
 pub mod fit;
 pub mod html;
 pub mod json;
 
+#[cfg(feature = "video")]
 mod mp4;
 pub mod npz;
 pub mod reproduce;
@@ -24,4 +26,5 @@ pub mod sweep;
 pub mod table1;
 pub mod torque;
 pub mod tradeoff;
+#[cfg(feature = "video")]
 mod video;

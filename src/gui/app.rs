@@ -3,6 +3,7 @@
 use super::command::Command;
 use super::state::document::{Document, Next};
 use super::state::lessons::LessonState;
+use super::state::link::Link;
 use super::state::window::State;
 use super::ui::context::DrawContext;
 use super::ui::keys::{self, Obstacles, Scope};
@@ -11,10 +12,12 @@ use super::ui::{layout, theme};
 use super::update::platform::Platform;
 use super::update::storage::keep;
 use super::update::updater::Updater;
+use crate::platform::Instant;
+use crate::platform::window::{Parent, dropped, fragment, mirror, prefers_dark};
 use crate::scene::Scene;
 use eframe::egui;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Unsaved work is written away this often.
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
@@ -27,6 +30,8 @@ pub struct App {
     /// What was asked for while text was being typed: it is carried out once the text is taken.
     after_text: Vec<Command>,
     last_frame: Option<Instant>,
+    /// What followed the `#` of the page's address when it was last looked at.
+    address: String,
 }
 
 impl App {
@@ -45,9 +50,10 @@ impl App {
         platform: Platform,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&context.egui_ctx);
+        mirror(&context.egui_ctx);
         let state = restored(context.storage, opened, platform.storage.as_deref())?;
-        let updater = Updater::start(&context.egui_ctx, state, platform, rfd::FileDialog::new().set_parent(context))?;
-        Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None })
+        let updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
+        Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None, address: String::new() })
     }
 
     /// All that the window knows.
@@ -58,6 +64,11 @@ impl App {
     /// Adds the lessons of a folder; says what is wrong with those that cannot be read.
     pub fn load_lessons(&mut self, folder: &Path) {
         self.updater.load_lessons(folder);
+    }
+
+    /// Shows what a link leads to.
+    pub fn follow(&mut self, link: Link) {
+        self.updater.follow(link);
     }
 
     /// Escape closes the tour, then the glossary: after whatever is over them, and after a text that is being typed.
@@ -117,15 +128,19 @@ impl eframe::App for App {
             // The field hands its text over when the cursor leaves it.
             ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|field| memory.surrender_focus(field)));
         }
+        let address = fragment();
+        if address != self.address {
+            self.address = address;
+            if !self.address.is_empty() {
+                self.updater.visit(&self.address);
+            }
+        }
         let mut commands: Vec<Command> = self.escape(ctx).into_iter().collect();
         let pressed = keys::pressed(ctx, self.obstacles(), self.state().view.tab);
         let (waiting, at_once): (Vec<_>, Vec<_>) =
             pressed.into_iter().partition(|shortcut| shortcut.scope == Scope::Window);
         commands.extend(at_once.iter().map(|shortcut| (shortcut.command)()));
-        let dropped = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_path_buf()).collect());
-        let dropped: Vec<PathBuf> = dropped;
-        let named = dropped.into_iter().filter(|path| !path.as_os_str().is_empty());
-        commands.extend(named.map(Command::opened));
+        commands.extend(dropped(ctx).into_iter().map(Command::opened));
         commands.into_iter().for_each(|command| self.updater.carry_out(command));
         let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
         let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;
@@ -217,7 +232,7 @@ fn restored(
     let mut state = State::new(target.into_iter().fold(document, Document::with_target));
     state.lessons = LessonState::new(stored("lessons"));
     state.recent = stored("recent").map(|text| text.lines().map(PathBuf::from).collect()).unwrap_or_default();
-    state.dark = stored("theme").is_none_or(|theme| theme != "light");
+    state.dark = stored("theme").map_or(prefers_dark().unwrap_or(true), |theme| theme != "light");
     state.lecture = stored("lecture").is_some_and(|size| size == "true");
     state.lessons.tour = first_start.then_some(0);
     // What cannot be read is told, and the rest is there.

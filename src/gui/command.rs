@@ -43,6 +43,8 @@ pub enum Command {
         /// All of the scene's numerics.
         numerics: Numerics,
     },
+    /// Copies a link to what is shown.
+    CopyLink,
     /// Takes the last edit back.
     Undo,
     /// Makes it again.

@@ -1,23 +1,49 @@
 //! A start-up in the background: cycles come as they are completed.
 
 use super::task::Task;
-use crate::problem::Problem;
+use super::work::{Posed, Work};
+use crate::control::Cancel;
 use crate::startup::{self, Cycle, Settings, Startup};
+use serde::{Deserialize, Serialize};
 
 /// Cycles that may wait to be taken, each with all its fields: a thread that is further ahead waits.
 const AHEAD: usize = 4;
 
-/// Starts `problem` from rest. It returns how the start-up ended, or why there is no more.
+/// A start-up, as it is carried to where it is computed.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct FromRest {
+    posed: Posed,
+    settings: Settings,
+}
+
+impl Work for FromRest {
+    const NAME: &'static str = "startup";
+    const AHEAD: Option<usize> = Some(AHEAD);
+    type Message = Cycle;
+    type Found = Result<Startup, String>;
+
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
+        startup::startup(&self.posed.problem, &self.settings, &mut |cycle| tell(cycle), cancel)
+            .map_err(|error| error.to_string())
+    }
+
+    fn ended() -> Self::Found {
+        Ok(Startup::cancelled())
+    }
+}
+
+/// Starts a scene from rest. It returns how the start-up ended, or why there is no more.
+///
+/// # Errors
+/// If it cannot be done in the background.
 pub fn start(
-    problem: Problem,
+    posed: Posed,
     settings: Settings,
     wake: impl Fn(bool) + Send + Sync + 'static,
 ) -> std::io::Result<Task<Cycle, Result<Startup, String>>> {
     // Those that wait, and the one that waits to wait.
     let settings = Settings { kept: settings.kept + AHEAD + 1, ..settings };
-    Task::start_bounded("startup", AHEAD, wake, move |cancel, tell| {
-        startup::startup(&problem, &settings, &mut |cycle| tell(cycle), cancel).map_err(|error| error.to_string())
-    })
+    Task::of(FromRest { posed, settings }, wake)
 }
 
 #[cfg(test)]
@@ -25,16 +51,17 @@ mod tests {
     use super::super::task::to_the_end;
     use super::*;
     use crate::fidelity::Fidelity;
-    use crate::problem::Scenario;
+    use crate::problem::{Problem, Scenario};
     use crate::scene::presets;
     use crate::solution::Status;
     use std::time::Duration;
 
-    fn problem(preset: &str) -> Problem {
-        Problem::new(&presets::find(preset).unwrap()).unwrap()
+    fn problem(preset: &str) -> Posed {
+        let scene = presets::find(preset).unwrap();
+        Posed { problem: Problem::new(&scene).unwrap(), scene }
     }
 
-    fn draft(problem: Problem, cycles: usize) -> Task<Cycle, Result<Startup, String>> {
+    fn draft(problem: Posed, cycles: usize) -> Task<Cycle, Result<Startup, String>> {
         let settings = Settings { fidelity: Fidelity::Draft, cycles, ..Settings::default() };
         start(problem, settings, |_| ()).unwrap()
     }
@@ -55,7 +82,7 @@ mod tests {
     fn cancelling_and_dropping_end_a_long_one() {
         let long = || {
             let mut numerics = problem("fundamental");
-            numerics.numerics.steps_per_cycle = Some(4000);
+            numerics.problem.numerics.steps_per_cycle = Some(4000);
             draft(numerics, 1000)
         };
         let transient = long();
@@ -72,7 +99,7 @@ mod tests {
     fn a_panic_in_the_solver_is_a_message() {
         let mut broken = problem("fundamental");
         // A problem that no scene can make: the solver divides by the number of teeth.
-        if let Scenario::Motor(motor) = &mut broken.scenario {
+        if let Scenario::Motor(motor) = &mut broken.problem.scenario {
             motor.teeth = 0;
         }
         let (cycles, ended) = to_the_end(&draft(broken, 10));

@@ -1,41 +1,15 @@
-//! Work on a thread of its own: what it tells on the way, and what comes of it in the end.
+//! Work in the background: what it tells on the way, and what comes of it in the end. In a process it is done on a thread of its own
+//! (`thread`), on a page in a worker, or on the page itself where it cannot be carried there (`page`).
 
-use crate::analysis::attempt::caught;
-use crate::control::Cancel;
-use std::sync::mpsc::{Receiver, Sender, SyncSender, TryRecvError, channel, sync_channel};
-use std::thread::{Builder, JoinHandle};
+#[cfg(target_arch = "wasm32")]
+mod page;
+#[cfg(not(target_arch = "wasm32"))]
+mod thread;
 
-/// Work under way, or ended. `M` is what it tells on the way, `R` what it returns. It is cancelled and joined on drop.
-#[derive(Debug)]
-pub struct Task<M, R> {
-    cancel: Cancel,
-    /// None only while it is dropped: a thread that waits to be listened to ends too.
-    events: Option<Receiver<Event<M, R>>>,
-    thread: Option<JoinHandle<()>>,
-}
-
-/// What goes through the channel.
-#[derive(Debug)]
-enum Event<M, R> {
-    Message(M),
-    End(Result<R, String>),
-}
-
-/// The way to whoever listens.
-enum Line<E> {
-    Free(Sender<E>),
-    Bounded(SyncSender<E>),
-}
-
-impl<E> Line<E> {
-    /// Nobody may be left to listen: then the owner has cancelled the work too.
-    fn send(&self, event: E) {
-        let _ = match self {
-            Self::Free(sender) => sender.send(event),
-            Self::Bounded(sender) => sender.send(event),
-        };
-    }
-}
+#[cfg(target_arch = "wasm32")]
+pub use page::Task;
+#[cfg(not(target_arch = "wasm32"))]
+pub use thread::Task;
 
 /// What a task has told since it was last asked.
 #[derive(Debug)]
@@ -44,83 +18,6 @@ pub struct News<M, R> {
     pub messages: Vec<M>,
     /// Once nothing more will come: what the work returned, or the text of its panic.
     pub end: Option<Result<R, String>>,
-}
-
-impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
-    /// Starts `work` on a thread `squeezefilm-name`. It looks at the flag, and sends messages through the function that it
-    /// is given. `wake` is called from that thread after every message and at the end, then with `true`.
-    pub fn start(
-        name: &str,
-        wake: impl Fn(bool) + Send + Sync + 'static,
-        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let (sender, events) = channel();
-        Self::on(name, Line::Free(sender), events, wake, work)
-    }
-
-    /// As [`Self::start`]; the work waits while `most` of its messages have not been taken.
-    pub fn start_bounded(
-        name: &str,
-        most: usize,
-        wake: impl Fn(bool) + Send + Sync + 'static,
-        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let (sender, events) = sync_channel(most);
-        Self::on(name, Line::Bounded(sender), events, wake, work)
-    }
-
-    fn on(
-        name: &str,
-        line: Line<Event<M, R>>,
-        events: Receiver<Event<M, R>>,
-        wake: impl Fn(bool) + Send + Sync + 'static,
-        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let cancel = Cancel::new();
-        let theirs = cancel.clone();
-        let thread = Builder::new().name(format!("squeezefilm-{name}")).spawn(move || {
-            let tell = |message: M| {
-                line.send(Event::Message(message));
-                wake(false);
-            };
-            let end = caught(|| work(&theirs, &tell));
-            line.send(Event::End(end));
-            wake(true);
-        })?;
-        Ok(Self { cancel, events: Some(events), thread: Some(thread) })
-    }
-
-    /// What it has told since the last time.
-    pub fn drain(&self) -> News<M, R> {
-        let mut news = News { messages: Vec::new(), end: None };
-        while let (Some(events), None) = (&self.events, &news.end) {
-            match events.try_recv() {
-                Ok(Event::Message(message)) => news.messages.push(message),
-                Ok(Event::End(end)) => news.end = Some(end),
-                Err(TryRecvError::Empty) => break,
-                Err(TryRecvError::Disconnected) => news.end = Some(Err("its end was taken already".to_owned())),
-            }
-        }
-        news
-    }
-}
-
-impl<M, R> Task<M, R> {
-    /// Asks it to end; it tells when it has.
-    pub fn cancel(&self) {
-        self.cancel.cancel();
-    }
-}
-
-impl<M, R> Drop for Task<M, R> {
-    fn drop(&mut self) {
-        self.cancel.cancel();
-        self.events = None;
-        if let Some(thread) = self.thread.take() {
-            // A panic of the work is caught there; another would have nothing left to tell.
-            let _ = thread.join();
-        }
-    }
 }
 
 /// All messages of a task and its end, for tests.
@@ -136,80 +33,4 @@ pub(super) fn to_the_end<M: Send + 'static, R: Send + 'static>(task: &Task<M, R>
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
     panic!("it has not ended: {} messages", seen.len());
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::sync::Arc;
-    use std::sync::atomic::{AtomicBool, Ordering};
-    use std::time::Duration;
-
-    #[test]
-    fn a_panic_ends_it_with_its_text() {
-        let woken = Arc::new(AtomicBool::new(false));
-        let theirs = Arc::clone(&woken);
-        let wake = move |ended: bool| theirs.store(ended, Ordering::Relaxed);
-        let task: Task<i32, ()> = Task::start("test", wake, |_, tell| {
-            tell(1);
-            panic!("on purpose, {}", 2);
-        })
-        .unwrap();
-        assert_eq!(to_the_end(&task), (vec![1], Err("on purpose, 2".to_owned())));
-        for _ in 0..1000 {
-            if woken.load(Ordering::Relaxed) {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        panic!("nobody is woken at the end");
-    }
-
-    #[test]
-    fn cancelling_and_dropping_end_it() {
-        let endless = || -> Task<&str, usize> {
-            Task::start(
-                "test",
-                |_| (),
-                |cancel, tell| {
-                    while !cancel.is_cancelled() {
-                        std::thread::sleep(Duration::from_millis(1));
-                    }
-                    tell("cancelled");
-                    3
-                },
-            )
-            .unwrap()
-        };
-        let task = endless();
-        assert!(task.drain().end.is_none());
-        task.cancel();
-        assert_eq!(to_the_end(&task), (vec!["cancelled"], Ok(3)));
-        drop(endless());
-    }
-
-    #[test]
-    fn bounded_work_waits_and_still_ends_on_drop() {
-        let sent = Arc::new(std::sync::atomic::AtomicUsize::new(0));
-        let theirs = Arc::clone(&sent);
-        let task: Task<usize, ()> = Task::start_bounded(
-            "test",
-            2,
-            |_| (),
-            move |cancel, tell| {
-                for i in 0.. {
-                    if cancel.is_cancelled() {
-                        return;
-                    }
-                    tell(i);
-                    theirs.store(i + 1, Ordering::Relaxed);
-                }
-            },
-        )
-        .unwrap();
-        std::thread::sleep(Duration::from_millis(100));
-        assert!(sent.load(Ordering::Relaxed) <= 2);
-        assert!(task.drain().messages.starts_with(&[0, 1]));
-        drop(task);
-    }
 }

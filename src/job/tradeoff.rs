@@ -1,28 +1,60 @@
 //! The measurement of error against solve time, in the background.
 
 use super::task::Task;
+use super::work::{Posed, Work};
 use crate::analysis::tradeoff::{self, Candidate, Effort, Run};
-use crate::problem::Problem;
-use std::time::Instant;
+use crate::control::Cancel;
+use crate::platform::Instant;
+use serde::{Deserialize, Serialize};
 
 /// How far a measurement is: all settings with what was measured of them so far, and the share of the work that is done,
 /// 0 to 1.
 pub type Progress = (Vec<Run>, f64);
 
-/// Starts to measure `candidates` on `problem` by the clock `now`. It returns all settings with what was measured.
+/// A measurement, as it is carried to where it is made.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Measurement {
+    posed: Posed,
+    candidates: Vec<Candidate>,
+    effort: Effort,
+    /// The clock: where it is carried, that of the place.
+    #[serde(skip, default = "clock")]
+    now: fn() -> Instant,
+}
+
+fn clock() -> fn() -> Instant {
+    Instant::now
+}
+
+impl Work for Measurement {
+    const NAME: &'static str = "measure";
+    type Message = Progress;
+    type Found = Vec<Run>;
+
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Self::Found {
+        let started = (self.now)();
+        let clock = || (self.now)().duration_since(started).as_secs_f64();
+        let mut each = |runs: &[Run], share| tell((runs.to_vec(), share));
+        tradeoff::measure(&self.posed.problem, self.candidates, &self.effort, &clock, cancel, &mut each)
+    }
+
+    fn ended() -> Self::Found {
+        Vec::new()
+    }
+}
+
+/// Starts to measure `candidates` by the clock `now`. It returns all settings with what was measured.
+///
+/// # Errors
+/// If it cannot be done in the background.
 pub fn measure(
-    problem: Problem,
+    posed: Posed,
     candidates: Vec<Candidate>,
     effort: Effort,
     now: fn() -> Instant,
     wake: impl Fn(bool) + Send + Sync + 'static,
 ) -> std::io::Result<Task<Progress, Vec<Run>>> {
-    Task::start("measure", wake, move |cancel, tell| {
-        let started = now();
-        let clock = || now().duration_since(started).as_secs_f64();
-        let mut each = |runs: &[Run], share| tell((runs.to_vec(), share));
-        tradeoff::measure(&problem, candidates, &effort, &clock, cancel, &mut each)
-    })
+    Task::of(Measurement { posed, candidates, effort, now }, wake)
 }
 
 #[cfg(test)]
@@ -32,14 +64,16 @@ mod tests {
     use crate::analysis::attempt::RunStatus;
     use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
+    use crate::problem::Problem;
     use crate::scene::presets;
 
     fn start(fidelity: Fidelity, repeats: usize, now: fn() -> Instant) -> Task<Progress, Vec<Run>> {
-        let problem = Problem::new(&presets::find("fundamental").unwrap()).unwrap();
+        let scene = presets::find("fundamental").unwrap();
+        let problem = Problem::new(&scene).unwrap();
         let mut all = candidates(&problem);
         all.retain(|candidate| candidate.name == fidelity.name());
         let effort = Effort { repeats: Some(repeats), ..Effort::default() };
-        measure(problem, all, effort, now, |_| ()).unwrap()
+        measure(Posed { scene, problem }, all, effort, now, |_| ()).unwrap()
     }
 
     #[test]

@@ -597,20 +597,22 @@ impl Level {
         Mean { all: self.alpha(motor), shared: self.mean_film_load_of(2) / motor.load }
     }
 
-    /// (film load + contact load − L)/L of each instant, the film's load from its own pressure: how far film and contact
-    /// still disagree.
-    fn imbalances(&self) -> impl Iterator<Item = f64> {
+    /// (film load + contact load − L)/L at an instant, the film's load from its own pressure: how far film and contact still
+    /// disagree.
+    fn imbalance_at(&self, instant: usize) -> f64 {
         let lengths = &self.grid().x.lengths;
-        (0..self.instants()).map(move |s| {
-            let mut total = -self.load;
-            for tooth in 0..self.teeth {
-                let line = self.line_of(tooth, s);
-                for (ix, length) in lengths.iter().enumerate() {
-                    total += (self.film_line_load(line + ix) + self.contact_load[line + ix]) * length;
-                }
+        let mut total = -self.load;
+        for tooth in 0..self.teeth {
+            let line = self.line_of(tooth, instant);
+            for (ix, length) in lengths.iter().enumerate() {
+                total += (self.film_line_load(line + ix) + self.contact_load[line + ix]) * length;
             }
-            total / self.load
-        })
+        }
+        total / self.load
+    }
+
+    fn imbalances(&self) -> impl Iterator<Item = f64> {
+        (0..self.instants()).map(|instant| self.imbalance_at(instant))
     }
 
     /// Largest imbalance of an instant.

@@ -19,6 +19,7 @@ pub use ending::{MotorError, unit};
 use crate::control::{Cancel, Observer, Reporter};
 use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
 use crate::ladder::{Found, Nested, Scene, climb, climb_once};
+use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
@@ -32,6 +33,9 @@ const WARM_ROUNDS: usize = 12;
 const NEAR_ROUNDS: usize = 80;
 /// Rounds after which a coarse grid is left for the next one.
 const COARSE_ROUNDS: usize = 120;
+
+/// Work of one cycle of every tooth on the finest grid, `Grid::work`, up to which cycles are marched one after the other.
+const MOST_MARCHED: f64 = 1e6;
 
 /// Share of the load on the film from which on a rotor counts as floating, or nearly.
 pub const NEARLY_FLOATS: f64 = 0.95;
@@ -105,8 +109,14 @@ pub fn periodic_from(
 ) -> Result<Periodic, MotorError> {
     let mut stats = Stats::default();
     let last = warm.found.take().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search = Search { motor, plan, warm_rounds: WARM_ROUNDS, observer, cancel, stats: &mut stats };
+    let mut search =
+        Search { motor, plan, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
+    if let Status::NotConverged { .. } = found.status
+        && let Some(settled) = search.march()
+    {
+        return Ok(finish(motor, plan, &settled, stats));
+    }
     let result = finish(motor, plan, &found, stats);
     if found.status == Status::Converged {
         warm.found = Some(found);
@@ -127,7 +137,8 @@ pub fn periodic_near(
 ) -> Result<(Nested<Periodic>, Warm, Plan), MotorError> {
     let mut stats = Stats::default();
     let last = near.found.as_ref().filter(|last| last.levels.first().is_some_and(|level| level.serves(motor, plan)));
-    let mut search = Search { motor, plan, warm_rounds: NEAR_ROUNDS, observer: &mut (), cancel, stats: &mut stats };
+    let mut search =
+        Search { motor, plan, warm_rounds: NEAR_ROUNDS, marching: false, observer: &mut (), cancel, stats: &mut stats };
     let mut found = climb(&mut search, plan, last, cancel)?;
     let pinned = found.pinned(plan);
     let nested = found.nested(|found| finish(motor, &pinned, found, stats));
@@ -152,6 +163,7 @@ pub fn touching(
             motor: &motor,
             plan,
             warm_rounds: WARM_ROUNDS,
+            marching: false,
             observer: &mut *observer,
             cancel,
             stats: &mut stats,
@@ -172,9 +184,26 @@ struct Search<'a> {
     plan: &'a Plan,
     /// Rounds that a start from another motor's state is given.
     warm_rounds: usize,
+    /// Cycle after cycle of every tooth is marched, in place of rounds of all instants at once.
+    marching: bool,
     observer: &'a mut dyn Observer,
     cancel: &'a Cancel,
     stats: &'a mut Stats,
+}
+
+impl Search<'_> {
+    /// The state that cycle after cycle of every tooth settles to, if it does, and the work and memory are what a solve may take.
+    fn march(&mut self) -> Option<Found<Level>> {
+        let plan = Plan { every_tooth: true, trapped: false, most_grids: self.plan.grids.len(), ..self.plan.clone() };
+        let work = plan.grids.last()?.work() * self.motor.teeth as f64;
+        if work > MOST_MARCHED || memory::check(memory::motor(self.motor, &plan)).is_err() {
+            return None;
+        }
+        let (observer, stats) = (&mut *self.observer, &mut *self.stats);
+        let mut marching = Search { plan: &plan, marching: true, observer, stats, ..*self };
+        let found = climb_once(&mut marching, &plan, None, self.cancel).ok()?;
+        (found.status == Status::Converged).then_some(found)
+    }
 }
 
 impl Scene for Search<'_> {
@@ -194,6 +223,18 @@ impl Scene for Search<'_> {
         let grids = plan.grids.len().max(number + 1);
         let mut report = Reporter::new(&mut *self.observer, number, grids, plan.tolerance);
         let mut level = Level::new(motor, plan, grid);
+        if self.marching {
+            let started = match start {
+                Some(other) => Ok(level.march_on_from(other)),
+                None => level.rest().map_err(Stop::Failed),
+            };
+            let cancel = self.cancel.within_budget();
+            return match started.and_then(|()| level.settle(plan, self.stats, &mut report, &cancel)) {
+                Ok(status) => Ok((status, level)),
+                Err(Stop::Cancelled) => Ok((Status::Cancelled, level)),
+                Err(Stop::Failed(error)) => Err(error),
+            };
+        }
         match start {
             Some(other) => level.start_from(other),
             None => level.start(motor),

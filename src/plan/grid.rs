@@ -2,9 +2,10 @@
 
 use crate::fidelity::GRIDS;
 use crate::numerics::grading::{clustering, map};
+use serde::{Deserialize, Serialize};
 
 /// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// Intervals along a tooth (of a plate: along half its length).
     pub along: usize,

@@ -14,9 +14,10 @@ use crate::fidelity::Fidelity;
 use crate::problem::{Flow, Named, Numerics, Teeth, Time, Wedge, Width};
 use crate::rotor::{Compliances, RESONANCES};
 use grid::nested;
+use serde::{Deserialize, Serialize};
 
 /// What was decided about one part of the model; `analysis::decision` says it, and why, in words.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// The part, and how it is solved.
     pub chosen: Choice,
@@ -29,7 +30,7 @@ pub struct Decision {
 }
 
 /// A part of the model, and how it is solved. None of the switches is ever `Auto`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Choice {
     /// Leaking of the gas in time.
     Time(Time),
@@ -79,7 +80,7 @@ pub enum Choice {
 }
 
 /// What speaks for and against leaving out a part of the model.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weighed {
     /// How the part is solved if it is left out.
     pub reduced: Choice,

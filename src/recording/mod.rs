@@ -7,6 +7,7 @@ pub use extrapolated::Balance;
 
 use crate::estimate::{Estimate, judged};
 use crate::rotor::Compliances;
+use serde::{Deserialize, Serialize};
 use std::ops::{Deref, DerefMut};
 
 /// Error of a greatest pressure over that of a load which differs as much from grid to grid: it is found where contact begins, or between
@@ -26,7 +27,7 @@ fn offset([stored, teeth, frames, nodes]: [usize; 4], tooth: usize, frame: usize
 /// Frame `m` is at t = m T/frames. Lines are stored `[tooth][frame][node]` for `stored_teeth` teeth: with lag
 /// symmetry one tooth is stored, and tooth k at frame m is tooth 0 at frame m + k·frames/teeth (the wave travels
 /// towards −x). The pressure map is tooth 0's, `[frame][ix][iy]`.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Recording {
     /// Grid, contact, film and film thickness, without `peak` and `ambient`.
     pub lines: LineLoads,
@@ -74,7 +75,7 @@ pub struct Recording {
 }
 
 /// How contact and gap exclude each other between two frames.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Touching {
     /// Film thickness where the gap is closed \[m\].
     pub min_spacing: f64,
@@ -83,7 +84,7 @@ pub struct Touching {
 }
 
 /// Film, contact and gap of one cycle on one grid, in the conventions of [`Recording`].
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LineLoads {
     /// Frames in the cycle.
     pub frames: usize,

@@ -2,6 +2,7 @@
 
 use super::ring::{Band, RingError};
 use crate::budget::Excess;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Harmonics in which a rotor is smooth: beyond, its deflection is local, and hardly matters to the film.
@@ -49,10 +50,11 @@ pub struct Wave {
 }
 
 /// What solvers know of a rotor: its compliance to each harmonic of the wave.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Compliances {
     pub(super) wavelength: f64,
     /// C(k_n) \[m²/N\] for n = 1, 2, ….
+    #[serde(with = "harmonics")]
     pub(super) harmonics: Arc<[f64]>,
     pub(super) local: f64,
     pub(super) relative_error: f64,
@@ -83,6 +85,20 @@ impl Compliances {
     /// Estimated error of the deflection under a point load, over that by the first ten harmonics; 0 of a beam or a table, which are what they say.
     pub fn relative_error(&self) -> f64 {
         self.relative_error
+    }
+}
+
+/// The harmonics in bytes: as any list.
+mod harmonics {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use std::sync::Arc;
+
+    pub(super) fn serialize<S: Serializer>(harmonics: &Arc<[f64]>, to: S) -> Result<S::Ok, S::Error> {
+        harmonics.serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<[f64]>, D::Error> {
+        Vec::deserialize(from).map(Arc::from)
     }
 }
 

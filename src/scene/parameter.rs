@@ -1,6 +1,7 @@
 //! What there is to say about a key of a scene: unit, range, default, meaning, and where it is allowed.
 
 use super::value::{Value, show_number};
+use serde::{Deserialize, Serialize};
 use std::fmt::{self, Write as _};
 
 /// An interval of allowed values, both ends included.
@@ -31,7 +32,7 @@ impl fmt::Display for Range {
 }
 
 /// How a slider or a sweep should space the values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Equal steps.
     Linear,

@@ -6,6 +6,8 @@ use super::parameter::{Parameter, ParameterKind};
 use super::value::{Value, is_unseen};
 use super::values::Scene;
 use crate::atomic::write_file;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -34,6 +36,19 @@ impl Scene {
         text
     }
 
+    /// The value of a key as [`Scene::set`] takes it; `None` if it is absent.
+    pub fn given_text(&self, parameter: &Parameter) -> Option<String> {
+        let listed = |lines: Vec<String>| format!("[{}]", lines.join(", "));
+        Some(match (self.get(parameter.key)?, parameter.kind) {
+            (Value::Text(words), _) => words,
+            (Value::Rows(rows), _) => listed(rows.iter().map(|(a, b)| format!("[{a:?}, {b:?}]")).collect()),
+            (Value::Records(records), ParameterKind::Records { columns, .. }) => {
+                listed(records.iter().map(|record| inline(columns, record)).collect())
+            }
+            (value, _) => value.to_string(),
+        })
+    }
+
     /// Writes the scene to `path` by way of a temporary file in the same folder, so that a reader never sees half of
     /// it and a failure leaves an older file as it was.
     ///
@@ -47,6 +62,37 @@ impl Scene {
             let what = What::Unwritable(error.source.to_string());
             Fault { origin: Some(path.to_owned()), line: None, column: None, what }.into()
         })
+    }
+}
+
+/// In bytes a scene is its file.
+impl Serialize for Scene {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.to_toml().serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Scene {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Self::from_toml(&String::deserialize(from)?, "the scene").map_err(D::Error::custom)
+    }
+}
+
+/// In bytes a parameter is its key.
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.key.serialize(to)
+    }
+}
+
+impl Parameter {
+    /// The parameter whose key is in bytes.
+    ///
+    /// # Errors
+    /// If there is none of that key.
+    pub fn from_key<'de, D: Deserializer<'de>>(from: D) -> Result<&'static Self, D::Error> {
+        let key = String::deserialize(from)?;
+        Self::find(&key).ok_or_else(|| D::Error::custom(key))
     }
 }
 
@@ -79,22 +125,27 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
             let ParameterKind::Records { columns, .. } = parameter.kind else { return };
             let _ = writeln!(text, "{leaf} = [  # {}", parameter.about);
             for record in records {
-                let pair = |(column, value): (&Parameter, &Value)| {
-                    let value = match value {
-                        Value::Text(words) => quote(words),
-                        Value::Number(number) => format!("{number:?}"),
-                        value => value.to_string(),
-                    };
-                    format!("{} = {value}", column.key)
-                };
-                let pairs: Vec<_> = columns.iter().zip(record).map(pair).collect();
-                let _ = writeln!(text, "  {{ {} }},", pairs.join(", "));
+                let _ = writeln!(text, "  {},", inline(columns, record));
             }
             text.push_str("]\n");
             return;
         }
     };
     let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
+}
+
+/// One of an array of tables, on a line.
+fn inline(columns: &[Parameter], record: &[Value]) -> String {
+    let pair = |(column, value): (&Parameter, &Value)| {
+        let value = match value {
+            Value::Text(words) => quote(words),
+            Value::Number(number) => format!("{number:?}"),
+            value => value.to_string(),
+        };
+        format!("{} = {value}", column.key)
+    };
+    let pairs: Vec<_> = columns.iter().zip(record).map(pair).collect();
+    format!("{{ {} }}", pairs.join(", "))
 }
 
 /// A TOML basic string.

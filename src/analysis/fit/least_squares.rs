@@ -17,6 +17,7 @@ use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, DenseMatrix, Executor,
     Jacobian, Residual, TerminationCode, TrustRegionReflective,
 };
+use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
 /// The search ends when a step makes χ² smaller by less than this share …
@@ -35,7 +36,7 @@ const ALIKE: f64 = 0.98;
 const SAME: f64 = 0.02;
 
 /// The best agreement found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Fitted {
     /// The unknowns, in the order in which they were given.
     pub unknowns: Vec<FittedUnknown>,
@@ -69,7 +70,7 @@ pub struct Fitted {
 }
 
 /// An unknown and what was found for it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FittedUnknown {
     /// The key and its bounds.
     pub unknown: Unknown,
@@ -82,7 +83,7 @@ pub struct FittedUnknown {
 }
 
 /// A measurement beside what is computed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FittedRow {
     /// What is computed with its numerical error, or why nothing is: then the measurement was left out.
     pub computed: Computed,
@@ -93,7 +94,7 @@ pub struct FittedRow {
 }
 
 /// A minimum that some starts led to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Minimum {
     /// χ² there.
     pub chi_squared: f64,

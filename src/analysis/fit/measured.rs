@@ -7,6 +7,7 @@ use crate::problem::{Numerics, Problem};
 use crate::scene::table1::published;
 use crate::scene::{Parameter, Scene, SceneError, presets, show_text};
 use crate::solve::Method;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::str::FromStr;
 
@@ -27,7 +28,7 @@ const WEIGHT: &str = "weight";
 const LABELS: [&str; 3] = ["row", "name", "note"];
 
 /// A number that was measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum What {
     /// A number of a solve.
     Number(Quantity),
@@ -57,7 +58,7 @@ impl What {
 }
 
 /// One measured number.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// The name of its line, or its number in the file.
     pub label: String,
@@ -72,7 +73,7 @@ pub struct Measurement {
 }
 
 /// What was measured, and under which conditions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// Name of the table.
     pub name: String,

@@ -2,6 +2,7 @@
 
 use super::error::FitError;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
+use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
 /// Most keys that are chosen at once.
@@ -10,7 +11,7 @@ pub const MOST_UNKNOWNS: usize = 12;
 const WIDE: f64 = 10.0;
 
 /// What to choose: `key=from:to`, `key=from:to:log` or `key=from:to:lin`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     /// Dotted key, as in `--set`.
     pub key: String,
@@ -41,7 +42,7 @@ impl FromStr for Bounds {
 }
 
 /// Which bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Bound {
     /// The lower one.
     Lower,
@@ -60,9 +61,10 @@ impl Bound {
 }
 
 /// A key that is chosen, checked against the scene.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unknown {
     /// The key.
+    #[serde(deserialize_with = "Parameter::from_key")]
     pub parameter: &'static Parameter,
     /// Lower bound, in the unit of the key.
     pub from: f64,

@@ -2,6 +2,7 @@
 
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use crate::solve::SolveError;
+use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
 /// Most values of one key.
@@ -12,7 +13,7 @@ pub const MOST_POINTS: usize = 100_000;
 pub const MOST_KEYS: usize = 3;
 
 /// What to vary: `key=from:to:count`, `key=from:to:count:log` or `key=value,value,…`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Vary {
     /// Dotted key, as in `--set`.
     pub key: String,
@@ -21,7 +22,7 @@ pub struct Vary {
 }
 
 /// The values of a key that is varied.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Values {
     /// Numbers from one end to the other.
     Range {
@@ -36,6 +37,19 @@ pub enum Values {
     },
     /// Each as in `--set`.
     List(Vec<String>),
+}
+
+impl SweepError {
+    /// What is wrong, said where it is: the key need not be named.
+    pub fn in_place(&self) -> String {
+        match self {
+            Self::Count { found, .. } => format!("{found} values: allowed 2 to {MOST_VALUES}"),
+            Self::Nothing { .. } => "Both ends are the same: they have to differ".to_owned(),
+            Self::Log { .. } => "For equal ratios both ends have to be above 0".to_owned(),
+            Self::Twice { .. } => "Both axes vary the same parameter: choose another".to_owned(),
+            other => other.to_string(),
+        }
+    }
 }
 
 impl FromStr for Vary {

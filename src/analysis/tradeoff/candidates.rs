@@ -4,6 +4,7 @@ use crate::fidelity::Fidelity;
 use crate::problem::{Numerics, Problem, Scenario};
 use crate::solve::{Method, Settings};
 use crate::surface::Surface;
+use serde::{Deserialize, Serialize};
 
 /// Accuracies between those that have names, in millionths.
 const BETWEEN: [u32; 3] = [10_000, 2_000, 500];
@@ -21,7 +22,7 @@ const PAPER_MESHES: [(&str, usize, usize, usize); 3] =
     [("paper, half its mesh", 26, 6, 91), ("paper", 51, 11, 181), ("paper, twice its mesh", 101, 21, 361)];
 
 /// Where a setting comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Family {
     /// An accuracy that is asked for, by its name or as a number.
     Fidelity,
@@ -32,7 +33,7 @@ pub enum Family {
 }
 
 /// One way to solve the scene.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Candidate {
     /// Its name.
     pub name: String,

@@ -5,12 +5,13 @@ use crate::analysis::attempt::{RunStatus, attempt};
 use crate::analysis::quantity::Numbers;
 use crate::control::{Cancel, Progress};
 use crate::problem::Problem;
+use serde::{Deserialize, Serialize};
 
 /// Most repeats of one setting, if they are chosen by time.
 const MOST_REPEATS: usize = 31;
 
 /// How much to measure.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Effort {
     /// Runs of every setting; `None`: as many as fit into `seconds`, at least one and at most 31.
     pub repeats: Option<usize>,
@@ -27,7 +28,7 @@ impl Default for Effort {
 }
 
 /// One setting and what was measured of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// The setting.
     pub candidate: Candidate,

@@ -47,6 +47,14 @@ pub const NAMES: [&str; 9] = [
     "amplitude",
 ];
 
+/// Names of limits, read from bytes.
+pub(in crate::analysis) fn known_names<'de, D: serde::Deserializer<'de>>(
+    from: D,
+) -> Result<Vec<&'static str>, D::Error> {
+    let found = <Vec<String> as serde::Deserialize>::deserialize(from)?;
+    Ok(NAMES.into_iter().filter(|name| found.iter().any(|found| found == name)).collect())
+}
+
 /// One limit that a scene exceeds.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Excess {

@@ -24,7 +24,7 @@
 //! | lines, areas, contours, cut to the axes | `geometry`, `isoline` |
 //! | fields as pictures | `plane` |
 //! | one panel as SVG, all of them | `svg`, `text`, `panel`, `drawing` |
-//! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `files` |
+//! | SVG to PNG (resvg) and PDF (svg2pdf), with the bundled font | `render`, `files` |
 //!
 //! The SVG is written here because no library drew what a journal prints: kuva 0.6 neither lines up the axes of panels, nor
 //! places a map on nodes that are not uniform, and labels a tick 4.9999999999999995e-11; plotters has whole-pixel
@@ -35,6 +35,7 @@ mod axis;
 mod colour;
 mod description;
 mod drawing;
+mod error;
 mod files;
 mod geometry;
 mod isoline;
@@ -45,6 +46,8 @@ mod panel;
 mod placed;
 mod plane;
 mod provenance;
+#[cfg_attr(not(feature = "render"), path = "not_rendered.rs")]
+mod render;
 mod scale;
 mod style;
 mod svg;
@@ -53,7 +56,8 @@ mod text;
 pub use axis::{Axis, Range, Scale};
 pub use colour::{Colour, Colours};
 pub use description::{Figure, Legend, Panel, Width};
-pub use files::{FigureError, Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
+pub use error::FigureError;
+pub use files::{Format, PRINT, to_bytes, to_pdf, to_png, to_svg, write};
 pub use layers::{Anchor, Band, Categories, Contours, Direction, Grid, Layer, Line, Map, Mark, Points, Shading, Text};
 pub use provenance::Provenance;
 pub use style::{Dash, Marker, Shape, Style};
@@ -62,4 +66,5 @@ pub use svg::escaped;
 #[cfg(feature = "gui")]
 pub(crate) use geometry::{contour, is_contour};
 
-pub(super) use files::{Pixels, pixels, png_bytes};
+pub(super) use error::Pixels;
+pub(super) use files::{pixels, png_bytes};

@@ -104,7 +104,9 @@ impl Export {
             Self::Animation => Some(("Animation", &["gif", "mp4", "png", "apng"])),
             Self::Report | Self::ComparisonReport => Some(("Report", &["html"])),
             Self::SweepTable | Self::TradeoffTable => Some(("Table", &["csv"])),
-            Self::SweepFigure | Self::TradeoffFigure => Some(("Figure", &["svg", "png", "pdf"])),
+            Self::SweepFigure | Self::TradeoffFigure => {
+                Some(("Figure", if cfg!(feature = "render") { &["svg", "png", "pdf"] } else { &["svg"] }))
+            }
         }
     }
 

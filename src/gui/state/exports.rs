@@ -2,8 +2,8 @@
 
 use super::dialogs::Export;
 use crate::job::task::{News, Task};
+use crate::platform::Instant;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// The work of an export: it tells how many pictures are drawn, of how many, and returns what was written, or why nothing
 /// was; nothing at all if it was cancelled.

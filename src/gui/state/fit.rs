@@ -3,16 +3,13 @@
 use super::sweep::AxisForm;
 use crate::analysis::fit::{Bounds, Fitted, MOST_UNKNOWNS, Measured, Unknown, What};
 use crate::gui::derived::words::unused;
-use crate::job::task::{News, Task};
+use crate::job::fit::FitTask;
+use crate::job::task::News;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, quantity_text};
 use std::sync::Arc;
 
 /// What is chosen at first: the first that a scene has.
 const FIRST: [&str; 2] = ["plate.mean_gap_um", "film.min_spacing_nm"];
-
-/// A fit under way: how many points were tried with the least χ² so far; then what was found, nothing if it was cancelled, or why
-/// there is nothing.
-pub type FitTask = Task<(usize, f64), Result<Option<Fitted>, String>>;
 
 /// What a fit is of.
 #[derive(Clone, Debug)]

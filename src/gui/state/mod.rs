@@ -8,6 +8,7 @@ pub mod exports;
 pub mod fit;
 pub mod hold;
 pub mod lessons;
+pub mod link;
 pub mod modal;
 pub mod pins;
 pub mod rotor;

@@ -4,7 +4,7 @@
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultRow, parameters, results, unique};
 use crate::fidelity::Fidelity;
 use crate::gui::derived::scales::RunCurves;
-use crate::job::task::Task;
+use crate::job::pin::PinTask;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -29,9 +29,6 @@ pub struct Pin {
     /// Scales and curves of its cycle.
     pub curves: RunCurves,
 }
-
-/// The solve of a pin; it returns nothing if it was cancelled.
-pub type PinTask = Task<(), Option<ComparedRun>>;
 
 /// A pin that is being solved, or will be: a preset, or one of the last window.
 #[derive(Debug)]
@@ -265,7 +262,7 @@ impl Pins {
             let Some(end) = task.drain().end else { return true };
             let stored = waiting.slot.map(|slot| (waiting.name.clone(), slot));
             match end {
-                Ok(Some(run)) => solved.push((waiting.id, stored, run)),
+                Ok(Some(run)) => solved.push((waiting.id, stored, run.into_run())),
                 Ok(None) => failed = Some(Note::Failure(format!("{} could not be solved", waiting.name))),
                 Err(panic) => failed = Some(Note::Failure(format!("{} could not be solved: {panic}", waiting.name))),
             }

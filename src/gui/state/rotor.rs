@@ -1,13 +1,10 @@
 //! The rotor by itself: computed in the background while its tab is shown, and kept until the rotor or the wave is another.
 
 use crate::analysis::rotor::RotorCurves;
-use crate::job::task::Task;
+use crate::job::rotor::RotorTask;
 use crate::problem::{Motor, RotorCompliance};
 use crate::rotor::Wave;
 use std::sync::Arc;
-
-/// The computation: what was found, or why there is nothing; `None` if it was cancelled.
-pub type RotorTask = Task<(), Option<Result<RotorCurves, String>>>;
 
 /// A rotor and the wave that runs round it.
 type RingedRotor = (RotorCompliance, Wave);

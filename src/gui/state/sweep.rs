@@ -1,17 +1,18 @@
 //! A sweep as the window has it: what is asked for, how far it is, and what was found.
 
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, SweepError, Values, Vary};
+use crate::analysis::sweep::{Axis, MOST_VALUES, Row, Sweep, Values, Vary};
 use crate::analysis::table1::Published;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::format::to_digits;
 use crate::gui::derived::sliders::slider_range;
 use crate::gui::derived::words::unused;
-use crate::job::task::{News, Task};
+use crate::job::sweep::{SweepMessage, SweepTask};
+use crate::job::task::News;
+use crate::platform::Instant;
 use crate::problem::Problem;
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, Value, quantity_text};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// What is varied at first, along x and y: the first that a scene has.
 const FIRST: [&[&str]; 2] = [
@@ -90,19 +91,8 @@ impl AxisForm {
         let count = counted.map_err(|_| format!("{} values: allowed 2 to {MOST_VALUES}", self.count.trim()))?;
         let scale = if self.log { Scale::Log } else { Scale::Linear };
         let vary = Vary { key: self.key.to_owned(), values: Values::Range { from, to, count, scale } };
-        Axis::new(scene, &vary).map_err(|error| in_place(&error))?;
+        Axis::new(scene, &vary).map_err(|error| error.in_place())?;
         Ok(vary)
-    }
-}
-
-/// What is wrong, said where it is: the key need not be named.
-fn in_place(error: &SweepError) -> String {
-    match error {
-        SweepError::Count { found, .. } => format!("{found} values: allowed 2 to {MOST_VALUES}"),
-        SweepError::Nothing { .. } => "Both ends are the same: they have to differ".to_owned(),
-        SweepError::Log { .. } => "For equal ratios both ends have to be above 0".to_owned(),
-        SweepError::Twice { .. } => "Both axes vary the same parameter: choose another".to_owned(),
-        other => other.to_string(),
     }
 }
 
@@ -183,18 +173,6 @@ pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '
         |parameter: &&Parameter| matches!(parameter.kind, ParameterKind::Number { .. } | ParameterKind::Whole { .. });
     scene.parameters().filter(number).filter(|parameter| unused(scene, parameter).is_none())
 }
-
-/// What a sweep tells on the way.
-#[derive(Debug)]
-pub enum SweepMessage {
-    /// Its points are known.
-    Built(Arc<Sweep>),
-    /// A point is solved.
-    Solved(Box<Row>),
-}
-
-/// The work of a sweep: it builds the points, unless they are known, and solves them. It returns all rows in order.
-pub type SweepTask = Task<SweepMessage, Result<Vec<Row>, SweepError>>;
 
 /// A sweep that was begun.
 #[derive(Debug)]
@@ -408,8 +386,14 @@ impl SweepState {
         let building = self.building();
         self.task = None;
         match (end, &mut self.swept) {
-            (Ok(Err(error)), _) => self.refusal = Some(in_place(&error)),
-            (Ok(Ok(rows)), Some(swept)) if !building => (swept.rows, swept.running) = (rows, false),
+            (Ok(Err(refusal)), _) => self.refusal = Some(refusal),
+            (Ok(Ok(rows)), Some(swept)) if !building => {
+                swept.running = false;
+                // A worker that was ended returns none.
+                if rows.len() >= swept.rows.len() {
+                    swept.rows = rows;
+                }
+            }
             (Ok(Ok(_)), _) => {}
             (Err(panic), Some(swept)) if !building => (swept.failure, swept.running) = (Some(panic), false),
             (Err(panic), _) => self.refusal = Some(panic),

@@ -3,12 +3,9 @@
 use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::job::SolvedScene;
-use crate::job::task::Task;
+use crate::job::torque::TorqueTask;
 use crate::problem::Scenario;
 use std::sync::Arc;
-
-/// The computation: curves, or why there are none; nothing if it was cancelled.
-pub type TorqueTask = Task<(), Option<Result<TorqueCurves, String>>>;
 
 /// What is known, and what is being computed.
 #[derive(Debug, Default)]
@@ -38,7 +35,7 @@ impl TorqueState {
         if let (Some(end), Some(of)) = (self.task.as_ref().and_then(|task| task.drain().end), self.asked.clone()) {
             self.task = None;
             match end {
-                Ok(Some(found)) => self.found = Some((of, found)),
+                Ok(Some(found)) => self.found = Some((of, found.map(|found| found.0))),
                 Ok(None) => {}
                 Err(panic) => self.found = Some((of, Err(format!("it failed: {panic}")))),
             }

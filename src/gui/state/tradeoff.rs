@@ -4,10 +4,10 @@ use crate::analysis::tradeoff::{Candidate, Family, Run, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
 use crate::job::task::{News, Task};
 use crate::job::tradeoff::Progress;
+use crate::platform::Instant;
 use crate::problem::Numerics;
 use crate::scene::Scene;
 use crate::solve::{Method, Settings};
-use std::time::Instant;
 
 /// What a setting is called that is none of the others.
 const PRESENT: &str = "present setting";
@@ -52,6 +52,8 @@ impl TradeoffState {
         if let Some(end) = end {
             self.job = None;
             match end {
+                // A worker that was ended returns none.
+                Ok(runs) if runs.is_empty() => {}
                 Ok(runs) => self.tradeoff = Tradeoff::of(&runs),
                 Err(panic) => self.failure = Some(panic),
             }

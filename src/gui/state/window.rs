@@ -19,6 +19,7 @@ use super::torque::TorqueState;
 use super::tradeoff::TradeoffState;
 use super::view::{Tab, View};
 use crate::job::SolvedScene;
+use crate::platform::HAS_FILES;
 use crate::recording::Recording;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -117,6 +118,9 @@ impl State {
 
     /// Puts `path` first among the files remembered.
     pub fn remember(&mut self, path: &Path) {
+        if !HAS_FILES {
+            return;
+        }
         let path = absolute(path);
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
@@ -156,7 +160,8 @@ impl State {
     /// Whether there is what `export` writes.
     pub fn can_export(&self, export: Export) -> bool {
         match export {
-            Export::Data | Export::Figures | Export::Fields | Export::Animation | Export::Report => self.run.is_some(),
+            Export::Data | Export::Figures | Export::Fields | Export::Report => self.run.is_some(),
+            Export::Animation => cfg!(feature = "render") && self.run.is_some(),
             Export::Comparison | Export::ComparisonReport => self.pins.runs().len() > 1,
             Export::SweepTable | Export::SweepFigure | Export::Sweep => {
                 self.sweep.swept().is_some_and(|swept| !swept.rows().is_empty())

@@ -5,9 +5,9 @@ use super::theme::{Palette, palette};
 use crate::gui::command::Command;
 use crate::gui::state::window::State;
 use crate::job::SolvedScene;
+use crate::platform::Instant;
 use eframe::egui::{self, Color32, Rect, RichText, Ui};
 use std::cell::{Cell, RefCell};
-use std::time::Instant;
 
 /// The state to read, the colours, the present moment, and where commands go.
 #[derive(Debug)]

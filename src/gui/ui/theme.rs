@@ -1,6 +1,6 @@
 //! Colours and sizes: the only place that has any.
 
-use eframe::egui::{self, Color32, FontData, FontDefinitions, FontFamily};
+use eframe::egui::{self, Color32, FontData, FontFamily};
 use std::sync::Arc;
 
 /// Colours with a meaning, for one of the two themes. Distinguishable with the common colour deficiencies (Okabe–Ito).
@@ -121,9 +121,9 @@ fn dress(visuals: &mut egui::Visuals, dark: bool) {
     widgets.inactive.fg_stroke.color = grey([0xd2, 0xd7, 0xdf], [0x2e, 0x33, 0x3b]);
 }
 
-/// Installs the fonts: egui's own, and DejaVu Sans for the glyphs that they lack.
+/// Installs the fonts: egui's own, or some of them, and DejaVu Sans for the glyphs that they lack.
 pub fn install_fonts(ctx: &egui::Context) {
-    let mut fonts = FontDefinitions::default();
+    let mut fonts = crate::platform::window::fonts();
     let dejavu = FontData::from_static(include_bytes!("../../../assets/fonts/DejaVuSans.ttf"));
     fonts.font_data.insert("dejavu".to_owned(), Arc::new(dejavu));
     for family in [FontFamily::Proportional, FontFamily::Monospace] {

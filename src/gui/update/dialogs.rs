@@ -2,6 +2,8 @@
 
 use super::platform::DialogStart;
 use crate::gui::state::dialogs::{Answer, Purpose};
+use crate::platform::aside;
+use crate::platform::window::Parent;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// Shows a file dialog; blocks until there is an answer.
@@ -12,7 +14,7 @@ type Ask = fn(Purpose, &DialogStart) -> Answer;
 pub struct Dialogs {
     ask: Ask,
     /// A dialog over the window.
-    parent: rfd::FileDialog,
+    parent: Parent,
     /// What the dialogs that are open are for.
     open: Vec<Purpose>,
     sender: Sender<(Purpose, Answer)>,
@@ -21,7 +23,7 @@ pub struct Dialogs {
 
 impl Dialogs {
     /// Dialogs that are shown by `ask`, over the window of `parent`.
-    pub fn new(ask: Ask, parent: rfd::FileDialog) -> Self {
+    pub fn new(ask: Ask, parent: Parent) -> Self {
         let (sender, receiver) = channel();
         Self { ask, parent, open: Vec::new(), sender, receiver }
     }
@@ -35,8 +37,8 @@ impl Dialogs {
             return Ok(());
         }
         let (ask, sender, theirs) = (self.ask, self.sender.clone(), purpose.clone());
-        let start = DialogStart { name: name.to_owned(), native: self.parent.clone() };
-        std::thread::Builder::new().name("squeezefilm-dialog".to_owned()).spawn(move || {
+        let start = DialogStart { name: name.to_owned(), parent: self.parent.clone() };
+        aside("dialog", move || {
             let answer = ask(theirs.clone(), &start);
             // The window may be gone: then nobody waits for the answer.
             let _ = sender.send((theirs, answer));

@@ -28,7 +28,7 @@ use std::time::Duration;
 /// Progress is drawn at most this often.
 const REDRAW: Duration = Duration::from_millis(100);
 /// Formats of the figures beside data, as without `--figures`.
-const BESIDE_DATA: [Format; 2] = [Format::Svg, Format::Png];
+const BESIDE_DATA: &[Format] = if cfg!(feature = "render") { &[Format::Svg, Format::Png] } else { Format::WRITTEN };
 
 /// What is left to do once everything that it needs is at hand.
 type Work = Box<dyn FnOnce(&Control<'_>) -> Result<Vec<PathBuf>, ExportError> + Send>;
@@ -75,7 +75,7 @@ impl Updater {
                     let mut summary = Summary::new(&named.1, &run.solution, run.wall_s, &[]);
                     summary.add_torque(merit(&run, control.cancel));
                     let solved = Solved { torque: summary.torque.as_ref(), ..solved(&run, &named) };
-                    files::solve(&path, &solved, &summary, &BESIDE_DATA, control)
+                    files::solve(&path, &solved, &summary, BESIDE_DATA, control)
                 })
             }
             Export::Figures => {
@@ -84,7 +84,7 @@ impl Updater {
                     // Without it the other figures are still worth having.
                     let merit = merit(&run, control.cancel).ok().flatten();
                     let solved = Solved { torque: merit.as_ref(), ..solved(&run, &named) };
-                    files::solve_figures(&path, &solved, &Format::ALL, control)
+                    files::solve_figures(&path, &solved, Format::WRITTEN, control)
                 })
             }
             Export::Fields => {
@@ -109,7 +109,7 @@ impl Updater {
                 } else {
                     let all = self.state.pins.all_parameters;
                     Box::new(move |control| {
-                        files::comparison(&path, &runs, (&settings, all, &[]), &BESIDE_DATA, control)
+                        files::comparison(&path, &runs, (&settings, all, &[]), BESIDE_DATA, control)
                     })
                 }
             }
@@ -126,7 +126,7 @@ impl Updater {
                         figure::write(&figure_of(&sweep, &rows, quantity), &path)?;
                         Ok(vec![path])
                     }
-                    _ => Ok(files::swept(&path, &sweep, &rows, &[], &BESIDE_DATA)?),
+                    _ => Ok(files::swept(&path, &sweep, &rows, &[], BESIDE_DATA)?),
                 })
             }
             Export::Sensitivity => {
@@ -139,7 +139,7 @@ impl Updater {
                         uncertainties: &uncertainties,
                         carlo: carlo.as_ref(),
                     };
-                    Ok(files::sensitivity(&path, &found, &fidelity, &[], &BESIDE_DATA)?)
+                    Ok(files::sensitivity(&path, &found, &fidelity, &[], BESIDE_DATA)?)
                 })
             }
             Export::TradeoffTable | Export::TradeoffFigure => {

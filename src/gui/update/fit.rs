@@ -1,13 +1,13 @@
 //! What is asked of measurements and fits, carried out.
 
 use super::updater::Updater;
-use crate::analysis::fit::{Measured, Model, fit};
+use crate::analysis::fit::Measured;
 use crate::gui::command::FitCommand;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::fit::Asked;
 use crate::gui::state::sweep::AxisForm;
 use crate::gui::state::view::Tab;
-use crate::job::task::Task;
+use crate::job;
 use crate::scene::Value;
 use crate::solve::{Method, Settings};
 use std::path::Path;
@@ -16,8 +16,6 @@ use std::time::Duration;
 
 /// Progress is drawn at most this often.
 const REDRAW: Duration = Duration::from_millis(100);
-/// Starts of a fit: the scene's own values, and others of which the best are refined.
-const STARTS: usize = 16;
 
 impl Updater {
     pub(super) fn fit(&mut self, command: FitCommand) {
@@ -79,18 +77,7 @@ impl Updater {
         };
         let settings = Settings { fidelity: self.state.document.target(), ..Settings::default() };
         let asked = Asked { scene: scene.clone(), measured: Arc::clone(&measured) };
-        let task = Task::start("fit", self.wake(REDRAW), move |cancel, tell| {
-            let solve = || {
-                let model = Model::new(&scene, &bounds, &settings)?.under(&measured)?;
-                fit(&model, &measured, STARTS, cancel, &|points, chi_squared| tell((points, chi_squared)))
-            };
-            // A pool of its own: an export or another task need not wait until this is done.
-            let found = match rayon::ThreadPoolBuilder::new().build() {
-                Ok(pool) => pool.install(solve),
-                Err(_) => solve(),
-            };
-            found.map_err(|error: crate::analysis::fit::FitError| error.to_string())
-        });
+        let task = job::fit::start(scene, measured, bounds, settings, self.wake(REDRAW));
         match task {
             Ok(task) => self.state.fit.begin(asked, task),
             Err(error) => self.state.fail(format!("The fit cannot be started: {error}")),

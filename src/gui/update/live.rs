@@ -1,8 +1,6 @@
 //! What is computed while one looks: a start-up, a plate in the hand, torque over speed, and the rotor.
 
 use super::updater::Updater;
-use crate::analysis::rotor::RotorCurves;
-use crate::analysis::torque::TorqueCurves;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
@@ -10,10 +8,9 @@ use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
 use crate::job;
 use crate::job::hold::{HeldPlate, slowed};
-use crate::job::task::Task;
+use crate::job::work::Posed;
 use crate::problem::{Problem, Scenario};
 use crate::startup;
-use std::sync::Arc;
 use std::time::Duration;
 
 impl Updater {
@@ -36,12 +33,7 @@ impl Updater {
     pub fn follow_torque(&mut self) {
         let (Tab::Torque, Some(run)) = (self.state.view.tab, self.state.run.clone()) else { return };
         if self.state.torque.lacks(&run) {
-            let theirs = Arc::clone(&run);
-            let task = Task::start("torque", self.wake(Duration::ZERO), move |cancel, _: &(dyn Fn(()) + Sync)| {
-                TorqueCurves::of_solve(&theirs.problem, theirs.fidelity, &theirs.solution, cancel)
-                    .map_err(|error| format!("without film, {error}"))
-                    .transpose()
-            });
+            let task = job::torque::start(&run, self.wake(Duration::ZERO));
             self.state.torque.begin(&run, task);
         }
     }
@@ -49,15 +41,13 @@ impl Updater {
     /// Computes the rotor of the present scene while its tab is shown.
     pub fn follow_rotor(&mut self) {
         let Tab::Rotor = self.state.view.tab else { return };
-        let Ok(Problem { scenario: Scenario::Motor(motor), .. }) = Problem::new(self.state.document.scene()) else {
-            return;
-        };
-        if self.state.rotor.lacks(&motor) {
-            let theirs = motor.clone();
-            let task = Task::start("rotor", self.wake(Duration::ZERO), move |cancel, _: &(dyn Fn(()) + Sync)| {
-                RotorCurves::of(&theirs, cancel).map_err(|error| error.to_string()).transpose()
-            });
-            self.state.rotor.begin(&motor, task);
+        let scene = self.state.document.scene();
+        let Ok(problem) = Problem::new(scene) else { return };
+        let Scenario::Motor(motor) = &problem.scenario else { return };
+        if self.state.rotor.lacks(motor) {
+            let posed = Posed { scene: scene.clone(), problem: problem.clone() };
+            let task = job::rotor::start(posed, self.wake(Duration::ZERO));
+            self.state.rotor.begin(motor, task);
         }
     }
 
@@ -124,7 +114,11 @@ impl Updater {
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count() + 1);
         let scene = self.state.document.scene().clone();
-        match job::startup::start(problem.clone(), settings, self.wake(Duration::ZERO)) {
+        match job::startup::start(
+            Posed { scene: scene.clone(), problem: problem.clone() },
+            settings,
+            self.wake(Duration::ZERO),
+        ) {
             Ok(task) => self.state.startup = Some(StartupState::new(task, scene, problem, fidelity, count)),
             Err(error) => self.state.fail(format!("The start-up cannot be started: {error}")),
         }

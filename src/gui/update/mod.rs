@@ -4,6 +4,7 @@ pub mod dialogs;
 mod exports;
 mod fit;
 mod lessons;
+mod links;
 mod live;
 mod pictures;
 mod pins;

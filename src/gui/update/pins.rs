@@ -1,13 +1,12 @@
 //! What is asked of the pins, carried out.
 
 use super::updater::Updater;
-use crate::analysis::compare::{ComparedRun, runs};
+use crate::analysis::compare::ComparedRun;
 use crate::fidelity::Fidelity;
 use crate::gui::command::PinCommand;
-use crate::gui::state::pins::{PinTask, to_compare};
-use crate::job::task::Task;
+use crate::gui::state::pins::to_compare;
+use crate::job::pin::{self, PinTask};
 use crate::scene::{Scene, presets};
-use crate::solve::Settings;
 use std::time::Duration;
 
 impl Updater {
@@ -64,11 +63,6 @@ impl Updater {
 
     /// Solves a scene to be pinned, in the background.
     fn solve_pin(&self, scene: Scene, fidelity: Fidelity) -> std::io::Result<PinTask> {
-        let settings = Settings { fidelity, ..Settings::default() };
-        Task::start("pin", self.wake(Duration::ZERO), move |cancel, _| {
-            // Every scene is solved by this method, and a run that was cancelled has nobody who waits for it.
-            let solved = runs(&[scene], &settings, cancel, &|_| ()).ok().filter(|_| !cancel.is_cancelled());
-            solved.and_then(|solved| solved.into_iter().next())
-        })
+        pin::start(scene, fidelity, self.wake(Duration::ZERO))
     }
 }

@@ -2,9 +2,11 @@
 
 use crate::analysis::tradeoff::{Candidate, Effort, candidates};
 use crate::gui::state::dialogs::{Answer, Purpose};
+use crate::platform::window::Parent;
+use crate::platform::{Asked, FileDialog, HAS_FILES, Instant};
 use crate::problem::Problem;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The clock, the file dialogs and the effort of measurements.
 #[derive(Clone, Debug)]
@@ -24,8 +26,8 @@ pub struct Platform {
 pub struct DialogStart {
     /// Name of the file, if one is to be written.
     pub name: String,
-    /// The system's dialog, with the window as its parent.
-    pub native: rfd::FileDialog,
+    /// What it is shown over.
+    pub parent: Parent,
 }
 
 impl Default for Platform {
@@ -45,29 +47,24 @@ const TOO_SOON: Duration = Duration::from_millis(400);
 /// Asks the system's own dialog.
 fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
     let started = Instant::now();
-    let (name, dialog) = (start.name.as_str(), start.native.clone());
-    let dialog = match purpose {
-        Purpose::Picture(_) => dialog.add_filter("Picture", &["png"]),
-        Purpose::Export(export) => match export.filter() {
-            Some((kind, extensions)) => dialog.add_filter(kind, extensions),
-            None => dialog,
-        },
-        Purpose::Lessons => dialog,
-        Purpose::Measurements => dialog.add_filter("Table", &["csv"]),
-        Purpose::Open | Purpose::Save(_) => dialog.add_filter("Preset", &["toml"]),
+    let (filter, title): (Option<(&str, &[&str])>, _) = match &purpose {
+        Purpose::Picture(_) => (Some(("Picture", &["png"])), "Save"),
+        Purpose::Export(export) => (export.filter(), export.title()),
+        Purpose::Lessons => (None, "Open a folder of lessons"),
+        Purpose::Measurements => (Some(("Table", &["csv"])), "Open a table of measurements"),
+        Purpose::Open => (Some(("Preset", &["toml"])), "Open a preset"),
+        Purpose::Save(_) => (Some(("Preset", &["toml"])), "Save"),
     };
-    let path = match purpose {
-        Purpose::Open => dialog.set_title("Open a preset").pick_file(),
-        Purpose::Measurements => dialog.set_title("Open a table of measurements").pick_file(),
-        Purpose::Export(export) if export.is_folder() => dialog.set_title(export.title()).pick_folder(),
-        Purpose::Lessons => dialog.set_title("Open a folder of lessons").pick_folder(),
-        Purpose::Export(export) => dialog.set_title(export.title()).set_file_name(name).save_file(),
-        Purpose::Save(_) | Purpose::Picture(_) => dialog.set_title("Save").set_file_name(name).save_file(),
+    let asked = match purpose {
+        Purpose::Open | Purpose::Measurements => Asked::File,
+        Purpose::Lessons => Asked::Folder,
+        Purpose::Export(export) if export.is_folder() => Asked::Folder,
+        Purpose::Export(_) | Purpose::Save(_) | Purpose::Picture(_) => Asked::NewFile,
     };
     // Without a portal and without zenity the library answers as if the dialog had been closed, but at once.
-    match path {
+    match start.parent.ask(&FileDialog { asked, title, filter, name: &start.name }) {
         Some(path) => Answer::Path(path),
-        None if started.elapsed() < TOO_SOON => Answer::NoDialog,
+        None if HAS_FILES && started.elapsed() < TOO_SOON => Answer::NoDialog,
         None => Answer::Cancelled,
     }
 }

@@ -20,6 +20,7 @@ impl Updater {
             Command::SetText { key, text } => self.edit(key, false, Change::Text(text)),
             Command::Reset { key } => self.reset(key),
             Command::Use { target, numerics } => self.use_setting(target, numerics),
+            Command::CopyLink => self.copy_link(),
             Command::Undo => self.step_history(Document::undo),
             Command::Redo => self.step_history(Document::redo),
             Command::Proceed(next) => self.proceed(next),
@@ -113,6 +114,7 @@ impl Updater {
 
     /// Takes what background work and dialogs have told.
     pub fn drain(&mut self) {
+        let mut solved = false;
         let state = &mut self.state;
         for event in self.solver.drain() {
             match event {
@@ -126,6 +128,7 @@ impl Updater {
                     }
                     state.view.tooth = state.view.tooth.min(run.solution.recording.teeth.saturating_sub(1));
                     state.run = Some(run);
+                    solved = true;
                 }
                 Event::Failed { number, message } if number == state.activity.number => {
                     state.activity.failure = Some(message);
@@ -134,6 +137,10 @@ impl Updater {
                 _ => {}
             }
         }
+        if solved {
+            self.publish_run();
+        }
+        let state = &mut self.state;
         state.tradeoff.iter_mut().for_each(|measured| measured.drain());
         if let Some(error) = state.exports.drain() {
             state.fail(error);

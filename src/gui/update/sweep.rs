@@ -1,21 +1,14 @@
 //! What is asked of the sweep, carried out.
 
 use super::updater::Updater;
-use crate::analysis::sweep::{Row, Sweep, SweepError};
 use crate::gui::command::SweepCommand;
-use crate::gui::state::sweep::SweepMessage;
-use crate::job::task::Task;
+use crate::job;
+use crate::job::sweep::SweepTask;
 use crate::solve::Settings;
-use std::sync::Arc;
 use std::time::Duration;
 
 /// Points are drawn as they come, but at most this often.
 const REDRAW: Duration = Duration::from_millis(100);
-
-/// A sweep, and the rows of it that are known.
-type Known = (Arc<Sweep>, Vec<Row>);
-/// How a sweep tells what it has.
-type Tell<'a> = &'a (dyn Fn(SweepMessage) + Sync);
 
 impl Updater {
     pub(super) fn sweep(&mut self, command: SweepCommand) {
@@ -24,8 +17,8 @@ impl Updater {
             SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
                 if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running()) {
-                    let known = (Arc::clone(swept.sweep()), swept.rows().to_vec());
-                    self.run_sweep(true, |_| Ok(known));
+                    let task = job::sweep::go_on(swept.sweep(), swept.rows().to_vec(), self.wake(REDRAW));
+                    self.begin_sweep(task, true);
                 }
             }
             SweepCommand::Open(point) => {
@@ -60,24 +53,11 @@ impl Updater {
         let mut swept = scene.clone();
         swept.retitle(self.state.document.saved());
         let settings = Settings { fidelity, ..Settings::default() };
-        self.run_sweep(false, move |tell| {
-            let sweep = Arc::new(Sweep::new(&swept, &vary, &settings)?);
-            tell(SweepMessage::Built(Arc::clone(&sweep)));
-            Ok((sweep, Vec::new()))
-        });
+        let task = job::sweep::start(swept, vary, settings, self.wake(REDRAW));
+        self.begin_sweep(task, false);
     }
 
-    /// Solves what `build` returns, on a thread of its own: there can be 100 000 points to make.
-    fn run_sweep(&mut self, goes_on: bool, build: impl FnOnce(Tell<'_>) -> Result<Known, SweepError> + Send + 'static) {
-        let task = Task::start("sweep", self.wake(REDRAW), move |cancel, tell| {
-            let (sweep, done) = build(tell)?;
-            let solve = || sweep.run(&done, cancel, &|row| tell(SweepMessage::Solved(Box::new(row.clone()))));
-            // A pool of its own: an export or another task need not wait until this is done.
-            Ok(match rayon::ThreadPoolBuilder::new().build() {
-                Ok(pool) => pool.install(solve),
-                Err(_) => solve(),
-            })
-        });
+    fn begin_sweep(&mut self, task: std::io::Result<SweepTask>, goes_on: bool) {
         match task {
             Ok(task) => self.state.sweep.begin(task, goes_on, self.now()),
             Err(error) => self.state.fail(format!("The sweep cannot be started: {error}")),

@@ -3,6 +3,7 @@
 use super::updater::Updater;
 use crate::gui::state::tradeoff::{TradeoffState, with_present};
 use crate::job;
+use crate::job::work::Posed;
 use std::time::Duration;
 
 /// A measurement is drawn anew at most this often: what draws it is measured too.
@@ -19,7 +20,13 @@ impl Updater {
         let (mut candidates, effort) = (self.platform.measure)(&problem);
         with_present(&mut candidates, self.state.document.target(), scene.numerics());
         let now = self.platform.now;
-        match job::tradeoff::measure(problem, candidates, effort, now, self.wake(MEASURE_INTERVAL)) {
+        match job::tradeoff::measure(
+            Posed { scene: scene.clone(), problem },
+            candidates,
+            effort,
+            now,
+            self.wake(MEASURE_INTERVAL),
+        ) {
             Ok(task) => self.state.tradeoff = Some(TradeoffState::new(task, scene, now())),
             Err(error) => self.state.fail(format!("The measurement cannot be started: {error}")),
         }

@@ -7,12 +7,14 @@ use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::window::State;
 use crate::job::task::Task;
 use crate::job::{Request, Solver};
+use crate::platform::Instant;
+use crate::platform::window::Parent;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use eframe::egui;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Changes the state: by commands, by what background work tells, and by time.
 #[derive(Debug)]
@@ -31,12 +33,7 @@ pub struct Updater {
 
 impl Updater {
     /// Begins with `state`, and starts to solve its scene. `parent`: a file dialog over the window.
-    pub fn start(
-        ctx: &egui::Context,
-        state: State,
-        platform: Platform,
-        parent: rfd::FileDialog,
-    ) -> std::io::Result<Self> {
+    pub fn start(ctx: &egui::Context, state: State, platform: Platform, parent: Parent) -> std::io::Result<Self> {
         let wake = ctx.clone();
         let solver = Solver::start_with_clock(platform.now, move || wake.request_repaint())?;
         let dialogs = Dialogs::new(platform.ask, parent);

@@ -1,4 +1,5 @@
-//! The transient from rest, instant after instant: every tooth, nothing accelerated.
+//! The transient from rest, instant after instant: every tooth, nothing accelerated. Cycle after cycle it leads to the periodic
+//! state, slowly, also where the rounds of all instants at once do not.
 //!
 //! At each instant film and contact have to agree: contact asks how much gas is trapped, ζ, the film's step asks for the gap. A
 //! fixed point of the two, driven by Anderson acceleration of ln ζ, starts from ζ continued from the last two instants. What it
@@ -6,17 +7,25 @@
 
 use super::{CONTACT_SHARE, Level, step_tolerance};
 use crate::contact::{Instant, Shape};
-use crate::control::Cancel;
+use crate::control::{Cancel, Reporter};
 use crate::film::stepper::FilmState;
 use crate::motor::ending::{MotorError, Stop};
 use crate::numerics::anderson::Anderson;
+use crate::plan::Plan;
 use crate::recording::Recording;
-use crate::solution::Stats;
+use crate::solution::{Stats, Status};
 
 const DEPTH: usize = 6;
 const LONGEST_STEP: f64 = 1.0;
-/// Rounds of a step. One that needs more is taken as it is, and counted.
+/// Rounds of a step: gas and balance of the load have to be settled. One that needs more is taken as it is, and counted.
 const ROUND_LIMIT: usize = 60;
+
+/// Cycles that a state is given to repeat.
+const CYCLE_LIMIT: usize = 250;
+/// Residual of their steps, as a share of the plan's tolerance.
+const SETTLED_SHARE: f64 = 0.01;
+/// Where three cycles change the film's load hardly less than the three before, the state may be that many times as far off.
+const CREEP: f64 = 10.0;
 
 impl Level {
     /// Rest: the wave stands still, pressed against the rotor without a film, and the gas is at ambient pressure.
@@ -80,6 +89,39 @@ impl Level {
         Ok((recording, change))
     }
 
+    /// As [`Self::rest`], from the state on another grid.
+    pub(in crate::motor) fn march_on_from(&mut self, coarse: &Self) {
+        self.start_from(coarse);
+        self.line.copy_from_slice(&self.trapped);
+        self.films.iter_mut().for_each(|film| film.remember(true));
+    }
+
+    /// Marches cycle after cycle until α repeats as exactly as `plan` asks.
+    pub(in crate::motor) fn settle(
+        &mut self,
+        plan: &Plan,
+        stats: &mut Stats,
+        report: &mut Reporter<'_>,
+        cancel: &Cancel,
+    ) -> Result<Status, Stop> {
+        let mut loads = Vec::new();
+        for cycle in 1..=CYCLE_LIMIT {
+            let (_, change) =
+                self.transient_cycle(SETTLED_SHARE * plan.tolerance, stats, cancel, |_| Recording::default())?;
+            stats.cycles += 1;
+            loads.push(self.mean_film_load());
+            report.round(cycle, change, self.mean_film_load());
+            let [.., first, _, _, middle, _, _, last] = loads[..] else { continue };
+            let (before, after) = ((middle - first).abs(), (last - middle).abs());
+            let ratio = after / before;
+            self.drift = if ratio < 0.7 { after * ratio / (1.0 - ratio) } else { CREEP * after };
+            if self.astray() <= self.allowed(plan) {
+                return Ok(Status::Converged);
+            }
+        }
+        Ok(Status::NotConverged { residual: self.astray(), tolerance: self.allowed(plan) })
+    }
+
     /// Largest residual of a step of the last cycle, in ln ζ.
     pub(in crate::motor) fn residual(&self) -> f64 {
         self.residual
@@ -137,7 +179,8 @@ impl Level {
             for (i, image) in inside.iter().zip(&mut image) {
                 *image = self.line[line(i / nx, m) + i % nx].ln();
             }
-            self.residual = image.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let change = image.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            self.residual = change.max(self.imbalance_at(m).abs());
             if self.residual < tolerance {
                 break;
             }

@@ -40,6 +40,7 @@ use crate::control::Cancel;
 use crate::numerics::dot;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// A number and its estimated absolute numerical error, in the same unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +74,7 @@ pub struct RingCompliances {
 /// How the section moves under a line load of 1 N/m (amplitude) of one order, node by node of [`Section::mesh`]:
 /// displacements per unit line load \[m²/N\], u_r = `radial` cos mθ, u_θ = `circumferential` sin mθ, u_z = `axial`
 /// cos mθ.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Deflection {
     /// U.
     pub radial: Vec<f64>,

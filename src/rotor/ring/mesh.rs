@@ -7,6 +7,7 @@
 //! greater.
 
 use super::section::{Band, Part, RingError, Section, common, mm, same};
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Nodes of an element.
@@ -16,7 +17,7 @@ const QUARTERS: [[f64; 3]; 5] =
     [[1.0, 0.0, 0.0], [0.375, 0.75, -0.125], [0.0, 1.0, 0.0], [-0.125, 0.75, 0.375], [0.0, 0.0, 1.0]];
 
 /// A mesh.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// (r, z) of each node \[m\].
     pub nodes: Vec<[f64; 2]>,
@@ -29,7 +30,7 @@ pub struct Mesh {
 }
 
 /// One element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Element {
     /// Its nodes, three from left to right, of the lower side first, of the upper side last: number 4 is its middle.
     pub nodes: [usize; NODES],

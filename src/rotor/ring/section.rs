@@ -3,6 +3,9 @@
 //! Coordinates are (r, z): the radius from the ring's axis and the height along it. The stator is below: the ring
 //! touches it with the lowest face of its section.
 
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 /// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
@@ -27,8 +30,22 @@ pub const MATERIALS: &[Material] = &[
     Material { name: "peek", youngs_modulus: 4.0e9, poisson_ratio: 0.40, density: 1300.0 },
 ];
 
+/// In bytes a material is its name.
+impl Serialize for Material {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.name.serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Material {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(from)?;
+        MATERIALS.iter().find(|known| known.name == name).copied().ok_or_else(|| D::Error::custom(name))
+    }
+}
+
 /// A rectangle of one material, turned round the axis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// What messages and drawings call it.
     pub name: String,
@@ -46,7 +63,7 @@ pub struct Part {
 
 /// Where the ring is held: what of it lies within this box, edges included, cannot move in the directions that are
 /// fixed. A box without width or height is a line or a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Support {
     /// Inner radius \[m\].
     pub inner_radius: f64,
@@ -167,7 +184,7 @@ pub enum RingError {
 }
 
 /// A checked cross-section: parts that do not overlap and hang together, supports that hold something.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     parts: Vec<Part>,
     supports: Vec<Support>,

@@ -8,6 +8,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
+use crate::platform::HAS_FILES;
 use crate::scene::presets;
 use eframe::egui::{self, Button};
 
@@ -20,6 +21,8 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         ui.menu_button("Edit", |ui| {
             item(ui, "Undo", document.can_undo(), Command::Undo, cx);
             item(ui, "Redo", document.can_redo(), Command::Redo, cx);
+            ui.separator();
+            item(ui, "Copy link", true, Command::CopyLink, cx);
         });
         ui.menu_button("View", |ui| {
             let other = if cx.state.dark { "Light theme" } else { "Dark theme" };
@@ -127,22 +130,26 @@ fn exports(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     item(ui, "New motor…", true, Command::NewMotor, cx);
     item(ui, "Open…", true, Command::OpenDialog, cx);
-    item(ui, "Open or save by path…", true, Command::OpenPathPrompt, cx);
-    ui.menu_button("Recent", |ui| {
-        if cx.state.recent.is_empty() {
-            ui.weak("Nothing opened yet");
-        }
-        for path in &cx.state.recent {
-            item(ui, &path.display().to_string(), true, Command::Proceed(Next::File(path.clone())), cx);
-        }
-    });
+    if HAS_FILES {
+        item(ui, "Open or save by path…", true, Command::OpenPathPrompt, cx);
+        ui.menu_button("Recent", |ui| {
+            if cx.state.recent.is_empty() {
+                ui.weak("Nothing opened yet");
+            }
+            for path in &cx.state.recent {
+                item(ui, &path.display().to_string(), true, Command::Proceed(Next::File(path.clone())), cx);
+            }
+        });
+    }
     ui.separator();
     item(ui, "Save", true, Command::Save, cx);
     item(ui, "Save as…", true, Command::SaveAs, cx);
     ui.separator();
     ui.menu_button("Export", |ui| exports(ui, cx));
-    ui.separator();
-    item(ui, "Quit", true, Command::Proceed(Next::Quit), cx);
+    if HAS_FILES {
+        ui.separator();
+        item(ui, "Quit", true, Command::Proceed(Next::Quit), cx);
+    }
 }
 
 fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
@@ -163,7 +170,9 @@ fn lessons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.separator();
     let running = state.running().is_some();
     item(ui, "Leave the lesson", running, Command::Lesson(LessonCommand::Leave), cx);
-    item(ui, "Open a folder of lessons…", true, Command::Lesson(LessonCommand::ChooseFolder), cx);
+    if HAS_FILES {
+        item(ui, "Open a folder of lessons…", true, Command::Lesson(LessonCommand::ChooseFolder), cx);
+    }
     if !state.faults().is_empty() {
         item(ui, "What was wrong with lessons…", true, Command::Lesson(LessonCommand::Faults), cx);
     }

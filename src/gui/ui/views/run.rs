@@ -25,6 +25,7 @@ mod tests {
     use crate::gui::state::view::View;
     use crate::gui::state::window::State;
     use crate::gui::ui::theme;
+    use crate::platform::Instant;
     use crate::problem::Problem;
     use crate::recording::Recording;
     use crate::recording::sample::Lines;
@@ -33,7 +34,6 @@ mod tests {
     use eframe::egui::{Vec2, pos2, vec2};
     use egui_kittest::Harness;
     use std::f64::consts::TAU;
-    use std::time::Instant;
 
     fn run(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
         let mut scene = presets::find(preset).unwrap();

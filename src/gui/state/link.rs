@@ -1,0 +1,264 @@
+//! What follows the `#` of an address: a scene, as a built-in preset and what is changed of it, with the tab that is shown, or a step of a
+//! lesson. `#fundamental&film.min_spacing_nm=100&tab=torque`, `#lesson=3&step=4`.
+//!
+//! The keys are those of `--set`, and so are their values, but for `%`, `&`, `#` and what an address cannot hold, which are written as
+//! `%` and two digits. A link names no file.
+
+use super::view::Tab;
+use crate::scene::presets::BUILT_IN;
+use crate::scene::{Scene, SceneError};
+use std::fmt::Write as _;
+
+/// What a link leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Link {
+    /// A scene.
+    Scene {
+        /// The built-in preset.
+        preset: &'static str,
+        /// What it is with the changes.
+        scene: Box<Scene>,
+        /// What is shown of it; `None`: what is shown already.
+        tab: Option<Tab>,
+    },
+    /// A step of a lesson; both are counted from 1.
+    Lesson {
+        /// Which of those that are built in.
+        lesson: usize,
+        /// Which of its steps.
+        step: usize,
+    },
+}
+
+/// What is wrong with a link.
+#[derive(Debug, thiserror::Error)]
+pub enum LinkError {
+    /// It begins with no built-in preset.
+    #[error("a link begins with a built-in preset or with lesson=: {found:?} is neither; the presets are {}", names())]
+    Preset {
+        /// What it begins with.
+        found: String,
+    },
+    /// A part that is no `key=value`.
+    #[error("{found:?} in a link: allowed is key=value")]
+    Pair {
+        /// The part.
+        found: String,
+    },
+    /// No tab.
+    #[error("tab={found} in a link: allowed is {}", tabs())]
+    Tab {
+        /// What was asked for.
+        found: String,
+    },
+    /// No number of a lesson or of a step.
+    #[error("{key}={found} in a link: allowed is a whole number from 1 on")]
+    Number {
+        /// `lesson` or `step`.
+        key: &'static str,
+        /// What was asked for.
+        found: String,
+    },
+    /// A lesson has nothing else than a step.
+    #[error("{found:?} in a link to a lesson: allowed is step=")]
+    Lesson {
+        /// The part.
+        found: String,
+    },
+    /// A key or its value.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+fn names() -> String {
+    BUILT_IN.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ")
+}
+
+fn tabs() -> String {
+    Tab::ALL.iter().map(|(_, name)| name.to_lowercase()).collect::<Vec<_>>().join(", ")
+}
+
+impl Link {
+    /// Whether `text` is a link, of this or any other address, rather than a preset or a path.
+    pub fn is_link(text: &str) -> bool {
+        text.starts_with('#') || text.contains("://") && text.contains('#')
+    }
+
+    /// Reads an address, or what follows its `#`.
+    ///
+    /// # Errors
+    /// [`LinkError`] names the part that is wrong, and what is allowed.
+    pub fn read(address: &str) -> Result<Self, LinkError> {
+        let text = address.split_once('#').map_or(address, |(_, text)| text);
+        let mut parts = text.split('&').map(decoded);
+        let first = parts.next().unwrap_or_default();
+        if let Some(lesson) = first.strip_prefix("lesson=") {
+            let mut link = (counted("lesson", lesson)?, 1);
+            for part in parts {
+                let step = part.strip_prefix("step=").ok_or_else(|| LinkError::Lesson { found: part.clone() })?;
+                link.1 = counted("step", step)?;
+            }
+            return Ok(Self::Lesson { lesson: link.0, step: link.1 });
+        }
+        let found = BUILT_IN.iter().find(|preset| preset.name == first);
+        let preset = found.ok_or(LinkError::Preset { found: first })?;
+        let (mut pairs, mut tab) = (Vec::new(), None);
+        for part in parts {
+            let Some((key, value)) = part.split_once('=') else { return Err(LinkError::Pair { found: part }) };
+            if key == "tab" {
+                let named = Tab::ALL.iter().find(|(_, name)| name.to_lowercase() == value);
+                tab = Some(named.ok_or_else(|| LinkError::Tab { found: value.to_owned() })?.0);
+            } else {
+                pairs.push((key.to_owned(), value.to_owned()));
+            }
+        }
+        let original = preset.scene()?;
+        let mut scene = original.clone();
+        scene.set_all(pairs.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
+        scene.retitle(&original);
+        Ok(Self::Scene { preset: preset.name, scene: Box::new(scene), tab })
+    }
+
+    /// To `scene`, from the built-in preset that it differs from in the fewest keys.
+    pub fn to(scene: &Scene, tab: Tab) -> String {
+        let built_in = BUILT_IN.iter().filter_map(|preset| Some((preset.name, preset.scene().ok()?)));
+        let alike = built_in.filter(|(_, original)| original.scene() == scene.scene());
+        let nearest = alike.min_by_key(|(_, original)| (scene.changed(original).count(), original.name != scene.name));
+        let Some((name, original)) = nearest else { return "#".to_owned() };
+        let mut text = format!("#{name}");
+        // A key that the scene has not, but the preset has, follows from others or is taken away.
+        let gone = original.parameters().filter(|parameter| {
+            parameter.absent.is_some()
+                && scene.has(parameter)
+                && scene.get(parameter.key).is_none()
+                && original.get(parameter.key).is_some()
+        });
+        for parameter in scene.changed(&original).filter(|parameter| scene.get(parameter.key).is_some()) {
+            if let Some(value) = scene.given_text(parameter) {
+                let _ = write!(text, "&{}={}", parameter.key, encoded(&value));
+            }
+        }
+        for parameter in gone {
+            let _ = write!(text, "&{}=none", parameter.key);
+        }
+        if tab != Tab::default() {
+            let name = Tab::ALL.iter().find(|(other, _)| *other == tab).map_or("", |(_, name)| *name);
+            let _ = write!(text, "&tab={}", name.to_lowercase());
+        }
+        text
+    }
+
+    /// To a step of a built-in lesson; both are counted from 1.
+    pub fn to_lesson(lesson: usize, step: usize) -> String {
+        format!("#lesson={lesson}&step={step}")
+    }
+}
+
+fn counted(key: &'static str, found: &str) -> Result<usize, LinkError> {
+    let number = found.parse().ok().filter(|number| *number > 0);
+    number.ok_or_else(|| LinkError::Number { key, found: found.to_owned() })
+}
+
+/// `text` with everything but letters, digits and a few signs written as `%` and two digits.
+fn encoded(text: &str) -> String {
+    text.bytes().fold(String::new(), |mut address, byte| {
+        if byte.is_ascii_alphanumeric() || b"-._~:,;()+*/=".contains(&byte) {
+            address.push(char::from(byte));
+        } else {
+            let _ = write!(address, "%{byte:02X}");
+        }
+        address
+    })
+}
+
+/// The text that was encoded; what is no code stands for itself.
+fn decoded(text: &str) -> String {
+    let bytes = text.as_bytes();
+    let digit = |at: usize| bytes.get(at).and_then(|byte| char::from(*byte).to_digit(16));
+    let (mut found, mut at) = (Vec::new(), 0);
+    while at < bytes.len() {
+        match (bytes[at], digit(at + 1), digit(at + 2)) {
+            (b'%', Some(high), Some(low)) => {
+                found.push((16 * high + low) as u8);
+                at += 3;
+            }
+            (byte, ..) => {
+                found.push(byte);
+                at += 1;
+            }
+        }
+    }
+    String::from_utf8_lossy(&found).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (&'static str, Scene, Option<Tab>) {
+        match Link::read(text).unwrap() {
+            Link::Scene { preset, scene, tab } => (preset, *scene, tab),
+            lesson => panic!("{lesson:?}"),
+        }
+    }
+
+    #[test]
+    fn a_link_is_a_preset_its_changes_and_a_tab() {
+        let (preset, scene, tab) = read("https://example.org/motor/#fundamental&film.min_spacing_nm=100&tab=torque");
+        assert_eq!((preset, tab), ("fundamental", Some(Tab::Torque)));
+        let mut expected = crate::scene::presets::find("fundamental").unwrap();
+        expected.set("film.min_spacing_nm", "100").unwrap();
+        assert!(scene.same_model(&expected));
+        assert_eq!(Link::to(&scene, Tab::Torque), "#fundamental&film.min_spacing_nm=100&tab=torque");
+        assert_eq!(Link::read("#lesson=3&step=4").unwrap(), Link::Lesson { lesson: 3, step: 4 });
+        assert_eq!(Link::read(&Link::to_lesson(3, 1)).unwrap(), Link::read("lesson=3").unwrap());
+    }
+
+    #[test]
+    fn every_preset_and_any_change_of_it_comes_back() {
+        for preset in BUILT_IN {
+            let original = preset.scene().unwrap();
+            let link = Link::to(&original, Tab::Motion);
+            let (_, scene, tab) = read(&link);
+            assert!(scene.same_model(&original) && tab.is_none(), "{link}");
+            for (key, value) in [
+                ("film.gas", "helium"),
+                ("film.slip", "second-order"),
+                ("film.ambient_pressure_kpa", "51.5"),
+                ("stator.tooth_radius_m", "3"),
+                ("rotor.model", "ring"),
+                ("rotor.green", "[[0, 0.64], [4, 0.2], [14.5, -0.01]]"),
+                ("surface.model", "asperities"),
+                ("numerics.steps_per_cycle", "400"),
+                ("plate.width_mm", "none"),
+            ] {
+                let mut changed = original.clone();
+                if changed.set_all([(key, value)]).is_err() {
+                    continue;
+                }
+                let link = Link::to(&changed, Tab::Sweep);
+                let (_, scene, tab) = read(&link);
+                assert!(scene.same_model(&changed) && scene.numerics() == changed.numerics(), "{link}");
+                assert_eq!(tab, Some(Tab::Sweep));
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_what_is_allowed() {
+        for (link, words) in [
+            ("#fundemental", "fundamental, doubled-mesh"),
+            ("#../etc/passwd", "begins with a built-in preset"),
+            ("#fundamental&film.min_spacing_nm=-1", "film.min_spacing_nm"),
+            ("#fundamental&tab=torqe", "motion, compare"),
+            ("#fundamental&torque", "key=value"),
+            ("#lesson=0", "from 1 on"),
+            ("#lesson=2&tab=hold", "step="),
+        ] {
+            let told = Link::read(link).unwrap_err().to_string();
+            assert!(told.contains(words), "{link}: {told}");
+        }
+        assert_eq!(decoded("%25a%2"), "%a%2");
+        assert_eq!(decoded(&encoded("µ & #=%")), "µ & #=%");
+    }
+}

@@ -1,0 +1,69 @@
+//! Links: to what is shown, and to what is to be shown.
+
+use super::updater::Updater;
+use crate::analysis::quantity::{Numbers, Quantity};
+use crate::gui::command::{Command, LessonCommand};
+use crate::gui::state::document::Next;
+use crate::gui::state::link::Link;
+use crate::platform::HAS_FILES;
+use crate::platform::window::{page, publish};
+
+impl Updater {
+    /// Copies a link to the step of the lesson that runs, or to the scene.
+    pub(super) fn copy_link(&mut self) {
+        let state = &self.state;
+        let link = match state.lessons.running() {
+            Some(running) => Link::to_lesson(running.lesson + 1, running.step + 1),
+            None => Link::to(state.document.scene(), state.view.tab),
+        };
+        self.ctx.copy_text(format!("{}{link}", page()));
+    }
+
+    /// Tells the page of the run that has come on screen.
+    pub(super) fn publish_run(&self) {
+        let Some(run) = self.state.run.as_ref().filter(|_| !HAS_FILES) else { return };
+        let known = Numbers::of(&run.problem, &run.solution);
+        let numbers =
+            Quantity::all().filter_map(|quantity| Some((quantity.name().to_owned(), known.get(quantity)?.into())));
+        publish(serde_json::json!({
+            "scene": run.scene.name,
+            "fidelity": run.fidelity.to_string(),
+            "numbers": numbers.collect::<serde_json::Map<_, _>>(),
+        }));
+    }
+
+    /// Shows what a link leads to; asks first if that would lose unsaved changes.
+    pub fn follow(&mut self, link: Link) {
+        self.carry_out(Command::Tour(None));
+        match link {
+            Link::Scene { preset, scene, tab } => {
+                let untouched = crate::scene::presets::find(preset).is_ok_and(|original| original == *scene);
+                self.carry_out(Command::Proceed(if untouched { Next::Preset(preset) } else { Next::New(scene) }));
+                tab.into_iter().for_each(|tab| self.carry_out(Command::Show(tab)));
+            }
+            Link::Lesson { lesson, step } => {
+                let Some(found) = self.state.lessons.lessons().get(lesson - 1) else {
+                    let most = self.state.lessons.lessons().len();
+                    return self.state.fail(format!("lesson={lesson} in a link: allowed is 1 to {most}"));
+                };
+                let most = found.steps.len();
+                if step > most {
+                    return self.state.fail(format!("step={step} in a link: lesson {lesson} has {most} steps"));
+                }
+                self.carry_out(LessonCommand::Open(lesson - 1).into());
+                let target = step - 1;
+                let present = self.state.lessons.running().map_or(target, |running| running.step);
+                let turn = if target > present { LessonCommand::Next } else { LessonCommand::Back };
+                (0..target.abs_diff(present)).for_each(|_| self.carry_out(turn.clone().into()));
+            }
+        }
+    }
+
+    /// Shows what an address leads to that the user has gone to; says what is wrong with it.
+    pub fn visit(&mut self, address: &str) {
+        match Link::read(address) {
+            Ok(link) => self.follow(link),
+            Err(error) => self.state.fail(error),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! A held plate of a page: its film is marched on when it is looked at, before each redraw.
+
+use super::{Follower, Snapshot, TICK, Target};
+use crate::hold::{Hold, Reading};
+use crate::platform::Instant;
+use crate::problem::Plate;
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// A held plate.
+pub struct HeldPlate {
+    plate: Plate,
+    held: RefCell<(Follower, Target)>,
+    now: fn() -> Instant,
+    wake: Box<dyn Fn()>,
+}
+
+impl std::fmt::Debug for HeldPlate {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("HeldPlate").field("held", &self.held).finish_non_exhaustive()
+    }
+}
+
+impl HeldPlate {
+    /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film. `wake` asks for a redraw.
+    ///
+    /// # Errors
+    /// None.
+    pub fn start(
+        plate: Plate,
+        slowed: f64,
+        now: fn() -> Instant,
+        wake: impl Fn() + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let target = Target::first(&plate, slowed);
+        let held = RefCell::new((Follower::new(&plate), target));
+        Ok(Self { plate, held, now, wake: Box::new(wake) })
+    }
+
+    fn ask(&self, change: impl FnOnce(&mut Target)) {
+        change(&mut self.held.borrow_mut().1);
+        (self.wake)();
+    }
+
+    /// Moves the plate to `gap` \[m\], or as near as it may come.
+    pub fn move_to(&self, gap: f64) {
+        let gap = Hold::within_reach(&self.plate, gap);
+        self.ask(|target| (target.gap, target.free) = (gap, None));
+    }
+
+    /// Lets a plate under a load go, above a face that vibrates or stands still.
+    pub fn let_go(&self, vibrates: bool) {
+        self.ask(|target| target.free = Some(vibrates));
+    }
+
+    /// Takes `slowed` seconds for a second of the film from now on.
+    pub fn slow(&self, slowed: f64) {
+        self.ask(|target| target.slowed = slowed);
+    }
+
+    /// Puts the film to rest at the mean gap.
+    pub fn reset(&self) {
+        let gap = self.plate.mean_gap;
+        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
+    }
+
+    /// The newest snapshot, and what was read off since the last time.
+    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Reading>) {
+        let (follower, target) = &mut *self.held.borrow_mut();
+        if follower.rests(target) {
+            follower.last = None;
+            return (Arc::new(follower.snapshot(None)), VecDeque::new());
+        }
+        (self.wake)();
+        let began = (self.now)();
+        if follower.last.is_some_and(|last| began.saturating_duration_since(last) < TICK / 2) {
+            return (Arc::new(follower.snapshot(None)), VecDeque::new());
+        }
+        let snapshot = follower.tick(target, began);
+        target.reset = false;
+        if snapshot.failure.is_some() {
+            (target.gap, target.free) = (follower.hold.gap(), None);
+        }
+        let reading = snapshot.reading;
+        (Arc::new(snapshot), VecDeque::from([reading]))
+    }
+}

@@ -1,0 +1,214 @@
+//! A held plate of a process: a named thread marches its film.
+
+use super::{Follower, Snapshot, TICK, Target};
+use crate::hold::{Hold, Reading};
+use crate::platform::Instant;
+use crate::problem::Plate;
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+/// Samples that wait to be taken at most.
+const SAMPLES: usize = 2048;
+
+#[derive(Debug)]
+struct Shared {
+    target: Mutex<Target>,
+    closed: AtomicBool,
+    changed: Condvar,
+    published: Mutex<(Arc<Snapshot>, VecDeque<Reading>)>,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Plain data, never left half-changed.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A held plate and the thread that marches its film.
+#[derive(Debug)]
+pub struct HeldPlate {
+    plate: Plate,
+    shared: Arc<Shared>,
+    worker: Option<JoinHandle<()>>,
+}
+
+impl HeldPlate {
+    /// Holds `plate` at rest, with `slowed` seconds of the clock for a second of the film. `wake` is called from the thread after
+    /// each snapshot.
+    pub fn start(
+        plate: Plate,
+        slowed: f64,
+        now: fn() -> Instant,
+        wake: impl Fn() + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let follower = Follower::new(&plate);
+        let target = Target::first(&plate, slowed);
+        let shared = Arc::new(Shared {
+            target: Mutex::new(target),
+            closed: AtomicBool::new(false),
+            changed: Condvar::new(),
+            published: Mutex::new((Arc::new(follower.snapshot(None)), VecDeque::new())),
+        });
+        let theirs = Arc::clone(&shared);
+        let spawn = std::thread::Builder::new().name("squeezefilm-hold".to_owned());
+        let worker = spawn.spawn(move || follow(&theirs, follower, now, &wake))?;
+        Ok(Self { plate, shared, worker: Some(worker) })
+    }
+
+    fn ask(&self, change: impl FnOnce(&mut Target)) {
+        change(&mut lock(&self.shared.target));
+        self.shared.changed.notify_all();
+    }
+
+    /// Moves the plate to `gap` \[m\], or as near as it may come.
+    pub fn move_to(&self, gap: f64) {
+        let gap = Hold::within_reach(&self.plate, gap);
+        self.ask(|target| (target.gap, target.free) = (gap, None));
+    }
+
+    /// Lets a plate under a load go, above a face that vibrates or stands still.
+    pub fn let_go(&self, vibrates: bool) {
+        self.ask(|target| target.free = Some(vibrates));
+    }
+
+    /// Takes `slowed` seconds for a second of the film from now on.
+    pub fn slow(&self, slowed: f64) {
+        self.ask(|target| target.slowed = slowed);
+    }
+
+    /// Puts the film to rest at the mean gap.
+    pub fn reset(&self) {
+        let gap = self.plate.mean_gap;
+        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
+    }
+
+    /// The newest snapshot, and what was read off since the last time.
+    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Reading>) {
+        let mut published = lock(&self.shared.published);
+        (Arc::clone(&published.0), std::mem::take(&mut published.1))
+    }
+}
+
+impl Drop for HeldPlate {
+    fn drop(&mut self) {
+        // Changed under the lock, so that a thread that is about to wait sees it.
+        self.ask(|_| self.shared.closed.store(true, Ordering::Relaxed));
+        if let Some(worker) = self.worker.take() {
+            // What panics in the film is caught; another panic would have nothing left to tell.
+            let _ = worker.join();
+        }
+    }
+}
+
+/// Follows the hand until it is told to end.
+fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &dyn Fn()) {
+    let closed = || shared.closed.load(Ordering::Relaxed);
+    loop {
+        let target = {
+            let mut target = lock(&shared.target);
+            loop {
+                if closed() {
+                    return;
+                }
+                if !follower.rests(&target) {
+                    break;
+                }
+                follower.last = None;
+                target = shared.changed.wait(target).unwrap_or_else(PoisonError::into_inner);
+            }
+            let taken = *target;
+            target.reset = false;
+            taken
+        };
+        let began = now();
+        let snapshot = follower.tick(&target, began);
+        if snapshot.failure.is_some() {
+            let mut target = lock(&shared.target);
+            (target.gap, target.free) = (follower.hold.gap(), None);
+        }
+        {
+            let mut published = lock(&shared.published);
+            published.0 = Arc::new(snapshot);
+            if target.reset {
+                published.1.clear();
+            }
+            if published.1.len() == SAMPLES {
+                published.1.pop_front();
+            }
+            let reading = published.0.reading;
+            published.1.push_back(reading);
+        }
+        wake();
+        // Until the next tick, or the end.
+        let spent = now().saturating_duration_since(began);
+        let target = lock(&shared.target);
+        if let (Some(left), false) = (TICK.checked_sub(spent), closed()) {
+            drop(shared.changed.wait_timeout_while(target, left, |_| !closed()));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::slowed;
+    use super::*;
+    use crate::problem::{Problem, Scenario};
+    use crate::scene::Scene;
+    use std::sync::atomic::AtomicUsize;
+    use std::time::Duration;
+
+    fn plate() -> Plate {
+        match Problem::new(&Scene::plate()).unwrap().scenario {
+            Scenario::Plate(plate) => plate,
+            Scenario::Motor(_) => panic!("a plate"),
+        }
+    }
+
+    fn until(what: &str, ready: impl Fn() -> bool) {
+        for _ in 0..3000 {
+            if ready() {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("{what}: did not happen");
+    }
+
+    #[test]
+    fn it_follows_the_hand_relaxes_and_then_sleeps() {
+        let plate = plate();
+        let woken = Arc::new(AtomicUsize::new(0));
+        let count = Arc::clone(&woken);
+        let wake = move || {
+            count.fetch_add(1, Ordering::Relaxed);
+        };
+        let held = HeldPlate::start(plate.clone(), slowed(&plate, 0.1), Instant::now, wake).unwrap();
+        std::thread::sleep(Duration::from_millis(100));
+        assert_eq!(woken.load(Ordering::Relaxed), 0, "nothing moves");
+        held.move_to(0.6 * plate.mean_gap);
+        until("it is there and at rest", || {
+            let (seen, samples) = held.take();
+            assert!(samples.len() <= SAMPLES && seen.failure.is_none());
+            let (gap, force) = (seen.reading.gap, seen.reading.ratio);
+            (gap / plate.mean_gap - 0.6).abs() < 1e-3 && force.abs() < 1e-3
+        });
+        held.move_to(plate.mean_gap);
+        until("it is pulled", || held.take().0.reading.ratio < -0.05);
+        held.reset();
+        until("it is reset", || held.take().0.reading.time == 0.0);
+        std::thread::sleep(Duration::from_millis(100));
+        let before = woken.load(Ordering::Relaxed);
+        std::thread::sleep(Duration::from_millis(200));
+        assert_eq!(woken.load(Ordering::Relaxed), before, "it sleeps");
+    }
+
+    #[test]
+    fn it_ends_while_it_moves() {
+        let plate = plate();
+        let held = HeldPlate::start(plate.clone(), slowed(&plate, 10.0), Instant::now, || ()).unwrap();
+        held.move_to(2.0 * plate.mean_gap);
+        until("it moves", || held.take().0.number > 0);
+        drop(held);
+    }
+}

@@ -1,0 +1,109 @@
+//! The line between a page and a worker: which work is asked for, and what comes of it.
+
+use super::work::Work;
+use crate::platform::worker::{News, Worker};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::cell::RefCell;
+use std::io;
+use std::rc::Rc;
+
+/// Workers that are kept for what comes next: to start one takes longer than most work.
+const SPARE: usize = 2;
+
+/// What a worker tells.
+#[derive(Debug)]
+pub(super) enum Told<M, R> {
+    Message(M),
+    End(R),
+    /// It failed, with this text, and is gone.
+    Failed(String),
+}
+
+const MESSAGE: u8 = 0;
+const END: u8 = 1;
+
+type Listener = Box<dyn FnMut(News)>;
+
+/// A worker, and whoever listens to it. On drop it is ended.
+pub(super) struct Line {
+    worker: Worker,
+    listener: Rc<RefCell<Option<Listener>>>,
+}
+
+impl std::fmt::Debug for Line {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Line").finish_non_exhaustive()
+    }
+}
+
+thread_local! {
+    static IDLE: RefCell<Vec<Line>> = const { RefCell::new(Vec::new()) };
+}
+
+impl Line {
+    /// To a worker that has nothing to do.
+    pub(super) fn open() -> io::Result<Self> {
+        if let Some(line) = IDLE.with_borrow_mut(Vec::pop) {
+            return Ok(line);
+        }
+        let listener: Rc<RefCell<Option<Listener>>> = Rc::default();
+        let theirs = Rc::clone(&listener);
+        let worker = Worker::start(move |news| {
+            // Taken out, because it may ask for more.
+            let taken = theirs.borrow_mut().take();
+            if let Some(mut listen) = taken {
+                listen(news);
+                theirs.borrow_mut().get_or_insert(listen);
+            }
+        })?;
+        Ok(Self { worker, listener })
+    }
+
+    /// Has the worker do `work`; `told` hears what comes of it.
+    pub(super) fn ask<W: Work>(
+        &self,
+        work: &W,
+        mut told: impl FnMut(Told<W::Message, W::Found>) + 'static,
+    ) -> io::Result<()> {
+        *self.listener.borrow_mut() = Some(Box::new(move |news| {
+            told(match news {
+                News::Failed(text) => Told::Failed(text),
+                News::Message(bytes) => {
+                    read(&bytes).unwrap_or_else(|| Told::Failed("what the worker said cannot be read".to_owned()))
+                }
+            });
+        }));
+        let mut bytes = format!("{}\n", W::NAME).into_bytes();
+        bytes.extend(postcard::to_stdvec(work).map_err(io::Error::other)?);
+        self.worker.send(&bytes)
+    }
+
+    /// The worker has nothing to do any more.
+    pub(super) fn give_back(self) {
+        *self.listener.borrow_mut() = None;
+        IDLE.with_borrow_mut(|idle| {
+            if idle.len() < SPARE {
+                idle.push(self);
+            }
+        });
+    }
+}
+
+fn read<M: DeserializeOwned, R: DeserializeOwned>(bytes: &[u8]) -> Option<Told<M, R>> {
+    match bytes.split_first()? {
+        (&MESSAGE, rest) => postcard::from_bytes(rest).ok().map(Told::Message),
+        (&END, rest) => postcard::from_bytes(rest).ok().map(Told::End),
+        _ => None,
+    }
+}
+
+/// In a worker: what is sent to the page.
+pub(super) fn message(what: &impl Serialize) -> Option<Vec<u8>> {
+    postcard::to_extend(what, vec![MESSAGE]).ok()
+}
+
+/// In a worker: the last that is sent of a work.
+pub(super) fn end(what: &impl Serialize) -> Option<Vec<u8>> {
+    postcard::to_extend(what, vec![END]).ok()
+}

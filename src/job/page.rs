@@ -1,0 +1,242 @@
+//! The background solver of a page: a worker, which is sent one fidelity after the other.
+//!
+//! A request that comes while the worker solves waits until it has solved that fidelity, because another worker would have to be
+//! started first, and would know no fields to begin with. What takes too long for that is ended with its worker.
+
+use super::line::{Line, Told};
+use super::work::{Posed, Work};
+use super::{Event, Request, SolvedScene, failure, solved};
+use crate::analysis::validity::outside;
+use crate::control::{Cancel, Progress};
+use crate::fidelity::Fidelity;
+use crate::motor::Warm;
+use crate::platform::Instant;
+use crate::solution::{Solution, settled};
+use serde::{Deserialize, Serialize};
+use std::cell::RefCell;
+use std::collections::{HashMap, VecDeque};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A newer request waits so long for what is being solved: longer than a worker takes to start.
+const PATIENCE: Duration = Duration::from_millis(150);
+
+thread_local! {
+    /// In the worker: a slider moves in small steps, and each solve starts from the last one of its fidelity.
+    static WARM: RefCell<HashMap<Fidelity, Warm>> = RefCell::default();
+}
+
+/// One fidelity of a request, as it is sent.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Step {
+    posed: Posed,
+    fidelity: Fidelity,
+}
+
+impl Work for Step {
+    const NAME: &'static str = "solve";
+    type Message = Progress;
+    /// The solution, whether it was started from the fields of a scene before it, and how long it took \[s\].
+    type Found = Result<(Solution, bool, f64), String>;
+
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Self::Found {
+        let found = WARM.with_borrow_mut(|warm| {
+            let warm = warm.entry(self.fidelity).or_default();
+            let (started_warm, started) = (!warm.is_empty(), Instant::now());
+            let found = solved(&self.posed.problem, self.fidelity, warm, cancel, |progress| tell(*progress))?;
+            Some(found.map(|solution| (solution, started_warm, started.elapsed().as_secs_f64())))
+        });
+        found.unwrap_or_else(Self::ended)
+    }
+
+    fn ended() -> Self::Found {
+        Err("cancelled".to_owned())
+    }
+}
+
+/// A request that is being solved.
+#[derive(Debug)]
+struct Running {
+    number: u64,
+    request: Request,
+    /// The fidelity that the worker is at, and since when.
+    at: (Fidelity, Instant),
+    /// Fidelities after it.
+    left: VecDeque<Fidelity>,
+    history: Vec<Progress>,
+}
+
+/// The state that the page and the listener share.
+struct Shared {
+    line: Option<Line>,
+    running: Option<Running>,
+    waiting: Option<(u64, Request)>,
+    events: Vec<Event>,
+    now: fn() -> Instant,
+    wake: Box<dyn Fn()>,
+}
+
+/// The worker and the way to it.
+pub struct Solver {
+    shared: Rc<RefCell<Shared>>,
+    next: u64,
+}
+
+impl std::fmt::Debug for Solver {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Solver").field("next", &self.next).finish_non_exhaustive()
+    }
+}
+
+impl Solver {
+    /// Starts the worker. `wake` is called after every event.
+    ///
+    /// # Errors
+    /// If the browser refuses.
+    pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        Self::start_with_clock(Instant::now, wake)
+    }
+
+    /// As [`Self::start`], with the clock that measures the solves.
+    ///
+    /// # Errors
+    /// If the browser refuses.
+    pub fn start_with_clock(now: fn() -> Instant, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        let (line, events) = (Some(Line::open()?), Vec::new());
+        let shared = Shared { line, running: None, waiting: None, events, now, wake: Box::new(wake) };
+        Ok(Self { shared: Rc::new(RefCell::new(shared)), next: 0 })
+    }
+
+    /// Solves `request` instead of whatever is running or waiting. Returns its number.
+    pub fn submit(&mut self, request: Request) -> u64 {
+        self.next += 1;
+        self.shared.borrow_mut().waiting = Some((self.next, request));
+        advance(&self.shared);
+        self.next
+    }
+
+    /// Cancels what is running and forgets what is waiting.
+    pub fn cancel(&self) {
+        let mut shared = self.shared.borrow_mut();
+        shared.waiting = None;
+        shared.end();
+    }
+
+    /// Events that have arrived.
+    pub fn drain(&self) -> impl Iterator<Item = Event> {
+        advance(&self.shared);
+        std::mem::take(&mut self.shared.borrow_mut().events).into_iter()
+    }
+}
+
+impl Shared {
+    fn tell(&mut self, event: Event) {
+        self.events.push(event);
+        (self.wake)();
+    }
+
+    /// Ends what is running, and its worker.
+    fn end(&mut self) {
+        if let Some(Running { number, .. }) = self.running.take() {
+            self.line = None;
+            self.tell(Event::Done { number, cancelled: true });
+        }
+    }
+}
+
+/// Goes on with what is waiting, if what is running is done or has had its time.
+fn advance(shared: &Rc<RefCell<Shared>>) {
+    let mut this = shared.borrow_mut();
+    if this.waiting.is_none() {
+        return;
+    }
+    if let Some(running) = &this.running {
+        if (this.now)().duration_since(running.at.1) < PATIENCE {
+            // Another look at the next redraw.
+            (this.wake)();
+            return;
+        }
+        this.end();
+    }
+    let Some((number, request)) = this.waiting.take() else { return };
+    let left: VecDeque<Fidelity> = request.fidelities.iter().copied().collect();
+    let at = (left.front().copied().unwrap_or_default(), (this.now)());
+    this.running = Some(Running { number, request, at, left, history: Vec::new() });
+    drop(this);
+    step(shared);
+}
+
+/// Sends the next fidelity of what is running, or says that it is done.
+fn step(shared: &Rc<RefCell<Shared>>) {
+    let mut this = shared.borrow_mut();
+    let now = (this.now)();
+    let newer = this.waiting.is_some();
+    let Some(running) = &mut this.running else { return };
+    let number = running.number;
+    let next = running.left.pop_front().filter(|_| !newer);
+    let Some(fidelity) = next else {
+        this.running = None;
+        this.tell(Event::Done { number, cancelled: newer });
+        drop(this);
+        return advance(shared);
+    };
+    (running.at, running.history) = ((fidelity, now), Vec::new());
+    let Request { scene, problem, .. } = &running.request;
+    let work = Step { posed: Posed { scene: scene.clone(), problem: problem.clone() }, fidelity };
+    let theirs = Rc::downgrade(shared);
+    let told = move |told| {
+        if let Some(shared) = theirs.upgrade() {
+            hear(&shared, number, told);
+        }
+    };
+    let asked = match &this.line {
+        Some(line) => line.ask(&work, told),
+        None => Line::open().and_then(|line| this.line.insert(line).ask(&work, told)),
+    };
+    if let Err(error) = asked {
+        this.running = None;
+        this.tell(Event::Failed { number, message: format!("there is no worker that solves: {error}") });
+        this.tell(Event::Done { number, cancelled: false });
+    }
+}
+
+/// Takes what the worker tells of request `number`.
+fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Told<Progress, <Step as Work>::Found>) {
+    let mut this = shared.borrow_mut();
+    let Some(running) = this.running.as_mut().filter(|running| running.number == number) else { return };
+    let fidelity = running.at.0;
+    let failed = |message| Event::Failed { number, message };
+    match told {
+        Told::Message(progress) => {
+            running.history.push(progress);
+            return this.tell(Event::Progress { number, fidelity, progress });
+        }
+        Told::End(Ok((solution, warm, wall_s))) => {
+            let Request { scene, problem, .. } = &running.request;
+            let run = SolvedScene {
+                number,
+                scene: scene.clone(),
+                problem: settled(problem, &solution.outcome).into_owned(),
+                fidelity,
+                validity: outside(problem, Some(&solution)),
+                solution,
+                wall_s,
+                warm,
+                history: std::mem::take(&mut running.history),
+            };
+            this.tell(Event::Solved(Arc::new(run)));
+        }
+        Told::End(Err(message)) => {
+            running.left.clear();
+            this.tell(failed(message));
+        }
+        Told::Failed(panic) => {
+            running.left.clear();
+            this.line = None;
+            this.tell(failed(failure(fidelity, &panic)));
+        }
+    }
+    drop(this);
+    step(shared);
+}

@@ -1,0 +1,52 @@
+//! What a worker of a page does: the work that it is sent, by its name.
+
+use super::fit::Asked;
+use super::line::{end, message};
+use super::page::Step;
+use super::pin::Compared;
+use super::rotor::Alone;
+use super::startup::FromRest;
+use super::sweep::Points;
+use super::torque::Curves;
+use super::tradeoff::Measurement;
+use super::work::Work;
+use crate::control::Cancel;
+use crate::platform::worker::{reply, serve};
+
+/// Does from now on what the page asks for.
+pub fn start() {
+    serve(|asked| {
+        let Some(line) = asked.iter().position(|byte| *byte == b'\n') else { return };
+        let (name, work) = (&asked[..line], &asked[line + 1..]);
+        for (known, run) in WORKS {
+            if known.as_bytes() == name {
+                run(work);
+            }
+        }
+    });
+}
+
+type Run = fn(&[u8]);
+
+/// All that a worker can do.
+const WORKS: &[(&str, Run)] = &[
+    (Step::NAME, run::<Step>),
+    (Compared::NAME, run::<Compared>),
+    (Curves::NAME, run::<Curves>),
+    (FromRest::NAME, run::<FromRest>),
+    (Points::NAME, run::<Points>),
+    (Measurement::NAME, run::<Measurement>),
+    (Alone::NAME, run::<Alone>),
+    (Asked::NAME, run::<Asked>),
+];
+
+fn run<W: Work>(bytes: &[u8]) {
+    match postcard::from_bytes::<W>(bytes) {
+        Ok(work) => {
+            let found = work.run(&Cancel::new(), &|told| message(&told).iter().for_each(|bytes| reply(bytes)));
+            end(&found).iter().for_each(|bytes| reply(bytes));
+        }
+        // The page hears of it as of any panic.
+        Err(error) => std::panic::panic_any(error.to_string()),
+    }
+}

@@ -1,0 +1,130 @@
+//! A process of an operating system.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
+pub const HAS_FILES: bool = true;
+
+/// Calls `handler` at every Ctrl-C, and whenever the program is asked to end.
+pub fn on_interrupt(handler: impl FnMut() + Send + 'static) {
+    // Without a handler Ctrl-C ends the program at once, which is all that would be lost.
+    let _ = ctrlc::set_handler(handler);
+}
+
+/// Does what may block, on a thread of its own.
+///
+/// # Errors
+/// If no thread can be started.
+pub fn aside(name: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    std::thread::Builder::new().name(format!("squeezefilm-{name}")).spawn(work).map(|_| ())
+}
+
+/// What the user has handed over under this name: never anything where there are files.
+pub fn handed_over(_: &Path) -> Option<Vec<u8>> {
+    None
+}
+
+/// Hands files to the user: not needed where they can be written.
+pub fn hand_out(_: &Path, _: Vec<(PathBuf, Vec<u8>)>) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// The window.
+#[cfg(feature = "gui")]
+pub mod window {
+    use super::super::{Asked, FileDialog};
+    use eframe::egui;
+    use std::path::PathBuf;
+
+    /// Opens the window and returns when it is closed. `storage`: the file in which it keeps what the next one begins with.
+    ///
+    /// # Errors
+    /// If there is no display, or no way to draw on it.
+    pub fn run(storage: Option<PathBuf>, start: eframe::AppCreator<'static>) -> Result<(), eframe::Error> {
+        let options = eframe::NativeOptions {
+            renderer: eframe::Renderer::Glow,
+            // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.
+            dithering: false,
+            viewport: egui::ViewportBuilder::default()
+                .with_title("squeezefilm")
+                .with_app_id("squeezefilm")
+                .with_inner_size([1400.0, 900.0])
+                // Fits a screen of 1366 × 768 at 125 %, with its bars.
+                .with_min_inner_size([800.0, 520.0])
+                .with_drag_and_drop(true),
+            persistence_path: storage,
+            // The menu that winit makes on macOS ends the program at ⌘Q and asks nobody: without it ⌘Q is a shortcut of the window.
+            #[cfg(target_os = "macos")]
+            event_loop_builder: Some(Box::new(|builder| {
+                use winit::platform::macos::EventLoopBuilderExtMacOS;
+                builder.with_default_menu(false);
+            })),
+            ..Default::default()
+        };
+        eframe::run_native("squeezefilm", options, start)
+    }
+
+    /// The fonts to begin with: egui's own.
+    pub fn fonts() -> egui::FontDefinitions {
+        egui::FontDefinitions::default()
+    }
+
+    /// Whether the system asks for dark colours, if what that is is asked at all: a window begins dark, and stays as it was left.
+    pub fn prefers_dark() -> Option<bool> {
+        None
+    }
+
+    /// The address that links begin with: none, there is no page.
+    pub fn page() -> String {
+        String::new()
+    }
+
+    /// What follows the `#` of the page's address.
+    pub fn fragment() -> String {
+        String::new()
+    }
+
+    /// The folder for what windows keep.
+    pub fn storage_folder() -> Option<PathBuf> {
+        eframe::storage_dir("squeezefilm")
+    }
+
+    /// Files dropped on the window.
+    pub fn dropped(ctx: &egui::Context) -> Vec<PathBuf> {
+        let paths = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_path_buf()).collect());
+        let paths: Vec<PathBuf> = paths;
+        paths.into_iter().filter(|path| !path.as_os_str().is_empty()).collect()
+    }
+
+    /// Tells the page what is shown: there is none, and screen readers are told by the system.
+    pub fn mirror(_: &egui::Context) {}
+
+    /// Tells the page of the run on screen: there is none.
+    pub fn publish(_: serde_json::Value) {}
+
+    /// What file dialogs are shown over.
+    #[derive(Clone, Debug)]
+    pub struct Parent(rfd::FileDialog);
+
+    impl Parent {
+        /// The window.
+        pub fn of(context: &eframe::CreationContext<'_>) -> Self {
+            Self(rfd::FileDialog::new().set_parent(context))
+        }
+
+        /// Shows the system's own dialog; blocks until there is an answer. `None`: it was closed, or there is none.
+        pub fn ask(&self, dialog: &FileDialog<'_>) -> Option<PathBuf> {
+            let native = self.0.clone().set_title(dialog.title);
+            let native = match dialog.filter {
+                Some((kind, extensions)) => native.add_filter(kind, extensions),
+                None => native,
+            };
+            match dialog.asked {
+                Asked::File => native.pick_file(),
+                Asked::Folder => native.pick_folder(),
+                Asked::NewFile => native.set_file_name(dialog.name).save_file(),
+            }
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! A page in a browser, or one of its workers.
+//!
+//! There are no files: what the user opens or drops is kept in memory under its name, and what is written becomes a download. There are no
+//! threads that share memory either, because the headers that they need are not those of a plain file host: [`worker`] carries bytes to
+//! workers and back.
+
+use js_sys::{Array, Uint8Array};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::io::{self, Cursor, Write};
+use std::path::{Path, PathBuf};
+use wasm_bindgen::{JsCast, JsValue};
+use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, Url};
+
+/// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
+pub const HAS_FILES: bool = false;
+
+thread_local! {
+    /// Files that the user has opened or dropped, under their names.
+    static HANDED_OVER: RefCell<HashMap<PathBuf, Vec<u8>>> = RefCell::default();
+    /// The names of those that nothing was done with yet.
+    static ARRIVED: RefCell<Vec<PathBuf>> = RefCell::default();
+}
+
+/// Calls `handler` at every Ctrl-C: there is none.
+pub fn on_interrupt(_: impl FnMut() + Send + 'static) {}
+
+/// Does what may block: nothing does.
+///
+/// # Errors
+/// None.
+pub fn aside(_: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    work();
+    Ok(())
+}
+
+/// What the user has handed over under this name.
+pub fn handed_over(path: &Path) -> Option<Vec<u8>> {
+    HANDED_OVER.with_borrow(|files| files.get(path).cloned())
+}
+
+/// Hands files to the user: one as it is, several in an archive that is called as their folder.
+///
+/// # Errors
+/// If the browser refuses, or an archive cannot be made.
+pub fn hand_out(folder: &Path, files: Vec<(PathBuf, Vec<u8>)>) -> io::Result<()> {
+    let (name, bytes) = match <[_; 1]>::try_from(files) {
+        Ok([(path, bytes)]) => (path, bytes),
+        Err(files) => {
+            let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+            for (path, bytes) in files {
+                let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
+                archive.start_file(name, zip::write::SimpleFileOptions::default())?;
+                archive.write_all(&bytes)?;
+            }
+            (folder.with_extension("zip"), archive.finish()?.into_inner())
+        }
+    };
+    let name = name.file_name().unwrap_or(name.as_os_str()).to_string_lossy().into_owned();
+    if web_sys::window().is_some() { download(&name, &bytes).map_err(refused) } else { worker::hand_out(&name, &bytes) }
+}
+
+fn refused(error: JsValue) -> io::Error {
+    io::Error::other(format!("the browser refuses: {error:?}"))
+}
+
+fn download(name: &str, bytes: &[u8]) -> Result<(), JsValue> {
+    let Some(document) = web_sys::window().and_then(|window| window.document()) else { return Ok(()) };
+    let properties = BlobPropertyBag::new();
+    properties.set_type("application/octet-stream");
+    let parts = Array::of1(&Uint8Array::from(bytes));
+    let url = Url::create_object_url_with_blob(&Blob::new_with_u8_array_sequence_and_options(&parts, &properties)?)?;
+    let link: HtmlAnchorElement = document.create_element("a")?.unchecked_into();
+    link.set_href(&url);
+    link.set_download(name);
+    link.click();
+    Url::revoke_object_url(&url)
+}
+
+/// Workers: each is this same program in an instance of its own, which does what it is sent and sends what comes of it. Messages are
+/// bytes.
+pub mod worker {
+    use super::{Uint8Array, io, refused};
+    use wasm_bindgen::prelude::Closure;
+    use wasm_bindgen::{JsCast, JsValue};
+    use web_sys::{DedicatedWorkerGlobalScope, ErrorEvent, MessageEvent, WorkerOptions, WorkerType};
+
+    /// The script that begins a worker, beside the page.
+    const SCRIPT: &str = "./worker.js";
+
+    /// What a worker sends.
+    #[derive(Debug)]
+    pub enum News {
+        /// A message.
+        Message(Vec<u8>),
+        /// It has failed, and does nothing any more.
+        Failed(String),
+    }
+
+    /// A worker. It is ended on drop, whatever it does.
+    #[derive(Debug)]
+    pub struct Worker {
+        worker: web_sys::Worker,
+        _message: Closure<dyn FnMut(MessageEvent)>,
+        _error: Closure<dyn FnMut(ErrorEvent)>,
+    }
+
+    impl Worker {
+        /// Starts one. `told` is called with what it sends.
+        ///
+        /// # Errors
+        /// If the browser refuses.
+        pub fn start(told: impl Fn(News) + Clone + 'static) -> io::Result<Self> {
+            let options = WorkerOptions::new();
+            options.set_type(WorkerType::Module);
+            let worker = web_sys::Worker::new_with_options(SCRIPT, &options).map_err(refused)?;
+            let failed = told.clone();
+            let message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
+                let data = event.data();
+                if let Some(bytes) = data.dyn_ref::<Uint8Array>() {
+                    told(News::Message(bytes.to_vec()));
+                } else if let Some(text) = data.as_string() {
+                    // Told by what handles its panics.
+                    told(News::Failed(text));
+                } else if let Some(file) = data.dyn_ref::<js_sys::Array>() {
+                    let (name, bytes) = (file.get(0).as_string(), file.get(1).dyn_into::<Uint8Array>());
+                    if let (Some(name), Ok(bytes)) = (name, bytes) {
+                        // A browser that refuses a download says so itself.
+                        let _ = super::download(&name, &bytes.to_vec());
+                    }
+                }
+            });
+            let error = Closure::<dyn FnMut(ErrorEvent)>::new(move |event: ErrorEvent| {
+                failed(News::Failed(event.message()));
+            });
+            worker.set_onmessage(Some(message.as_ref().unchecked_ref()));
+            worker.set_onerror(Some(error.as_ref().unchecked_ref()));
+            // The page has compiled the program already.
+            worker.post_message(&wasm_bindgen::module()).map_err(refused)?;
+            Ok(Self { worker, _message: message, _error: error })
+        }
+
+        /// Sends it `bytes`.
+        ///
+        /// # Errors
+        /// If the browser refuses.
+        pub fn send(&self, bytes: &[u8]) -> io::Result<()> {
+            self.worker.post_message(&Uint8Array::from(bytes)).map_err(refused)
+        }
+    }
+
+    impl Drop for Worker {
+        fn drop(&mut self) {
+            self.worker.set_onmessage(None);
+            self.worker.set_onerror(None);
+            self.worker.terminate();
+        }
+    }
+
+    /// In a worker: calls `asked` with every message of the page from now on.
+    pub fn serve(mut asked: impl FnMut(Vec<u8>) + 'static) {
+        let message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
+            if let Ok(bytes) = event.data().dyn_into::<Uint8Array>() {
+                asked(bytes.to_vec());
+            }
+        });
+        here().set_onmessage(Some(message.as_ref().unchecked_ref()));
+        // As long as the worker.
+        message.forget();
+        std::panic::set_hook(Box::new(|panic| post(&JsValue::from_str(&panic.to_string()))));
+    }
+
+    /// In a worker: sends the page `bytes`.
+    pub fn reply(bytes: &[u8]) {
+        post(&Uint8Array::from(bytes));
+    }
+
+    /// In a worker: has the page hand a file to the user.
+    pub(super) fn hand_out(name: &str, bytes: &[u8]) -> io::Result<()> {
+        post(&js_sys::Array::of2(&JsValue::from_str(name), &Uint8Array::from(bytes)));
+        Ok(())
+    }
+
+    fn here() -> DedicatedWorkerGlobalScope {
+        js_sys::global().unchecked_into()
+    }
+
+    fn post(message: &JsValue) {
+        // A page that is gone hears nothing.
+        let _ = here().post_message(message);
+    }
+}
+
+/// The window: all of the page.
+#[cfg(feature = "gui")]
+pub mod window {
+    use super::super::{Asked, FileDialog};
+    use super::{ARRIVED, HANDED_OVER};
+    use eframe::egui;
+    use std::cell::RefCell;
+    use std::collections::HashMap;
+    use std::path::PathBuf;
+    use wasm_bindgen::{JsCast, JsValue};
+    use wasm_bindgen_futures::spawn_local;
+    use web_sys::HtmlCanvasElement;
+
+    /// The element that is drawn into.
+    const CANVAS: &str = "squeezefilm";
+
+    thread_local! {
+        static RUNNER: RefCell<Option<eframe::WebRunner>> = const { RefCell::new(None) };
+        /// What the last frame told screen readers, and how much larger than usual it was drawn.
+        static SHOWN: RefCell<Option<(egui::accesskit::TreeUpdate, f64)>> = const { RefCell::new(None) };
+        static RUN: RefCell<serde_json::Value> = const { RefCell::new(serde_json::Value::Null) };
+    }
+
+    /// Opens the window in the page. What it keeps is in the browser's storage. The page is told by an event, `squeezefilm`, whose
+    /// detail is empty or says why there is no window.
+    ///
+    /// # Errors
+    /// If the page has no canvas.
+    pub fn run(_: Option<PathBuf>, start: eframe::AppCreator<'static>) -> Result<(), eframe::Error> {
+        let document = web_sys::window().and_then(|window| window.document());
+        let canvas =
+            document.and_then(|document| document.get_element_by_id(CANVAS)?.dyn_into::<HtmlCanvasElement>().ok());
+        let canvas = canvas.ok_or_else(|| eframe::Error::AppCreation("the page has no canvas".into()))?;
+        spawn_local(async move {
+            let runner = eframe::WebRunner::new();
+            let options =
+                eframe::WebOptions { renderer: eframe::Renderer::Glow, dithering: false, ..Default::default() };
+            let started = runner.start(canvas, options, start).await;
+            RUNNER.set(Some(runner));
+            let why = started.err().map(|error| error.as_string().unwrap_or_else(|| format!("{error:?}")));
+            say("squeezefilm", why.as_deref().unwrap_or_default());
+        });
+        Ok(())
+    }
+
+    /// The fonts to begin with: those of egui that text is written with. The others would be a third of what is loaded.
+    pub fn fonts() -> egui::FontDefinitions {
+        use epaint_default_fonts::{EGUI_ICONS, UBUNTU_LIGHT};
+        let mut fonts = egui::FontDefinitions::empty();
+        for (name, font) in [("Ubuntu-Light", UBUNTU_LIGHT), ("egui-icons", EGUI_ICONS)] {
+            fonts.font_data.insert(name.to_owned(), egui::FontData::from_static(font).into());
+            for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace] {
+                fonts.families.entry(family).or_default().push(name.to_owned());
+            }
+        }
+        fonts
+    }
+
+    fn say(name: &str, detail: &str) {
+        let about = web_sys::CustomEventInit::new();
+        about.set_detail(&JsValue::from_str(detail));
+        if let (Some(window), Ok(event)) =
+            (web_sys::window(), web_sys::CustomEvent::new_with_event_init_dict(name, &about))
+        {
+            // Whoever listens cannot prevent it.
+            let _ = window.dispatch_event(&event);
+        }
+    }
+
+    /// Whether the system asks for dark colours.
+    pub fn prefers_dark() -> Option<bool> {
+        let asked = web_sys::window()?.match_media("(prefers-color-scheme: dark)").ok()??;
+        Some(asked.matches())
+    }
+
+    fn location() -> Option<web_sys::Location> {
+        web_sys::window().map(|window| window.location())
+    }
+
+    /// The address that links begin with.
+    pub fn page() -> String {
+        let address = location().and_then(|location| location.href().ok()).unwrap_or_default();
+        address.split('#').next().unwrap_or_default().to_owned()
+    }
+
+    /// What follows the `#` of the page's address.
+    pub fn fragment() -> String {
+        location().and_then(|location| location.hash().ok()).unwrap_or_default()
+    }
+
+    /// The folder for what windows keep: the browser has a storage of its own.
+    pub fn storage_folder() -> Option<PathBuf> {
+        None
+    }
+
+    fn arrive(name: PathBuf, bytes: Vec<u8>) {
+        ARRIVED.with_borrow_mut(|arrived| arrived.push(name.clone()));
+        HANDED_OVER.with_borrow_mut(|files| files.insert(name, bytes));
+    }
+
+    /// Files that have been dropped on the page or chosen, and are read.
+    pub fn dropped(ctx: &egui::Context) -> Vec<PathBuf> {
+        for file in ctx.input(|input| input.raw.dropped_files.clone()) {
+            let ctx = ctx.clone();
+            spawn_local(async move {
+                if let Ok(bytes) = file.bytes_async().await {
+                    arrive(file.path().to_owned(), bytes);
+                    ctx.request_repaint();
+                }
+            });
+        }
+        ARRIVED.take()
+    }
+
+    /// What the window tells screen readers, kept for the page: eframe drops it there.
+    struct Mirror;
+
+    impl egui::Plugin for Mirror {
+        fn debug_name(&self) -> &'static str {
+            "mirror"
+        }
+
+        fn setup(&mut self, ctx: &egui::Context) {
+            ctx.enable_accesskit();
+        }
+
+        fn output_hook(&mut self, ctx: &egui::Context, output: &mut egui::FullOutput) {
+            if let Some(tree) = output.platform_output.accesskit_update.take() {
+                SHOWN.set(Some((tree, f64::from(ctx.zoom_factor()))));
+            }
+        }
+    }
+
+    /// Tells the page from now on what is shown.
+    pub fn mirror(ctx: &egui::Context) {
+        ctx.add_plugin(Mirror);
+    }
+
+    /// Tells the page of the run on screen.
+    pub fn publish(run: serde_json::Value) {
+        RUN.set(run);
+    }
+
+    /// What is shown, as JSON: the run on screen, and of each thing in the window what it is, what it is called, its value, and where it is
+    /// \[CSS pixels\], in the order in which it is read.
+    pub fn told() -> String {
+        let nodes = SHOWN.with_borrow(|shown| {
+            let Some((tree, zoom)) = shown else { return Vec::new() };
+            let known: HashMap<_, _> = tree.nodes.iter().map(|(id, node)| (*id, node)).collect();
+            let mut left: Vec<_> = tree.tree.iter().map(|tree| tree.root).collect();
+            let mut told = Vec::new();
+            while let Some(id) = left.pop() {
+                let Some(node) = known.get(&id) else { continue };
+                left.extend(node.children().iter().rev());
+                let said = |id| known.get(id).and_then(|node| node.label().or(node.value()));
+                let label = node.label().or_else(|| node.labelled_by().iter().find_map(said));
+                if label.is_some() || node.value().is_some() {
+                    let place = node.bounds().map(|b| [b.x0, b.y0, b.x1, b.y1].map(|length| length * zoom));
+                    told.push(serde_json::json!({
+                        "role": format!("{:?}", node.role()),
+                        "label": label,
+                        "value": node.value(),
+                        "number": node.numeric_value(),
+                        "box": place,
+                    }));
+                }
+            }
+            told
+        });
+        RUN.with_borrow(|run| serde_json::json!({ "run": run, "nodes": nodes }).to_string())
+    }
+
+    /// What file dialogs are shown over.
+    #[derive(Clone, Debug)]
+    pub struct Parent(egui::Context);
+
+    impl Parent {
+        /// The page.
+        pub fn of(context: &eframe::CreationContext<'_>) -> Self {
+            Self(context.egui_ctx.clone())
+        }
+
+        /// What is written goes where the browser puts downloads. A file that is chosen arrives as one that is dropped on the page.
+        pub fn ask(&self, dialog: &FileDialog<'_>) -> Option<PathBuf> {
+            match dialog.asked {
+                Asked::NewFile | Asked::Folder => Some(PathBuf::from(dialog.name)),
+                Asked::File => {
+                    let asked = rfd::AsyncFileDialog::new().set_title(dialog.title);
+                    let asked = match dialog.filter {
+                        Some((kind, extensions)) => asked.add_filter(kind, extensions),
+                        None => asked,
+                    };
+                    let ctx = self.0.clone();
+                    spawn_local(async move {
+                        if let Some(file) = asked.pick_file().await {
+                            arrive(PathBuf::from(file.file_name()), file.read().await);
+                            ctx.request_repaint();
+                        }
+                    });
+                    None
+                }
+            }
+        }
+    }
+}

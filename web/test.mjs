@@ -1,0 +1,197 @@
+// The page in a real browser: node web/test.mjs PAGE PICTURES
+//
+// Needs playwright-core and a Chromium: CHROMIUM names it. What is clicked is found by what the page tells screen readers.
+import { execFileSync } from "node:child_process";
+import { createServer } from "node:http";
+import { mkdir, readFile } from "node:fs/promises";
+import { extname, join, normalize } from "node:path";
+import { createRequire } from "node:module";
+
+const [page_folder, pictures] = process.argv.slice(2);
+const require = createRequire(join(process.env.NODE_MODULES ?? process.cwd(), "/"));
+const { chromium } = require("playwright-core");
+await mkdir(pictures, { recursive: true });
+
+const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json", ".svg": "image/svg+xml" };
+const server = createServer(async (request, answer) => {
+  const path = normalize(new URL(request.url, "http://x").pathname.replace(/\/$/, "/index.html"));
+  try {
+    const body = await readFile(join(page_folder, path));
+    answer.writeHead(200, { "Content-Type": types[extname(path)] ?? "application/octet-stream" }).end(body);
+  } catch {
+    answer.writeHead(404).end();
+  }
+});
+await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
+const address = `http://127.0.0.1:${server.address().port}/`;
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+});
+const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, acceptDownloads: true });
+let page = await context.newPage();
+const faults = [];
+const outside = [];
+function watch(page) {
+  page.on("pageerror", (error) => faults.push(`page: ${error}`));
+  page.on("console", (line) => line.type() === "error" && faults.push(`console: ${line.text()}`));
+  page.on("request", (request) => request.url().startsWith(address) || /^(blob|data):/.test(request.url()) || outside.push(request.url()));
+}
+watch(page);
+
+const told = () => page.evaluate(() => window.squeezefilm?.() ?? null);
+async function until(what, ready, seconds = 60) {
+  const end = Date.now() + 1000 * seconds;
+  for (;;) {
+    const now = await told();
+    if (now && ready(now)) return now;
+    if (Date.now() > end) {
+      await page.screenshot({ path: join(pictures, "fault.png") });
+      throw new Error(`${what}: did not happen; the page tells ${JSON.stringify(now).slice(0, 2000)}; ${faults.join("; ")}`);
+    }
+    await page.waitForTimeout(50);
+  }
+}
+const check = (what, holds) => {
+  if (!holds) throw new Error(what);
+  console.log(`ok  ${what}`);
+};
+const picture = (name) => page.screenshot({ path: join(pictures, `${name}.png`) });
+// The middle of what is called so.
+async function place(label, role) {
+  const { nodes } = await until(`something is called ${label}`, ({ nodes }) => nodes.some((n) => n.label === label && (!role || n.role === role)));
+  const found = nodes.find((n) => n.label === label && (!role || n.role === role));
+  return { x: (found.box[0] + found.box[2]) / 2, y: (found.box[1] + found.box[3]) / 2, box: found.box };
+}
+async function click(label, role) {
+  const { x, y } = await place(label, role);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.waitForTimeout(150);
+  await page.mouse.up();
+  await page.waitForTimeout(300);
+}
+
+const began = Date.now();
+await page.goto(address);
+const first = await until("the first solve", ({ run }) => run && run.fidelity === "fine");
+console.log(`    the first solve at fine was shown ${((Date.now() - began) / 1000).toFixed(2)} s after the address was entered`);
+const { alpha } = first.run.numbers;
+check(`α of the fundamental case: ${alpha}`, alpha > 0.24 && alpha < 0.25);
+await picture("start");
+
+// The tour is for whoever is here for the first time.
+await page.keyboard.press("Escape");
+await page.waitForTimeout(500);
+await picture("solved");
+
+// H_m, by its slider.
+const spacing = ({ nodes }) => nodes.find((node) => node.role === "Slider" && node.label?.startsWith("Minimum spacing"));
+const { x, y, box } = await place("Minimum spacing H_m", "Slider");
+const before = spacing(await told()).number;
+await page.mouse.move(x, y);
+await page.mouse.down();
+for (let step = 1; step <= 10; step++) {
+  await page.mouse.move(x - (step * (box[2] - box[0])) / 25, y);
+  await page.waitForTimeout(60);
+}
+await page.mouse.up();
+const dragged = await until("another α at fine", ({ run }) => run.fidelity === "fine" && run.numbers.alpha !== first.run.numbers.alpha);
+const after = spacing(dragged).number;
+check(`H_m was dragged from ${before} to ${after} nm, α from ${first.run.numbers.alpha} to ${dragged.run.numbers.alpha}`,
+  after < before && dragged.run.numbers.alpha > first.run.numbers.alpha);
+await picture("dragged");
+
+// What was changed is there after the page was loaded again.
+await page.waitForTimeout(4000);
+await page.reload();
+const again = await until("the scene of before", ({ run }) => run?.fidelity === "fine");
+check("a reload brings the scene back", Math.abs(spacing(again).number - after) < 1e-9);
+
+// Without a network.
+await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+await context.setOffline(true);
+await page.reload();
+await until("a solve without a network", ({ run }) => run?.fidelity === "fine");
+check("it works without a network", true);
+await context.setOffline(false);
+
+// A link, in a page of its own.
+async function follow(link, viewport = { width: 1280, height: 800 }, touch = false) {
+  const fresh = await browser.newContext({ viewport, acceptDownloads: true, hasTouch: touch });
+  page = await fresh.newPage();
+  watch(page);
+  await page.goto(address + link);
+  return fresh;
+}
+let fresh = await follow("#fundamental&film.min_spacing_nm=100&tab=torque");
+const linked = await until("the scene of a link", ({ run }) => run?.fidelity === "fine" && /changed: 1 key/.test(run.scene));
+await until("its tab", ({ nodes }) => nodes.some(({ label, value }) => /without film/i.test(`${label} ${value}`)));
+check(`a link is a scene: α ${linked.run.numbers.alpha}`, linked.run.numbers.alpha > first.run.numbers.alpha);
+await page.waitForTimeout(1000);
+await picture("torque");
+
+// A sweep, and its table as a download.
+await page.keyboard.press("Control+3");
+await click("Start the sweep", "Button");
+await until("a sweep", ({ nodes }) => nodes.some(({ label }) => label === "Export ▾"));
+await page.waitForTimeout(3000);
+await picture("sweep");
+await click("Export ▾", "Button");
+const download = page.waitForEvent("download");
+await click("Sweep as table…", "Button");
+const table = await readFile(await (await download).path(), "utf8");
+check(`a table was downloaded: ${table.split("\n").length} lines`, /alpha/.test(table) && table.split("\n").length > 5);
+
+// Every tab.
+for (const [key, name] of [["1", "motion"], ["5", "trade-off"], ["6", "start-up"], ["8", "rotor"], ["9", "sensitivity"]]) {
+  await page.keyboard.press(`Control+${key}`);
+  await page.waitForTimeout(1200);
+  await picture(name);
+}
+await fresh.close();
+
+// A lesson, and its next step.
+fresh = await follow("#lesson=1&step=1");
+await until("a lesson", ({ nodes }) => nodes.some(({ label }) => label === "Next"));
+await until("its run", ({ run }) => run?.fidelity === "fine");
+await page.waitForTimeout(1000);
+await picture("lesson");
+await fresh.close();
+
+// What is wrong with a link is told.
+fresh = await follow("#fundemental");
+await until("what is wrong", ({ nodes }) => nodes.some(({ label, value }) => /begins with a built-in preset/.test(`${label} ${value}`)));
+check("what is wrong with a link is told", true);
+await fresh.close();
+
+// Small screens.
+for (const [name, width, height] of [["tablet", 1024, 768], ["phone", 844, 390]]) {
+  fresh = await follow("#plate-crossover&tab=hold", { width, height }, true);
+  await until("a plate", ({ run }) => run?.fidelity === "fine");
+  await page.waitForTimeout(800);
+  await picture(name);
+  await fresh.close();
+}
+
+// The numbers of the program.
+if (process.env.SQUEEZEFILM) {
+  const presets = ["fundamental", "doubled-mesh", "min-spacing-100nm", "tooth-width-1.16mm", "frequency-20khz", "tooth-radius-6.5m", "levitating",
+    "ring-rotor", "asperities", "rough-flow", "plate-crossover", "plate-viscous", "plate-trapped"];
+  for (const preset of presets) {
+    const native = JSON.parse(execFileSync(process.env.SQUEEZEFILM, ["solve", preset, "--fidelity", "fine", "--json"], { encoding: "utf8" }));
+    fresh = await follow(`#${preset}`);
+    const { run } = await until(preset, ({ run }) => run?.fidelity === "fine" && run.scene === native.preset);
+    const [name, error] = native.alpha === null ? ["mean_load_ratio", "mean_load_ratio_error"] : ["alpha", "alpha_error"];
+    const off = Math.abs(run.numbers[name] - native[name]);
+    check(`${preset}: ${name} ${run.numbers[name]}, of the program ${native[name]}`, off <= 1e-9 * Math.abs(native[name]) || off < (native[error] ?? 0));
+    await fresh.close();
+  }
+}
+
+check(`nothing was fetched from elsewhere${outside.map((url) => ` ${url}`)}`, outside.length === 0);
+check(`no fault was told${faults.map((fault) => `\n    ${fault}`)}`, faults.length === 0);
+console.log(`the page works in Chromium, in ${((Date.now() - began) / 1000).toFixed(0)} s`);
+await browser.close();
+server.close();
