@@ -1,7 +1,7 @@
 //! The numbers that tell the regime of a film, from the problem alone, without solving.
 //!
 //! With H the smallest film thickness of a motor (its minimum spacing H_m) or the mean gap of a plate, b the length
-//! across which the gas escapes (tooth width or plate length), and ω = 2πf:
+//! across which the gas escapes (tooth width or plate length; the radius of a disc, the difference of a ring's radii), and ω = 2πf:
 //!
 //! | number | definition | tells |
 //! | --- | --- | --- |
@@ -57,7 +57,7 @@ impl Dimensionless {
     /// The numbers of a plate.
     pub fn of_plate(plate: &Plate) -> Self {
         let omega = std::f64::consts::TAU * plate.frequency;
-        Self::from_scales(&plate.gas, omega, 0.0, plate.length, plate.mean_gap)
+        Self::from_scales(&plate.gas, omega, 0.0, plate.squeezed_length(), plate.mean_gap)
     }
 
     /// From the angular frequency \[rad/s\], sliding speed \[m/s\], length b \[m\] and thickness H \[m\].

@@ -4,6 +4,15 @@
 //! clock: whoever holds the plate says where to, and within which time. Two grids are marched beside each other, the finer one
 //! with twice the intervals and twice the steps; the force is extrapolated from both, and their difference is its stated error.
 //!
+//! A plate under a load may be let go: then it is a mass on which its weight and the film act, above a face that vibrates,
+//!
+//! ```text
+//! m z̈ = F − m g,      h = z + a(t) cos φ,  φ̇ = ω
+//! ```
+//!
+//! marched by the rule of Verlet, which is of second order, with the film's force at the end of each step. It bounces on the film, and settles where
+//! the film carries it ([`mod@crate::plate::floating`]); without vibration it sinks until it rests on its roughness.
+//!
 //! A step of the scheme carries W, which is Z half a step ahead (`film::stepper`). Where the next step is longer or shorter, W is
 //! taken that much further ahead: W = Z + (W − Z) Δt'/Δt. Steps grow twofold at most.
 
@@ -13,8 +22,8 @@ use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::stepper::{Film, FilmError, FilmState};
 use crate::plan::{Grid, Plan};
 use crate::plate::film_grid;
-use crate::problem::Plate;
-use std::f64::consts::PI;
+use crate::problem::{GRAVITY, Outline, Plate};
+use std::f64::consts::{PI, TAU};
 
 /// Gaps that a plate may be held at, as multiples of its mean gap.
 pub const REACH: [f64; 2] = [0.2, 3.0];
@@ -25,6 +34,14 @@ const LONGEST_STEP: f64 = 1.0 / 40.0;
 const GROWTH: f64 = 2.0;
 /// Least W over Z after a change of the step.
 const CARRIED_FLOOR: f64 = 0.1;
+
+/// Steps in a cycle of the vibration, and the longest step over the time in which the gas under a plate that falls turns it round.
+const STEPS_IN_CYCLE: f64 = 96.0;
+const SHARE_OF_BOUNCE: f64 = 0.1;
+/// Cycles within which the vibration comes up, or ends.
+const RAMP: f64 = 4.0;
+/// First zero of the Bessel function J₀.
+const ZERO_OF_J0: f64 = 2.404_825_557_695_773;
 
 /// What is read off a held plate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,8 +65,13 @@ pub struct Reading {
 pub fn leak_time(plate: &Plate, gap: f64) -> f64 {
     let mobility = plate.gas.ambient_pressure / (12.0 * plate.gas.viscosity);
     let diffusivity = mobility * gap * SlipLaw::of(&plate.gas).at(gap).0;
-    let across = plate.width.map_or(0.0, |width| PI / width);
-    1.0 / (diffusivity * ((PI / plate.length).powi(2) + across.powi(2)))
+    let mode = match plate.outline() {
+        // About that of a strip, as the circumference matters little.
+        Outline::Strip | Outline::Ring { .. } => (PI / plate.section()).powi(2),
+        Outline::Rectangle { aspect } => (PI / plate.length).powi(2) * (1.0 + aspect.powi(-2)),
+        Outline::Disc => (ZERO_OF_J0 / plate.radius()).powi(2),
+    };
+    1.0 / (diffusivity * mode)
 }
 
 /// A plate held above its stator.
@@ -62,6 +84,29 @@ pub struct Hold {
     time: f64,
     /// The last step \[s\]; `None` at rest.
     last_step: Option<f64>,
+    free: Free,
+    /// By how much steps are shorter than usual.
+    finer: f64,
+}
+
+/// The motion of a plate that is let go; at rest while it is held.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Free {
+    /// Speed of the plate, upwards \[m/s\].
+    pub speed: f64,
+    /// Amplitude of the vibration under it now \[m\].
+    pub amplitude: f64,
+    /// Phase φ of the vibration \[rad\].
+    pub phase: f64,
+    /// Steps in which it rested on its roughness.
+    pub rests: u64,
+}
+
+impl Free {
+    /// By how much the face below is lower than in the mean \[m\].
+    fn lowered(&self) -> f64 {
+        self.amplitude * self.phase.cos()
+    }
 }
 
 impl Hold {
@@ -79,8 +124,15 @@ impl Hold {
             gap: plate.mean_gap,
             time: 0.0,
             last_step: None,
+            free: Free::default(),
+            finer: 1.0,
             plate: plate.clone(),
         }
+    }
+
+    /// The same with steps that are so many times shorter.
+    pub fn finer(self, times: f64) -> Self {
+        Self { finer: times, ..self }
     }
 
     /// The gap nearest to `gap` \[m\] that the plate may be held at.
@@ -96,6 +148,7 @@ impl Hold {
     /// [`FilmError`] if a step has no solution to working precision.
     pub fn advance(&mut self, gap: f64, duration: f64) -> Result<(), FilmError> {
         let (from, to) = (self.gap, Self::within_reach(&self.plate, gap));
+        self.free = Free::default();
         if !(duration.is_finite() && duration > 0.0) {
             self.gap = to;
             self.last_step = None;
@@ -108,31 +161,113 @@ impl Hold {
         let moves = ((to / from).ln().abs() / LONGEST_MOVE).ceil().max(1.0);
         let mut done = 0.0;
         while done < duration {
-            let leak = leak_time(&self.plate, self.gap) / self.greatest_ratio();
-            let most = (duration / moves).min(LONGEST_STEP * leak);
-            let most = self.last_step.map_or(most, |last| most.min(GROWTH * last));
+            let most = self.longest_step(duration / moves);
             // Equal steps to the end, so that none is a crumb.
             let left = duration - done;
             let count = (left / most).ceil().max(1.0);
             let step = left / count;
             done = if count == 1.0 { duration } else { done + step };
             let (now, next) = (self.gap, if count == 1.0 { to } else { from + (to - from) * (done / duration) });
-            self.coarse.step(next, step)?;
-            self.fine.step(0.5 * (now + next), 0.5 * step)?;
-            self.fine.step(next, 0.5 * step)?;
-            self.gap = next;
-            self.time += step;
-            self.last_step = Some(step);
+            self.step([0.5 * (now + next), next], step)?;
         }
         Ok(())
     }
 
+    /// The longest step \[s\] that the film may take, at most `most`.
+    fn longest_step(&self, most: f64) -> f64 {
+        let leak = leak_time(&self.plate, self.gap) / self.greatest_ratio();
+        let most = most.min(LONGEST_STEP * leak) / self.finer;
+        self.last_step.map_or(most, |last| most.min(GROWTH * last))
+    }
+
+    /// One step of both films through these gaps, halfway and at its end.
+    fn step(&mut self, [halfway, end]: [f64; 2], step: f64) -> Result<(), FilmError> {
+        self.coarse.step(end, step)?;
+        self.fine.step(halfway, 0.5 * step)?;
+        self.fine.step(end, 0.5 * step)?;
+        self.gap = end;
+        self.time += step;
+        self.last_step = Some(step);
+        Ok(())
+    }
+
+    /// Lets the plate go for `duration` \[s\] of the film's time, above a face that vibrates, or is to stand still, from where it is and as
+    /// fast as it is. Without a load it stays where it is. What is read off in the mean: the gap without the vibration, and the mean force.
+    ///
+    /// # Errors
+    /// [`FilmError`] if a step has no solution to working precision.
+    pub fn fall(&mut self, duration: f64, vibrates: bool) -> Result<Reading, FilmError> {
+        let Some(load) = self.plate.load else { return Ok(self.reading()) };
+        let (mass, omega) = (load / GRAVITY, TAU * self.plate.frequency);
+        let gas = self.plate.gas.ambient_pressure * self.plate.area();
+        let wanted = if vibrates { self.plate.amplitude } else { 0.0 };
+        let (mut force, mut impulse, mut done) = (self.reading().force, 0.0, 0.0);
+        while done < duration {
+            let free = self.free;
+            let moving = free.amplitude > 0.0 || wanted > 0.0;
+            let cycle = if moving { TAU / (omega * STEPS_IN_CYCLE) } else { f64::INFINITY };
+            let bounce = SHARE_OF_BOUNCE * (mass * self.gap / (gas + force.max(0.0))).sqrt();
+            let closing = (free.speed - omega * free.amplitude * free.phase.sin()).abs();
+            let approach = LONGEST_MOVE * self.gap / closing.max(f64::MIN_POSITIVE);
+            let most = self.longest_step(cycle.min(bounce).min(approach));
+            let left = duration - done;
+            let count = (left / most).ceil().max(1.0);
+            let step = left / count;
+            done = if count == 1.0 { duration } else { done + step };
+            let ramp = self.plate.amplitude * omega * step / (TAU * RAMP);
+            let towards = |share: f64| free.amplitude + (wanted - free.amplitude).clamp(-share * ramp, share * ramp);
+            let speed = free.speed + 0.5 * step * (force / mass - GRAVITY);
+            let height = self.gap - free.lowered();
+            let at = |share: f64| {
+                let then = Free { amplitude: towards(share), phase: free.phase + share * omega * step, ..free };
+                (then, height + share * step * speed + then.lowered())
+            };
+            let ((_, halfway), (mut free, end)) = (at(0.5), at(1.0));
+            let least = self.plate.min_spacing;
+            self.step([halfway.max(least), end.max(least)], step)?;
+            let before = std::mem::replace(&mut force, self.reading().force);
+            impulse += 0.5 * step * (before + force);
+            free.speed = speed + 0.5 * step * (force / mass - GRAVITY);
+            if end <= least {
+                // It goes with the face that it rests on.
+                free.speed = omega * free.amplitude * free.phase.sin();
+                free.rests += 1;
+            }
+            free.phase %= TAU;
+            self.free = free;
+        }
+        let mean = if duration > 0.0 { impulse / duration } else { force };
+        let ambient = self.plate.gas.ambient_pressure;
+        let (ratio, mean_pressure) = (mean / gas, ambient * (1.0 + mean / gas));
+        Ok(Reading { gap: self.height(), force: mean, ratio, mean_pressure, ..self.reading() })
+    }
+
+    /// Whether it neither moves nor is shaken.
+    pub fn is_still(&self) -> bool {
+        self.free.speed == 0.0 && self.free.amplitude == 0.0
+    }
+
+    /// The plate where and as fast as it is, in the hand or not.
+    pub fn free(&self) -> Free {
+        self.free
+    }
+
+    /// The gap without the vibration \[m\].
+    pub fn height(&self) -> f64 {
+        self.gap - self.free.lowered()
+    }
+
+    /// Puts it to rest at `gap` \[m\], wherever that is, with gas at ambient pressure.
+    pub fn rest_at(&mut self, gap: f64) {
+        (self.gap, self.time, self.last_step, self.free) = (gap, 0.0, None, Free::default());
+        for level in [&mut self.coarse, &mut self.fine] {
+            level.rest(gap);
+        }
+    }
+
     /// Back to rest at the mean gap.
     pub fn reset(&mut self) {
-        (self.gap, self.time, self.last_step) = (self.plate.mean_gap, 0.0, None);
-        for level in [&mut self.coarse, &mut self.fine] {
-            level.rest(self.gap);
-        }
+        self.rest_at(self.plate.mean_gap);
     }
 
     /// Gap \[m\].
@@ -177,6 +312,14 @@ impl Hold {
     /// a step of the scheme balances.
     pub fn carried_gas(&self) -> f64 {
         self.fine.sum(&self.fine.state.carried)
+    }
+
+    /// Free energy of the trapped gas above that at ambient pressure \[J; of a strip J/m\]: ∫ [p h ln(p/p_a) − (p − p_a) h] dA, the work that
+    /// isothermal gas can still do on the plate.
+    pub fn free_energy(&self) -> f64 {
+        let (gap, ambient) = (self.gap, self.plate.gas.ambient_pressure);
+        let of = |z: &f64| ambient * (z * (z / gap).ln() - (z - gap));
+        self.fine.sum(&self.fine.state.trapped.iter().map(of).collect::<Vec<_>>())
     }
 
     /// Largest |p/p_a − 1|.

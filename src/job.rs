@@ -48,7 +48,7 @@ pub struct SolvedScene {
     pub number: u64,
     /// What was solved.
     pub scene: Scene,
-    /// The same, checked and in SI units.
+    /// The same, checked and in SI units; a plate that floats is at the gap that was found.
     pub problem: Problem,
     /// At which fidelity.
     pub fidelity: Fidelity,

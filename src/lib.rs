@@ -84,6 +84,7 @@ pub mod dimensionless;
 pub mod drive;
 pub mod estimate;
 pub mod export;
+pub mod fall;
 pub mod fidelity;
 pub mod film;
 pub mod gas;

@@ -33,7 +33,8 @@ impl Film {
     }
 
     fn of_plate(plate: &Plate, grid: &Grid) -> Self {
-        let (along, across) = (grid.along as u64, grid.across as u64);
+        let halves = if plate.hole.is_some_and(|hole| hole > 0.0) { 2 } else { 1 };
+        let (along, across) = (halves * grid.along as u64, grid.across as u64);
         let (ny, columns) = if plate.width.is_some() { (across + 1, across) } else { (1, 1) };
         Self { along: along + 1, nodes: (along + 1) * ny, rows: along, columns }
     }

@@ -207,15 +207,46 @@ pub fn rpm(speed: f64, radius: f64) -> f64 {
     60.0 * speed / (std::f64::consts::TAU * radius)
 }
 
+/// Standard acceleration of gravity \[m/s²\].
+pub const GRAVITY: f64 = 9.80665;
+/// Highest mean gap at which a plate may float \[m\]: no film is as thick.
+pub const HIGHEST: f64 = 1e-3;
+
+/// The shape of a plate, whatever its size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outline {
+    /// Infinitely wide.
+    Strip,
+    /// A rectangle.
+    Rectangle {
+        /// Width over length.
+        aspect: f64,
+    },
+    /// A disc.
+    Disc,
+    /// A ring.
+    Ring {
+        /// Inner radius over outer radius.
+        hole: f64,
+    },
+}
+
 /// A flat plate vibrating rigidly above a flat wall: the gap is h = mean_gap + amplitude·cos ωt everywhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
-    /// Length along x \[m\].
+    /// Length along x \[m\]; of a round plate its diameter.
     pub length: f64,
-    /// Width along y \[m\]; `None` is an infinitely wide strip, whose forces are per metre of width.
+    /// Width along y \[m\]; `None` is a round plate or an infinitely wide strip, whose forces are per metre of width.
     pub width: Option<f64>,
-    /// Mean gap \[m\].
+    /// Of a round plate the radius of its hole \[m\], open to the gas around; 0 of a disc. `None`: not round.
+    pub hole: Option<f64>,
+    /// Mean gap \[m\]. Under a load it is a first guess, [`Plate::trapped_gap`], until a solve has found it (`solution::settled`).
     pub mean_gap: f64,
+    /// Load that the film is to carry in the mean of the cycle \[N; of a strip N/m\], on a plate too heavy to shake; `None`: the mean gap
+    /// is given.
+    pub load: Option<f64>,
+    /// Least gap that the roughness leaves \[m\]: a plate under a load that would come closer rests on it. Unused without a load.
+    pub min_spacing: f64,
     /// Amplitude \[m\], smaller than the mean gap.
     pub amplitude: f64,
     /// Frequency f \[Hz\].
@@ -227,7 +258,48 @@ pub struct Plate {
 impl Plate {
     /// Area \[m²\] of the plate; of a strip, its length \[m\] (area per metre of width).
     pub fn area(&self) -> f64 {
-        self.length * self.width.unwrap_or(1.0)
+        match self.hole {
+            Some(hole) => std::f64::consts::PI * (self.radius() - hole) * (self.radius() + hole),
+            None => self.length * self.width.unwrap_or(1.0),
+        }
+    }
+
+    /// Whether it is an infinitely wide strip, whose forces are per metre of width.
+    pub fn is_strip(&self) -> bool {
+        self.outline() == Outline::Strip
+    }
+
+    /// Radius of a round plate \[m\].
+    pub fn radius(&self) -> f64 {
+        0.5 * self.length
+    }
+
+    /// Length \[m\] from one edge to the opposite one, along which the film is solved: a diameter of a disc, a radial section of a ring.
+    pub fn section(&self) -> f64 {
+        self.hole.filter(|hole| *hole > 0.0).map_or(self.length, |hole| self.radius() - hole)
+    }
+
+    /// Length b of its squeeze number \[m\]: the length along x, the radius of a disc, the difference of the radii of a ring.
+    pub fn squeezed_length(&self) -> f64 {
+        if self.outline() == Outline::Disc { self.radius() } else { self.section() }
+    }
+
+    /// Its shape, whatever its size.
+    pub fn outline(&self) -> Outline {
+        match (self.hole, self.width) {
+            (Some(0.0), _) => Outline::Disc,
+            (Some(hole), _) => Outline::Ring { hole: hole / self.radius() },
+            (None, Some(width)) => Outline::Rectangle { aspect: width / self.length },
+            (None, None) => Outline::Strip,
+        }
+    }
+
+    /// Mean gap \[m\] at which gas that is trapped, and does not slip, carries `load` \[N or N/m\] in the mean of the cycle:
+    /// (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²), ε = amplitude/gap, at most [`HIGHEST`]. The film carries less at the same gap.
+    pub fn trapped_gap(&self, load: f64) -> f64 {
+        let ratio = load / (self.gas.ambient_pressure * self.area());
+        let excess = ratio * (2.0 + ratio);
+        (self.amplitude * ((excess + 2.5) / excess).sqrt()).clamp(f64::MIN_POSITIVE, HIGHEST)
     }
 
     /// The same plate turned by a quarter: its width along x. A strip stays as it is.

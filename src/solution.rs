@@ -2,8 +2,10 @@
 
 use crate::estimate::Estimate;
 use crate::plan::Decision;
+use crate::problem::{Plate, Problem, Scenario};
 use crate::recording::Recording;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// How a solve ended. None of these is an error: what was reached is always reported.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -136,6 +138,18 @@ pub struct Performance {
     pub curve: Vec<Point>,
 }
 
+/// How a plate floats under its load.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Floating {
+    /// Mean gap at which the film carries the load \[m\].
+    pub mean_gap: Estimate,
+    /// By how much the load that the film carries falls with the mean gap, −dF/dh \[N/m, of a strip per metre of width\]: the stiffness
+    /// against slow motion. Positive: stable.
+    pub stiffness: Estimate,
+    /// Natural frequency of a mass whose weight is the load, on that stiffness \[Hz\]; 0 if it is not stable.
+    pub natural_frequency: Estimate,
+}
+
 /// Results of a plate scene. Forces of a strip are per metre of width.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlateResult {
@@ -155,6 +169,8 @@ pub struct PlateResult {
     pub film_load_range_error: [f64; 2],
     /// Estimated error of the greatest pressure, absolute \[Pa\].
     pub max_pressure_error: f64,
+    /// How it floats; `None` if its mean gap is given.
+    pub floating: Option<Floating>,
 }
 
 /// The result of either scene.
@@ -164,6 +180,17 @@ pub enum Outcome {
     Motor(MotorResult),
     /// Of a plate.
     Plate(PlateResult),
+}
+
+/// The problem as it was solved: a plate under a load is at the mean gap that was found for it.
+pub fn settled<'a>(problem: &'a Problem, outcome: &Outcome) -> Cow<'a, Problem> {
+    match (&problem.scenario, outcome) {
+        (Scenario::Plate(plate), Outcome::Plate(PlateResult { floating: Some(floating), .. })) => {
+            let plate = Plate { mean_gap: floating.mean_gap.value, ..plate.clone() };
+            Cow::Owned(Problem { scenario: Scenario::Plate(plate), ..problem.clone() })
+        }
+        _ => Cow::Borrowed(problem),
+    }
 }
 
 /// What the solve cost, counted; no clock in here.

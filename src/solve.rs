@@ -12,9 +12,10 @@ use crate::motor::{self, MotorError, Warm};
 use crate::paper;
 use crate::plan::Plan;
 use crate::plate;
+use crate::plate::floating::{FloatError, Floated, float};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
-use crate::solution::{Accuracy, Model, Outcome, Solution, Status, StoppedBy};
+use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, StoppedBy};
 use crate::surface::Surface;
 use serde::{Deserialize, Serialize};
 
@@ -68,6 +69,9 @@ pub enum SolveError {
     /// The plate.
     #[error("film, {0}")]
     Plate(Interrupted),
+    /// A plate that does not float.
+    #[error(transparent)]
+    Float(#[from] FloatError),
     /// The paper has no plate.
     #[error("method = paper is for motors: it has no plate scene; allowed here: auto")]
     PaperPlate,
@@ -82,11 +86,13 @@ pub enum SolveError {
 }
 
 impl SolveError {
-    /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]).
+    /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]), but of a plate that does not
+    /// float.
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::PaperPlate | Self::PaperSurface | Self::Memory(_) => true,
             Self::Motor(MotorError::Rotor(rotor)) => !rotor.is_cancelled(),
+            Self::Float(error) => matches!(error, FloatError::Rests { .. } | FloatError::High | FloatError::Memory(_)),
             Self::Motor(_) | Self::Plate(_) => false,
         }
     }
@@ -169,6 +175,12 @@ pub fn solve_from(
     let need = need(problem, settings, cancel)?;
     let spec = settings.fidelity.spec();
     let spec = if cancel.started().has_budget() { spec.from_coarse() } else { spec };
+    if let (Scenario::Plate(plate @ Plate { load: Some(load), .. }), Method::Auto) =
+        (&problem.scenario, settings.method)
+    {
+        memory::check(need)?;
+        return floated(plate, *load, problem, settings, &spec, observer, &cancel.started());
+    }
     let planned = match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => Some(motor_plan(motor, problem, settings, &spec, cancel)?),
         (Scenario::Plate(plate), Method::Auto) => Some(plate_plan(plate, problem, settings, &spec)),
@@ -230,6 +242,47 @@ fn of_plate(found: plate::Periodic, plan: &Plan, cancel: &Cancel) -> Solution {
         stats: found.stats,
         model: model(plan, 1),
         recording: found.recording,
+    }
+}
+
+/// Finds the gap at which a plate floats under its `load` \[N or N/m\].
+fn floated(
+    plate: &Plate,
+    load: f64,
+    problem: &Problem,
+    settings: &Settings,
+    spec: &Spec,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Solution, SolveError> {
+    let rough = Settings { fidelity: Fidelity::Draft, record: Record::Numbers, ..*settings };
+    let roughly = |plate: &Plate| plate_plan(plate, problem, &rough, &rough.fidelity.spec());
+    let asked = |plate: &Plate| plate_plan(plate, problem, settings, spec);
+    match float(plate, load, &roughly, &asked, observer, cancel) {
+        Ok(Floated { periodic, plan }) => {
+            let mut solution = of_plate(periodic, &plan, cancel);
+            if let Outcome::Plate(PlateResult { floating: Some(Floating { mean_gap, stiffness, .. }), .. }) =
+                solution.outcome
+            {
+                solution.accuracy = accuracy(&plan, mean_gap.error, mean_gap.value, cancel);
+                if stiffness.value <= stiffness.error {
+                    solution.warnings.push(
+                        "not stable: where the film carries the load, it carries no less at a greater gap".to_owned(),
+                    );
+                }
+            }
+            if settings.record == Record::Numbers {
+                solution.recording = Recording::default();
+            }
+            Ok(solution)
+        }
+        Err(FloatError::Film(Interrupted::Cancelled)) => {
+            let (result, recording) = (PlateResult::default(), Recording::default());
+            let stats = Stats::default();
+            let periodic = plate::Periodic { status: Status::Cancelled, result, loads: Vec::new(), stats, recording };
+            Ok(of_plate(periodic, &asked(plate), cancel))
+        }
+        Err(error) => Err(error.into()),
     }
 }
 

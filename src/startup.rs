@@ -19,7 +19,7 @@ use crate::plan::{Grid, Plan};
 use crate::plate;
 use crate::problem::{Numerics, Problem, Scenario, Time};
 use crate::recording::Recording;
-use crate::solution::{Accuracy, Outcome, PlateResult, Solution, Stats, Status};
+use crate::solution::{Accuracy, Outcome, PlateResult, Solution, Stats, Status, settled};
 use crate::solve::{self, Record, SolveError, accuracy, solve};
 use serde::{Deserialize, Serialize};
 
@@ -113,6 +113,9 @@ pub fn startup(
         Err(SolveError::Motor(_) | SolveError::Plate(_)) => None,
         solved => Some(solved?),
     };
+    // A plate under a load starts at the gap at which it floats.
+    let found = periodic.as_ref().map(|periodic| settled(problem, &periodic.outcome));
+    let problem = found.as_deref().unwrap_or(problem);
     let cancel = &cancel.started();
     let known = periodic.as_ref().filter(|_| !cancel.has_budget()).map_or(0, |known| known.stats.steps_per_cycle);
     let mut plan = plan(problem, settings, known, cancel)?;

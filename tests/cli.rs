@@ -724,7 +724,7 @@ fn presets_are_listed_and_printed_as_files() {
     assert_eq!((listed.status.code(), err(&listed)), (Some(0), ""));
     let objects = run(&["presets", "--json"]);
     let objects: Vec<Value> = serde_json::from_slice(&objects.stdout).unwrap();
-    assert_eq!(objects.len(), 23);
+    assert_eq!(objects.len(), 25);
     for object in &objects {
         let name = object["preset"].as_str().unwrap();
         assert!(out(&listed).contains(&format!("\n  {name} ")), "{name}");

@@ -443,14 +443,25 @@ fn random_motor(units: &[f64]) -> Scene {
     scene
 }
 
-/// A plate likewise, every third one a strip; a third of the amplitudes is small, and a third nearly touches.
+/// A plate likewise, every third one a strip or round; a third of the amplitudes is small, and a third nearly touches.
 fn random_plate(units: &[f64]) -> Scene {
-    let (mut strip, mut place) = (false, 0.5);
+    let (mut strip, mut place, mut round) = (false, 0.5, 1.0);
     let mut scene = random_scene(Scene::plate(), units, |key, share| {
         strip |= key == "plate.width_mm" && share < 0.3;
+        round = if key == "plate.width_mm" { share / 0.15 } else { round };
         place = if key == "plate.amplitude_um" { share } else { place };
         key == "plate.amplitude_um" || key == "plate.width_mm" && strip
     });
+    if round < 1.0 {
+        let Some(Value::Number(length)) = scene.get("plate.length_mm") else { panic!("a length") };
+        let radius = (0.5 * length).max(0.001);
+        scene.set("plate.shape", if round < 0.5 { "disc" } else { "ring" }).unwrap();
+        scene.set_value("plate.radius_mm", Value::Number(radius)).unwrap();
+        if round >= 0.5 {
+            let hole = radius * (1.98 * (round - 0.5)).clamp(0.5, 0.98);
+            scene.set_value("plate.inner_radius_mm", Value::Number(hole)).unwrap();
+        }
+    }
     let excursion = match 3.0 * place {
         0.0 => 0.0,
         x if x < 1.0 => 10f64.powf(6.0 * (x - 1.0)),
@@ -464,6 +475,9 @@ fn random_plate(units: &[f64]) -> Scene {
 
 /// Keys that viscosity and mean free path may follow from.
 const GAS: [&str; 4] = ["film.gas", "film.temperature_c", "film.altitude_m", "film.accommodation"];
+
+/// Keys of a round plate, which [`random_plate`] chooses by its width.
+const ROUND: [&str; 3] = ["plate.shape", "plate.radius_mm", "plate.inner_radius_mm"];
 
 /// Keys of rough faces, which scenes of their own are drawn for ([`random_rough`]).
 const SURFACE: &str = "surface";
@@ -489,7 +503,8 @@ fn random_rough(units: &[f64]) -> Scene {
 fn random_scene(mut scene: Scene, units: &[f64], mut follows: impl FnMut(&str, f64) -> bool) -> Scene {
     // What the gas is and how it is given do not matter here: viscosity and mean free path take all values.
     let own = |parameter: &&Parameter| {
-        parameter.instead_of.is_none() && !GAS.contains(&parameter.key) && parameter.table() != SURFACE
+        let later = GAS.contains(&parameter.key) || ROUND.contains(&parameter.key) || parameter.table() == SURFACE;
+        parameter.instead_of.is_none() && !later
     };
     for (parameter, unit) in PARAMETERS.iter().filter(own).zip(units) {
         let known = scene.parameters().any(|known| known.key == parameter.key) && scene.heeds(parameter.key);
@@ -537,7 +552,10 @@ fn seeded(cases: u32, seed: u64) -> ProptestConfig {
 }
 
 fn units() -> impl Strategy<Value = Vec<f64>> {
-    proptest::collection::vec(0.0f64..1.0, PARAMETERS.iter().filter(|parameter| parameter.table() != SURFACE).count())
+    let drawn = |parameter: &&Parameter| parameter.table() != SURFACE && !ROUND.contains(&parameter.key);
+    // As many as there are keys of motors, and of plates whose gap is given.
+    let floats = |parameter: &&Parameter| parameter.instead_of != Some("plate.mean_gap_um");
+    proptest::collection::vec(0.0f64..1.0, PARAMETERS.iter().filter(drawn).filter(floats).count())
 }
 
 fn options(scene: &Scene) -> String {
@@ -598,7 +616,10 @@ fn thousands_of_motors() {
 #[test]
 #[ignore = "a minute"]
 fn thousands_of_rough_motors() {
-    let all = proptest::collection::vec(0.0f64..1.0, PARAMETERS.len());
+    let round = |parameter: &&Parameter| ROUND.contains(&parameter.key);
+    let floats = |parameter: &&Parameter| parameter.instead_of == Some("plate.mean_gap_um");
+    let others = PARAMETERS.iter().filter(|parameter| round(parameter) || floats(parameter)).count();
+    let all = proptest::collection::vec(0.0f64..1.0, PARAMETERS.len() - others);
     let (astray, faults) = survey(thousands(1000, 9, all, random_rough), Fidelity::Draft);
     println!("{}", faults.join("\n"));
     // 1 and none when this was written.

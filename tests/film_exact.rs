@@ -31,6 +31,9 @@ fn plate(sigma: f64, epsilon: f64, m: f64, aspect: Option<f64>) -> Plate {
     Plate {
         length: LENGTH,
         width: aspect.map(|a| a * LENGTH),
+        hole: None,
+        load: None,
+        min_spacing: 0.0,
         mean_gap: GAP,
         amplitude: epsilon * GAP,
         frequency: omega / std::f64::consts::TAU,
@@ -230,6 +233,9 @@ fn the_plate_of_two_other_codes() {
         let plate = Plate {
             length: 1.735e-3,
             width: Some(0.3e-3),
+            hole: None,
+            load: None,
+            min_spacing: 0.0,
             mean_gap: 1e-6,
             amplitude: 0.5e-6,
             frequency: 30e3,

@@ -2,12 +2,15 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use proptest::prelude::{ProptestConfig, prop, proptest};
+use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact::viscous_strip_force;
 use squeezefilm::hold::{Hold, REACH, leak_time};
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{Numerics, Plate, Problem, Scenario};
+use squeezefilm::problem::{GRAVITY, Numerics, Plate, Problem, Scenario};
 use squeezefilm::scene::presets;
+use squeezefilm::solution::settled;
+use squeezefilm::solve::{Settings, solve};
 
 fn plate(set: &[(&str, &str)]) -> Plate {
     let mut scene = presets::find("plate-crossover").unwrap();
@@ -99,12 +102,17 @@ fn held_still_the_pressure_falls_at_the_rate_of_the_slowest_mode() {
 
 #[test]
 fn what_the_film_loses_is_what_leaves_at_its_edge() {
-    let plate = plate(&[]);
+    for plate in [plate(&[]), plate(&[("plate.shape", "disc"), ("plate.radius_mm", "0.5")])] {
+        what_leaves(&plate);
+    }
+}
+
+fn what_leaves(plate: &Plate) {
     let gap = 0.5 * plate.mean_gap;
-    let mut hold = held(&plate);
-    hold.advance(gap, 1e-2 * leak_time(&plate, gap)).unwrap();
+    let mut hold = held(plate);
+    hold.advance(gap, 1e-2 * leak_time(plate, gap)).unwrap();
     // Equal steps from here on, each of two on the finer grid.
-    let step = 1e-3 * leak_time(&plate, gap);
+    let step = 1e-3 * leak_time(plate, gap);
     for _ in 0..20 {
         hold.advance(gap, step).unwrap();
     }
@@ -116,7 +124,9 @@ fn what_the_film_loses_is_what_leaves_at_its_edge() {
     let outflow = |hold: &Hold| {
         let z = gap * hold.pressure().nth(last - 1).unwrap() / ambient;
         let drop = potential(z) - potential(gap);
-        2.0 * ambient / (12.0 * gas.viscosity) * gap * drop / (nodes[last] - nodes[last - 1])
+        // Of a strip both edges, of a disc its circumference.
+        let edges = plate.hole.map_or(2.0, |_| std::f64::consts::PI * (nodes[last] + nodes[last - 1]));
+        edges * ambient / (12.0 * gas.viscosity) * gap * drop / (nodes[last] - nodes[last - 1])
     };
     for _ in 0..50 {
         let (before, flow) = (hold.carried_gas(), outflow(&hold));
@@ -179,4 +189,113 @@ fn a_gap_that_is_no_number_is_the_mean_gap_and_reset_is_rest() {
     hold.reset();
     assert_eq!((hold.gap(), hold.unrest()), (plate.mean_gap, 0.0));
     assert!(hold.reading().force.abs() < 1e-12);
+}
+
+// ---- let go
+
+/// A plate under a load, and the gap at which it floats \[m\].
+fn floating(set: &[(&str, &str)]) -> (Plate, f64) {
+    let mut scene = presets::find("floating-disc").unwrap();
+    scene.set_all(set.iter().copied()).unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
+    let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+    let Scenario::Plate(plate) = settled(&problem, &solution.outcome).into_owned().scenario else { panic!("a plate") };
+    let gap = plate.mean_gap;
+    (plate, gap)
+}
+
+fn dropped(plate: &Plate, from: f64) -> Hold {
+    let mut hold = Hold::new(plate, &Plan::plate(plate, Fidelity::Draft, &Numerics::default()));
+    hold.rest_at(from);
+    hold
+}
+
+#[test]
+fn dropped_it_settles_where_the_periodic_solve_floats_and_sinks_when_the_vibration_stops() {
+    for set in [&[][..], &[("plate.shape", "ring"), ("plate.inner_radius_mm", "4"), ("plate.mass_g", "20")]] {
+        let (plate, gap) = floating(set);
+        let cycle = 1.0 / plate.frequency;
+        for from in [1.4, 0.8] {
+            let mut hold = dropped(&plate, from * gap);
+            hold.fall(800.0 * cycle, true).unwrap();
+            let before = hold.height();
+            hold.fall(20.0 * cycle, true).unwrap();
+            println!("{set:?}, from {from}: {} of {gap}, {:?}", hold.height(), hold.free());
+            assert!((hold.height() / gap - 1.0).abs() < 5e-3, "{} {gap}", hold.height());
+            assert!((hold.height() / before - 1.0).abs() < 1e-4 && hold.free().rests == 0);
+            // The mean force is the weight.
+            let force = hold.fall(50.0 * cycle, true).unwrap().force;
+            assert!((force / plate.load.unwrap() - 1.0).abs() < 0.01, "{force}");
+            hold.fall(100.0 * cycle, false).unwrap();
+            let sinking = hold.height();
+            assert_eq!(hold.free().amplitude, 0.0);
+            hold.fall(100.0 * cycle, false).unwrap();
+            assert!(hold.height() < sinking && sinking < gap, "{sinking} {gap}");
+        }
+    }
+}
+
+#[test]
+fn without_vibration_a_disc_sinks_as_reynolds_has_it_and_comes_to_rest() {
+    // d(1/h²)/dt = 4 m g/(3 π μ R⁴): no slip, so light that the gas is hardly compressed, so slow that its inertia is nothing.
+    let set = [("plate.mass_g", "1"), ("film.slip", "none"), ("plate.amplitude_um", "1")];
+    let (plate, _) = floating(&set);
+    let rate = 4.0 * plate.load.unwrap() / (3.0 * std::f64::consts::PI * plate.gas.viscosity * plate.radius().powi(4));
+    let start = 3e-6;
+    let mut hold = dropped(&plate, start);
+    let time = 0.01 / (rate * start * start);
+    hold.fall(0.2 * time, false).unwrap();
+    let from = hold.gap().powi(-2);
+    hold.fall(time, false).unwrap();
+    let found = (hold.gap().powi(-2) - from) / time;
+    println!("sinking: {found:e}, Reynolds {rate:e}");
+    assert!((found / rate - 1.0).abs() < 0.01, "{found} {rate}");
+    // To its roughness, and no further.
+    let least = 0.997 * start;
+    let mut hold = dropped(&Plate { min_spacing: least, ..plate }, start);
+    hold.fall(2.0 * time, false).unwrap();
+    assert_eq!((hold.gap(), hold.is_still()), (least, true));
+    assert!(hold.free().rests > 0);
+}
+
+#[test]
+fn energy_only_leaves_a_plate_that_bounces() {
+    // Fast on a film that has no time to leak: it bounces, and each time a little lower.
+    let (plate, gap) = floating(&[("plate.radius_mm", "50"), ("plate.mass_g", "5000"), ("film.min_spacing_nm", "5")]);
+    let mut hold = dropped(&plate, 1.5 * gap);
+    let mass = plate.load.unwrap() / GRAVITY;
+    let energy =
+        |hold: &Hold| 0.5 * mass * hold.free().speed.powi(2) + mass * GRAVITY * hold.gap() + hold.free_energy();
+    let start = energy(&hold);
+    let (mut last, mut kinetic, mut turns, mut up) = (start, 0.0f64, 0, false);
+    let tick = 0.003 * leak_time(&plate, gap);
+    for _ in 0..600 {
+        hold.fall(tick, false).unwrap();
+        let now = energy(&hold);
+        kinetic = kinetic.max(0.5 * mass * hold.free().speed.powi(2));
+        // Half the square of a step, of what moves at most.
+        assert!(now < last + 1e-4 * start, "{now} after {last} of {start}");
+        last = now;
+        let rises = hold.free().speed > 0.0;
+        turns += i32::from(rises != up);
+        up = rises;
+    }
+    println!("energy {start:e} to {last:e}, kinetic up to {kinetic:e}, {turns} turns");
+    assert!(last < start && turns > 3 && hold.free().rests == 0);
+}
+
+#[test]
+fn a_fall_converges_with_the_square_of_the_step() {
+    let (plate, gap) = floating(&[]);
+    let height = |finer: f64| {
+        let mut hold = Hold::new(&plate, &Plan::plate(&plate, Fidelity::Draft, &Numerics::default())).finer(finer);
+        hold.rest_at(1.6 * gap);
+        hold.fall(20.0 / plate.frequency, true).unwrap();
+        hold.height()
+    };
+    let [one, two, four, eight] = [1.0, 2.0, 4.0, 8.0].map(height);
+    let orders = [(two - one) / (four - two), (four - two) / (eight - four)].map(f64::log2);
+    println!("heights {one} {two} {four} {eight}, orders {orders:?}");
+    assert!(orders[1] > 1.6 && (two - one).abs() < 2e-3 * gap, "{orders:?}");
 }

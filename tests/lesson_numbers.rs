@@ -9,7 +9,7 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact;
 use squeezefilm::hold::leak_time;
 use squeezefilm::lessons::BUILT_IN;
-use squeezefilm::problem::{Problem, Scenario};
+use squeezefilm::problem::{Outline, Problem, Scenario};
 use squeezefilm::scene::presets;
 use squeezefilm::solution::{Outcome, Performance, PlateResult};
 use squeezefilm::solve::{Settings, solve};
@@ -147,7 +147,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     states(3, "Here $\\\\sigma$ is 2.7, at 0.2 kHz", before, 2.7, 0.01);
     states(3, "That is five times the", sigma / before, 5.0, 0.05);
     assert!((sigma / slip / 10.0 - 1.0).abs() < 0.01);
-    let linear = exact_of_runs::linear(10.0, None);
+    let linear = exact_of_runs::linear(10.0, Outline::Strip);
     assert!((linear.spring / linear.damping - 1.0).abs() < 0.02, "{linear:?}");
     // Start-up: the first cycle, and the last.
     let cycles = |preset: &str| {

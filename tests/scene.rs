@@ -912,7 +912,8 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         {
             scene.set("rotor.model", "beam").unwrap();
         }
-        for key in ["stator.tooth_width_mm", "plate.amplitude_um", "motor.load_n", "motor.rotor_speed_mm_per_s"] {
+        let limited = ["stator.tooth_width_mm", "plate.amplitude_um", "plate.inner_radius_mm"];
+        for key in limited.into_iter().chain(["motor.load_n", "motor.rotor_speed_mm_per_s"]) {
             if let Some(range) = scene.range(key).filter(|_| scene.get(key).is_some()) {
                 let value = range.min + share * (range.max - range.min);
                 scene.set_value(key, Value::Number(value)).unwrap();

@@ -110,6 +110,22 @@ fn a_trapped_plate_has_the_derivatives_of_its_formula() {
 }
 
 #[test]
+fn a_plate_that_floats_on_trapped_gas_is_as_high_as_its_amplitude_and_less_so_under_its_load() {
+    let mut scene = presets::find("floating-disc").unwrap();
+    scene.set_all([("plate.frequency_khz", "10000"), ("plate.radius_mm", "100"), ("film.slip", "none")]).unwrap();
+    scene.set("plate.mass_g", "10000").unwrap();
+    let found = sensitivity(&scene, &["plate.amplitude_um", "plate.mass_g"], Fidelity::Fine);
+    // h = a √((s + 3/2)/(s − 1)), s = (1 + w)²: d ln h/d ln w = w (1 + w) [1/(s + 3/2) − 1/(s − 1)].
+    let w = 10.0 * 9.80665 / (101_325.0 * std::f64::consts::PI * 0.01);
+    let s = (1.0 + w) * (1.0 + w);
+    let by_load = w * (1.0 + w) * (1.0 / (s + 1.5) - 1.0 / (s - 1.0));
+    for (column, exact) in [(0, 1.0), (1, by_load)] {
+        let Estimate { value, error } = found.elasticity(0, column).unwrap();
+        assert!((value - exact).abs() <= error + 2e-3 && error < 0.02, "{column}: {value} ± {error}, {exact}");
+    }
+}
+
+#[test]
 fn where_a_ring_does_not_reach_there_is_one_side() {
     let scene = presets::find("ring-rotor").unwrap();
     let found = sensitivity(&scene, &["rotor.contact_width_mm", "motor.contact_radius_mm"], Fidelity::Draft);

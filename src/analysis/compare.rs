@@ -11,9 +11,10 @@ use crate::analysis::attempt::RunStatus;
 use crate::control::Cancel;
 use crate::problem::Problem;
 use crate::scene::{PARAMETERS, Parameter, Scene, SceneError, Value, show_text};
-use crate::solution::Solution;
+use crate::solution::{Solution, settled};
 use crate::solve::{Settings, SolveError, check};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// One scene, solved.
@@ -23,7 +24,7 @@ pub struct ComparedRun {
     pub label: String,
     /// The scene.
     pub scene: Scene,
-    /// The same, checked and in SI units.
+    /// The same, checked and in SI units; a plate that floats is at the gap that was found.
     pub problem: Problem,
     /// What came of it, or why nothing did.
     pub solved: Result<Arc<Solution>, String>,
@@ -79,6 +80,8 @@ pub fn runs(
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
     let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
         let solved = attempt(&problem, settings, &mut (), cancel).map(Arc::new);
+        let found = solved.as_ref().map_or(Cow::Borrowed(&problem), |solved| settled(&problem, &solved.outcome));
+        let problem = found.into_owned();
         let run = ComparedRun { label, scene: scene.clone(), problem, solved };
         finished(&run);
         run

@@ -11,10 +11,13 @@
 
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::film::exact::{linear_rectangle, linear_strip, viscous_rectangle_force, viscous_strip_force};
+use crate::film::exact::{
+    linear_disc, linear_rectangle, linear_ring, linear_strip, viscous_rectangle_force, viscous_ring_force,
+    viscous_strip_force,
+};
 use crate::film::slip::{Mobility, SlipLaw};
 use crate::film::trapped::edge_height;
-use crate::problem::Plate;
+use crate::problem::{Outline, Plate};
 use crate::recording::Recording;
 use std::f64::consts::TAU;
 
@@ -41,7 +44,7 @@ impl Harmonic<f64> {
 
 /// What stiffness and damping of a plate are in; those of a strip are per metre of width.
 pub fn units(plate: &Plate) -> [&'static str; 2] {
-    if plate.width.is_some() { ["N/m", "N·s/m"] } else { ["N/m²", "N·s/m²"] }
+    if plate.is_strip() { ["N/m²", "N·s/m²"] } else { ["N/m", "N·s/m"] }
 }
 
 /// Loads of the limits over the cycle \[N, of a strip N/m\], at the frames of a recording.
@@ -94,7 +97,7 @@ impl Comparison {
         Self {
             effective_squeeze_number: effective,
             solved: solved(plate, recording),
-            linear: linear(effective, aspect(plate)),
+            linear: linear(effective, plate.outline()),
             unit: Harmonic::unit(plate),
             mean_pressure: Estimate { value: 1.0 + film_load.value / force, error: film_load.error / force },
             trapped_mean_pressure: trapped * mean_inverse,
@@ -115,16 +118,22 @@ pub fn solved(plate: &Plate, recording: &Recording) -> Option<Harmonic<Estimate>
         .then(|| Harmonic { spring: of(|h| h.spring), damping: of(|h| h.damping) })
 }
 
-/// Width over length; `None` for a strip.
-pub fn aspect(plate: &Plate) -> Option<f64> {
-    plate.width.map(|width| width / plate.length)
+/// σ/Q about which spring and damping of a small amplitude are alike.
+pub fn crossover(outline: Outline) -> f64 {
+    match outline {
+        Outline::Strip | Outline::Ring { .. } => 10.0,
+        Outline::Disc => 6.0,
+        Outline::Rectangle { aspect } => 10.0 * (1.0 + 1.0 / (aspect * aspect)),
+    }
 }
 
 /// Spring and damping for ε → 0 at σ/Q.
-pub fn linear(effective_squeeze_number: f64, aspect: Option<f64>) -> Harmonic<f64> {
-    let (real, imaginary) = match aspect {
-        None => linear_strip(effective_squeeze_number, 0.0),
-        Some(aspect) => linear_rectangle(effective_squeeze_number, 0.0, aspect),
+pub fn linear(effective_squeeze_number: f64, outline: Outline) -> Harmonic<f64> {
+    let (real, imaginary) = match outline {
+        Outline::Strip => linear_strip(effective_squeeze_number, 0.0),
+        Outline::Rectangle { aspect } => linear_rectangle(effective_squeeze_number, 0.0, aspect),
+        Outline::Disc => linear_disc(effective_squeeze_number, 0.0),
+        Outline::Ring { hole } => linear_ring(effective_squeeze_number, 0.0, hole),
     };
     Harmonic { spring: -real, damping: -imaginary }
 }
@@ -161,9 +170,10 @@ fn limits(plate: &Plate, trapped: f64, frames: usize) -> Limits {
         // The slip's factor at ambient pressure, as 1 + 6 λ/h of an effective free path.
         let factor = SlipLaw::of(gas).at(gap).0 / gap;
         let path = (factor - 1.0) * gap / 6.0;
-        let viscous = match plate.width {
-            None => viscous_strip_force(gas.viscosity, plate.length, gap, rate, path),
-            Some(width) => viscous_rectangle_force(gas.viscosity, plate.length, width, gap, rate, path),
+        let viscous = match (plate.width, plate.hole) {
+            (_, Some(hole)) => viscous_ring_force(gas.viscosity, hole, plate.radius(), gap, rate, path),
+            (None, None) => viscous_strip_force(gas.viscosity, plate.length, gap, rate, path),
+            (Some(width), None) => viscous_rectangle_force(gas.viscosity, plate.length, width, gap, rate, path),
         };
         (gas.ambient_pressure * plate.area() * (trapped / gap - 1.0), viscous)
     };

@@ -2,9 +2,9 @@
 
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::problem::{Problem, Scenario, rpm};
+use crate::problem::{Plate, Problem, Scenario, rpm};
 use crate::scene::Belongs;
-use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Solution, Status};
+use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Solution, Status, settled};
 
 /// An enum of numbers, and those of them that are known. Of each its variant, name, what it is, its unit, the scenes that have it, and
 /// whatever else is to be known of it.
@@ -101,6 +101,9 @@ numbers! {
     MaxTorque "max_torque_nm" "maximum operating torque (bound)" "N·m" Motor;
     MaxTorqueError "max_torque_error_nm" "error of the bound of the torque" "N·m" Motor;
     TeethInContact "teeth_in_contact" "teeth in contact" "" Motor;
+    MeanGap "mean_gap_um" "mean gap of the floating plate" "µm" Plate;
+    MeanGapError "mean_gap_error_um" "error of the mean gap" "µm" Plate;
+    NaturalFrequency "natural_frequency_hz" "natural frequency" "Hz" Plate;
     LoadRatio "mean_load_ratio" "mean load ratio" "" Plate;
     LoadRatioError "mean_load_ratio_error" "error of the load ratio" "" Plate;
     LoadRatioMin "load_ratio_min" "least load ratio" "" Plate;
@@ -126,7 +129,9 @@ impl Quantity {
             Scenario::Motor(_) => Belongs::Motor,
             Scenario::Plate(_) => Belongs::Plate,
         };
-        TABLE.iter().filter(move |row| row.4 == Belongs::Any || row.4 == belongs).map(|row| row.0)
+        let floats = matches!(problem.scenario, Scenario::Plate(Plate { load: Some(_), .. }));
+        let all = TABLE.iter().filter(move |row| row.4 == Belongs::Any || row.4 == belongs).map(|row| row.0);
+        all.filter(move |quantity| floats || !matches!(quantity, MeanGap | MeanGapError | NaturalFrequency))
     }
 
     /// Its unit in the results of `problem`; empty for a pure number. Forces of a strip are per metre of width.
@@ -167,6 +172,7 @@ impl Quantity {
             MaxEfficiency => Some(MaxEfficiencyError),
             MaxTorque => Some(MaxTorqueError),
             LoadRatio => Some(LoadRatioError),
+            MeanGap => Some(MeanGapError),
             _ => None,
         }
     }
@@ -175,7 +181,7 @@ impl Quantity {
 /// What the forces of a problem are in: those of a strip are per metre of width.
 pub fn force_unit(problem: &Problem) -> &'static str {
     match &problem.scenario {
-        Scenario::Plate(plate) if plate.width.is_none() => "N/m",
+        Scenario::Plate(plate) if plate.is_strip() => "N/m",
         Scenario::Plate(_) | Scenario::Motor(_) => "N",
     }
 }
@@ -189,6 +195,7 @@ impl Numbers {
     /// Of a solution of `problem`.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let mut numbers = Self::default();
+        let problem = &*settled(problem, &solution.outcome);
         let groups = Dimensionless::of(problem);
         numbers.set(SqueezeNumber, groups.squeeze_number);
         numbers.set(BearingNumber, groups.bearing_number);
@@ -259,6 +266,11 @@ impl Numbers {
         self.set(LoadRatioMax, ratio(result.film_load_max));
         self.set(MinGap, result.min_gap * 1e9);
         self.set(MaxPressure, result.max_pressure * 1e-3);
+        if let Some(floating) = result.floating {
+            self.set(MeanGap, floating.mean_gap.value * 1e6);
+            self.set(MeanGapError, floating.mean_gap.error * 1e6);
+            self.set(NaturalFrequency, floating.natural_frequency.value);
+        }
     }
 }
 

@@ -18,7 +18,7 @@ use crate::digits::as_given;
 use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::scene::{Parameter, ParameterKind, Scene, SceneError};
-use crate::solution::{Solution, Status};
+use crate::solution::{Solution, Status, settled};
 use crate::solve::near::Centre;
 use crate::solve::{Settings, SolveError};
 use rand_chacha::ChaCha8Rng;
@@ -46,12 +46,14 @@ pub enum Output {
 const OF_MOTOR: [Output; 3] =
     [Output::Number(Quantity::Alpha), Output::Number(Quantity::StallTorque), Output::Number(Quantity::NoLoadSpeed)];
 const OF_PLATE: [Output; 3] = [Output::Number(Quantity::FilmLoad), Output::Stiffness, Output::Damping];
+const OF_FLOATING: [Output; 3] = [Output::Number(Quantity::MeanGap), Output::Stiffness, Output::Damping];
 
 impl Output {
     /// Those of a problem, the headline first.
     pub fn of(problem: &Problem) -> &'static [Self] {
-        match problem.scenario {
+        match &problem.scenario {
             Scenario::Motor(_) => &OF_MOTOR,
+            Scenario::Plate(plate) if plate.load.is_some() => &OF_FLOATING,
             Scenario::Plate(_) => &OF_PLATE,
         }
     }
@@ -110,6 +112,7 @@ impl Output {
 
 /// All outputs of a solution of `problem`.
 fn read(problem: &Problem, solution: &Solution) -> Vec<Estimate> {
+    let problem = &*settled(problem, &solution.outcome);
     let numbers = Numbers::of(problem, solution);
     Output::of(problem).iter().map(|output| output.read(problem, solution, &numbers)).collect()
 }

@@ -30,13 +30,15 @@ pub use limits::{Excess, NAMES, mach};
 
 use crate::plan::Choice;
 use crate::problem::{Motor, Plate, Problem, Scenario};
-use crate::solution::{Outcome, Solution};
+use crate::solution::{Outcome, Solution, settled};
 use limits::{Film, nearness, resonance, roughness, sliding, stress};
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// The limits that a scene exceeds; none if the model is within its depth. Without a solution: what the scene alone tells,
 /// with a closed film of a motor at its minimum spacing, and no contact.
 pub fn outside(problem: &Problem, solution: Option<&Solution>) -> Vec<Excess> {
+    let problem = &*solution.map_or(Cow::Borrowed(problem), |solution| settled(problem, &solution.outcome));
     match &problem.scenario {
         Scenario::Motor(motor) => of_motor(motor, solution),
         Scenario::Plate(plate) => of_plate(plate),
@@ -95,7 +97,7 @@ fn of_plate(plate: &Plate) -> Vec<Excess> {
         omega: TAU * plate.frequency,
         gap: plate.mean_gap,
         closed: plate.mean_gap,
-        side: plate.width.map_or(plate.length, |width| width.min(plate.length)),
+        side: plate.width.map_or(plate.section(), |width| width.min(plate.length)),
         amplitude: plate.amplitude,
         body: "plate",
     };

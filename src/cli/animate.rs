@@ -8,7 +8,7 @@ use crate::export::animation::{Format, Options};
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::force_unit;
 use crate::problem::Problem;
-use crate::solution::Status;
+use crate::solution::{Status, settled};
 use crate::solve::solve;
 use clap::Args;
 use std::path::PathBuf;
@@ -75,6 +75,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
         terminal::note(&format!("cancelled {reached}; no file was written"));
         return Ok(Exit::Other);
     }
+    let problem = settled(&problem, &solution.outcome);
     solution.warnings.iter().for_each(|warning| terminal::warning(warning));
 
     let options = Options { width: arguments.width, seconds: arguments.seconds, frames: usize::from(arguments.frames) };

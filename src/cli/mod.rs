@@ -5,6 +5,7 @@ mod columns;
 mod compare;
 mod completions;
 mod exit;
+mod fall;
 mod fit;
 #[cfg(feature = "gui")]
 mod gui;

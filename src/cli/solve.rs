@@ -13,7 +13,7 @@ use crate::memory;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::scene::presets::BUILT_IN;
-use crate::solution::Status;
+use crate::solution::{Status, settled};
 use crate::solve::{Settings, check, solve};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -128,6 +128,7 @@ fn one(
         terminal::note(&format!("cancelled {reached}"));
         return Ok((Exit::Other, None));
     }
+    let problem = &*settled(problem, &solution.outcome);
     let mut result = Summary::new(problem, &solution, wall_s, command);
     result.add_torque(TorqueCurves::of_solve(problem, settings.fidelity, &solution, cancel));
     for warning in &result.warnings {

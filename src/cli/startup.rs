@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
+use super::fall::{self, Dropped};
 use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
@@ -22,7 +23,8 @@ const EXAMPLES: &str = "\
 Examples:
   squeezefilm startup fundamental
   squeezefilm startup frequency-100khz --fidelity fine --out results
-  squeezefilm startup plate-trapped --cycles 500 --json";
+  squeezefilm startup plate-trapped --cycles 500 --json
+  squeezefilm startup floating-disc --cycles 1000";
 
 const FILES: &str = "\
 Files of --out:
@@ -37,6 +39,8 @@ Files of --out:
 /// its cycles are counted from the widest gap that follows. Every tooth is marched. The
 /// periodic solve, which takes a short cut, is made for comparison: both have to agree to their stated errors. Cycles are marched again
 /// on finer grids until the headline of every one is as exact as was asked, as a share of the greatest of them.
+///
+/// A plate under a load is dropped instead, from twice the gap at which it floats, and followed until its height no longer changes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -70,6 +74,17 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let (folder, chosen, cancel) = arguments.common.begin()?;
     if chosen.method == Method::Paper {
         return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));
+    }
+    let dropped = Dropped {
+        scene: &scene,
+        problem: &problem,
+        common: &arguments.common,
+        fidelity: chosen.fidelity,
+        cycles: arguments.cycles as usize,
+        tolerance: arguments.tolerance,
+    };
+    if let Some(exit) = fall::run(&dropped, folder, &cancel, command)? {
+        return Ok(exit);
     }
     let settings = startup::Settings {
         fidelity: chosen.fidelity,

@@ -8,9 +8,9 @@ use crate::analysis::validity::Excess;
 use crate::digits::{as_given, duration, percent, significant, with_error};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
-use crate::export::json::{Summary, beside_limit};
+use crate::export::json::{FloatingObject, Summary, beside_limit};
 use crate::gas::species::IdealGas;
-use crate::problem::{Motor, Plate, Problem, Scenario};
+use crate::problem::{GRAVITY, Motor, Plate, Problem, Scenario};
 use crate::scene::{Scene, show_text};
 use crate::solution::{Outcome, Performance};
 use std::fmt::Write as _;
@@ -155,10 +155,14 @@ fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueCurves) {
 }
 
 fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
-    let area = match plate.width {
-        Some(_) => "of p_a × area, mean over the cycle",
-        None => "of p_a × length, mean over the cycle; an infinitely wide strip",
+    let area = if plate.is_strip() {
+        "of p_a × length, mean over the cycle; an infinitely wide strip"
+    } else {
+        "of p_a × area, mean over the cycle"
     };
+    if let Some(floating) = &summary.floating {
+        floating_rows(columns, plate, floating, summary.force_unit);
+    }
     film_load(columns, summary);
     columns.row([
         "load ratio",
@@ -173,8 +177,42 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
     if let Some(exact) = &summary.exact {
         exact_rows(columns, exact, units(plate));
     }
-    let mean = format!("the mean gap is {} nm", as_given(plate.mean_gap * 1e9));
+    let gap = plate.mean_gap * 1e9;
+    let mean =
+        format!("the mean gap is {} nm", if plate.load.is_some() { shown(gap) } else { as_given(gap).to_string() });
     extremes(columns, summary, &mean, plate.gas.ambient_pressure);
+}
+
+/// How a plate floats, beside trapped gas.
+fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject, unit: &str) {
+    let [stiffness, _] = units(plate);
+    let mass = as_given(floating.load_n / GRAVITY * 1e3);
+    let stable = if floating.stable { "stable" } else { "not stable" };
+    columns.row([
+        "mean gap",
+        &format!("{} µm", with_error(or_nan(floating.mean_gap_um), or_nan(floating.mean_gap_error_um))),
+        &format!("at which the film carries the load of {} {unit}; {stable}", shown(floating.load_n)),
+    ]);
+    columns.row([
+        "",
+        &format!("{} µm", shown(floating.trapped_mean_gap_um)),
+        &format!(
+            "if gas were trapped and did not slip; a √(1.25 p_a A/F) = {} µm for a small load",
+            shown(floating.small_load_mean_gap_um)
+        ),
+    ]);
+    columns.row([
+        "stiffness of floating",
+        &format!(
+            "{} {stiffness}",
+            with_error(or_nan(floating.stiffness_n_per_m), or_nan(floating.stiffness_error_n_per_m))
+        ),
+        "by which the mean load falls with the mean gap",
+    ]);
+    if let Some((frequency, error)) = floating.natural_frequency_hz.zip(floating.natural_frequency_error_hz) {
+        let of = format!("of the mass whose weight is the load, {} g", shown(mass));
+        columns.row(["natural frequency", &format!("{} Hz", with_error(frequency, error)), &of]);
+    }
 }
 
 /// What is known exactly beside what was computed.

@@ -247,8 +247,10 @@ fn text(sweep: &Sweep, rows: &[Row]) -> String {
 }
 
 /// What the table for people shows; all is in the files.
-const SHOWN: [Quantity; 7] = [
+const SHOWN: [Quantity; 9] = [
     Quantity::Alpha,
+    Quantity::MeanGap,
+    Quantity::NaturalFrequency,
     Quantity::FilmLoad,
     Quantity::LoadRatio,
     Quantity::StallTorque,
@@ -261,7 +263,11 @@ fn number(row: &Row, quantity: Quantity) -> String {
     let Some(value) = row.numbers.get(quantity) else { return String::new() };
     match quantity.error() {
         // Of two numbers that say the same only the first shows its error.
-        Some(error) if matches!(quantity, Quantity::Alpha | Quantity::LoadRatio | Quantity::StallTorque) => {
+        // The load of a plate that floats is given.
+        Some(_) if quantity == Quantity::LoadRatio && row.numbers.get(Quantity::MeanGap).is_some() => {
+            significant(value, 4)
+        }
+        Some(error) if !matches!(quantity, Quantity::FilmLoad) => {
             with_error(value, row.numbers.get(error).unwrap_or(f64::INFINITY))
         }
         _ if quantity == Quantity::FilmSteps => value.to_string(),

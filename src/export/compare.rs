@@ -213,8 +213,9 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
     let unsolved = runs.iter().filter(|run| !run.converged()).count();
     let main = |run: &ComparedRun| {
         let numbers = run.numbers();
-        let (quantity, name) = match run.problem.scenario {
+        let (quantity, name) = match &run.problem.scenario {
             Scenario::Motor(_) => (Quantity::Alpha, "α"),
+            Scenario::Plate(plate) if plate.load.is_some() => (Quantity::MeanGap, "mean gap in µm"),
             Scenario::Plate(_) => (Quantity::LoadRatio, "load ratio"),
         };
         let error = numbers.get(quantity.error()?).unwrap_or(f64::INFINITY);
@@ -473,7 +474,7 @@ fn result_table(runs: &[ComparedRun]) -> Table {
     let mut table = Table::new("").heads(heads);
     for row in results(runs) {
         let mut cells = vec![(Kind::Words, row.label())];
-        let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
+        let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);
         let kind = if main { Kind::Strong } else { Kind::Number };
         for (i, cell) in row.cells.iter().enumerate() {
             let (value, difference) = (value_text(&row, cell), difference_text(&row, cell));

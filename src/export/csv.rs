@@ -40,6 +40,9 @@ pub fn fields(problem: &Problem, recording: &Recording, out: &mut dyn Write) -> 
             "contact_n_per_m",
             film,
         ])?,
+        None if recording.radial => {
+            table.header(&["time_s", "phase", "radius_m", "area_m2", "film_thickness_nm", film])?;
+        }
         None => table.header(&["time_s", "phase", "x_m", "length_m", "film_thickness_nm", film])?,
     }
     for frame in 0..recording.frames {

@@ -3,10 +3,10 @@
 //! | array | shape | what |
 //! | --- | --- | --- |
 //! | `time_s` | frames | the instants of one cycle |
-//! | `x_m`, `node_length_m` | nodes | along a tooth from its middle (a plate: from its own), and the length each node stands for |
+//! | `x_m`, `node_length_m` | nodes | along a tooth from its middle (a plate: from its own), and the length each node stands for (a round plate: `radius_m`, `node_area_m2`) |
 //! | `tooth_middle_m` | teeth | where the middles of the teeth are (motor) |
 //! | `stator_nm`, `gap_nm`, `contact_n_per_m` | frames × teeth × nodes | fields on the lines of all teeth (motor) |
-//! | `film_thickness_nm`, `film_n_per_m` | frames × teeth × nodes, of a plate frames × nodes | the same of both scenes (a strip: `film_n_per_m2`) |
+//! | `film_thickness_nm`, `film_n_per_m` | frames × teeth × nodes, of a plate frames × nodes | the same of both scenes (a strip or a round plate: `film_n_per_m2`) |
 //! | `map_x_m`, `map_y_m` | | where the pressure is, of a symmetric film only the half that was solved |
 //! | `pressure_kpa` | frames × map_x × map_y | absolute, under the first tooth |
 //! | `film_load_n`, `contact_load_n`, `teeth_in_contact` | frames | on one wavelength (a strip: `film_load_n_per_m`) |
@@ -50,10 +50,11 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
     let of = |values: &'a [f64], unit: f64| -> Box<dyn Iterator<Item = f64> + 'a> {
         Box::new(values.iter().map(move |value| value * unit))
     };
+    let [position, size] = if recording.radial { ["radius_m", "node_area_m2"] } else { ["x_m", "node_length_m"] };
     let mut all = vec![
         field("time_s", FRAMES, Box::new((0..recording.frames).map(|frame| recording.time(frame)))),
-        field("x_m", &["node"], of(&recording.x, 1.0)),
-        field("node_length_m", &["node"], of(&recording.node_length, 1.0)),
+        field(position, &["node"], of(&recording.x, 1.0)),
+        field(size, &["node"], of(&recording.node_length, 1.0)),
     ];
     let (axes, film, load, error): (&'static [&'static str], _, _, _) = match &problem.scenario {
         Scenario::Motor(motor) => {
@@ -71,8 +72,11 @@ pub fn fields<'a>(problem: &'a Problem, recording: &'a Recording) -> Vec<Field<'
             ]);
             (LINES, "film_n_per_m", "film_load_n", "film_load_error_n")
         }
-        Scenario::Plate(plate) if plate.width.is_none() => {
+        Scenario::Plate(plate) if plate.is_strip() => {
             (&["frame", "node"], "film_n_per_m2", "film_load_n_per_m", "film_load_error_n_per_m")
+        }
+        Scenario::Plate(_) if recording.radial => {
+            (&["frame", "node"], "film_n_per_m2", "film_load_n", "film_load_error_n")
         }
         Scenario::Plate(_) => (&["frame", "node"], "film_n_per_m", "film_load_n", "film_load_error_n"),
     };

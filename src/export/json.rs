@@ -10,7 +10,9 @@ use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::motor::MotorError;
 use crate::problem::{Motor, Plate, Problem, Scenario};
-use crate::solution::{Model, MotorResult, Outcome, Performance, PlateResult, Solution, Stats, Status};
+use crate::solution::{
+    Floating, Model, MotorResult, Outcome, Performance, PlateResult, Solution, Stats, Status, settled,
+};
 use serde::Serialize;
 
 /// The version of the objects, and of the columns of tables.
@@ -37,7 +39,7 @@ pub struct Summary {
     pub residual: Option<f64>,
     /// … and what it had to fall below.
     pub tolerance: Option<f64>,
-    /// Error of the headline (α, or a plate's mean load) that was asked for, relative to it, and to a hundredth of the load where α is
+    /// Error of the headline (α, a plate's mean load, the mean gap of one that floats) that was asked for, relative to it, and to a hundredth of the load where α is
     /// less than that; `null` on grids that the scene prescribes.
     pub accuracy_asked: Option<f64>,
     /// Its stated error, likewise.
@@ -80,12 +82,14 @@ pub struct Summary {
     pub levitated: Option<bool>,
     /// Least film thickness, H_m included.
     pub min_gap_nm: Option<f64>,
-    /// Estimated numerical error of `min_gap_nm`, absolute (motor; the gap of a plate is given).
+    /// Estimated numerical error of `min_gap_nm`, absolute (motor, floating plate).
     pub min_gap_error_nm: Option<f64>,
     /// Greatest absolute pressure.
     pub max_pressure_kpa: Option<f64>,
     /// Estimated numerical error of `max_pressure_kpa`, absolute.
     pub max_pressure_error_kpa: Option<f64>,
+    /// How a plate floats; null if its mean gap is given.
+    pub floating: Option<FloatingObject>,
     /// Film load over ambient pressure × area (plate).
     pub mean_load_ratio: Option<f64>,
     /// Estimated numerical error of `mean_load_ratio`, absolute.
@@ -117,6 +121,50 @@ pub struct Summary {
     pub version: &'static str,
     /// The command line, word by word; empty if there was none.
     pub command: Vec<String>,
+}
+
+/// How a plate floats under its load. Of a strip, forces and mass are those of a metre of its width.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct FloatingObject {
+    /// The load.
+    pub load_n: f64,
+    /// Mean gap at which the film carries it.
+    pub mean_gap_um: Option<f64>,
+    /// Estimated numerical error of `mean_gap_um`, absolute.
+    pub mean_gap_error_um: Option<f64>,
+    /// Whether the film carries less at a greater gap.
+    pub stable: bool,
+    /// By how much the load that the film carries falls with the mean gap: stiffness against slow motion.
+    pub stiffness_n_per_m: Option<f64>,
+    /// Estimated numerical error of `stiffness_n_per_m`, absolute.
+    pub stiffness_error_n_per_m: Option<f64>,
+    /// Natural frequency of a mass whose weight is the load on that stiffness; null if it is not stable.
+    pub natural_frequency_hz: Option<f64>,
+    /// Estimated numerical error of `natural_frequency_hz`, absolute.
+    pub natural_frequency_error_hz: Option<f64>,
+    /// Mean gap at which trapped gas that does not slip would carry it: (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²).
+    pub trapped_mean_gap_um: f64,
+    /// The same for a small load, a √(1.25 p_a A/F).
+    pub small_load_mean_gap_um: f64,
+}
+
+impl FloatingObject {
+    fn new(plate: &Plate, load: f64, floating: &Floating) -> Self {
+        let known = |value: f64| Some(value).filter(|value| value.is_finite());
+        let stable = floating.stiffness.value > floating.stiffness.error;
+        Self {
+            load_n: load,
+            mean_gap_um: known(floating.mean_gap.value * 1e6),
+            mean_gap_error_um: known(floating.mean_gap.error * 1e6),
+            stable,
+            stiffness_n_per_m: known(floating.stiffness.value),
+            stiffness_error_n_per_m: known(floating.stiffness.error),
+            natural_frequency_hz: known(floating.natural_frequency.value).filter(|_| stable),
+            natural_frequency_error_hz: known(floating.natural_frequency.error).filter(|_| stable),
+            trapped_mean_gap_um: plate.trapped_gap(load) * 1e6,
+            small_load_mean_gap_um: plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt() * 1e6,
+        }
+    }
 }
 
 /// What the solve cost.
@@ -175,6 +223,7 @@ impl Summary {
     /// command line, kept as they are.
     pub fn new(problem: &Problem, solution: &Solution, wall_s: f64, command: &[String]) -> Self {
         let mut numbers = Numbers::default();
+        let problem = &*settled(problem, &solution.outcome);
         let groups = Dimensionless::of(problem);
         let mut summary = Self {
             schema: SCHEMA,
@@ -256,6 +305,10 @@ impl Summary {
         self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
         self.max_pressure_kpa = numbers.take("max_pressure_kpa", result.max_pressure * 1e-3);
         self.fill_range(result.film_load_range_error, result.max_pressure_error, numbers);
+        if let Some((load, floating)) = plate.load.zip(result.floating) {
+            self.min_gap_error_nm = numbers.take("min_gap_error_nm", floating.mean_gap.error * 1e9);
+            self.floating = Some(FloatingObject::new(plate, load, &floating));
+        }
         let mut ratio = |name, load| numbers.take(name, PlateResult::ratio(load, plate));
         self.mean_load_ratio = ratio("mean_load_ratio", result.film_load);
         self.mean_load_ratio_error = ratio("mean_load_ratio_error", result.film_load_error);

@@ -5,6 +5,7 @@ pub mod compare;
 pub mod csv;
 mod estimates;
 pub mod exact;
+pub mod fall;
 pub mod fields;
 pub mod figure;
 pub mod figures;

@@ -344,7 +344,9 @@ const MOST_MAPS: usize = 12;
 
 /// What a sweep is about: α of a motor, the load ratio of a plate.
 fn primary(sweep: &Sweep) -> Quantity {
-    if sweep.quantities().contains(&Quantity::Alpha) { Quantity::Alpha } else { Quantity::LoadRatio }
+    let there = sweep.quantities();
+    let first = [Quantity::Alpha, Quantity::MeanGap].into_iter().find(|quantity| there.contains(quantity));
+    first.unwrap_or(Quantity::LoadRatio)
 }
 
 fn figure_axis(axis: &SweepAxis) -> Axis {

@@ -125,7 +125,7 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
         let points = tradeoff.points.iter().filter(move |point| point.run.candidate.family == family);
         points.filter_map(place).collect::<Vec<_>>()
     };
-    let label = format!("error of {}", if tradeoff.judged == Quantity::Alpha { "α" } else { "the film load" });
+    let label = format!("error of {}", tradeoff.of_what());
     // Room for points and names at the ends.
     let times = || tradeoff.points.iter().map(|point| point.median).filter(|time| time.is_finite());
     let room = [times().fold(f64::INFINITY, f64::min) / 1.5, times().fold(0.0, f64::max) * 3.0];

@@ -3,6 +3,7 @@
 //! All are for a plate with a gap that is uniform in space, H = h/h₀ = 1 + ε cos τ, in the dimensionless form
 //! σ ∂(PH)/∂τ = ∇·[(P H³ + 6 m H²) ∇P], σ = 12μωb²/(p_a h₀²), m = λ_a/h₀.
 
+use crate::numerics::bessel::{self, Bessel};
 use nalgebra::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -65,6 +66,31 @@ pub fn linear_rectangle(squeeze_number: f64, knudsen: f64, aspect: f64) -> (f64,
     (load.re, load.im)
 }
 
+/// The same for a disc, σ based on its radius: 2 I₁(κ)/(κ I₀(κ)) − 1.
+pub fn linear_disc(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
+    let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
+    let Bessel { i, .. } = bessel::scaled(kappa);
+    let load = i[1] / (kappa * i[0]) * 2.0 - 1.0;
+    (load.re, load.im)
+}
+
+/// The same for a ring whose inner radius is `hole` times the outer one, σ based on the difference of the radii.
+pub fn linear_ring(squeeze_number: f64, knudsen: f64, hole: f64) -> (f64, f64) {
+    // P₁ + 1 = a I₀(κr) + b K₀(κr), 1 at both radii, whose difference is 1. ∫ r I₀ = r I₁/κ, ∫ r K₀ = −r K₁/κ; I is taken times
+    // exp(−κ r_o), K times exp(κ r_i).
+    let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
+    let radii = [hole / (1.0 - hole), 1.0 / (1.0 - hole)];
+    let [inner, outer] = radii.map(|r| bessel::scaled(kappa * r));
+    let across = (-kappa).exp();
+    let (i, k) = ([inner.i[0] * across, outer.i[0]], [inner.k[0], outer.k[0] * across]);
+    let determinant = i[1] * k[0] - i[0] * k[1];
+    let (a, b) = ((k[0] - k[1]) / determinant, (i[1] - i[0]) / determinant);
+    let of_i = (outer.i[1] * radii[1] - inner.i[1] * across * radii[0]) / kappa;
+    let of_k = (inner.k[1] * radii[0] - outer.k[1] * across * radii[1]) / kappa;
+    let load = (a * of_i + b * of_k) * 2.0 / (radii[1] * radii[1] - radii[0] * radii[0]) - 1.0;
+    (load.re, load.im)
+}
+
 /// A series ends when what is left of it is below this share.
 const SERIES_TOLERANCE: f64 = 1e-10;
 /// Or here.
@@ -87,6 +113,15 @@ pub fn viscous_rectangle_force(
     mean_free_path: f64,
 ) -> f64 {
     width * rectangle_to_strip(width / length) * viscous_strip_force(viscosity, length, gap, rate, mean_free_path)
+}
+
+/// Force of an incompressible film under a ring of radii `inner` and `outer` \[m\], or under a disc (inner = 0; Reynolds 1886), \[N\]:
+/// −(3πμḣ/2h³) [r_o⁴ − r_i⁴ − (r_o² − r_i²)²/ln(r_o/r_i)]/(1 + 6 λ_a/h).
+pub fn viscous_ring_force(viscosity: f64, inner: f64, outer: f64, gap: f64, rate: f64, mean_free_path: f64) -> f64 {
+    let squares = (outer - inner) * (outer + inner);
+    let pumped = if inner > 0.0 { squares * squares / (outer / inner).ln() } else { 0.0 };
+    let shape = squares * (outer * outer + inner * inner) - pumped;
+    -1.5 * PI * viscosity * rate / gap.powi(3) * shape / (1.0 + 6.0 * mean_free_path / gap)
 }
 
 /// Incompressible load of a rectangle of length 1 and width `aspect`, for each unit of width, over that of a strip.
@@ -115,6 +150,29 @@ mod tests {
             let damping = -linear_rectangle(slow, 0.0, aspect).1;
             assert!((damping / (slow / 12.0 * rectangle_to_strip(aspect)) - 1.0).abs() < 1e-6, "{aspect}");
         }
+    }
+
+    #[test]
+    fn round_films_have_the_viscous_and_the_trapped_limit() {
+        let near = |(a, b): (f64, f64), within: f64| (a / b - 1.0).abs() < within;
+        for hole in [0.0, 0.05, 0.3, 0.9] {
+            let load = |sigma: f64| if hole == 0.0 { linear_disc(sigma, 0.0) } else { linear_ring(sigma, 0.0, hole) };
+            let across = 1.0 / (1.0 - hole);
+            // σ → 0: damping is that of the incompressible film, σ × force for 12 μ ω = 1, h = 1 over the area.
+            let area = PI * across * across * (1.0 - hole * hole);
+            let viscous = viscous_ring_force(1.0 / 12.0, hole * across, across, 1.0, 1.0, 0.0) / area;
+            assert!(near((load(1e-3).1, 1e-3 * viscous), 1e-6), "{hole}: {:?} {viscous}", load(1e-3));
+            // σ → ∞: a layer of 1/κ at the edges leaks, for each of them.
+            let edges = 2.0 * PI * across * (1.0 + hole) / area;
+            let far = load(1e10);
+            assert!(
+                near((1.0 + far.0, edges * 0.5f64.sqrt() * 1e-5), 1e-3) && near((-far.1, far.0 + 1.0), 1e-3),
+                "{hole}: {far:?}"
+            );
+        }
+        // A thin ring is a strip.
+        let (ring, strip) = (linear_ring(20.0, 0.1, 0.999), linear_strip(20.0, 0.1));
+        assert!((ring.0 - strip.0).abs() < 1e-6 && (ring.1 - strip.1).abs() < 1e-6, "{ring:?} {strip:?}");
     }
 
     #[test]

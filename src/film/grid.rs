@@ -1,6 +1,7 @@
 //! Nodes of the film on one tooth or plate: a tensor grid with nodes on the edges, graded towards ambient edges.
 
 use crate::numerics::{grading, legendre};
+use std::f64::consts::PI;
 
 /// What lies beyond the first node along an axis. Beyond the last there is always ambient gas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,13 +17,15 @@ pub enum Start {
 pub struct Axis {
     /// Node positions \[m\] from the middle, ascending; the last is an ambient edge.
     pub nodes: Vec<f64>,
-    /// Length each node stands for \[m\].
+    /// Length each node stands for \[m\]; of a radial axis, area \[m²\].
     pub lengths: Vec<f64>,
     /// What lies before the first node.
     pub start: Start,
     /// Slopes of a spectral axis at every node by the values at every node \[1/m\], `[node][value]`; empty where the nodes are
     /// those of finite volumes.
     slopes: Vec<f64>,
+    /// It runs along the radius of a round film, with all of the circumference to each node.
+    radial: bool,
 }
 
 impl Axis {
@@ -40,7 +43,36 @@ impl Axis {
             Start::Mirror => grading::one_sided(half, intervals, beta),
         };
         let lengths = grading::node_lengths(&nodes);
-        Self { nodes, lengths, start, slopes: Vec::new() }
+        Self { nodes, lengths, start, slopes: Vec::new(), radial: false }
+    }
+
+    /// The radius of a round film from `inner` to `outer` \[m\], with clustering β at its ambient edges; from 0, the axis, there is only
+    /// the outer one.
+    pub fn radial(inner: f64, outer: f64, intervals: usize, beta: f64) -> Self {
+        let (start, nodes) = if inner > 0.0 {
+            let (middle, half) = (0.5 * (outer + inner), 0.5 * (outer - inner));
+            let nodes = grading::two_sided(half, intervals, beta);
+            (Start::Ambient, nodes.into_iter().map(|node| middle + node).collect())
+        } else {
+            (Start::Mirror, grading::one_sided(outer, intervals, beta))
+        };
+        let face = |after: usize| 0.5 * (nodes[after] + nodes[after + 1]);
+        let ring = |i: usize| {
+            let from = if i > 0 { face(i - 1) } else { nodes[i] };
+            let to = if i + 1 < nodes.len() { face(i) } else { nodes[i] };
+            PI * (to - from) * (to + from)
+        };
+        Self { lengths: (0..nodes.len()).map(ring).collect(), nodes, start, slopes: Vec::new(), radial: true }
+    }
+
+    /// Width of the face after node `face`, in whatever width the lengths stand for: 1, or the circumference \[m\].
+    pub fn face(&self, face: usize) -> f64 {
+        if self.radial { PI * (self.nodes[face] + self.nodes[face + 1]) } else { 1.0 }
+    }
+
+    /// Whether it runs along a radius.
+    pub fn is_radial(&self) -> bool {
+        self.radial
     }
 
     /// An axis on which a field is one polynomial: `count` nodes of Gauss, Lobatto and Legendre over half-length `half` \[m\]
@@ -67,6 +99,7 @@ impl Axis {
                 .flat_map(|node| (first..all).map(move |value| (node, value)))
                 .map(|(n, v)| entry(n, v))
                 .collect(),
+            radial: false,
         }
     }
 
@@ -77,7 +110,7 @@ impl Axis {
 
     /// The single node of a film that does not flow along this axis, standing for all of its `length` \[m\].
     pub fn single(length: f64) -> Self {
-        Self { nodes: vec![0.0], lengths: vec![length], start: Start::Mirror, slopes: Vec::new() }
+        Self { nodes: vec![0.0], lengths: vec![length], start: Start::Mirror, slopes: Vec::new(), radial: false }
     }
 
     /// Number of nodes.
@@ -128,7 +161,7 @@ impl Axis {
 
     /// How many times the solved part makes the whole.
     pub fn copies(&self) -> f64 {
-        if self.start == Start::Mirror && self.len() > 1 { 2.0 } else { 1.0 }
+        if self.start == Start::Mirror && self.len() > 1 && !self.radial { 2.0 } else { 1.0 }
     }
 }
 

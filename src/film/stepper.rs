@@ -152,7 +152,7 @@ impl Face {
         let [before, behind] = [h[face], h[face + 1]];
         let choke = |own: f64, other: f64| (0.5 * (own - other) / own).max(0.0);
         Self {
-            coefficient: factor * (dt * mobility * before * behind / spacing),
+            coefficient: grid.x.face(face) * factor * (dt * mobility * before * behind / spacing),
             weights: [0.5 * before, 0.5 * behind],
             choke: [choke(before, behind), choke(behind, before)],
         }

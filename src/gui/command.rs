@@ -296,8 +296,11 @@ pub enum HoldCommand {
     To(f64),
     /// Moves it by this share of its mean gap.
     By(f64),
-    /// Lets it go back to its mean gap.
-    LetGo,
+    /// Lets it go: it falls, or floats on the vibration; without a load it goes back to its mean gap.
+    LetGo {
+        /// Whether the face below vibrates.
+        vibrates: bool,
+    },
     /// Puts the film to rest at the mean gap, and clears the charts.
     Reset,
     /// Slow motion: the leak time takes this many seconds.

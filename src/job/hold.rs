@@ -57,6 +57,15 @@ struct Target {
     /// Seconds for a second of the film.
     slowed: f64,
     reset: bool,
+    /// It is let go, and whether the face below it vibrates.
+    free: Option<bool>,
+}
+
+impl Target {
+    /// Held at the mean gap.
+    fn first(plate: &Plate, slowed: f64) -> Self {
+        Self { gap: plate.mean_gap, slowed, reset: false, free: None }
+    }
 }
 
 /// A plate, and how its film has been marched.
@@ -78,8 +87,11 @@ impl Follower {
 
     /// Whether neither the plate nor the pressure moves.
     fn rests(&self, target: &Target) -> bool {
-        let there = (target.gap - self.hold.gap()).abs() <= THERE * self.hold.gap();
-        !target.reset && there && self.hold.unrest() <= AT_REST
+        let still = match target.free {
+            Some(vibrates) => !vibrates && self.hold.is_still(),
+            None => (target.gap - self.hold.gap()).abs() <= THERE * self.hold.gap(),
+        };
+        !target.reset && still && self.hold.unrest() <= AT_REST
     }
 
     /// Marches the film on to the time `began`. Where that fails it is put to rest.
@@ -95,12 +107,20 @@ impl Follower {
         let toward = target.gap - hold.gap();
         let near = toward.abs() <= THERE * hold.gap();
         let gap = if near { target.gap } else { hold.gap() + toward * (1.0 - (-elapsed / HAND).exp()) };
-        let mut failure = None;
+        let (mut failure, mut mean) = (None, None);
         if target.reset {
             hold.reset();
         } else {
-            failure = match caught(|| hold.advance(gap, elapsed / target.slowed)) {
-                Ok(Ok(())) => None,
+            let time = elapsed / target.slowed;
+            let moved = caught(|| match target.free {
+                Some(vibrates) => hold.fall(time, vibrates).map(Some),
+                None => hold.advance(gap, time).map(|()| None),
+            });
+            failure = match moved {
+                Ok(Ok(read)) => {
+                    mean = read;
+                    None
+                }
                 Ok(Err(error)) => Some(error.to_string()),
                 Err(panic) => Some(format!("the film failed: {panic}")),
             };
@@ -109,7 +129,9 @@ impl Follower {
             }
         }
         self.number += 1;
-        self.snapshot(failure)
+        let snapshot = self.snapshot(failure);
+        // Of a plate that shakes, what a slow eye sees.
+        Snapshot { reading: mean.unwrap_or(snapshot.reading), ..snapshot }
     }
 
     fn snapshot(&self, failure: Option<String>) -> Snapshot {

@@ -11,7 +11,7 @@ use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
 use crate::platform::Instant;
-use crate::solution::Solution;
+use crate::solution::{Solution, settled};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::{HashMap, VecDeque};
@@ -217,7 +217,7 @@ fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Told<Progress, <Step as
             let run = SolvedScene {
                 number,
                 scene: scene.clone(),
-                problem: problem.clone(),
+                problem: settled(problem, &solution.outcome).into_owned(),
                 fidelity,
                 validity: outside(problem, Some(&solution)),
                 solution,

@@ -6,6 +6,7 @@ use crate::control::Cancel;
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
 use crate::platform::Instant;
+use crate::solution::settled;
 use std::collections::HashMap;
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -163,7 +164,7 @@ fn refine(
                 tell(Event::Solved(Arc::new(SolvedScene {
                     number,
                     scene: scene.clone(),
-                    problem: problem.clone(),
+                    problem: settled(problem, &solution.outcome).into_owned(),
                     fidelity,
                     validity: outside(problem, Some(&solution)),
                     solution,

@@ -637,6 +637,7 @@ impl Level {
             }
         }
         LineLoads {
+            radial: false,
             frames: self.steps,
             length: motor.wavelength(),
             teeth: self.teeth,

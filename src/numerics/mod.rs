@@ -1,6 +1,7 @@
 //! Numerical building blocks that know no physics.
 
 pub mod anderson;
+pub mod bessel;
 pub mod grading;
 pub mod legendre;
 pub mod rows;

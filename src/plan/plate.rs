@@ -4,7 +4,7 @@ use super::grid::{Grid, graded, nested, round_up, spectral_clustering};
 use super::{Choice, Decision, LEAK_EFFECT, Plan, ROUND_LIMIT, SHARE, THINNEST_LAYER, custom, name};
 use crate::fidelity::{Fidelity, GRIDS, Spec};
 use crate::film::slip::{Mobility, SlipLaw};
-use crate::problem::{Flow, Numerics, Plate};
+use crate::problem::{Flow, Numerics, Outline, Plate};
 use crate::rotor::Compliances;
 use std::f64::consts::{PI, TAU};
 
@@ -28,7 +28,8 @@ impl Plan {
     /// The plan of a plate to a specification.
     pub fn plate_to(plate: &Plate, fidelity: Fidelity, spec: &Spec, numerics: &Numerics) -> Self {
         let layer = plate_layer(plate);
-        let sides = [Some(plate.length), plate.width];
+        // A disc has twice the edge of a strip as long as its diameter, for its area.
+        let sides = [Some(plate.section()), plate.width.or((plate.outline() == Outline::Disc).then_some(plate.length))];
         let leak = sides.into_iter().flatten().map(|side| LEAK_EFFECT * layer / side).sum::<f64>();
         let trapped = leak < SHARE * spec.target_error || plate.amplitude == 0.0;
         let left_out = if trapped && plate.amplitude > 0.0 { leak } else { 0.0 };
@@ -43,7 +44,7 @@ impl Plan {
         };
         let [asked_along, asked_across] = asked.map(|nodes| nodes.map(|n| n / 2));
         let edge = spec.plate_edge_fraction * plate.width.map_or(layer, reach);
-        let (along, clustering_along) = graded(spec.plate, asked_along, 0.5 * plate.length, edge);
+        let (along, clustering_along) = graded(spec.plate, asked_along, 0.5 * plate.section(), edge);
         let layer = reach(plate.length);
         let edge = spec.plate_edge_fraction * layer;
         let spectral = plate.width.is_some_and(|width| !thin(width, plate.length));

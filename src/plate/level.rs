@@ -34,9 +34,15 @@ pub fn unit(mean: f64, swing: f64) -> f64 {
     mean.abs().max(LEAST_SHARE_OF_SWING * swing)
 }
 
-/// Nodes of a quarter of a plate, or of half a strip.
+/// Nodes of a quarter of a plate, of half a strip, or of the radius of a round plate.
 pub(crate) fn film_grid(plate: &Plate, plan: &Plan, grid: &Grid) -> FilmGrid {
-    let x = Axis::clustered(0.5 * plate.length, Start::Mirror, grid.along, plan.clustering_along);
+    let x = match plate.hole {
+        Some(hole) => {
+            let intervals = if hole > 0.0 { 2 * grid.along } else { grid.along };
+            Axis::radial(hole, plate.radius(), intervals, plan.clustering_along)
+        }
+        None => Axis::clustered(0.5 * plate.length, Start::Mirror, grid.along, plan.clustering_along),
+    };
     let y = match plate.width {
         Some(width) if plan.spectral => Axis::spectral(0.5 * width, Start::Mirror, grid.across, plan.clustering_across),
         Some(width) => Axis::clustered(0.5 * width, Start::Mirror, grid.across, plan.clustering_across),
@@ -114,7 +120,7 @@ impl Level {
         (first + 1..=steps).try_for_each(|step| self.advance(step, step % steps, stats))
     }
 
-    /// Starts from the state on another grid, interpolated linearly between its nodes.
+    /// Starts from the state on another grid, or of another gap, interpolated linearly between its nodes.
     pub(super) fn start_from(&mut self, coarse: &Self) {
         let (to, from) = (self.cycle.grid(), coarse.cycle.grid());
         let between = |axis: &Axis, other: &Axis| -> Vec<Between> {
@@ -123,10 +129,12 @@ impl Level {
             axis.unknown().map(|i| Between::at(place(&axis.nodes[i]), &other.nodes)).collect()
         };
         let (along, across) = (between(&to.x, &from.x), between(&to.y, &from.y));
-        let (rows, columns) = (from.x.unknown().len(), from.y.unknown().len());
-        // On the edges Z is the gap.
+        let (rows, columns) = (from.x.unknown(), from.y.unknown().len());
+        // On the edges Z is the gap, of which it is a multiple.
+        let ratio = self.gap[0] / coarse.gap[0];
         let at = |field: &[f64], i: usize, j: usize| {
-            if i < rows && j < columns { field[i * columns + j] } else { coarse.gap[0] }
+            let inside = rows.contains(&i) && j < columns;
+            ratio * if inside { field[(i - rows.start) * columns + j] } else { coarse.gap[0] }
         };
         let mix = |field: &[f64], x: &Between, y: &Between| {
             let row = |i: usize| y.mix(at(field, i, y.low), at(field, i, y.high()));
@@ -326,6 +334,7 @@ impl Level {
             pitch: plate.length,
             x: grid.x.nodes.clone(),
             node_length: grid.x.lengths.iter().map(|length| grid.x.copies() * length).collect(),
+            radial: grid.x.is_radial(),
             touching_from: 0.0,
             contact: vec![0.0; frames * nx],
             film,

@@ -1,5 +1,6 @@
 //! The plate: the film alone, under a gap that is given, uniform in space and harmonic in time.
 
+pub mod floating;
 mod frames;
 mod level;
 mod result;
@@ -19,6 +20,7 @@ use crate::recording::Recording;
 use crate::solution::{PlateResult, Stats, Status};
 use level::Level;
 use result::extremes;
+use std::borrow::Cow;
 
 /// Rounding of a mean load over the force of the gas.
 const ROUNDING: f64 = 1e-15;
@@ -48,8 +50,7 @@ pub fn periodic(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Periodic, Interrupted> {
-    let turned = plate.turned();
-    let plate = if plan.turned { &turned } else { plate };
+    let plate = &turned(plate, plan);
     let mut stats = Stats::default();
     let found = climb(&mut Search { plate, plan, observer, cancel, stats: &mut stats }, plan, None, cancel)?;
     Ok(finish(plate, plan, &found, stats))
@@ -60,13 +61,17 @@ pub fn periodic(
 /// # Errors
 /// As [`periodic`].
 pub fn periodic_near(plate: &Plate, plan: &Plan, cancel: &Cancel) -> Result<(Nested<Periodic>, Plan), Interrupted> {
-    let turned = plate.turned();
-    let plate = if plan.turned { &turned } else { plate };
+    let plate = &turned(plate, plan);
     let mut stats = Stats::default();
     let mut found =
         climb(&mut Search { plate, plan, observer: &mut (), cancel, stats: &mut stats }, plan, None, cancel)?;
     let pinned = found.pinned(plan);
     Ok((found.nested(|found| finish(plate, &pinned, found, stats)), pinned))
+}
+
+/// The plate as the plan solves it.
+fn turned<'a>(plate: &'a Plate, plan: &Plan) -> Cow<'a, Plate> {
+    if plan.turned { Cow::Owned(plate.turned()) } else { Cow::Borrowed(plate) }
 }
 
 /// The numbers, their error and the fields of a plate, turned as the plan says, from what each grid gave, coarse to fine.

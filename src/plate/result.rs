@@ -24,6 +24,7 @@ impl PlateResult {
             max_pressure: highest,
             film_load_range_error: [f64::min, f64::max].map(load_error),
             max_pressure_error: error(LineLoads::max_pressures, pressures, errors, f64::max),
+            floating: None,
         }
     }
 

@@ -200,12 +200,24 @@ struct Missing<'a> {
     film: Vec<f64>,
     contact: Vec<f64>,
     thickness: Vec<f64>,
+    /// Of the fine node behind each coarse one, the share that belongs to its cell.
+    shares: Vec<f64>,
 }
 
 impl<'a> Missing<'a> {
     fn new(fine: &'a LineLoads, coarse: &'a LineLoads) -> Self {
         let zero = vec![0.0; coarse.x.len()];
-        Self { fine, coarse, film: zero.clone(), contact: zero.clone(), thickness: zero }
+        let mut shares = vec![0.5; coarse.x.len()];
+        if fine.radial {
+            // What makes each cell the coarse one: the circumference grows along it.
+            let mut before = 0.0;
+            for (i, share) in shares.iter_mut().enumerate() {
+                let behind = fine.node_length.get(2 * i + 1).copied().unwrap_or(f64::INFINITY);
+                *share = (coarse.node_length[i] - before - fine.node_length[2 * i]) / behind;
+                before = (1.0 - *share) * behind;
+            }
+        }
+        Self { fine, coarse, film: zero.clone(), contact: zero.clone(), thickness: zero, shares }
     }
 
     /// Of a fine frame.
@@ -231,7 +243,7 @@ impl<'a> Missing<'a> {
 
     /// Length of the fine cells that make a coarse one \[m\].
     fn cell(&self, i: usize) -> f64 {
-        cell(&self.fine.node_length, |k| self.fine.node_length[k], i)
+        cell(&self.shares, |k| self.fine.node_length[k], i)
     }
 
     fn add(&mut self, tooth: usize, step: usize, share: f64) {
@@ -241,8 +253,9 @@ impl<'a> Missing<'a> {
         let third = share / 3.0;
         for i in 0..coarse.x.len() {
             let length = self.cell(i);
+            let shares = &self.shares;
             let missing = |all: &[f64], few: &[f64]| {
-                let load = cell(&fine.node_length, |k| all[from + k] * fine.node_length[k], i);
+                let load = cell(shares, |k| all[from + k] * fine.node_length[k], i);
                 third * (load - few[to + i] * coarse.node_length[i]) / length
             };
             self.film[i] += missing(&fine.film, &coarse.film);
@@ -252,9 +265,9 @@ impl<'a> Missing<'a> {
     }
 }
 
-/// Sum of the fine cells that make coarse cell `i`.
-fn cell(lengths: &[f64], value: impl Fn(usize) -> f64, i: usize) -> f64 {
-    let before = if i > 0 { 0.5 * value(2 * i - 1) } else { 0.0 };
-    let behind = if 2 * i + 1 < lengths.len() { 0.5 * value(2 * i + 1) } else { 0.0 };
+/// Sum of the fine cells that make coarse cell `i`, by the `shares` of those between.
+fn cell(shares: &[f64], value: impl Fn(usize) -> f64, i: usize) -> f64 {
+    let before = if i > 0 { (1.0 - shares[i - 1]) * value(2 * i - 1) } else { 0.0 };
+    let behind = if i + 1 < shares.len() { shares[i] * value(2 * i + 1) } else { 0.0 };
     before + value(2 * i) + behind
 }

@@ -98,8 +98,10 @@ pub struct LineLoads {
     pub pitch: f64,
     /// Node positions from the tooth's middle \[m\], ascending, `nodes`.
     pub x: Vec<f64>,
-    /// Length of tooth that each node stands for \[m\], `nodes`: forces are line load × length.
+    /// Length of tooth that each node stands for \[m\], `nodes`: forces are line load × length. Of a round plate, area \[m²\].
     pub node_length: Vec<f64>,
+    /// Nodes are along the radius of a round plate, and its film is gauge pressure \[Pa\], as that of a strip.
+    pub radial: bool,
     /// Contact line load \[N/m\] above which a node counts as touching: 0 where contact and gap exclude each other.
     pub touching_from: f64,
     /// Contact line load \[N/m\], `[tooth][frame][node]` over the stored teeth.

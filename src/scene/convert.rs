@@ -7,7 +7,7 @@ use super::section::{PART, SUPPORT};
 use super::value::Value;
 use super::values::{Kind, Scene};
 use crate::gas::species::IdealGas;
-use crate::problem::{Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
+use crate::problem::{GRAVITY, Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
 use crate::rotor::ring::{MATERIALS, Part, RingError, Section, Support};
 use crate::surface::flow::Roughness;
 use crate::surface::{Asperities, Summits, Surface};
@@ -87,14 +87,28 @@ impl Problem {
                 gas,
                 shear: scene.flag("film.shear")?,
             }),
-            Kind::Plate => Scenario::Plate(Plate {
-                length: si("plate.length_mm")?,
-                width: optional("plate.width_mm")?,
-                mean_gap: si("plate.mean_gap_um")?,
-                amplitude: si("plate.amplitude_um")?,
-                frequency: si("plate.frequency_khz")?,
-                gas,
-            }),
+            Kind::Plate => {
+                let weight = optional("plate.mass_g")?.map(|mass| mass * GRAVITY);
+                let load = weight.or(optional("plate.load_n")?);
+                let (length, width, hole) = match scene.text("plate.shape")? {
+                    "disc" => (2.0 * si("plate.radius_mm")?, None, Some(0.0)),
+                    "ring" => (2.0 * si("plate.radius_mm")?, None, Some(si("plate.inner_radius_mm")?)),
+                    _ => (si("plate.length_mm")?, optional("plate.width_mm")?, None),
+                };
+                let plate = Plate {
+                    length,
+                    width,
+                    hole,
+                    mean_gap: si("plate.mean_gap_um")?,
+                    load,
+                    min_spacing: si("film.min_spacing_nm")?,
+                    amplitude: si("plate.amplitude_um")?,
+                    frequency: si("plate.frequency_khz")?,
+                    gas,
+                };
+                let mean_gap = load.map_or(plate.mean_gap, |load| plate.trapped_gap(load));
+                Scenario::Plate(Plate { mean_gap, ..plate })
+            }
         };
         Ok(Self { name: scene.name.clone(), scenario, numerics: scene.numerics() })
     }

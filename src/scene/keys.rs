@@ -18,6 +18,9 @@ const BENDING: &[Model] = &[("rotor.model", &["beam", "section"])];
 const TABLE: &[Model] = &[("rotor.model", &["table"])];
 const GREENS: &[Model] = &[("rotor.model", &["green"])];
 const RING: &[Model] = &[("rotor.model", &["ring"])];
+const RECTANGLE: &[Model] = &[("plate.shape", &["rectangle"])];
+const ROUND: &[Model] = &[("plate.shape", &["disc", "ring"])];
+const RING_PLATE: &[Model] = &[("plate.shape", &["ring"])];
 const BOLTZMANN: &[Model] = &[("film.slip", &["fukui-kaneko"])];
 const CUSTOM: &[Model] = &[("film.gas", &["custom"])];
 const NAMED: &[Model] = &[("film.gas", &["air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"])];
@@ -85,16 +88,26 @@ pub static PARAMETERS: &[Parameter] = &[
     other("rotor.support", Motor, Records { columns: &SUPPORT, fewest: 0, default: SUPPORTS },
         "Boxes in which the ring is held").when(RING),
 
-    number("plate.length_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0, "Length of the plate along x"),
+    choice("plate.shape", Plate, &["rectangle", "disc", "ring"], "rectangle", "Outline of the plate"),
+    number("plate.length_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0, "Length of the plate along x").when(RECTANGLE),
     number("plate.width_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0,
-        "Width of the plate along y").absent("infinitely wide strip, forces per metre of width"),
+        "Width of the plate along y").absent("infinitely wide strip, forces per metre of width").when(RECTANGLE),
+    number("plate.radius_mm", "mm", Plate, (0.001, 500.0), (0.1, 50.0), Log, 10.0, "Radius of the plate").when(ROUND),
+    number("plate.inner_radius_mm", "mm", Plate, (0.0005, 499.0), (0.05, 45.0), Log, 5.0,
+        "Radius of the hole, in which the gas is at ambient pressure").when(RING_PLATE),
     number("plate.mean_gap_um", "µm", Plate, (0.01, 1000.0), (0.1, 100.0), Log, 1.0, "Mean gap under the plate"),
+    number("plate.load_n", "N", Plate, (1e-6, 1e6), (0.01, 100.0), Log, 1.0,
+        "Load on a plate that floats; of a strip, on a metre of its width")
+        .absent("the mean gap is given").instead_of("plate.mean_gap_um"),
+    number("plate.mass_g", "g", Plate, (1e-4, 1e8), (1.0, 10e3), Log, 100.0,
+        "Mass of a plate that floats under its weight; of a strip, of a metre of its width")
+        .absent("the mean gap is given").instead_of("plate.mean_gap_um"),
     number("plate.amplitude_um", "µm", Plate, (0.0, 1000.0), (0.0, 10.0), Linear, 0.5,
-        "Amplitude of the vibration; smaller than the mean gap"),
+        "Amplitude of the vibration; smaller than a mean gap that is given"),
     number("plate.frequency_khz", "kHz", Plate, (0.001, 10000.0), (0.01, 1000.0), Log, 30.0, "Frequency of the vibration"),
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
-        "Spacing that roughness leaves where the faces touch; unused by a plate").when(HARD),
+        "Spacing that roughness leaves where the faces touch; unused by a plate whose gap is given").when(HARD),
     choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
         "The gas, whose viscosity and mean free path follow; of a custom one they are given"),
     number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
@@ -160,7 +173,8 @@ impl Parameter {
     /// comes after that, and a table of harmonics needs the wavelength. Numbers that are given take the place of those from a file.
     pub(super) fn rank(&self) -> u8 {
         match self.kind {
-            _ if self.selects() => 0,
+            // A plate under a load heeds other keys.
+            _ if self.selects() || self.instead_of == Some("plate.mean_gap_um") => 0,
             ParameterKind::CsvPath { fills: [_, _, ..] } => 1,
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 4,
             // After the array that it is a value of.

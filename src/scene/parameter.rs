@@ -158,7 +158,7 @@ pub struct Parameter {
 
 /// The units of the field: how a key ends, what people are shown, and how many make one SI unit (`rpm`: one turn a
 /// second). The longer endings come before those that they end in.
-const UNITS: [(&str, &str, Per); 15] = [
+const UNITS: [(&str, &str, Per); 16] = [
     ("_per_mm2", "1/mm²", Per::Times(1e6)),
     ("_m2_per_n", "m²/N", Per::One),
     ("_um_per_n", "µm/N", Per::Over(1e6)),
@@ -173,6 +173,7 @@ const UNITS: [(&str, &str, Per); 15] = [
     ("_nm", "nm", Per::Over(1e9)),
     ("_m", "m", Per::One),
     ("_n", "N", Per::One),
+    ("_g", "g", Per::Over(1e3)),
     ("_c", "°C", Per::Above(273.15)),
 ];
 

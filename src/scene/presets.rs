@@ -57,6 +57,8 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     "plate-crossover",
     "plate-trapped",
     "plate-mems",
+    "floating-disc",
+    "floating-finger-pad",
 ];
 
 /// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.

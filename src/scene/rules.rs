@@ -9,6 +9,9 @@ use super::values::{Kind, Scene};
 /// Narrowest tooth, as a share of the pitch; the widest is the pitch itself.
 const NARROWEST_TOOTH: f64 = 0.01;
 
+/// Widest hole of a plate, as a share of its radius.
+const WIDEST_HOLE: f64 = 0.99;
+
 /// A rule between keys.
 struct Rule {
     /// What the rule is about. It holds where the first of them matters.
@@ -29,6 +32,7 @@ static RULES: &[Rule] = &[
         keys: &["stator.tooth_width_mm", "motor.contact_radius_mm", "motor.waves", "stator.teeth_per_wave"],
         check: tooth_fits_the_pitch,
     },
+    Rule { keys: &["plate.inner_radius_mm", "plate.radius_mm"], check: hole_is_inside },
     Rule { keys: &["plate.amplitude_um", "plate.mean_gap_um"], check: plate_stays_clear },
 ];
 
@@ -60,7 +64,8 @@ impl Scene {
         let own = parameter.range()?;
         let narrower = match key {
             "stator.tooth_width_mm" => self.tooth_widths_mm().ok()?,
-            "plate.amplitude_um" => Range::new(0.0, self.number("plate.mean_gap_um").ok()?),
+            "plate.inner_radius_mm" => Range::new(0.0, WIDEST_HOLE * self.number("plate.radius_mm").ok()?),
+            "plate.amplitude_um" if !self.floats() => Range::new(0.0, self.number("plate.mean_gap_um").ok()?),
             "motor.load_n" => self.as_many("motor.load_per_wave_n", self.number("motor.waves").ok()?)?,
             "motor.rotor_speed_mm_per_s" => {
                 self.as_many("motor.rotor_speed_rpm", self.circumference_mm().ok()? / 60.0)?
@@ -132,7 +137,20 @@ fn tooth_fits_the_pitch(scene: &Scene) -> Result<(), What> {
     })
 }
 
+fn hole_is_inside(scene: &Scene) -> Result<(), What> {
+    let (hole, radius) = (scene.number("plate.inner_radius_mm")?, scene.number("plate.radius_mm")?);
+    unless(hole > WIDEST_HOLE * radius, "plate.inner_radius_mm", || {
+        let [hole, radius] = [hole, radius].map(show_number);
+        format!(
+            "plate.inner_radius_mm = {hole} is out of range: allowed up to {WIDEST_HOLE} of plate.radius_mm = {radius} mm"
+        )
+    })
+}
+
 fn plate_stays_clear(scene: &Scene) -> Result<(), What> {
+    if scene.floats() {
+        return Ok(());
+    }
     let (amplitude, gap) = (scene.number("plate.amplitude_um")?, scene.number("plate.mean_gap_um")?);
     unless(amplitude >= gap, "plate.amplitude_um", || {
         let [amplitude, gap] = [amplitude, gap].map(show_number);

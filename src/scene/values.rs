@@ -101,10 +101,16 @@ impl Scene {
     }
 
     /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics
-    /// that only a motor heeds; to set or to vary one is refused.
+    /// that only a motor heeds; to set or to vary one is refused. A plate that floats comes to rest on its roughness.
     pub fn heeds(&self, key: &str) -> bool {
         let idle = |parameter: &Parameter| parameter.belongs == Belongs::IdleOnPlate;
-        self.kind == Kind::Motor || !Parameter::find(key).is_some_and(idle)
+        let rests = key == "film.min_spacing_nm" && self.floats();
+        self.kind == Kind::Motor || rests || !Parameter::find(key).is_some_and(idle)
+    }
+
+    /// Whether a plate has a load on it in place of a gap.
+    pub fn floats(&self) -> bool {
+        ["plate.load_n", "plate.mass_g"].iter().any(|key| self.is_set(key))
     }
 
     /// Whether `other` is the same motor or plate: equal but for name, description and numerics.

@@ -7,13 +7,14 @@
 
 use super::{Method, Record, Settings, SolveError, motor_plan, of_motor, of_plate, perform, plate_plan};
 use crate::control::Cancel;
+use crate::estimate::Estimate;
 use crate::ladder::Nested;
 use crate::memory;
 use crate::motor::{self, Warm};
 use crate::plan::Plan;
 use crate::plate;
-use crate::problem::{Motor, Problem, RotorCompliance, Scenario};
-use crate::solution::{Outcome, Solution, Status};
+use crate::problem::{Motor, Plate, Problem, RotorCompliance, Scenario};
+use crate::solution::{Floating, Outcome, PlateResult, Solution, Status};
 
 /// What a cycle has to repeat to, relative: the change of the trapped gas, and of the load.
 const TOLERANCE: f64 = 1e-6;
@@ -28,7 +29,57 @@ pub struct Centre {
     pub problem: Problem,
     /// Its solution.
     pub solved: Nested<Solution>,
+    /// Of a plate under a load.
+    floating: Option<Afloat>,
 }
+
+/// A plate that floats: where, and how stiffly. Near it the gap follows by Newton's method with this stiffness.
+#[derive(Clone, Copy, Debug)]
+struct Afloat {
+    gap: f64,
+    stiffness: Estimate,
+}
+
+impl Afloat {
+    fn of(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<Option<Self>, SolveError> {
+        if !matches!(problem.scenario, Scenario::Plate(Plate { load: Some(_), .. })) {
+            return Ok(None);
+        }
+        Ok(match super::solve(problem, settings, &mut (), cancel)?.outcome {
+            Outcome::Plate(PlateResult { floating: Some(floating), .. }) => {
+                Some(Self { gap: floating.mean_gap.value, stiffness: floating.stiffness })
+            }
+            _ => None,
+        })
+    }
+
+    /// The plate at this gap, if one is given.
+    fn at(plate: &Plate, gap: Option<f64>) -> Plate {
+        Plate { mean_gap: gap.unwrap_or(plate.mean_gap), ..plate.clone() }
+    }
+
+    /// The gap \[m\] at which a film that has this `carried` load \[N or N/m\] at `gap` carries that of `plate`.
+    fn next(&self, plate: &Plate, gap: f64, carried: f64) -> f64 {
+        gap + (carried - plate.load.unwrap_or(carried)) / self.stiffness.value
+    }
+}
+
+/// The solution of a plate, with the gap at which it floats.
+fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: &Plan, cancel: &Cancel) -> Solution {
+    let mut solution = of_plate(found, plan, cancel);
+    if let (Some(afloat), Outcome::Plate(result)) = (floating, &mut solution.outcome) {
+        let stiffness = afloat.stiffness;
+        let value = afloat.next(plate, plate.mean_gap, result.film_load);
+        let mean_gap = Estimate { value, error: result.film_load_error / stiffness.value.abs() };
+        // Of the stiffness itself there is no difference.
+        let natural_frequency = Estimate { value: f64::NAN, error: f64::NAN };
+        result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+    }
+    solution
+}
+
+/// Solves at a gap near that of the centre until the film carries the load, if there is one.
+const NEWTON: usize = 2;
 
 impl Centre {
     /// Solves `problem` as exactly as `settings` ask for, of which method and record have no effect; `last` is one to start from.
@@ -63,9 +114,11 @@ impl Centre {
                     solution
                 };
                 let solved = found.map(of);
-                Ok(Self { plan, warm, problem: problem.clone(), solved })
+                Ok(Self { plan, warm, problem: problem.clone(), solved, floating: None })
             }
             Scenario::Plate(plate) => {
+                let floating = Afloat::of(problem, &settings, cancel)?;
+                let plate = &Afloat::at(plate, floating.as_ref().map(|afloat| afloat.gap));
                 let plan = plate_plan(plate, problem, &settings, &spec);
                 let _taken = memory::take(memory::plate(plate, &plan), cancel)?;
                 let (mut found, mut plan) = plate::periodic_near(plate, &plan, cancel).map_err(SolveError::Plate)?;
@@ -76,8 +129,9 @@ impl Centre {
                         (found, plan) = (again, exact);
                     }
                 }
-                let solved = found.map(|found| of_plate(found, &plan, cancel));
-                Ok(Self { plan, warm: cold, problem: problem.clone(), solved })
+                let of = |found| told(found, floating.as_ref(), plate, &plan, cancel);
+                let solved = found.map(of);
+                Ok(Self { plan, warm: cold, problem: problem.clone(), solved, floating })
             }
         }
     }
@@ -113,10 +167,22 @@ impl Centre {
                 Ok(near.then(|| found.map(|found| performed(problem, of_motor(found, motor, &plan, cancel)))))
             }
             Scenario::Plate(plate) => {
-                let _taken = memory::take(memory::plate(plate, &self.plan), cancel)?;
-                let (found, used) = plate::periodic_near(plate, &self.plan, cancel).map_err(SolveError::Plate)?;
-                let near = settled(found.fine.status) && alike(&self.plan, &used);
-                Ok(near.then(|| found.map(|found| of_plate(found, &self.plan, cancel))))
+                let mut plate = Afloat::at(plate, self.floating.map(|afloat| afloat.gap));
+                let _taken = memory::take(memory::plate(&plate, &self.plan), cancel)?;
+                let mut solves = 1;
+                loop {
+                    let (found, used) = plate::periodic_near(&plate, &self.plan, cancel).map_err(SolveError::Plate)?;
+                    if !(settled(found.fine.status) && alike(&self.plan, &used)) {
+                        return Ok(None);
+                    }
+                    if let (Some(afloat), true) = (&self.floating, solves < NEWTON) {
+                        solves += 1;
+                        plate.mean_gap = afloat.next(&plate, plate.mean_gap, found.fine.result.film_load);
+                        continue;
+                    }
+                    let of = |found| told(found, self.floating.as_ref(), &plate, &self.plan, cancel);
+                    return Ok(Some(found.map(of)));
+                }
             }
         }
     }

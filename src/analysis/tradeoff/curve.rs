@@ -41,15 +41,19 @@ pub struct Tradeoff {
     pub points: Vec<Point>,
     /// Which of them the others are judged by: the one that states the least error.
     pub reference: Option<usize>,
-    /// The number that is judged: α, or a plate's film load.
+    /// The number that is judged: α, a plate's film load, or the mean gap of one that floats.
     pub judged: Quantity,
 }
 
 impl Tradeoff {
     /// The curve of these runs, finished or not.
     pub fn of(runs: &[Run]) -> Self {
-        let plate = runs.iter().any(|run| run.numbers.get(Quantity::LoadRatio).is_some());
-        let judged = if plate { Quantity::FilmLoad } else { Quantity::Alpha };
+        let known = |quantity| runs.iter().any(|run| run.numbers.get(quantity).is_some());
+        let judged = match () {
+            () if known(Quantity::MeanGap) => Quantity::MeanGap,
+            () if known(Quantity::LoadRatio) => Quantity::FilmLoad,
+            () => Quantity::Alpha,
+        };
         let value = |run: &Run| (run.status == RunStatus::Converged).then(|| run.numbers.get(judged)).flatten();
         let stated = |run: &Run| run.numbers.get(judged.error()?);
         let reference = runs
@@ -88,6 +92,15 @@ impl Tradeoff {
             point.best = best;
         }
         Self { points, reference: reference.map(|(i, _)| i), judged }
+    }
+
+    /// What errors are those of, in a word or two.
+    pub fn of_what(&self) -> &'static str {
+        match self.judged {
+            Quantity::Alpha => "α",
+            Quantity::MeanGap => "the mean gap",
+            _ => "the film load",
+        }
     }
 
     /// The cheapest setting that meets an accuracy, or the most accurate that keeps a budget; `None` if none does.

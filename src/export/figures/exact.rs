@@ -3,7 +3,7 @@
 use super::plate::force;
 use super::series::{over_cycle, rest, span, with_margin};
 use super::unit::prefixed;
-use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
+use crate::analysis::exact::{Comparison, Harmonic, crossover, linear};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Legend, Line, Mark, Marker, Panel, Points, Shape, Style};
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -29,11 +29,11 @@ pub fn exact(plate: &Plate, found: &Comparison, recording: &Recording) -> Figure
 
 fn coefficients(plate: &Plate, found: &Comparison) -> Panel {
     let present = found.effective_squeeze_number;
-    let crossover = 10.0 * (1.0 + aspect(plate).map_or(0.0, |a| 1.0 / (a * a)));
+    let crossover = crossover(plate.outline());
     let (from, to) = ((crossover / 300.0).min(present / 4.0), (crossover * 300.0).max(present * 4.0));
     let at = |i: usize| {
         let sigma = from * (to / from).powf(i as f64 / (SAMPLES - 1) as f64);
-        let Harmonic { spring, damping } = linear(sigma, aspect(plate));
+        let Harmonic { spring, damping } = linear(sigma, plate.outline());
         ([sigma, spring], [sigma, damping])
     };
     let (spring, damping): (Vec<_>, Vec<_>) = (0..SAMPLES).map(at).unzip();

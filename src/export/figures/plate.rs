@@ -42,7 +42,7 @@ pub(super) fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
 
 /// `N`, or of a strip `N/m`.
 pub(super) fn force(plate: &Plate) -> &'static str {
-    if plate.width.is_some() { "N" } else { "N/m" }
+    if plate.is_strip() { "N/m" } else { "N" }
 }
 
 /// Load and gap over the cycle.
@@ -141,12 +141,13 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
     let (ny, frames) = (recording.map_y.len(), recording.frames);
     let millimetres = |nodes: &[(f64, usize)]| nodes.iter().map(|(node, _)| node * 1e3).collect::<Vec<_>>();
     let strip = plate.width.is_none() || ny < 2;
+    let along = if recording.radial { "diameter" } else { "strip" };
     let (title, y_axis, grid) = if strip {
         let columns: Vec<Vec<f64>> = (0..=frames).map(|m| middle_line(recording, m % frames.max(1))).collect();
         let at = |i: usize, m: usize| columns[m].get(i).map_or(f64::NAN, |p| p * scale);
         let values = x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect();
         let y = (0..=frames).map(|m| phase(recording, m)).collect();
-        ("pressure along the strip".to_owned(), Axis::new("t/T", ""), Grid { x: millimetres(&x), y, values })
+        (format!("pressure along the {along}"), Axis::new("t/T", ""), Grid { x: millimetres(&x), y, values })
     } else {
         let most = recording.max_pressure.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(m, _)| m);
         let y = mirrored(&recording.map_y, recording.half_width);
@@ -162,7 +163,7 @@ pub fn map(plate: &Plate, recording: &Recording) -> Figure {
     let mut figure = Figure::new(title).panel(panel);
     figure.width = Width::Millimetres(110.0);
     figure.caption = if strip {
-        "Absolute pressure of the film along the strip and over one cycle.".to_owned()
+        format!("Absolute pressure of the film along the {along} and over one cycle.")
     } else {
         "Absolute pressure of the film over the plate, at the instant at which it is greatest.".to_owned()
     };

@@ -1,10 +1,10 @@
 //! A solved plate beside what is known exactly: the curves that its tab draws, computed once for a run.
 
-use crate::analysis::exact::{Comparison, Harmonic, aspect, linear};
+use crate::analysis::exact::{Comparison, Harmonic, crossover, linear};
 use crate::estimate::Estimate;
 use crate::export::json::force_unit;
 use crate::job::SolvedScene;
-use crate::problem::Plate;
+use crate::problem::{Outline, Plate};
 use crate::solution::Outcome;
 
 /// Points of a curve over the squeeze number.
@@ -42,7 +42,7 @@ impl ExactCurves {
             Outcome::Motor(_) => Estimate::default(),
         };
         let comparison = Comparison::of(plate, film_load, recording);
-        let window = window(comparison.effective_squeeze_number, aspect(plate));
+        let window = window(comparison.effective_squeeze_number, plate.outline());
         let frames = recording.frames.max(1);
         let greatest = recording.film_load.iter().fold(0.0f64, |most, load| most.max(load.abs()));
         let (prefix, size) = if greatest < 0.5 { ("m", 1e-3) } else { ("", 1.0) };
@@ -77,17 +77,17 @@ impl ExactCurves {
 }
 
 /// Decades of σ/Q that are shown: around the crossover of spring and damping, and the present.
-fn window(present: f64, aspect: Option<f64>) -> [f64; 2] {
-    let crossover = (10.0 * (1.0 + aspect.map_or(0.0, |a| 1.0 / (a * a)))).log10();
+fn window(present: f64, outline: Outline) -> [f64; 2] {
+    let crossover = crossover(outline).log10();
     let present = if present > 0.0 { present.log10() } else { crossover };
     [(crossover - AROUND).min(present - BEYOND), (crossover + AROUND).max(present + BEYOND)]
 }
 
 /// Spring and damping of a film of small amplitude over log₁₀ σ/Q, as (log₁₀ σ/Q, S) and (log₁₀ σ/Q, D).
-pub fn small_amplitude(aspect: Option<f64>, window: [f64; 2]) -> (Vec<[f64; 2]>, Vec<[f64; 2]>) {
+pub fn small_amplitude(outline: Outline, window: [f64; 2]) -> (Vec<[f64; 2]>, Vec<[f64; 2]>) {
     let at = |i: usize| {
         let x = window[0] + (window[1] - window[0]) * i as f64 / (SAMPLES - 1) as f64;
-        let Harmonic { spring, damping } = linear(10f64.powf(x), aspect);
+        let Harmonic { spring, damping } = linear(10f64.powf(x), outline);
         ([x, spring], [x, damping])
     };
     (0..SAMPLES).map(at).unzip()

@@ -26,6 +26,8 @@ pub struct HoldState {
     seconds: f64,
     /// Where it is held \[m\].
     target: f64,
+    /// It is let go, and whether the face below it vibrates.
+    free: Option<bool>,
     now: Arc<Snapshot>,
     trail: VecDeque<Reading>,
     pressure: [f64; 2],
@@ -41,6 +43,7 @@ impl HoldState {
             scene,
             seconds: FIRST_SECONDS,
             target: plate.mean_gap,
+            free: None,
             now,
             trail: VecDeque::new(),
             pressure: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
@@ -56,7 +59,10 @@ impl HoldState {
             return;
         }
         if now.failure.is_some() {
-            self.target = self.plate.mean_gap;
+            (self.target, self.free) = (self.plate.mean_gap, None);
+        }
+        if self.free.is_some() {
+            self.target = Hold::within_reach(&self.plate, now.reading.gap);
         }
         if readings.front().is_some_and(|first| self.trail.back().is_some_and(|last| first.time < last.time)) {
             self.trail.clear();
@@ -77,7 +83,7 @@ impl HoldState {
 
     /// Puts the film to rest at the mean gap, and clears the charts.
     pub fn reset(&mut self) {
-        self.target = self.plate.mean_gap;
+        (self.target, self.free) = (self.plate.mean_gap, None);
         self.trail.clear();
         self.pressure = LEAST_RANGE.map(|ratio| ratio * self.plate.gas.ambient_pressure);
         self.force = [0.0; 2];
@@ -93,7 +99,22 @@ impl HoldState {
     /// Holds the plate at `gap` \[m\], or as near as it may come.
     pub fn move_to(&mut self, gap: f64) {
         self.target = Hold::within_reach(&self.plate, gap);
+        self.free = None;
         self.job.move_to(self.target);
+    }
+
+    /// Lets go: a plate under a load falls, or floats on the vibration; any other goes back to its mean gap.
+    pub fn let_go(&mut self, vibrates: bool) {
+        if self.plate.load.is_none() {
+            return self.move_to(self.plate.mean_gap);
+        }
+        self.free = Some(vibrates);
+        self.job.let_go(vibrates);
+    }
+
+    /// Whether it is let go, and if so, whether the face below it vibrates.
+    pub fn free(&self) -> Option<bool> {
+        self.free
     }
 
     /// Whether `scene` has another plate.

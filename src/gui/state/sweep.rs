@@ -314,7 +314,7 @@ impl SweepState {
 
     /// What is drawn of these.
     pub fn quantity(&self, among: &[Quantity]) -> Quantity {
-        let main = [Quantity::Alpha, Quantity::LoadRatio].into_iter();
+        let main = [Quantity::Alpha, Quantity::MeanGap, Quantity::LoadRatio].into_iter();
         let wanted = self.quantity.into_iter().chain(main);
         wanted.into_iter().find(|wanted| among.contains(wanted)).unwrap_or(Quantity::FilmLoad)
     }

@@ -82,7 +82,7 @@ impl Updater {
         match command {
             HoldCommand::To(gap) => hold.move_to(gap),
             HoldCommand::By(share) => hold.move_to(hold.target() + share * mean_gap),
-            HoldCommand::LetGo => hold.move_to(mean_gap),
+            HoldCommand::LetGo { vibrates } => hold.let_go(vibrates),
             HoldCommand::Reset => hold.reset(),
             HoldCommand::Seconds(seconds) => hold.set_seconds(seconds),
         }

@@ -33,7 +33,7 @@ impl HeldPlate {
         now: fn() -> Instant,
         wake: impl Fn() + Send + 'static,
     ) -> std::io::Result<Self> {
-        let target = Target { gap: plate.mean_gap, slowed, reset: false };
+        let target = Target::first(&plate, slowed);
         let held = RefCell::new((Follower::new(&plate), target));
         Ok(Self { plate, held, now, wake: Box::new(wake) })
     }
@@ -46,7 +46,12 @@ impl HeldPlate {
     /// Moves the plate to `gap` \[m\], or as near as it may come.
     pub fn move_to(&self, gap: f64) {
         let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|target| target.gap = gap);
+        self.ask(|target| (target.gap, target.free) = (gap, None));
+    }
+
+    /// Lets a plate under a load go, above a face that vibrates or stands still.
+    pub fn let_go(&self, vibrates: bool) {
+        self.ask(|target| target.free = Some(vibrates));
     }
 
     /// Takes `slowed` seconds for a second of the film from now on.
@@ -57,7 +62,7 @@ impl HeldPlate {
     /// Puts the film to rest at the mean gap.
     pub fn reset(&self) {
         let gap = self.plate.mean_gap;
-        self.ask(|target| (target.gap, target.reset) = (gap, true));
+        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
     }
 
     /// The newest snapshot, and what was read off since the last time.
@@ -75,7 +80,7 @@ impl HeldPlate {
         let snapshot = follower.tick(target, began);
         target.reset = false;
         if snapshot.failure.is_some() {
-            target.gap = follower.hold.gap();
+            (target.gap, target.free) = (follower.hold.gap(), None);
         }
         let reading = snapshot.reading;
         (Arc::new(snapshot), VecDeque::from([reading]))

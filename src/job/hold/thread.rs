@@ -43,7 +43,7 @@ impl HeldPlate {
         wake: impl Fn() + Send + 'static,
     ) -> std::io::Result<Self> {
         let follower = Follower::new(&plate);
-        let target = Target { gap: plate.mean_gap, slowed, reset: false };
+        let target = Target::first(&plate, slowed);
         let shared = Arc::new(Shared {
             target: Mutex::new(target),
             closed: AtomicBool::new(false),
@@ -64,7 +64,12 @@ impl HeldPlate {
     /// Moves the plate to `gap` \[m\], or as near as it may come.
     pub fn move_to(&self, gap: f64) {
         let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|target| target.gap = gap);
+        self.ask(|target| (target.gap, target.free) = (gap, None));
+    }
+
+    /// Lets a plate under a load go, above a face that vibrates or stands still.
+    pub fn let_go(&self, vibrates: bool) {
+        self.ask(|target| target.free = Some(vibrates));
     }
 
     /// Takes `slowed` seconds for a second of the film from now on.
@@ -75,7 +80,7 @@ impl HeldPlate {
     /// Puts the film to rest at the mean gap.
     pub fn reset(&self) {
         let gap = self.plate.mean_gap;
-        self.ask(|target| (target.gap, target.reset) = (gap, true));
+        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
     }
 
     /// The newest snapshot, and what was read off since the last time.
@@ -119,7 +124,8 @@ fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &
         let began = now();
         let snapshot = follower.tick(&target, began);
         if snapshot.failure.is_some() {
-            lock(&shared.target).gap = follower.hold.gap();
+            let mut target = lock(&shared.target);
+            (target.gap, target.free) = (follower.hold.gap(), None);
         }
         {
             let mut published = lock(&shared.published);

@@ -2,6 +2,7 @@
 
 use super::convergence;
 use super::model;
+use crate::analysis::exact::units;
 use crate::analysis::regime;
 use crate::analysis::validity::Excess;
 use crate::digits::{capitalised, significant};
@@ -13,7 +14,7 @@ use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Scenario};
-use crate::solution::{MotorResult, Outcome, Performance, PlateResult, Status};
+use crate::solution::{Floating, MotorResult, Outcome, Performance, PlateResult, Status};
 use eframe::egui::{self, Color32, RichText, TextStyle};
 
 /// Significant digits of numbers without an error of their own.
@@ -104,11 +105,21 @@ fn motor_numbers(
 fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
     let unit = force_unit(&run.problem);
     let ratio = |load| PlateResult::ratio(load, plate);
-    headline(ui, "", "Film load", &uncertain(result.film_load, result.film_load_error), unit);
-    cx.note(ui, "mean load of the film over the cycle");
-    ui.add_space(4.0);
+    if let Some(Floating { mean_gap, stiffness, natural_frequency }) = result.floating {
+        headline(ui, "", "Mean gap", &uncertain(mean_gap.value * 1e6, mean_gap.error * 1e6), "µm");
+        cx.note(ui, "mean gap at which the film carries the load");
+        ui.add_space(4.0);
+        number(ui, cx, "Stiffness of floating", &uncertain(stiffness.value, stiffness.error), units(plate)[0]);
+        let frequency = uncertain(natural_frequency.value, natural_frequency.error);
+        number(ui, cx, "Natural frequency", &frequency, "Hz");
+        number(ui, cx, "Film load, mean", &uncertain(result.film_load, result.film_load_error), unit);
+    } else {
+        headline(ui, "", "Film load", &uncertain(result.film_load, result.film_load_error), unit);
+        cx.note(ui, "mean load of the film over the cycle");
+        ui.add_space(4.0);
+    }
     number(ui, cx, "Over the cycle", &span(result.film_load_min, result.film_load_max), unit);
-    let area = if plate.width.is_some() { "Load / (p_a · area)" } else { "Load / (p_a · length)" };
+    let area = if plate.is_strip() { "Load / (p_a · length)" } else { "Load / (p_a · area)" };
     section(ui, area);
     number(ui, cx, "Mean", &uncertain(ratio(result.film_load), ratio(result.film_load_error)), "");
     number(ui, cx, "Over the cycle", &span(ratio(result.film_load_min), ratio(result.film_load_max)), "");

@@ -289,7 +289,7 @@ fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
     grid("results of pins", if beside { 2 * count } else { count + 1 }).show(ui, |ui| {
         heads(ui, [beside; 2], cx);
         for row in cx.state.pins.results() {
-            let main = matches!(row.quantity, Quantity::Alpha | Quantity::LoadRatio);
+            let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);
             let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
             let label = ui.label(strong(capitalised(&row.label())));
             glossary::here(ui, label, row.quantity.words());

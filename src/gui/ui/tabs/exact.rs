@@ -1,7 +1,7 @@
 //! A solved plate beside what is known exactly: spring and damping over the squeeze number, the limits over the cycle, the
 //! invariant.
 
-use crate::analysis::exact::{Harmonic, aspect, units};
+use crate::analysis::exact::{Harmonic, units};
 use crate::estimate::Estimate;
 use crate::gui::derived::exact::{ExactCurves, small_amplitude};
 use crate::gui::derived::format::uncertain;
@@ -12,7 +12,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::rich::{self, Look};
 use crate::job::SolvedScene;
-use crate::problem::Scenario;
+use crate::problem::{Outline, Scenario};
 use eframe::egui::{self, Color32, RichText, TextStyle, Ui};
 use egui_plot::{HLine, LineStyle, Points, VLine};
 
@@ -29,6 +29,7 @@ const RADIUS: f32 = 5.0;
 /// All that this tab explains below its table, as in lessons: text, and formulae that are set.
 mod notes {
     use crate::lessons::text::{Block, blocks};
+    use crate::problem::Outline;
     use std::sync::LazyLock;
 
     const LOAD: &str = r"
@@ -49,6 +50,18 @@ $$ S + iD = \sum_{n\text{ odd}} \frac{8}{(n\pi)^2} \, \frac{i\sigma'}{q^2} \, \l
 
 $$ q^2 = (n\pi)^2 + i\sigma' \qquad \sigma' = \frac{\sigma}{Q} $$";
 
+    const DISC: &str = r"
+Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow, modified Bessel functions $I$, and the radius in
+$\sigma$:
+
+$$ S + iD = 1 - \frac{2\,I_1(\kappa)}{\kappa\,I_0(\kappa)} \qquad \kappa^2 = \frac{i\sigma}{Q} $$";
+
+    const RING: &str = r"
+Small amplitudes, $\varepsilon \to 0$, with the factor $Q\,$ by which slip eases the flow, modified Bessel functions $I$ and $K$ with $\alpha$
+and $\beta$ such that the pressure is that of the gas around on both edges, and the difference of the radii in $\sigma$:
+
+$$ S + iD = 1 - \left\langle \alpha\,I_0(\kappa r) + \beta\,K_0(\kappa r) \right\rangle \qquad \kappa^2 = \frac{i\sigma}{Q} $$";
+
     const TRAPPED: &str = r"
 Gas without time to leave, $\sigma \to \infty$: the mean pressure saturates (Langlois 1962, Salbu 1964), with slip a little lower:
 
@@ -64,10 +77,15 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
         [LOAD, linear, TRAPPED, INVARIANT].into_iter().flat_map(|text| blocks(text, None).unwrap_or_default()).collect()
     }
 
-    /// Of a strip, or of a plate of finite width.
-    pub(super) fn of(strip: bool) -> &'static [Block] {
-        static NOTES: LazyLock<[Vec<Block>; 2]> = LazyLock::new(|| [RECTANGLE, STRIP].map(read));
-        &NOTES[usize::from(strip)]
+    /// Of a plate of this outline.
+    pub(super) fn of(outline: Outline) -> &'static [Block] {
+        static NOTES: LazyLock<[Vec<Block>; 4]> = LazyLock::new(|| [STRIP, RECTANGLE, DISC, RING].map(read));
+        &NOTES[match outline {
+            Outline::Strip => 0,
+            Outline::Rectangle { .. } => 1,
+            Outline::Disc => 2,
+            Outline::Ring { .. } => 3,
+        }]
     }
 
     #[cfg(test)]
@@ -76,7 +94,7 @@ $$ \left\langle H\,\left( \frac{Z^2}{2} + 6mZ \right) \right\rangle = \left\lang
 
         #[test]
         fn every_note_is_read() {
-            for text in [LOAD, STRIP, RECTANGLE, TRAPPED, INVARIANT] {
+            for text in [LOAD, STRIP, RECTANGLE, DISC, RING, TRAPPED, INVARIANT] {
                 assert!(blocks(text, None).unwrap().iter().any(|block| matches!(block, Block::Formula(_))), "{text}");
             }
         }
@@ -95,7 +113,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         cx.say_if_stale(ui, run);
         title(ui, "Spring and damping against the squeeze number", "Squeeze number");
-        coefficients(ui, &known, aspect(plate), tall(0), cx);
+        coefficients(ui, &known, plate.outline(), tall(0), cx);
         ui.add_space(4.0);
         title(ui, &format!("Load over the cycle, {}", known.unit.0), "Film load");
         cycle(ui, &known, tall(1), cx);
@@ -103,7 +121,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         table(ui, &known, units(plate), cx);
         ui.add_space(12.0);
         let look = Look::usual(ui);
-        rich::blocks(ui, notes::of(plate.width.is_none()), look);
+        rich::blocks(ui, notes::of(plate.outline()), look);
         ui.add_space(8.0);
     });
 }
@@ -113,11 +131,10 @@ fn pair(cx: &DrawContext<'_>) -> [(&'static str, Color32); 2] {
     [("spring S", cx.colours.film), ("damping D", cx.colours.contact)]
 }
 
-fn coefficients(ui: &mut Ui, known: &ExactCurves, aspect: Option<f64>, height: f32, cx: &DrawContext<'_>) {
+fn coefficients(ui: &mut Ui, known: &ExactCurves, outline: Outline, height: f32, cx: &DrawContext<'_>) {
     let [spring, damping] = pair(cx);
-    // They stay as long as width over length and the window do.
-    let key = [aspect.unwrap_or(f64::INFINITY), known.window[0], known.window[1]];
-    let curves = once(ui, "small amplitude", key, || small_amplitude(aspect, known.window));
+    // They stay as long as the outline and the window do.
+    let curves = once(ui, "small amplitude", (outline, known.window), || small_amplitude(outline, known.window));
     legend(
         ui,
         &[

@@ -51,8 +51,24 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         if ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓").changed() {
             cx.push(HoldCommand::To(gap * 1e-6));
         }
-        if ui.button("Let go").hint("Back to the mean gap").clicked() {
-            cx.push(HoldCommand::LetGo);
+        let floats = hold.plate().load.is_some();
+        let hint = if floats { "It falls, and floats where its vibration carries it" } else { "Back to the mean gap" };
+        match hold.free() {
+            Some(true) => {
+                if ui.button("Stop").hint("The vibration ends, and the plate sinks").clicked() {
+                    cx.push(HoldCommand::LetGo { vibrates: false });
+                }
+            }
+            Some(false) => {
+                if ui.button("Vibrate").hint("The vibration begins again").clicked() {
+                    cx.push(HoldCommand::LetGo { vibrates: true });
+                }
+            }
+            None => {
+                if ui.button("Let go").hint(hint).clicked() {
+                    cx.push(HoldCommand::LetGo { vibrates: true });
+                }
+            }
         }
         if ui.button("Reset").hint("Mean gap, ambient pressure, empty charts").clicked() {
             cx.push(HoldCommand::Reset);

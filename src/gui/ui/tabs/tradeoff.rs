@@ -2,7 +2,6 @@
 //! of those that no other beats, the present setting ringed, and the cheapest that serves a target.
 
 use crate::analysis::attempt::RunStatus;
-use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Candidate, Family, Point, Target, Tradeoff};
 use crate::digits::significant;
 use crate::gui::command::Command;
@@ -201,7 +200,7 @@ fn place(point: &Point) -> Option<[f64; 2]> {
 }
 
 fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_>) {
-    let judged = if tradeoff.judged == Quantity::Alpha { "error of α" } else { "error of the film load" };
+    let judged = format!("error of {}", tradeoff.of_what());
     let grid = ui.visuals().widgets.noninteractive.bg_stroke.color;
     let font = TextStyle::Body.resolve(ui.style());
     let em = ui.text_style_height(&TextStyle::Body);
@@ -212,7 +211,7 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
     let plot = bare("trade-off plot", height)
         .grid_color(grid)
         .x_axis_label("solve time")
-        .y_axis_label(judged)
+        .y_axis_label(judged.as_str())
         .x_grid_spacer(move |input| powers(&input, most, true))
         .y_grid_spacer(|input| powers(&input, 12.0, true))
         .x_axis_formatter(|mark, _| duration(10f64.powf(mark.value)))
@@ -285,7 +284,7 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
             }
         }
     });
-    axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), judged);
+    axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), &judged);
 }
 
 /// A target, what serves it, and the way to use that.

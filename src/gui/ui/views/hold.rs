@@ -50,7 +50,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let plate = hold.plate();
     let ambient = plate.gas.ambient_pressure;
     // One unit whatever the hand does: that of ambient pressure on a tenth of the plate.
-    let unit = load_unit(0.1 * ambient * plate.area(), plate.width.is_none());
+    let unit = load_unit(0.1 * ambient * plate.area(), plate.is_strip());
     let shown = HoldFrame { hold, ambient, half: 0.5 * plate.length, unit };
     let gutter = style.width(&painter, "−0.000") + 6.0;
     let (title, axis) = (style.row + 7.0, style.row + 3.0);

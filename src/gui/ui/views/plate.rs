@@ -214,7 +214,7 @@ pub(super) fn load_unit(greatest: f64, strip: bool) -> (&'static str, f64) {
 
 fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &PlateFrame<'_>, cx: &DrawContext<'_>) {
     let [low, high] = shown.scales.tooth_load;
-    let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
+    let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
     let none = Curve::default();
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
     let first = shown.first.and_then(|first| first.scales.tooth(0));
@@ -314,7 +314,7 @@ fn readout(shown: &PlateFrame<'_>) -> Readout {
     if let Some((curves, lag)) = shown.scales.tooth(0) {
         let load = curves.film.at(shown.phase + lag);
         let [low, high] = shown.scales.tooth_load;
-        let (name, unit) = load_unit(high.max(-low), shown.plate.width.is_none());
+        let (name, unit) = load_unit(high.max(-low), shown.plate.is_strip());
         values.push(format!("load {} {name}", number(load / unit)));
     }
     Readout { values }

@@ -1,0 +1,119 @@
+//! `squeezefilm startup` of a plate under a load: it is dropped on its vibration.
+
+use super::columns::{Columns, paragraph};
+use super::exit::{CliError, Exit};
+use super::options::CommonOptions;
+use super::progress::Bar;
+use super::solve::written;
+use super::terminal;
+use crate::atomic::Staged;
+use crate::control::Cancel;
+use crate::digits::{duration, significant, with_error};
+use crate::estimate::Estimate;
+use crate::export::fall::{Object, Row, figure, write_csv};
+use crate::export::json;
+use crate::fall::{Fall, fall};
+use crate::fidelity::Fidelity;
+use crate::problem::Problem;
+use crate::scene::{Scene, show_text};
+use crate::solution::Status;
+use std::path::Path;
+use std::time::Instant;
+
+/// Rows shown to people, about.
+const SHOWN: usize = 24;
+
+/// What is asked for.
+pub(super) struct Dropped<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) problem: &'a Problem,
+    pub(super) common: &'a CommonOptions,
+    pub(super) fidelity: Fidelity,
+    pub(super) cycles: usize,
+    pub(super) tolerance: f64,
+}
+
+/// Drops the plate and prints its way; `None` if the scene has no plate under a load.
+pub(super) fn run(
+    asked: &Dropped<'_>,
+    folder: Option<&Path>,
+    cancel: &Cancel,
+    command: &[String],
+) -> Result<Option<Exit>, CliError> {
+    let Dropped { scene, problem, common, fidelity, cycles, tolerance } = *asked;
+    let bar = Bar::share();
+    let mut rows: Vec<Row> = Vec::new();
+    let mut each = |cycle: crate::fall::Cycle| {
+        let row = Row::from(cycle);
+        let share = row.cycle as f64 / cycles as f64;
+        bar.share_done(share, &format!("cycle {}: {} µm", row.cycle, significant(row.height_um, 4)));
+        rows.push(row);
+    };
+    let started = Instant::now();
+    let ended = fall(problem, fidelity, cycles, tolerance, &mut each, cancel);
+    let wall_s = started.elapsed().as_secs_f64();
+    drop(bar);
+    let Some(ended) = ended? else { return Ok(None) };
+    let floats = ended.floats.as_ref().ok().map(|gap| Estimate { value: gap.value * 1e6, error: gap.error * 1e6 });
+    let warnings: Vec<String> = ended.floats.clone().err().into_iter().collect();
+    let object = Object {
+        preset: &scene.name,
+        scene: scene.scene(),
+        fidelity: fidelity.to_string(),
+        converged: ended.status == Status::Converged,
+        mean_gap_um: floats.map(|gap| gap.value),
+        mean_gap_error_um: floats.map(|gap| gap.error).filter(|error| error.is_finite()),
+        wall_s,
+        rows: &rows,
+        warnings: &warnings,
+    };
+    warnings.iter().for_each(|warning| terminal::warning(warning));
+    let human = text(scene, &rows, &ended, floats);
+    terminal::result(common.output.json, || json::document(&object, command), || human);
+    terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));
+    if let Some(folder) = folder {
+        let mut staged = Staged::new(folder)?;
+        staged.add("startup.csv", |out| write_csv(&rows, out))?;
+        staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
+        let mut drawn = figure(problem, &rows, floats.map(|gap| gap.value));
+        drawn.provenance.fidelity = fidelity.to_string();
+        common.figures.stage(&mut staged, "startup", &drawn)?;
+        staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
+        terminal::note(&written(folder, &staged.commit()?));
+    }
+    Ok(Some(Exit::of(&ended.status)))
+}
+
+fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> String {
+    let rests = rows.last().is_some_and(|row| row.rests);
+    let how = match ended.status {
+        Status::Converged if rests => format!("it rests after {} cycles", ended.cycles),
+        Status::Converged => format!("it floats still after {} cycles", ended.cycles),
+        Status::NotConverged { .. } | Status::NotResolved { .. } => {
+            format!("STILL MOVING after {} cycles", ended.cycles)
+        }
+        Status::Cancelled => format!("CANCELLED after {} cycles", ended.cycles),
+    };
+    let mut text = paragraph(&format!("{}, dropped on its vibration: {how}", show_text(&scene.name)), "", "");
+    text.push('\n');
+    let mut columns = Columns::new();
+    columns.row(["cycle", "t, µs", "height, µm", "speed, mm/s"]);
+    let every = rows.len().div_ceil(SHOWN).max(1);
+    for row in rows {
+        if row.cycle % every != 0 && row.cycle + 1 != rows.len() {
+            continue;
+        }
+        columns.row([
+            row.cycle.to_string(),
+            significant(row.time_us, 4),
+            with_error(row.height_um, row.height_error_um),
+            significant(row.speed_mm_per_s, 3),
+        ]);
+    }
+    text.push_str(&columns.text("  ", &[0, 1, 2, 3]));
+    if let Some(gap) = floats {
+        let told = format!("The periodic solve floats at a mean gap of {} µm.", with_error(gap.value, gap.error));
+        text.push_str(&paragraph(&told, "\n", ""));
+    }
+    text
+}

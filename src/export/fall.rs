@@ -1,0 +1,87 @@
+//! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
+
+use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
+use crate::fall::Cycle;
+use crate::problem::Problem;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The plate at the end of a cycle of the vibration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// From 1; 0 is the beginning.
+    pub cycle: usize,
+    /// Time.
+    pub time_us: f64,
+    /// Height: the gap without the vibration.
+    pub height_um: f64,
+    /// Its error, by the length of the steps.
+    pub height_error_um: f64,
+    /// Speed, upwards.
+    pub speed_mm_per_s: f64,
+    /// Whether it rested on its roughness in this cycle.
+    pub rests: bool,
+}
+
+impl From<Cycle> for Row {
+    fn from(cycle: Cycle) -> Self {
+        Self {
+            cycle: cycle.number,
+            time_us: cycle.time * 1e6,
+            height_um: cycle.height.value * 1e6,
+            height_error_um: cycle.height.error * 1e6,
+            speed_mm_per_s: cycle.speed * 1e3,
+            rests: cycle.rests,
+        }
+    }
+}
+
+/// The object of `--json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Object<'a> {
+    /// The scene's name.
+    pub preset: &'a str,
+    /// `plate`.
+    pub scene: &'static str,
+    /// `draft`, `standard`, …
+    pub fidelity: String,
+    /// The height no longer changes.
+    pub converged: bool,
+    /// The mean gap at which it floats by the periodic solve; null if it does not …
+    pub mean_gap_um: Option<f64>,
+    /// … with its stated error.
+    pub mean_gap_error_um: Option<f64>,
+    /// Wall time \[s\], the periodic solve included.
+    pub wall_s: f64,
+    /// One for each cycle.
+    pub rows: &'a [Row],
+    /// What the user should know.
+    pub warnings: &'a [String],
+}
+
+/// Writes the rows as CSV, the header first.
+pub fn write_csv(rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    rows.iter().try_for_each(|row| writer.serialize(row))?;
+    writer.flush()
+}
+
+/// Height over time, and where the periodic solve says that it ends, in µm.
+pub fn figure(problem: &Problem, rows: &[Row], floats: Option<f64>) -> Figure {
+    let band = rows
+        .iter()
+        .map(|row| [row.time_us * 1e-3, row.height_um - row.height_error_um, row.height_um + row.height_error_um]);
+    let line = rows.iter().map(|row| [row.time_us * 1e-3, row.height_um]);
+    let mut panel = Panel::new("", Axis::new("t", "ms"), Axis::new("height", "µm").including([0.0]))
+        .layer(Band::new("error of the steps", band, Colour::FILM))
+        .layer(Line::new("height", line, Style::solid(Colour::FILM)));
+    if let Some(gap) = floats {
+        let mut mark = Mark::horizontal(gap, "periodic solve");
+        mark.style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
+        panel = panel.layer(mark);
+    }
+    let mut figure = Figure::new("dropped on the vibration").panel(panel);
+    figure.caption = "Height of the plate, the gap without the vibration, from where it is dropped.".to_owned();
+    figure.provenance = Provenance::named(&problem.name);
+    figure
+}

@@ -1,0 +1,123 @@
+//! A plate that is dropped on its vibration: its height, cycle by cycle, until it floats where the periodic solve says, or rests.
+//!
+//! The plate is the mass of [`mod@crate::hold`]. It falls from rest at twice the gap at which it floats, or at which it would rest, through gas at
+//! ambient pressure, while the vibration comes up. The way is marched twice, with steps of one length and of half: the height is
+//! extrapolated from both, of second order, and their difference is its stated error.
+
+use crate::control::Cancel;
+use crate::estimate::{Estimate, extrapolate};
+use crate::fidelity::Fidelity;
+use crate::film::cycle::Interrupted;
+use crate::film::stepper::FilmError;
+use crate::hold::Hold;
+use crate::memory;
+use crate::plan::Plan;
+use crate::plate::floating::FloatError;
+use crate::problem::{Plate, Problem, Scenario};
+use crate::solution::{Outcome, PlateResult, Status, settled};
+use crate::solve::{Record, Settings, SolveError, solve};
+
+/// From how high it is dropped, in gaps at which it floats or rests.
+const FROM: f64 = 2.0;
+/// Cycles over which the height may not change any more.
+const SETTLED: usize = 32;
+
+/// The plate at the end of a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// From 1; 0 is the beginning.
+    pub number: usize,
+    /// Time \[s\].
+    pub time: f64,
+    /// Height: the gap without the vibration \[m\].
+    pub height: Estimate,
+    /// Speed, upwards \[m/s\].
+    pub speed: f64,
+    /// Whether it rested on its roughness in this cycle.
+    pub rests: bool,
+}
+
+/// How a fall ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fall {
+    /// Converged: its height no longer changes.
+    pub status: Status,
+    /// Cycles made.
+    pub cycles: usize,
+    /// The mean gap of the periodic solve \[m\]; `None` if it does not float, and why is told.
+    pub floats: Result<Estimate, String>,
+}
+
+/// Drops the plate of `problem` and hands over every cycle, at most so many `cycles`, until its height changes by less than `tolerance`
+/// of itself within 32 of them. `None` if the scene has no plate under a load.
+///
+/// # Errors
+/// [`SolveError`] if a step has no solution to working precision, or it would need more memory than is allowed.
+pub fn fall(
+    problem: &Problem,
+    fidelity: Fidelity,
+    cycles: usize,
+    tolerance: f64,
+    each: &mut dyn FnMut(Cycle),
+    cancel: &Cancel,
+) -> Result<Option<Fall>, SolveError> {
+    let Scenario::Plate(plate @ Plate { load: Some(_), .. }) = &problem.scenario else { return Ok(None) };
+    let settings = Settings { fidelity, record: Record::Numbers, ..Settings::default() };
+    let (found, floats) = match solve(problem, &settings, &mut (), cancel) {
+        Ok(solution) => {
+            let floats = match solution.outcome {
+                Outcome::Plate(PlateResult { floating: Some(floating), .. }) => Ok(floating.mean_gap),
+                _ => Err("cancelled".to_owned()),
+            };
+            (settled(problem, &solution.outcome).into_owned(), floats)
+        }
+        Err(SolveError::Float(error @ (FloatError::Rests { .. } | FloatError::High))) => {
+            (problem.clone(), Err(error.to_string()))
+        }
+        Err(error) => return Err(error),
+    };
+    let Scenario::Plate(found) = &found.scenario else { return Ok(None) };
+    let start = FROM * floats.as_ref().map_or(plate.amplitude + plate.min_spacing, |gap| gap.value);
+    let plan = Plan::plate(found, fidelity, &problem.numerics);
+    let need = memory::plate(found, &plan);
+    let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, cancel)?;
+    let mut ways = [1.0, 2.0].map(|finer| {
+        let mut hold = Hold::new(found, &plan).finer(finer);
+        hold.rest_at(start);
+        hold
+    });
+    let period = 1.0 / plate.frequency;
+    let mut heights = vec![start];
+    let mut status = Status::NotConverged { residual: f64::INFINITY, tolerance };
+    each(Cycle { number: 0, time: 0.0, height: Estimate { value: start, error: 0.0 }, speed: 0.0, rests: false });
+    for number in 1..=cycles {
+        let rested = ways[1].free().rests;
+        for way in &mut ways {
+            if cancel.is_cancelled() {
+                return Ok(Some(Fall { status: Status::Cancelled, cycles: number - 1, floats }));
+            }
+            way.fall(period, true).map_err(|error| failed(number, error))?;
+        }
+        let [usual, finer] = &ways;
+        let height = extrapolate(&[usual.height(), finer.height()]);
+        let rests = finer.free().rests > rested;
+        each(Cycle { number, time: finer.reading().time, height, speed: finer.free().speed, rests });
+        heights.push(height.value);
+        if let Some(before) = heights.len().checked_sub(SETTLED + 1) {
+            let last = &heights[before..];
+            let change = last.iter().map(|z| (z / height.value - 1.0).abs()).fold(0.0, f64::max);
+            status = Status::NotConverged { residual: change, tolerance };
+            if change < tolerance {
+                status = Status::Converged;
+            }
+        }
+        if status == Status::Converged {
+            return Ok(Some(Fall { status, cycles: number, floats }));
+        }
+    }
+    Ok(Some(Fall { status, cycles, floats }))
+}
+
+fn failed(step: usize, source: FilmError) -> SolveError {
+    SolveError::Plate(Interrupted::Failed { step, source })
+}

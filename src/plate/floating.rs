@@ -1,0 +1,285 @@
+//! A plate that floats: the mean gap at which the film carries, in the mean of the cycle, the load that lies on the plate.
+//!
+//! The plate is too heavy to shake, so that its gap stays harmonic. The load F that a film carries falls with the mean gap h at a given
+//! amplitude a, from as much as one likes where the plate nearly touches to nothing. In x = ln(h − a) its logarithm is nearly straight:
+//! of slope −1/2 near touching, where a peak as narrow as √(h − a) carries all, −2 of trapped gas far away (F ≈ 1.25 p_a A (a/h)²), and up
+//! to −6 of a viscous film. So ln F(x) is followed by the secant, within a bracket: below, the gap at which the plate rests on its
+//! roughness; above, that at which no film could carry as much, since P is nowhere more than the greatest gap leaves in the least. First
+//! on coarse grids, then on those that the accuracy asks for, each solve started from the last. The gap is as exact as the load is:
+//! its error is that of the load over |dF/dh|.
+
+use super::level::Level;
+use super::{Periodic, Search, finish, stated, turned};
+use crate::control::{Cancel, Observer};
+use crate::digits;
+use crate::estimate::Estimate;
+use crate::film::cycle::Interrupted;
+use crate::ladder::{Found, climb};
+use crate::memory::{self, Excess};
+use crate::plan::Plan;
+use crate::problem::{GRAVITY, HIGHEST, Plate};
+use crate::solution::{Floating, Stats, Status};
+use std::f64::consts::TAU;
+
+/// Change of ln F that coarse grids need not tell any more.
+const ROUGHLY: f64 = 0.02;
+/// Share of the error asked for, or of the one that the load has, by which the film may carry too much or too little.
+const SHARE: f64 = 0.1;
+/// The same where the scene prescribes its grids, relative.
+const ON_GIVEN_GRIDS: f64 = 1e-5;
+/// Solves after which the gap is taken as it is.
+const MOST_SOLVES: usize = 60;
+/// Step of x to either side over which dF/dh is taken, and how well a cycle repeats for it.
+const STEP: f64 = 0.03;
+const REPEATING: f64 = 1e-6;
+/// ln F/load of a film that carries next to nothing, or sucks.
+const NOTHING: f64 = -30.0;
+/// How exactly the amplitude is told that is needed to float, relative.
+const NEEDED: f64 = 0.02;
+/// By how much larger an amplitude is tried at least.
+const LEAST_GROWTH: f64 = 1.2;
+/// Largest amplitude that is tried for it \[m\].
+const LARGEST_AMPLITUDE: f64 = 1e-3;
+
+/// Why a plate does not float.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FloatError {
+    /// A film step failed, or it was cancelled.
+    #[error("film, {0}")]
+    Film(#[from] Interrupted),
+    /// It needs more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] Excess),
+    /// It rests on its roughness.
+    #[error("plate.amplitude_um = {}: the plate does not float, because as low as film.min_spacing_nm = {} allows, the film carries {} of the load; {}",
+        rounded(amplitude * 1e6), rounded(min_spacing * 1e9), percent(*share),
+        match needed {
+            Some(needed) => format!("at least {} µm of amplitude is needed", rounded(needed * 1e6)),
+            None => format!("no amplitude up to {} µm is enough", rounded(LARGEST_AMPLITUDE * 1e6)),
+        })]
+    Rests {
+        /// Amplitude \[m\].
+        amplitude: f64,
+        /// Least gap \[m\].
+        min_spacing: f64,
+        /// What the film carries there, as a share of the load.
+        share: f64,
+        /// The least amplitude with which it floats \[m\]; `None` if none does.
+        needed: Option<f64>,
+    },
+    /// It is so light that it floats higher than any film.
+    #[error("the plate is so light that it floats higher than {} µm, where there is no film to speak of: a greater load or a smaller plate.amplitude_um is needed", rounded(HIGHEST * 1e6))]
+    High,
+}
+
+fn rounded(value: f64) -> f64 {
+    digits::rounded(value, 3)
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", rounded(100.0 * share.max(0.0)))
+}
+
+/// A plate that floats: its periodic state at the gap that was found, which the result tells, and the plan by which that was solved.
+#[derive(Clone, Debug)]
+pub struct Floated {
+    /// The periodic state.
+    pub periodic: Periodic,
+    /// Its plan.
+    pub plan: Plan,
+}
+
+/// Finds the mean gap at which the film under `plate` carries its `load` \[N or N/m\]. `rough` plans a plate at a gap coarsely, `asked` as
+/// exactly as is asked for.
+///
+/// # Errors
+/// [`FloatError`]; among them that it was cancelled.
+pub fn float(
+    plate: &Plate,
+    load: f64,
+    rough: &dyn Fn(&Plate) -> Plan,
+    asked: &dyn Fn(&Plate) -> Plan,
+    observer: &mut dyn Observer,
+    cancel: &Cancel,
+) -> Result<Floated, FloatError> {
+    let mut way = Way { plate: plate.clone(), load, warm: None, stats: Stats::default(), observer, cancel };
+    if plate.amplitude == 0.0 {
+        return Err(way.rests(0.0, rough));
+    }
+    let away = plate.trapped_gap(load) - plate.amplitude;
+    // What trapped gas would have, and about the slope of a film between touching and far away.
+    let slope = -0.5 - 1.5 * away / (away + plate.amplitude);
+    let roughly = way.seek(away.ln(), slope, rough, ROUGHLY)?;
+    let sought = way.seek(roughly.x, roughly.slope, asked, 0.0)?;
+    let Sought { x, found, plan, .. } = sought;
+    let at = way.at(x);
+    let mut periodic = finish(&turned(&at, &plan), &plan, &found, way.stats);
+    let pinned = found.pinned(&plan);
+    drop((found, way.warm.take()));
+    let stiffness = way.stiffness(x, &pinned)?;
+    periodic.stats = Stats { film_nodes: periodic.stats.film_nodes, ..way.stats };
+    periodic.stats.steps_per_cycle = pinned.grids.last().map_or(0, |grid| grid.steps);
+    let result = &mut periodic.result;
+    let off = result.film_load_error + (result.film_load - load).abs();
+    let mean_gap = Estimate { value: at.mean_gap, error: off / (stiffness.value.abs() - stiffness.error).max(0.0) };
+    let natural = (stiffness.value.max(0.0) * GRAVITY / load).sqrt() / TAU;
+    let natural_frequency = Estimate { value: natural, error: 0.5 * natural * stiffness.error / stiffness.value.abs() };
+    result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+    Ok(Floated { periodic, plan })
+}
+
+/// A search for the gap.
+struct Way<'a> {
+    plate: Plate,
+    load: f64,
+    /// The last solve, to start the next from.
+    warm: Option<Found<Level>>,
+    stats: Stats,
+    observer: &'a mut dyn Observer,
+    cancel: &'a Cancel,
+}
+
+/// A gap whose film carries the load, in x = ln(h − a); the slope of ln F there, and its solve.
+struct Sought {
+    x: f64,
+    slope: f64,
+    found: Found<Level>,
+    plan: Plan,
+}
+
+impl Way<'_> {
+    fn at(&self, x: f64) -> Plate {
+        Plate { mean_gap: self.plate.amplitude + x.exp(), ..self.plate.clone() }
+    }
+
+    fn solve(&mut self, plate: &Plate, plan: &Plan) -> Result<(Estimate, Found<Level>), FloatError> {
+        // The last solve is kept beside this one.
+        let need = memory::plate(plate, plan);
+        let _taken = memory::take(memory::Need { bytes: 2 * need.bytes, ..need }, self.cancel)?;
+        let plate = &turned(plate, plan);
+        let warm = self.warm.take().filter(|warm| warm.spectral == plan.spectral && !plan.turned);
+        let mut search =
+            Search { plate, plan, observer: &mut *self.observer, cancel: self.cancel, stats: &mut self.stats };
+        let found = climb(&mut search, plan, warm.as_ref(), self.cancel)?;
+        if found.status == Status::Cancelled {
+            return Err(Interrupted::Cancelled.into());
+        }
+        Ok((stated(plate, plan, &found), found))
+    }
+
+    /// The gap, from `x` and the `slope` of ln F there on, until the film carries the load to `within`, or to the error that it has.
+    fn seek(
+        &mut self,
+        mut x: f64,
+        mut slope: f64,
+        planned: &dyn Fn(&Plate) -> Plan,
+        within: f64,
+    ) -> Result<Sought, FloatError> {
+        let amplitude = self.plate.amplitude;
+        let ratio = 1.0 + self.load / (self.plate.gas.ambient_pressure * self.plate.area());
+        // Where √((1 + ε)/(1 − ε)), the most that any film has, is just the load.
+        let cap = amplitude * (ratio * ratio + 1.0) / (ratio * ratio - 1.0);
+        let floor = self.plate.min_spacing.ln();
+        let ceiling = (cap.min(HIGHEST.max(amplitude + self.plate.min_spacing)) - amplitude).ln();
+        let (mut low, mut high) = (floor, ceiling.max(floor));
+        let mut last: Option<(f64, f64)> = None;
+        let mut solves = 0;
+        loop {
+            x = x.clamp(low, high);
+            let plate = self.at(x);
+            let plan = planned(&plate);
+            let (carried, found) = self.solve(&plate, &plan)?;
+            solves += 1;
+            let y = (carried.value / self.load).max(NOTHING.exp()).ln();
+            if let Some((x_before, y_before)) = last {
+                let secant = (y - y_before) / (x - x_before);
+                slope = if secant < -0.1 { secant.max(-12.0) } else { slope };
+            }
+            let target = if plan.accuracy > 0.0 { SHARE * plan.accuracy } else { ON_GIVEN_GRIDS };
+            // What the load is known to is no reason to be content with more than a little.
+            let known = SHARE * (carried.error / self.load).min(ROUGHLY);
+            let close = (carried.value / self.load - 1.0).abs() <= known.max(within.max(target));
+            let enough = solves == MOST_SOLVES || solves > 1 && (high - low < 1e-12 || self.cancel.is_spent());
+            if close || enough {
+                return Ok(Sought { x, slope, found, plan });
+            }
+            self.warm = (!plan.turned).then_some(found);
+            if y < 0.0 && x <= floor {
+                return Err(self.rests(carried.value / self.load, planned));
+            }
+            if y > 0.0 && x >= ceiling && cap > HIGHEST {
+                return Err(FloatError::High);
+            }
+            if y > 0.0 {
+                low = x
+            } else {
+                high = x
+            }
+            last = Some((x, y));
+            let next = x - y / slope;
+            let untried = next <= low && low == floor || next >= high && high == ceiling;
+            x = if next > low && next < high || untried { next } else { 0.5 * (low + high) };
+        }
+    }
+
+    /// −dF/dh \[N/m\] about the gap of `x`, by two solves on the grids of `plan`, whose errors cancel.
+    fn stiffness(&mut self, x: f64, plan: &Plan) -> Result<Estimate, FloatError> {
+        let plan = Plan { tolerance: plan.tolerance.min(REPEATING), accuracy: REPEATING, maps: false, ..plan.clone() };
+        let mut loads = [[0.0; 2]; 2];
+        let gaps = [x - STEP, x + STEP].map(|x| self.at(x));
+        for (plate, load) in gaps.iter().zip(&mut loads) {
+            let (_, mut found) = self.solve(plate, &plan)?;
+            let plate = turned(plate, &plan);
+            let carried = found.nested(|found| stated(&plate, &plan, found).value);
+            *load = [carried.fine, carried.coarse.unwrap_or(f64::NAN)];
+        }
+        let step = gaps[1].mean_gap - gaps[0].mean_gap;
+        let [fine, coarse] = [0, 1].map(|grids| (loads[0][grids] - loads[1][grids]) / step);
+        // F ~ exp(−p x): the difference over 2 STEP is off by (p² − 1) STEP²/6.
+        let power = fine * x.exp() / self.load;
+        let error = (fine - coarse).abs() + (power * power + 1.0) / 6.0 * STEP * STEP * fine.abs();
+        Ok(Estimate { value: fine, error: if error.is_finite() { error } else { f64::INFINITY } })
+    }
+
+    /// That the plate rests on its roughness, where the film carries this `share` of the load, and what it would need.
+    fn rests(&mut self, share: f64, plan: &dyn Fn(&Plate) -> Plan) -> FloatError {
+        let (amplitude, min_spacing) = (self.plate.amplitude, self.plate.min_spacing);
+        match self.needed(share, plan) {
+            Ok(needed) => FloatError::Rests { amplitude, min_spacing, share, needed },
+            Err(error) => error,
+        }
+    }
+
+    /// The least amplitude \[m\] with which the film carries the load as its least gap is that of the roughness. It carries more with
+    /// a larger one at first, as gas is trapped, until the gap is so wide that gas leaves.
+    fn needed(&mut self, share: f64, plan: &dyn Fn(&Plate) -> Plan) -> Result<Option<f64>, FloatError> {
+        let (plate, spacing) = (self.plate.clone(), self.plate.min_spacing);
+        self.warm = None;
+        let carried = |way: &mut Self, amplitude: f64| -> Result<f64, FloatError> {
+            let plate = Plate { amplitude, mean_gap: amplitude + spacing, ..plate.clone() };
+            let (load, _) = way.solve(&plate, &plan(&plate))?;
+            Ok(load.value / way.load)
+        };
+        let ratio = self.load / (self.plate.gas.ambient_pressure * self.plate.area());
+        // No film could carry it with less.
+        let mut low = (0.5 * spacing * ratio * (2.0 + ratio)).max(self.plate.amplitude);
+        let mut of_low = if low > self.plate.amplitude { carried(self, low)? } else { share };
+        let mut high = low;
+        while of_low < 1.0 {
+            high = low * of_low.max(1e-3).powi(-2).clamp(LEAST_GROWTH, 4.0);
+            if high > LARGEST_AMPLITUDE - spacing {
+                return Ok(None);
+            }
+            let of_high = carried(self, high)?;
+            if of_high >= 1.0 {
+                break;
+            }
+            (low, of_low) = (high, of_high);
+        }
+        while high / low > 1.0 + NEEDED {
+            let middle = (low * high).sqrt();
+            if carried(self, middle)? < 1.0 { low = middle } else { high = middle }
+        }
+        Ok(Some(high))
+    }
+}

@@ -1,0 +1,264 @@
+//! Plates that float, and round ones, against exact results: trapped gas, small amplitudes, the viscous film; and against solves at the
+//! gap that was found.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use squeezefilm::analysis::exact::Comparison;
+use squeezefilm::analysis::quantity::Quantity;
+use squeezefilm::analysis::sweep::Sweep;
+use squeezefilm::control::Cancel;
+use squeezefilm::estimate::Estimate;
+use squeezefilm::fidelity::Fidelity;
+use squeezefilm::film::exact::trapped_mean_pressure;
+use squeezefilm::problem::{GRAVITY, Plate, Problem, Scenario};
+use squeezefilm::scene::{Scene, presets};
+use squeezefilm::solution::{Outcome, PlateResult, Solution, Status, settled};
+use squeezefilm::solve::{Settings, SolveError, solve};
+
+const DISC: &[(&str, &str)] = &[("plate.shape", "disc"), ("plate.radius_mm", "1")];
+const RING: &[(&str, &str)] = &[("plate.shape", "ring"), ("plate.radius_mm", "1"), ("plate.inner_radius_mm", "0.4")];
+
+fn scene(preset: &str, set: &[&[(&str, &str)]]) -> Scene {
+    let mut scene = presets::find(preset).unwrap();
+    scene.set_all(set.concat()).unwrap();
+    scene
+}
+
+fn solved(scene: &Scene, fidelity: Fidelity) -> (Problem, Result<Solution, SolveError>) {
+    let problem = Problem::new(scene).unwrap();
+    let settings = Settings { fidelity, ..Settings::default() };
+    let solution = solve(&problem, &settings, &mut (), &Cancel::new());
+    let problem = solution.as_ref().map_or_else(|_| problem.clone(), |s| settled(&problem, &s.outcome).into_owned());
+    (problem, solution)
+}
+
+fn found(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> (Plate, PlateResult, Solution) {
+    let (problem, solution) = solved(&scene(preset, set), fidelity);
+    let solution = solution.unwrap();
+    let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {
+        panic!("a plate")
+    };
+    assert_eq!(solution.status, Status::Converged, "{preset} {set:?}");
+    (plate, result, solution)
+}
+
+fn compared(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> Comparison {
+    let (plate, result, solution) = found(preset, set, fidelity);
+    let film_load = Estimate { value: result.film_load, error: result.film_load_error };
+    Comparison::of(&plate, film_load, &solution.recording)
+}
+
+// ---- round films
+
+#[test]
+fn small_amplitudes_of_round_plates_lie_on_the_bessel_functions() {
+    for shape in [DISC, RING] {
+        for frequency in ["0.3", "30", "3000"] {
+            for slip in ["none", "fukui-kaneko"] {
+                let set = [("plate.amplitude_um", "0.001"), ("plate.frequency_khz", frequency), ("film.slip", slip)];
+                let exact = compared("plate-crossover", &[shape, &set], Fidelity::Fine);
+                let solved = exact.solved.unwrap();
+                for (part, known) in [(solved.spring, exact.linear.spring), (solved.damping, exact.linear.damping)] {
+                    let told = format!("{shape:?} {frequency} kHz {slip}: {part:?}, exact {known}");
+                    println!("{told}");
+                    // The amplitude itself changes them by its square.
+                    assert!((part.value - known).abs() < part.error + 3e-6, "{told}");
+                    assert!(part.error < 2e-3, "{told}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn round_plates_have_both_limits_and_the_invariant() {
+    for shape in [DISC, RING] {
+        let slow = [("plate.frequency_khz", "0.001"), ("film.slip", "none"), ("plate.mean_gap_um", "2")];
+        let (plate, _, solution) = found("plate-viscous", &[shape, &slow], Fidelity::Fine);
+        let exact = compared("plate-viscous", &[shape, &slow], Fidelity::Fine);
+        let greatest = exact.limits.viscous.iter().fold(0.0f64, |most, load| most.max(load.abs()));
+        for (load, viscous) in solution.recording.film_load.iter().zip(&exact.limits.viscous) {
+            assert!((load - viscous).abs() < 0.01 * greatest, "{shape:?}: {load} {viscous} of {greatest}");
+        }
+        // Reynolds' disc, in his own words: F = 3πμR⁴V/(2h³).
+        if shape == DISC {
+            let speed = std::f64::consts::TAU * plate.frequency * plate.amplitude;
+            let reynolds = 1.5 * std::f64::consts::PI * plate.gas.viscosity * plate.radius().powi(4) * speed
+                / plate.mean_gap.powi(3);
+            let quarter = solution.recording.film_load[solution.recording.frames / 4];
+            assert!((quarter / reynolds - 1.0).abs() < 0.01, "{quarter} {reynolds}");
+        }
+        for slip in ["none", "first-order"] {
+            let set = [("plate.frequency_khz", "3000"), ("film.slip", slip)];
+            let exact = compared("plate-crossover", &[shape, &set], Fidelity::Fine);
+            let layer = 6.0 / exact.effective_squeeze_number.sqrt();
+            let ratio = exact.mean_pressure.value / exact.trapped_mean_pressure;
+            assert!((ratio - 1.0).abs() < layer && layer < 0.2, "{shape:?} {slip}: {ratio} {layer}");
+            assert!(exact.invariant_deviation.unwrap() < 1e-4, "{shape:?} {slip}: {exact:?}");
+        }
+        // What is stated covers what a finer solve finds.
+        let draft = found("plate-crossover", &[shape], Fidelity::Draft).1;
+        let fine = found("plate-crossover", &[shape], Fidelity::Reference).1;
+        let off = (draft.film_load - fine.film_load).abs();
+        assert!(off < draft.film_load_error + fine.film_load_error, "{shape:?}: {draft:?} {fine:?}");
+    }
+}
+
+#[test]
+fn a_thin_ring_is_a_strip_bent_round() {
+    let ring = [("plate.shape", "ring"), ("plate.radius_mm", "50"), ("plate.inner_radius_mm", "49")];
+    let (plate, ring, _) = found("plate-crossover", &[&ring], Fidelity::Fine);
+    let strip = found("plate-crossover", &[], Fidelity::Fine).1;
+    let circumference = std::f64::consts::TAU * (plate.radius() - 0.5e-3);
+    assert!((ring.film_load / circumference / strip.film_load - 1.0).abs() < 1e-3, "{ring:?} {strip:?}");
+}
+
+// ---- floating
+
+#[test]
+fn trapped_gas_carries_at_the_exact_gap() {
+    // h = a √((s + 3/2)/(s − 1)), s = (1 + F/(p_a A))², from (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²); at a squeeze number of 10⁶ and more.
+    for (load, shape) in [("0.3", DISC), ("0.01", DISC), ("0.1", RING), ("20", &[][..])] {
+        let set = [
+            ("plate.load_n", load),
+            ("plate.frequency_khz", "10000"),
+            ("film.viscosity_upa_s", "900"),
+            ("film.min_spacing_nm", "5"),
+            ("film.slip", "none"),
+        ];
+        let (plate, result, _) = found("plate-trapped", &[shape, &set], Fidelity::Fine);
+        let floating = result.floating.unwrap();
+        let ratio = 1.0 + result.film_load / (plate.gas.ambient_pressure * plate.area());
+        let exact = trapped_mean_pressure(plate.amplitude / plate.mean_gap, 0.0);
+        println!("{load} N: {:?}, trapped {}", floating.mean_gap, plate.trapped_gap(load.parse().unwrap()));
+        assert!((ratio / exact - 1.0).abs() < 2e-3 * (exact - 1.0) + 1e-3 * (ratio - 1.0), "{load}: {ratio} {exact}");
+        let trapped = plate.trapped_gap(load.parse().unwrap());
+        assert!((plate.mean_gap / trapped - 1.0).abs() < 2e-3, "{load}: {} {trapped}", plate.mean_gap);
+        // dF/dh of the same law, by its difference.
+        let force =
+            |gap: f64| trapped_mean_pressure(plate.amplitude / gap, 0.0) * plate.gas.ambient_pressure * plate.area();
+        let step = 1e-4 * plate.mean_gap;
+        let stiffness = (force(plate.mean_gap - step) - force(plate.mean_gap + step)) / (2.0 * step);
+        let off = (floating.stiffness.value - stiffness).abs();
+        assert!(off < floating.stiffness.error + 2e-3 * stiffness, "{load}: {:?} {stiffness}", floating.stiffness);
+    }
+    // A small load: a √(1.25 p_a A/F).
+    let (plate, ..) = found("plate-trapped", &[DISC, &[("plate.load_n", "0.1")]], Fidelity::Draft);
+    let load = 1e-4 * plate.gas.ambient_pressure * plate.area();
+    let small = plate.amplitude * (1.25e4f64).sqrt();
+    assert!((plate.trapped_gap(load) / small - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn the_film_carries_the_load_at_the_gap_that_is_found() {
+    for (preset, set) in [
+        ("floating-disc", &[][..]),
+        ("floating-finger-pad", &[]),
+        ("plate-crossover", &[("plate.load_n", "20")]),
+        ("plate-viscous", &[("plate.load_n", "0.05")]),
+        ("plate-mems", &[("plate.mass_g", "20"), ("plate.amplitude_um", "1")]),
+        ("plate-crossover", &[("plate.load_n", "0.001"), ("plate.width_mm", "0.3")]),
+    ] {
+        let mut given = scene(preset, &[set]);
+        let (draft, ..) = found(preset, &[set], Fidelity::Draft);
+        let (plate, result, solution) = found(preset, &[set], Fidelity::Standard);
+        let floating = result.floating.unwrap();
+        let (load, Estimate { value: gap, error }) = (plate.load.unwrap(), floating.mean_gap);
+        println!("{preset}: {gap:e} ± {error:e}, load {load} {result:?}, {:?}", solution.stats);
+        assert!((result.film_load - load).abs() < 2e-3 * load && floating.stiffness.value > 0.0);
+        assert!(error < 0.01 * gap && solution.accuracy.stated <= solution.accuracy.asked, "{:?}", solution.accuracy);
+        assert!((draft.mean_gap / gap - 1.0).abs() < 0.05, "{preset}: {} {gap}", draft.mean_gap);
+        // The gap given, and solved more exactly, carries the load within the error that is stated of the gap.
+        given.set("plate.mean_gap_um", &(gap * 1e6).to_string()).unwrap();
+        let (_, again) = solved(&given, Fidelity::Fine);
+        let Outcome::Plate(fine) = again.unwrap().outcome else { panic!("a plate") };
+        let off = (fine.film_load - load).abs() - fine.film_load_error;
+        assert!(off < error * floating.stiffness.value, "{preset}: {fine:?} {load}");
+        // Stiffness as the difference of two given gaps.
+        let at = |share: f64| {
+            let mut near = given.clone();
+            near.set("plate.mean_gap_um", &(gap * share * 1e6).to_string()).unwrap();
+            match solved(&near, Fidelity::Reference).1.unwrap().outcome {
+                Outcome::Plate(result) => result.film_load,
+                Outcome::Motor(_) => panic!("a plate"),
+            }
+        };
+        let away = 0.02 * (gap - plate.amplitude) / gap;
+        let stiffness = (at(1.0 - away) - at(1.0 + away)) / (2.0 * away * gap);
+        let stated = floating.stiffness;
+        assert!((stated.value - stiffness).abs() < stated.error + 0.01 * stiffness, "{preset}: {stated:?} {stiffness}");
+        let natural = (stated.value * GRAVITY / load).sqrt() / std::f64::consts::TAU;
+        assert!((floating.natural_frequency.value / natural - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_load_that_no_film_carries_is_refused_with_the_amplitude_it_needs() {
+    let with = |amplitude: &str, load: &str| {
+        solved(
+            &scene("floating-disc", &[&[("plate.amplitude_um", amplitude), ("plate.load_n", load)]]),
+            Fidelity::Draft,
+        )
+        .1
+    };
+    let error = with("0.01", "5").unwrap_err().to_string();
+    println!("{error}");
+    let needed: f64 = error.split("at least ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!(error.contains("does not float") && (0.05..0.2).contains(&needed), "{error}");
+    assert!(with(&(1.01 * needed).to_string(), "5").is_ok());
+    assert!(with(&(0.9 * needed).to_string(), "5").unwrap_err().to_string().contains("does not float"));
+    assert!(with("0", "5").unwrap_err().to_string().contains("at least"));
+    let error = with("1", "1e5").unwrap_err().to_string();
+    println!("{error}");
+    assert!(error.contains("no amplitude up to 1000 µm"), "{error}");
+    let light = [("plate.radius_mm", "100"), ("plate.amplitude_um", "50"), ("plate.load_n", "1e-6")];
+    let error = solved(&scene("floating-disc", &[&light]), Fidelity::Draft).1.unwrap_err().to_string();
+    assert!(error.contains("higher than 1000 µm"), "{error}");
+}
+
+#[test]
+fn two_of_gap_load_and_mass_are_refused_and_one_drops_the_others() {
+    let toml = presets::find("floating-disc").unwrap().to_toml();
+    for key in ["mean_gap_um = 3.0", "load_n = 1.0"] {
+        let both = toml.replace("[plate]\n", &format!("[plate]\n{key}\n"));
+        let error = Scene::from_toml(&both, "my.toml").unwrap_err().to_string();
+        assert!(error.contains("plate.mass_g") && error.contains(key.split(' ').next().unwrap()), "{error}");
+    }
+    let mut scene = presets::find("floating-disc").unwrap();
+    for (key, others) in [
+        ("plate.load_n", ["plate.mass_g", "plate.mean_gap_um"]),
+        ("plate.mean_gap_um", ["plate.mass_g", "plate.load_n"]),
+        ("plate.mass_g", ["plate.mean_gap_um", "plate.load_n"]),
+    ] {
+        scene.set_all([(key, "3")]).unwrap();
+        assert!(scene.get(key).is_some() && others.iter().all(|other| scene.get(other).is_none()), "{key}");
+    }
+    // The weight is the mass's.
+    let Scenario::Plate(plate) = Problem::new(&scene).unwrap().scenario else { panic!("a plate") };
+    assert!((plate.load.unwrap() - 3e-3 * GRAVITY).abs() < 1e-15);
+    // An amplitude above the default gap is no fault then, and the roughness is heeded.
+    scene.set_all([("plate.amplitude_um", "30"), ("film.min_spacing_nm", "500")]).unwrap();
+    let error = scene.set_all([("plate.mean_gap_um", "3")]).unwrap_err().to_string();
+    assert!(error.contains("plate.amplitude_um"), "{error}");
+    let hole = scene.set_all([("plate.shape", "ring"), ("plate.inner_radius_mm", "8")]).unwrap_err().to_string();
+    assert!(hole.contains("plate.inner_radius_mm = 8") && hole.contains("0.99"), "{hole}");
+}
+
+#[test]
+fn a_sweep_of_the_amplitude_follows_the_law() {
+    // Far in the trapped regime the height is proportional to the amplitude.
+    let scene = scene("floating-disc", &[&[("plate.frequency_khz", "200"), ("film.slip", "none")]]);
+    let vary = ["plate.amplitude_um=0.5:2:3".parse().unwrap()];
+    let sweep = Sweep::new(&scene, &vary, &Settings { fidelity: Fidelity::Draft, ..Settings::default() }).unwrap();
+    assert!(sweep.quantities().contains(&Quantity::MeanGap));
+    let rows = sweep.run(&[], &Cancel::new(), &|_| ());
+    for row in &rows {
+        let (gap, error) =
+            (row.numbers.get(Quantity::MeanGap).unwrap(), row.numbers.get(Quantity::MeanGapError).unwrap());
+        let Scenario::Plate(plate) = Problem::new(&sweep.scene_at(row.point).unwrap()).unwrap().scenario else {
+            panic!("a plate")
+        };
+        let law = plate.trapped_gap(plate.load.unwrap()) * 1e6;
+        println!("{:?}: {gap} ± {error}, law {law}", row.values);
+        assert!((gap / law - 1.0).abs() < 0.05 && error < 0.02 * gap, "{row:?}");
+    }
+}
