@@ -153,7 +153,7 @@ pub fn summary(class: &[Vec<Record>]) -> String {
             let count = |holds: &dyn Fn(&Record) -> bool| records.iter().filter(|record| holds(record)).count();
             let judged = count(&|record| record.success.is_some());
             let right = count(&|record| record.success == Some(true));
-            let share = if judged > 0 { format!("{} %", 100 * right / judged) } else { String::new() };
+            let share = (100 * right).checked_div(judged).map(|share| format!("{share} %")).unwrap_or_default();
             let skipped = match kind {
                 "step" => count(&|record| record.verb == "skipped").to_string(),
                 _ => String::new(),
