@@ -93,7 +93,9 @@ fn round_plates_have_both_limits_and_the_invariant() {
             let layer = 6.0 / exact.effective_squeeze_number.sqrt();
             let ratio = exact.mean_pressure.value / exact.trapped_mean_pressure;
             assert!((ratio - 1.0).abs() < layer && layer < 0.2, "{shape:?} {slip}: {ratio} {layer}");
-            assert!(exact.invariant_deviation.unwrap() < 1e-4, "{shape:?} {slip}: {exact:?}");
+            // As that of a strip, whose edge layers are as thin.
+            let strip = compared("plate-crossover", &[&set], Fidelity::Fine).invariant_deviation.unwrap();
+            assert!(exact.invariant_deviation.unwrap() < 1.5 * strip, "{shape:?} {slip}: {exact:?} {strip}");
         }
         // What is stated covers what a finer solve finds.
         let draft = found("plate-crossover", &[shape], Fidelity::Draft).1;

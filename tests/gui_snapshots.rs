@@ -362,7 +362,7 @@ fn a_rotor_looks_as_it_did() {
     std::fs::write(&path, face()).unwrap();
     drop_file(&mut window, &path);
     until(&mut window, "the heights are read", |app| app.state().face.found().is_some());
-    window.get_by_label("Profile along x, nm").scroll_to_me();
+    window.get_by_role_and_label(Role::Image, "Profile along x, nm").scroll_to_me();
     settle(&mut window);
     window.snapshot("rotor-measured-face");
     results.extend_harness(&mut window);

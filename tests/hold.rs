@@ -218,7 +218,7 @@ fn dropped_it_settles_where_the_periodic_solve_floats_and_sinks_when_the_vibrati
         let cycle = 1.0 / plate.frequency;
         for from in [1.4, 0.8] {
             let mut hold = dropped(&plate, from * gap);
-            hold.fall(800.0 * cycle, true).unwrap();
+            hold.fall(1600.0 * cycle, true).unwrap();
             let before = hold.height();
             hold.fall(20.0 * cycle, true).unwrap();
             println!("{set:?}, from {from}: {} of {gap}, {:?}", hold.height(), hold.free());

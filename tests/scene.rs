@@ -445,7 +445,7 @@ fn what_is_not_given_follows_from_measured_heights() {
     let message = Scene::motor().set("surface.heights_csv", path).unwrap_err().to_string();
     assert!(message.contains("surface.heights_csv belongs to surface.model = \"asperities\""), "{message}");
     for (text, expected) in [
-        ("secret\n", "no unit of the heights"),
+        ("secret\n", "line 1 has no heights of a measured face"),
         ("# dx_um = 1\n# dy_um = 1\n# height = nm\n1,secret\n", "line 4 has no heights of a measured face"),
         ("x_um,z_nm\n0,1\n", "points: allowed 16"),
     ] {

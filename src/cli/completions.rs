@@ -1,10 +1,9 @@
 //! `squeezefilm completions` and `squeezefilm man`: the command line, told to shells and to `man`.
 
-use super::Cli;
 use super::exit::{CliError, Exit};
 use super::terminal;
 use crate::atomic::Staged;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::PathBuf;
@@ -29,15 +28,17 @@ pub(super) struct ManArguments {
     folder: PathBuf,
 }
 
-pub(super) fn completions(arguments: &CompletionsArguments) -> Result<Exit, CliError> {
+/// `program`: the whole command line.
+pub(super) fn completions(arguments: &CompletionsArguments, mut program: Command) -> Result<Exit, CliError> {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut Cli::command(), "squeezefilm", &mut script);
+    clap_complete::generate(arguments.shell, &mut program, "squeezefilm", &mut script);
     terminal::data(&String::from_utf8_lossy(&script));
     Ok(Exit::Solved)
 }
 
-pub(super) fn man(arguments: &ManArguments) -> Result<Exit, CliError> {
-    let mut program = Cli::command().disable_help_subcommand(true);
+/// `program`: the whole command line.
+pub(super) fn man(arguments: &ManArguments, program: Command) -> Result<Exit, CliError> {
+    let mut program = program.disable_help_subcommand(true);
     program.build();
     let mut pages = Staged::new(&arguments.folder)?;
     for command in std::iter::once(&program).chain(program.get_subcommands()) {

@@ -28,7 +28,7 @@ mod table1;
 mod terminal;
 mod tradeoff;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -136,8 +136,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Some(Command::Presets(arguments)) => presets::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Surface(arguments)) => surface::run(&arguments, &command_line(words)),
-        Some(Command::Completions(arguments)) => completions::completions(&arguments),
-        Some(Command::Man(arguments)) => completions::man(&arguments),
+        Some(Command::Completions(arguments)) => completions::completions(&arguments, Cli::command()),
+        Some(Command::Man(arguments)) => completions::man(&arguments, Cli::command()),
         #[cfg(feature = "gui")]
         Some(Command::Lessons(arguments)) => lessons::run(&arguments),
     };

@@ -21,7 +21,7 @@ use zip::{CompressionMethod, ZipWriter};
 pub fn write(scene: &Scene, problem: &Problem, solution: &Solution, out: &mut dyn Write) -> io::Result<()> {
     let mut archive = Archive(ZipWriter::new_stream(out));
     for Field { name, shape, values, .. } in fields(problem, &solution.recording) {
-        archive.numbers(&name, &shape, values)?;
+        archive.numbers(name, &shape, values)?;
     }
     archive.text("preset", &problem.name)?;
     archive.text("version", env!("CARGO_PKG_VERSION"))?;

@@ -225,7 +225,10 @@ impl Scene for Search<'_> {
         let mut level = Level::new(motor, plan, grid);
         if self.marching {
             let started = match start {
-                Some(other) => Ok(level.march_on_from(other)),
+                Some(other) => {
+                    level.march_on_from(other);
+                    Ok(())
+                }
                 None => level.rest().map_err(Stop::Failed),
             };
             let cancel = self.cancel.within_budget();

@@ -22,7 +22,7 @@ const STRIPS: usize = 4;
 /// Teeth on the whole ring up to which each is drawn with its grooves and flanks.
 const MOST_TEETH: usize = 280;
 /// Stations round the ring if there are more.
-const STATIONS: usize = 800;
+const STATIONS: usize = 740;
 /// Radii between which the ring is drawn, in contact radii: its own width is not known, and that of the contact is too small to be seen.
 const INNER: f64 = 0.89;
 const OUTER: f64 = 1.11;

@@ -204,12 +204,12 @@ mod tests {
 
     #[test]
     fn a_link_is_a_preset_its_changes_and_a_tab() {
-        let (preset, scene, tab) = read("https://example.org/motor/#fundamental&film.min_spacing_nm=100&tab=torque");
+        let (preset, scene, tab) = read("https://example.org/motor/#fundamental&film.min_spacing_nm=150&tab=torque");
         assert_eq!((preset, tab), ("fundamental", Some(Tab::Torque)));
         let mut expected = crate::scene::presets::find("fundamental").unwrap();
-        expected.set("film.min_spacing_nm", "100").unwrap();
+        expected.set("film.min_spacing_nm", "150").unwrap();
         assert!(scene.same_model(&expected));
-        assert_eq!(Link::to(&scene, Tab::Torque), "#fundamental&film.min_spacing_nm=100&tab=torque");
+        assert_eq!(Link::to(&scene, Tab::Torque), "#fundamental&film.min_spacing_nm=150&tab=torque");
         assert_eq!(Link::read("#lesson=3&step=4").unwrap(), Link::Lesson { lesson: 3, step: 4 });
         assert_eq!(Link::read(&Link::to_lesson(3, 1)).unwrap(), Link::read("lesson=3").unwrap());
     }

@@ -151,10 +151,8 @@ impl Updater {
                 Box::new(move |_| {
                     let of = (name.as_str(), &problem);
                     Ok(match &*found {
-                        Found::Fit(measured, fitted) => {
-                            files::fitted(&path, of, (fitted, measured), &[], &BESIDE_DATA)?
-                        }
-                        Found::Optimum(optimum) => files::optimum(&path, of, optimum, &[], &BESIDE_DATA)?,
+                        Found::Fit(measured, fitted) => files::fitted(&path, of, (fitted, measured), &[], BESIDE_DATA)?,
+                        Found::Optimum(optimum) => files::optimum(&path, of, optimum, &[], BESIDE_DATA)?,
                     })
                 })
             }

@@ -58,7 +58,7 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
     ui.add_space(6.0);
     cx.note(
         ui,
-        &format!(
+        format!(
             "Licence: {LICENCE}. Equations and what they were checked against: docs/theory.md and docs/validation.md."
         ),
     );

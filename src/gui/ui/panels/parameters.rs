@@ -127,7 +127,7 @@ impl Panel<'_> {
         let mut parameters: Vec<_> = PARAMETERS.iter().filter(shown).filter(inside).collect();
         if table == "rotor" && self.scene.kind() == Kind::Motor {
             // A file that is given to a beam replaces it.
-            let file = |p: &&'static Parameter| matches!(p.kind, ParameterKind::CsvPath { .. });
+            let file = |p: &&'static Parameter| p.table() == table && matches!(p.kind, ParameterKind::CsvPath { .. });
             let others: Vec<_> = PARAMETERS.iter().filter(|p| file(p) && !parameters.contains(p)).collect();
             parameters.extend(others);
         }
