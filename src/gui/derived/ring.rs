@@ -157,7 +157,7 @@ impl Ring<'_> {
         let waves = self.motor.waves.max(1) as usize;
         let phase = self.phase();
         if !self.with_grooves() {
-            let count = (STATIONS / waves).max(8);
+            let count = (STATIONS / waves).max(7);
             let x = |i: usize| (i as f64 / count as f64) * recording.length - 0.5 * recording.pitch;
             return (0..=count).filter_map(|i| self.on_a_tooth(x(i))).collect();
         }
