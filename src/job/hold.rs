@@ -68,6 +68,31 @@ impl Target {
     }
 }
 
+/// What is asked of a held plate, wherever it is marched.
+impl HeldPlate {
+    /// Moves the plate to `gap` \[m\], or as near as it may come.
+    pub fn move_to(&self, gap: f64) {
+        let gap = Hold::within_reach(&self.plate, gap);
+        self.ask(|target| (target.gap, target.free) = (gap, None));
+    }
+
+    /// Lets a plate under a load go, above a face that vibrates or stands still.
+    pub fn let_go(&self, vibrates: bool) {
+        self.ask(|target| target.free = Some(vibrates));
+    }
+
+    /// Takes `slowed` seconds for a second of the film from now on.
+    pub fn slow(&self, slowed: f64) {
+        self.ask(|target| target.slowed = slowed);
+    }
+
+    /// Puts the film to rest at the mean gap.
+    pub fn reset(&self) {
+        let gap = self.plate.mean_gap;
+        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
+    }
+}
+
 /// A plate, and how its film has been marched.
 #[derive(Debug)]
 struct Follower {

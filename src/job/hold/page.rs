@@ -1,7 +1,7 @@
 //! A held plate of a page: its film is marched on when it is looked at, before each redraw.
 
 use super::{Follower, Snapshot, TICK, Target};
-use crate::hold::{Hold, Reading};
+use crate::hold::Reading;
 use crate::platform::Instant;
 use crate::problem::Plate;
 use std::cell::RefCell;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// A held plate.
 pub struct HeldPlate {
-    plate: Plate,
+    pub(super) plate: Plate,
     held: RefCell<(Follower, Target)>,
     now: fn() -> Instant,
     wake: Box<dyn Fn()>,
@@ -38,31 +38,9 @@ impl HeldPlate {
         Ok(Self { plate, held, now, wake: Box::new(wake) })
     }
 
-    fn ask(&self, change: impl FnOnce(&mut Target)) {
+    pub(super) fn ask(&self, change: impl FnOnce(&mut Target)) {
         change(&mut self.held.borrow_mut().1);
         (self.wake)();
-    }
-
-    /// Moves the plate to `gap` \[m\], or as near as it may come.
-    pub fn move_to(&self, gap: f64) {
-        let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|target| (target.gap, target.free) = (gap, None));
-    }
-
-    /// Lets a plate under a load go, above a face that vibrates or stands still.
-    pub fn let_go(&self, vibrates: bool) {
-        self.ask(|target| target.free = Some(vibrates));
-    }
-
-    /// Takes `slowed` seconds for a second of the film from now on.
-    pub fn slow(&self, slowed: f64) {
-        self.ask(|target| target.slowed = slowed);
-    }
-
-    /// Puts the film to rest at the mean gap.
-    pub fn reset(&self) {
-        let gap = self.plate.mean_gap;
-        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
     }
 
     /// The newest snapshot, and what was read off since the last time.

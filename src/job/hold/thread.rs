@@ -1,7 +1,7 @@
 //! A held plate of a process: a named thread marches its film.
 
 use super::{Follower, Snapshot, TICK, Target};
-use crate::hold::{Hold, Reading};
+use crate::hold::Reading;
 use crate::platform::Instant;
 use crate::problem::Plate;
 use std::collections::VecDeque;
@@ -28,7 +28,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// A held plate and the thread that marches its film.
 #[derive(Debug)]
 pub struct HeldPlate {
-    plate: Plate,
+    pub(super) plate: Plate,
     shared: Arc<Shared>,
     worker: Option<JoinHandle<()>>,
 }
@@ -56,31 +56,9 @@ impl HeldPlate {
         Ok(Self { plate, shared, worker: Some(worker) })
     }
 
-    fn ask(&self, change: impl FnOnce(&mut Target)) {
+    pub(super) fn ask(&self, change: impl FnOnce(&mut Target)) {
         change(&mut lock(&self.shared.target));
         self.shared.changed.notify_all();
-    }
-
-    /// Moves the plate to `gap` \[m\], or as near as it may come.
-    pub fn move_to(&self, gap: f64) {
-        let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|target| (target.gap, target.free) = (gap, None));
-    }
-
-    /// Lets a plate under a load go, above a face that vibrates or stands still.
-    pub fn let_go(&self, vibrates: bool) {
-        self.ask(|target| target.free = Some(vibrates));
-    }
-
-    /// Takes `slowed` seconds for a second of the film from now on.
-    pub fn slow(&self, slowed: f64) {
-        self.ask(|target| target.slowed = slowed);
-    }
-
-    /// Puts the film to rest at the mean gap.
-    pub fn reset(&self) {
-        let gap = self.plate.mean_gap;
-        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
     }
 
     /// The newest snapshot, and what was read off since the last time.
