@@ -1,6 +1,6 @@
 //! A held plate of a page: its film is marched on when it is looked at, before each redraw.
 
-use super::{Follower, Snapshot, TICK, Target};
+use super::follower::{Follower, Snapshot, TICK, Target};
 use crate::hold::Reading;
 use crate::platform::Instant;
 use crate::problem::Plate;

@@ -1,6 +1,6 @@
 //! A held plate of a process: a named thread marches its film.
 
-use super::{Follower, Snapshot, TICK, Target};
+use super::follower::{Follower, Snapshot, TICK, Target};
 use crate::hold::Reading;
 use crate::platform::Instant;
 use crate::problem::Plate;
@@ -129,7 +129,7 @@ fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &
 
 #[cfg(test)]
 mod tests {
-    use super::super::slowed;
+    use super::super::follower::slowed;
     use super::*;
     use crate::problem::{Problem, Scenario};
     use crate::scene::Scene;
