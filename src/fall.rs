@@ -16,6 +16,7 @@ use crate::plate::floating::FloatError;
 use crate::problem::{Plate, Problem, Scenario};
 use crate::solution::{Outcome, PlateResult, Status, settled};
 use crate::solve::{Record, Settings, SolveError, solve};
+use serde::{Deserialize, Serialize};
 
 /// From how high it is dropped, in gaps at which it floats or rests.
 const FROM: f64 = 2.0;
@@ -23,7 +24,7 @@ const FROM: f64 = 2.0;
 const SETTLED: usize = 32;
 
 /// The plate at the end of a cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cycle {
     /// From 1; 0 is the beginning.
     pub number: usize,
@@ -38,7 +39,7 @@ pub struct Cycle {
 }
 
 /// How a fall ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fall {
     /// Converged: its height no longer changes.
     pub status: Status,

@@ -150,6 +150,13 @@ pub struct Floating {
     pub natural_frequency: Estimate,
 }
 
+impl Floating {
+    /// A `damping` of slow motion \[N s/m\] over the one at which the mass no longer swings: c ω/2k.
+    pub fn damping_ratio(&self, damping: f64) -> f64 {
+        damping * std::f64::consts::TAU * self.natural_frequency.value / (2.0 * self.stiffness.value)
+    }
+}
+
 /// Results of a plate scene. Forces of a strip are per metre of width.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlateResult {

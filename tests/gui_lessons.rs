@@ -363,6 +363,8 @@ walks![
     travelling_wave_to_its_end: 5,
     contact_and_air_to_its_end: 6,
     lost_torque_to_its_end: 7,
+    floating_to_its_end: 8,
+    accelerometers_to_their_end: 9,
 ];
 
 #[test]
@@ -371,7 +373,7 @@ fn every_built_in_lesson_is_read_listed_and_walked() {
     let (read, faults) = lessons::built_in(WindowNames { tabs: TABS, places });
     assert!(faults.is_empty(), "{faults:?}");
     assert_eq!((read.len(), WALKED), (lessons::BUILT_IN.len(), lessons::BUILT_IN.len()));
-    assert!(read.len() >= 8);
+    assert!(read.len() >= 10);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
     let (from_disk, faults) = lessons::load(&folder, WindowNames { tabs: TABS, places });
     assert!(faults.is_empty(), "{faults:?}");
@@ -846,7 +848,7 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
 
 #[test]
 fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
-    for preset in ["fundamental", "levitating", "plate-crossover", "plate-trapped"] {
+    for preset in ["fundamental", "levitating", "plate-crossover", "plate-trapped", "floating-disc"] {
         let mut window = window(preset);
         solved(&mut window);
         window.run_steps(3);
@@ -924,7 +926,7 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
     click(&mut window, "Close");
     let titles: Vec<&str> =
         window.state().state().lessons.lessons().iter().map(|lesson| lesson.title.as_str()).collect();
-    assert_eq!(&titles[8..], ["A lesson of my own", "Another of my own"]);
+    assert_eq!(&titles[lessons::BUILT_IN.len()..], ["A lesson of my own", "Another of my own"]);
     open(&mut window, "Another of my own");
     assert_eq!(window.state().state().document.scene().scene(), "plate");
     click(&mut window, "Lessons");

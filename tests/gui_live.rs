@@ -236,6 +236,37 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
 }
 
 #[test]
+fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
+    let mut window = window("floating-disc", HOLD);
+    solved(&mut window);
+    window.get_by_label("Load / (p_a · area)");
+    click(&mut window, "Let go");
+    until(&mut window, "it floats by itself", |app| app.state().hold.as_ref().unwrap().now().reading.time > 1e-4);
+    assert!(gap(window.state()) > 0.9);
+    click(&mut window, "Stop");
+    until(&mut window, "it sinks", |app| gap(app) < 0.8);
+    click(&mut window, "Vibrate");
+    until(&mut window, "it rises", |app| gap(app) > 0.85);
+    window.get_by_label("Stop");
+    // In the start-up it falls from twice that height.
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num6);
+    window.run_steps(2);
+    click(&mut window, "Drop it");
+    until(&mut window, "it falls", |app| {
+        app.state().dropped.as_ref().is_some_and(|dropped| dropped.cycles().len() > 60)
+    });
+    let heights: Vec<f64> =
+        window.state().state().dropped.as_ref().unwrap().cycles().iter().map(|cycle| cycle.height.value).collect();
+    assert!(heights[0] > 9.9e-6 && heights[60] < 0.8 * heights[0], "{heights:?}");
+    window.get_by_role_and_label(Role::Image, "Height of the plate over time");
+    click(&mut window, "Cancel");
+    until(&mut window, "it ends", |app| app.state().dropped.as_ref().is_some_and(|dropped| !dropped.running()));
+    window.run_steps(2);
+    window.get_by_label_contains("Cancelled at");
+    window.get_by_label("Drop it");
+}
+
+#[test]
 fn keys_and_slider_move_it_within_its_reach_only() {
     let mut window = window("plate-crossover", HOLD);
     for _ in 0..4 {

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use proptest::prelude::{ProptestConfig, prop, proptest};
+use squeezefilm::analysis::exact::slow_damping;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact::viscous_strip_force;
@@ -9,7 +10,7 @@ use squeezefilm::hold::{Hold, REACH, leak_time};
 use squeezefilm::plan::Plan;
 use squeezefilm::problem::{GRAVITY, Numerics, Plate, Problem, Scenario};
 use squeezefilm::scene::presets;
-use squeezefilm::solution::settled;
+use squeezefilm::solution::{Outcome, PlateResult, settled};
 use squeezefilm::solve::{Settings, solve};
 
 fn plate(set: &[(&str, &str)]) -> Plate {
@@ -234,6 +235,28 @@ fn dropped_it_settles_where_the_periodic_solve_floats_and_sinks_when_the_vibrati
             assert!(hold.height() < sinking && sinking < gap, "{sinking} {gap}");
         }
     }
+}
+
+#[test]
+fn pushed_away_it_creeps_back_as_fast_as_reynolds_damps_it() {
+    let (plate, gap) = floating(&[]);
+    let scene = presets::find("floating-disc").unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
+    let Outcome::Plate(PlateResult { floating: Some(found), .. }) = solution.outcome else { panic!("it floats") };
+    let damping = slow_damping(&plate);
+    assert!(found.damping_ratio(damping) > 5.0, "{found:?} {damping}");
+    let within = damping / found.stiffness.value;
+    // Three heights at equal times give the rate, wherever it ends.
+    let mut hold = dropped(&plate, 1.1 * gap);
+    hold.fall(2.5 * within, true).unwrap();
+    let heights = [0, 1, 2].map(|_| {
+        hold.fall(within, true).unwrap();
+        hold.height()
+    });
+    let share = (heights[1] - heights[2]) / (heights[0] - heights[1]);
+    println!("within {within} s, {heights:?}: {share} of exp(-1)");
+    assert!((-share.ln() - 1.0).abs() < 0.1, "{share}");
 }
 
 #[test]

@@ -43,6 +43,28 @@ const CLAIMS: &[Claim] = &[
         0.01,
     ),
     (8, "At 5 kHz you are there", "fundamental", &["stator.frequency_khz=5"], "stall_torque_nm", 0.305, 0.005),
+    (9, "At 300 g more than 1 µm is left", "floating-disc", &["plate.mass_g=300"], "min_gap_nm", 1980.0, 0.01),
+    (
+        9,
+        "It is some 4 % more than the formula gives",
+        "floating-disc",
+        &["plate.amplitude_um=1.633"],
+        "mean_gap_um",
+        8.0,
+        0.003,
+    ),
+    (9, "less than 2.3 µm", "floating-finger-pad", &["plate.amplitude_um=0.58"], "min_gap_nm", 2255.0, 0.005),
+];
+
+/// The mass of lesson 10 on its film.
+const SENSOR: [&str; 7] = [
+    "plate.length_mm=0.4",
+    "plate.width_mm=0.4",
+    "plate.amplitude_um=0.05",
+    "plate.frequency_khz=5",
+    "film.gas=nitrogen",
+    "film.slip=fukui-kaneko",
+    "plate.mean_gap_um=4.73",
 ];
 
 fn numbers(preset: &str, set: &[&str]) -> Numbers {
@@ -199,6 +221,80 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let narrow = merit("min-spacing-100nm", &["rotor.contact_width_mm=0.12"]);
     assert!(narrow.with_film.max_power.value > 1.2 * polished.with_film.max_power.value);
     assert!(narrow.with_film.stall_torque.value > 0.30);
+}
+
+/// Stiffness \[N/m\] and damping \[N s/m\] of the film of lesson 10, and its Knudsen number.
+fn sensor(set: &[&str]) -> [f64; 3] {
+    let mut scene = presets::find("plate-mems").unwrap();
+    scene.set_all(SENSOR.iter().chain(set).map(|change| change.split_once('=').unwrap())).unwrap();
+    let problem = Problem::new(&scene).unwrap();
+    let solution = solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).unwrap();
+    let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
+    let found = exact_of_runs::solved(plate, &solution.recording).unwrap();
+    let unit = exact_of_runs::Harmonic::unit(plate);
+    let knudsen = Numbers::of(&problem, &solution).get(Quantity::KnudsenNumber).unwrap();
+    [found.spring.value * unit.spring, found.damping.value * unit.damping, knudsen]
+}
+
+#[test]
+fn what_lesson_9_says_of_a_plate_that_floats_is_right() {
+    let disc = |set: &[&str], name| number("floating-disc", set, name);
+    says(9, "takes away 29 %");
+    let doubled = disc(&["plate.mass_g=200"], "mean_gap_um") / disc(&[], "mean_gap_um");
+    assert!((doubled - 0.5f64.sqrt()).abs() < 0.02, "{doubled}");
+    says(9, "$p_a A$ is 20.4 N and $F$ is 0.98 N");
+    let (force, weight) = (101_325.0 * std::f64::consts::PI * 0.008f64.powi(2), 0.1 * 9.80665);
+    assert!((force - 20.4).abs() < 0.05 && (weight - 0.98f64).abs() < 0.005);
+    states(9, "The root is 5.1, and 8 µm over 5.1 is 1.57 µm", (1.25 * force / weight).sqrt(), 5.1, 0.005);
+    says(9, "Neither the frequency nor the viscosity is in it");
+    assert!((disc(&["plate.frequency_khz=10"], "mean_gap_um") / disc(&[], "mean_gap_um") - 1.0).abs() < 0.02);
+    says(9, "About 3 kg");
+    assert!(disc(&["plate.mass_g=3000"], "min_gap_nm") > 200.0);
+    let floats = |preset: &str, change: (&str, &str)| {
+        let mut scene = presets::find(preset).unwrap();
+        scene.set_all([change]).unwrap();
+        let problem = Problem::new(&scene).unwrap();
+        solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).is_ok()
+    };
+    assert!(!floats("floating-disc", ("plate.mass_g", "4000")));
+    says(9, "The amplitude is reduced from 1.5 µm to 0.5 µm, a third of it");
+    assert!(!floats("floating-finger-pad", ("plate.amplitude_um", "0.5")));
+    assert!(floats("floating-finger-pad", ("plate.amplitude_um", "0.55")));
+    let pad = number("floating-finger-pad", &[], "mean_gap_um") / 3.0;
+    assert!((pad - 2.5).abs() < 0.15, "By the formula the mean gap would be 2.5 µm: {pad}");
+}
+
+#[test]
+fn what_lesson_10_says_of_the_gas_in_a_sensor_is_right() {
+    let mass = 2330.0 * (0.4e-3f64).powi(2) * 0.1e-3;
+    states(10, "37 millionths of a gram", mass, 37e-9, 0.01);
+    let omega = std::f64::consts::TAU * 5e3;
+    states(10, "**1.64 mN·s/m**", 2f64.sqrt() * omega * mass, 1.64e-3, 0.02);
+    states(10, "The springs of this mass have a stiffness of 37 N/m", mass * omega * omega, 37.0, 0.01);
+    let [stiffness, damping, knudsen] = sensor(&[]);
+    states(10, "the damping is 1.64 mN·s/m", damping, 1.64e-3, 0.01);
+    assert!(stiffness < 2.0 && knudsen < 0.02, "{stiffness} {knudsen}");
+    let halved = sensor(&["plate.mean_gap_um=2.5"])[1] / sensor(&["plate.mean_gap_um=5"])[1];
+    says(10, "It becomes seven or eight times as large");
+    assert!((7.0..8.0).contains(&halved), "{halved}");
+    says(10, "a tenth of a micrometre more or less changes the damping by 6 %");
+    let more = sensor(&["plate.mean_gap_um=4.63"])[1] / damping;
+    assert!((more - 1.06).abs() < 0.01, "{more}");
+    says(10, "It falls by less than a tenth");
+    let thinner = sensor(&["film.ambient_pressure_kpa=50"])[1] / damping;
+    assert!((0.9..0.95).contains(&thinner), "{thinner}");
+    says(10, "Go back to 10 kPa and look: about half of the damping is still there.");
+    let tenth = sensor(&["film.ambient_pressure_kpa=10"])[1] / damping;
+    let [_, least, knudsen] = sensor(&["film.ambient_pressure_kpa=1"]);
+    assert!((0.48..0.56).contains(&tenth) && least < 0.1 * damping && knudsen > 1.0, "{tenth} {least} {knudsen}");
+    says(10, "It becomes less than half");
+    let hydrogen = sensor(&["film.gas=hydrogen"])[1] / damping;
+    assert!((0.4..0.5).contains(&hydrogen), "{hydrogen}");
+    says(
+        10,
+        "Raise the frequency to 50 kHz and watch: the gas becomes a spring, as in lesson 3, and is stiffer than the silicon.",
+    );
+    assert!(sensor(&["plate.frequency_khz=50"])[0] > 2.0 * 37.0);
 }
 
 #[test]

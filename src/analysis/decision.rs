@@ -20,6 +20,7 @@ pub fn term(decision: &Decision) -> &'static str {
         Choice::Teeth(..) => "teeth",
         Choice::Width(_) => "width",
         Choice::MotorGrid { .. } => "grid",
+        Choice::PlateGrid { round: true, .. } => "radius",
         Choice::PlateGrid { across: Some(_), .. } => "plate",
         Choice::PlateGrid { across: None, .. } => "strip",
         Choice::Steps(..) => "time",
@@ -63,10 +64,13 @@ pub fn words(decision: &Decision) -> String {
             },
             grid.steps
         ),
-        Choice::PlateGrid { along, across: Some(across) } => {
+        Choice::PlateGrid { round: true, .. } => {
+            "one radius solved; the film is the same all round the plate (exact)".to_owned()
+        }
+        Choice::PlateGrid { along, across: Some(across), .. } => {
             format!("a quarter of it solved, {along} × {across} intervals, and mirrored (exact)")
         }
-        Choice::PlateGrid { along, across: None } => {
+        Choice::PlateGrid { along, across: None, .. } => {
             format!("one line across half its length solved, {along} intervals, and mirrored (exact)")
         }
         Choice::Steps(steps, follow) => {

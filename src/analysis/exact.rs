@@ -167,18 +167,28 @@ fn limits(plate: &Plate, trapped: f64, frames: usize) -> Limits {
     let at = |frame: usize| {
         let phase = frame as f64 / frames.max(1) as f64;
         let (gap, rate) = (plate.gap(phase), -TAU * plate.frequency * plate.amplitude * (TAU * phase).sin());
-        // The slip's factor at ambient pressure, as 1 + 6 λ/h of an effective free path.
-        let factor = SlipLaw::of(gas).at(gap).0 / gap;
-        let path = (factor - 1.0) * gap / 6.0;
-        let viscous = match (plate.width, plate.hole) {
-            (_, Some(hole)) => viscous_ring_force(gas.viscosity, hole, plate.radius(), gap, rate, path),
-            (None, None) => viscous_strip_force(gas.viscosity, plate.length, gap, rate, path),
-            (Some(width), None) => viscous_rectangle_force(gas.viscosity, plate.length, width, gap, rate, path),
-        };
-        (gas.ambient_pressure * plate.area() * (trapped / gap - 1.0), viscous)
+        (gas.ambient_pressure * plate.area() * (trapped / gap - 1.0), viscous_force(plate, gap, rate))
     };
     let (boyle, viscous) = (0..frames).map(at).unzip();
     Limits { boyle, viscous }
+}
+
+/// Force \[N, of a strip N/m\] of a film at ambient pressure that is not compressed, of a gap \[m\] that changes at `rate` \[m/s\].
+fn viscous_force(plate: &Plate, gap: f64, rate: f64) -> f64 {
+    let gas = &plate.gas;
+    // The slip's factor at ambient pressure, as 1 + 6 λ/h of an effective free path.
+    let factor = SlipLaw::of(gas).at(gap).0 / gap;
+    let path = (factor - 1.0) * gap / 6.0;
+    match (plate.width, plate.hole) {
+        (_, Some(hole)) => viscous_ring_force(gas.viscosity, hole, plate.radius(), gap, rate, path),
+        (None, None) => viscous_strip_force(gas.viscosity, plate.length, gap, rate, path),
+        (Some(width), None) => viscous_rectangle_force(gas.viscosity, plate.length, width, gap, rate, path),
+    }
+}
+
+/// Damping of slow motion at the mean gap \[N s/m, of a strip per metre of width\], of a film that is not compressed (Reynolds).
+pub fn slow_damping(plate: &Plate) -> f64 {
+    viscous_force(plate, plate.mean_gap, -1.0)
 }
 
 /// Greatest |⟨hΦ(Z)⟩ − ⟨hΦ(h)⟩| over the points of the pressure map, over ⟨h²ψ(h) − h³/2⟩, which for first-order slip is

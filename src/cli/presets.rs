@@ -6,7 +6,6 @@ use super::options::SceneOptions;
 use super::terminal;
 use crate::export::json;
 use crate::scene::presets::{BUILT_IN, BuiltIn};
-use crate::scene::table1::published;
 use crate::scene::{Scene, SceneError};
 use clap::Args;
 use serde::Serialize;
@@ -48,14 +47,15 @@ struct Object<'a> {
     name: &'a str,
     about: &'a str,
     scene: &'static str,
-    group: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    group: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     toml: Option<&'a str>,
 }
 
 impl<'a> Object<'a> {
     fn new(preset: &'a str, scene: &'a Scene, toml: Option<&'a str>) -> Self {
-        let group = group(preset, scene);
+        let group = BUILT_IN.iter().find(|built_in| built_in.name == preset).map(|built_in| built_in.group);
         Self { preset, name: &scene.name, about: &scene.about, scene: scene.scene(), group, toml }
     }
 }
@@ -77,42 +77,30 @@ fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
 }
 
 fn print_all(as_json: bool) -> Result<(), CliError> {
-    let read = |built_in: &BuiltIn| Ok((built_in.name, built_in.scene()?));
+    let read = |built_in: &'static BuiltIn| Ok((built_in, built_in.scene()?));
     let scenes = BUILT_IN.iter().map(read).collect::<Result<Vec<_>, SceneError>>()?;
     if as_json {
-        let objects: Vec<_> = scenes.iter().map(|(preset, scene)| Object::new(preset, scene, None)).collect();
+        let objects: Vec<_> = scenes.iter().map(|(preset, scene)| Object::new(preset.name, scene, None)).collect();
         terminal::data(&json::text(&objects));
         return Ok(());
     }
     // One set of columns for all groups, so that they line up; the headings go in between.
     let mut columns = Columns::new();
     for (preset, scene) in &scenes {
-        columns.row([*preset, about(scene)]);
+        columns.row([preset.name, about(scene)]);
     }
     let (lines, mut last, mut text) = (columns.text("  ", &[]), "", String::new());
-    for (line, (preset, scene)) in lines.lines().zip(&scenes) {
-        let group = group(preset, scene);
-        if group != last {
+    for (line, (preset, _)) in lines.lines().zip(&scenes) {
+        if preset.group != last {
             let gap = if last.is_empty() { "" } else { "\n" };
-            text.push_str(&format!("{gap}{group}\n"));
-            last = group;
+            text.push_str(&format!("{gap}{}\n", preset.group));
+            last = preset.group;
         }
         text.push_str(line);
         text.push('\n');
     }
     terminal::text(&text);
     Ok(())
-}
-
-/// The group a preset is listed in.
-fn group(preset: &str, scene: &Scene) -> &'static str {
-    if scene.scene() == "plate" {
-        "Plates: the film alone, under a gap that is given"
-    } else if published().iter().any(|row| row.preset == preset) {
-        "Motors of Maeno and Bogy (1992), Table I"
-    } else {
-        "Motors beyond Table I"
-    }
 }
 
 /// What a preset is, without what its group's heading says.

@@ -213,6 +213,16 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
         let of = format!("of the mass whose weight is the load, {} g", shown(mass));
         columns.row(["natural frequency", &format!("{} Hz", with_error(frequency, error)), &of]);
     }
+    if let (Some(ratio), Some(stiffness)) = (floating.damping_ratio, floating.stiffness_n_per_m) {
+        let damping = floating.damping_n_s_per_m;
+        let how = if ratio < 1.0 {
+            "it swings".to_owned()
+        } else {
+            format!("it does not swing, but creeps back within about {}", duration(damping / stiffness))
+        };
+        let of = format!("of slow motion, by Reynolds; {} times critical: {how}", significant(ratio, 2));
+        columns.row(["damping of floating", &format!("{} {}", shown(damping), units(plate)[1]), &of]);
+    }
 }
 
 /// What is known exactly beside what was computed.

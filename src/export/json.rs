@@ -1,7 +1,7 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
 use crate::analysis::decision::sentences;
-use crate::analysis::exact::Comparison;
+use crate::analysis::exact::{Comparison, slow_damping};
 pub use crate::analysis::quantity::force_unit;
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
@@ -142,6 +142,10 @@ pub struct FloatingObject {
     pub natural_frequency_hz: Option<f64>,
     /// Estimated numerical error of `natural_frequency_hz`, absolute.
     pub natural_frequency_error_hz: Option<f64>,
+    /// Damping of slow motion at this gap, by Reynolds: of a film that is not compressed.
+    pub damping_n_s_per_m: f64,
+    /// That damping over the one at which the mass no longer swings; null if it is not stable.
+    pub damping_ratio: Option<f64>,
     /// Mean gap at which trapped gas that does not slip would carry it: (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²).
     pub trapped_mean_gap_um: f64,
     /// The same for a small load, a √(1.25 p_a A/F).
@@ -152,6 +156,7 @@ impl FloatingObject {
     fn new(plate: &Plate, load: f64, floating: &Floating) -> Self {
         let known = |value: f64| Some(value).filter(|value| value.is_finite());
         let stable = floating.stiffness.value > floating.stiffness.error;
+        let damping = slow_damping(plate);
         Self {
             load_n: load,
             mean_gap_um: known(floating.mean_gap.value * 1e6),
@@ -161,6 +166,8 @@ impl FloatingObject {
             stiffness_error_n_per_m: known(floating.stiffness.error),
             natural_frequency_hz: known(floating.natural_frequency.value).filter(|_| stable),
             natural_frequency_error_hz: known(floating.natural_frequency.error).filter(|_| stable),
+            damping_n_s_per_m: damping,
+            damping_ratio: known(floating.damping_ratio(damping)).filter(|_| stable),
             trapped_mean_gap_um: plate.trapped_gap(load) * 1e6,
             small_load_mean_gap_um: plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt() * 1e6,
         }

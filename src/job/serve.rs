@@ -1,5 +1,6 @@
 //! What a worker of a page does: the work that it is sent, by its name.
 
+use super::drop::Dropping;
 use super::fit::Asked;
 use super::line::{end, message};
 use super::page::Step;
@@ -35,6 +36,7 @@ const WORKS: &[(&str, Run)] = &[
     (Compared::NAME, run::<Compared>),
     (Curves::NAME, run::<Curves>),
     (FromRest::NAME, run::<FromRest>),
+    (Dropping::NAME, run::<Dropping>),
     (Points::NAME, run::<Points>),
     (Measurement::NAME, run::<Measurement>),
     (Alone::NAME, run::<Alone>),

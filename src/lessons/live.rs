@@ -1,7 +1,7 @@
 //! Numbers that are not of the run itself but read off a tab: of a plate in the hand, of a start-up, of a motor's curves over
 //! speed, of a plate beside its exact results. Whoever shows the tab hands them in.
 
-use crate::analysis::exact;
+use crate::analysis::exact::{self, Harmonic};
 use crate::analysis::quantity::numbers;
 use crate::analysis::torque::TorqueCurves;
 use crate::problem::{Plate, Scenario};
@@ -28,6 +28,8 @@ numbers! {
     DryOutput "torque.dry_output_w" "greatest power, no film" "W" Motor "Torque";
     Spring "exact.spring" "spring S" "" Plate "Exact";
     Damping "exact.damping" "damping D" "" Plate "Exact";
+    Stiffness "exact.stiffness_n_per_m" "stiffness of the film" "N/m" Plate "Exact";
+    DampingForce "exact.damping_n_s_per_m" "damping of the film" "N·s/m" Plate "Exact";
 }
 
 impl Live {
@@ -94,6 +96,9 @@ impl Readings {
         if let Some(found) = exact::solved(plate, recording) {
             self.set(Live::Spring, found.spring.value);
             self.set(Live::Damping, found.damping.value);
+            let unit = Harmonic::unit(plate);
+            self.set(Live::Stiffness, found.spring.value * unit.spring);
+            self.set(Live::DampingForce, found.damping.value * unit.damping);
         }
     }
 }

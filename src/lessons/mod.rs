@@ -61,6 +61,8 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     "6-travelling-wave": [],
     "7-contact-and-air": [],
     "8-lost-torque": [],
+    "9-floating": [],
+    "10-accelerometers": [],
 ];
 
 /// The built-in lessons.
@@ -94,11 +96,18 @@ pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonEr
     };
     let mut folders: Vec<PathBuf> =
         entries.flatten().map(|entry| entry.path()).filter(|path| path.join(FILE).is_file()).collect();
-    folders.sort();
+    folders.sort_by_cached_key(|folder| in_order(folder));
     if folders.is_empty() {
         return fault(LessonErrorKind::NoLessons);
     }
     collect(folders.iter().map(|folder| load_one(folder, names)))
+}
+
+/// By the number that a name begins with, then by the name: 2 comes before 10.
+fn in_order(folder: &Path) -> (u64, PathBuf) {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    let digits = name.len() - name.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    (name[..digits].parse().unwrap_or(u64::MAX), folder.to_owned())
 }
 
 fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonError>> {

@@ -12,7 +12,7 @@ use crate::hold::{Hold, leak_time};
 use crate::plan::Plan;
 use crate::problem::{Numerics, Problem, Scenario};
 use crate::scene::Scene;
-use crate::solution::Status;
+use crate::solution::{Status, settled};
 use crate::solve::{Settings, solve};
 use crate::startup::{self, startup};
 use std::collections::BTreeMap;
@@ -159,6 +159,7 @@ impl Run {
             return Err("it did not converge".to_owned());
         }
         let numbers = Numbers::of(&problem, &solution);
+        let problem = settled(&problem, &solution.outcome).into_owned();
         let mut live = Readings::default();
         match &problem.scenario {
             Scenario::Plate(plate) => {

@@ -57,12 +57,14 @@ pub enum Choice {
         /// Across the width a field is a polynomial.
         spectral: bool,
     },
-    /// The finest grid of a plate; across half the width `None` of a strip.
+    /// The finest grid of a plate; across half the width `None` of a strip and of a round plate.
     PlateGrid {
-        /// Intervals along half the length.
+        /// Intervals along half the length, or half a section of a round plate.
         along: usize,
         /// Intervals across half the width.
         across: Option<usize>,
+        /// Whether it is a disc or a ring.
+        round: bool,
     },
     /// Steps in a cycle of a plate, and whether they are the shorter the closer it is.
     Steps(usize, bool),

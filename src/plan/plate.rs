@@ -79,7 +79,7 @@ impl Plan {
         let frames_per_step = if clustering_in_time == 0.0 { 1 } else { (follow as usize).div_ceil(steps) };
         let more_grids = (0..=MORE_GRIDS).rev().find(|more| (frames_per_step * steps) << more <= MOST_FRAMES);
         let more_grids = more_grids.unwrap_or(0);
-        let grid = Choice::PlateGrid { along, across: plate.width.map(|_| across) };
+        let grid = Choice::PlateGrid { along, across: plate.width.map(|_| across), round: plate.hole.is_some() };
         let mut decisions =
             vec![Decision::exact(grid), Decision::exact(Choice::Steps(steps, clustering_in_time != 0.0))];
         if trapped {

@@ -98,10 +98,10 @@ pub static PARAMETERS: &[Parameter] = &[
     number("plate.mean_gap_um", "µm", Plate, (0.01, 1000.0), (0.1, 100.0), Log, 1.0, "Mean gap under the plate"),
     number("plate.load_n", "N", Plate, (1e-6, 1e6), (0.01, 100.0), Log, 1.0,
         "Load on a plate that floats; of a strip, on a metre of its width")
-        .absent("the mean gap is given").instead_of("plate.mean_gap_um"),
+        .absent("the mean gap or the mass is given").instead_of("plate.mean_gap_um"),
     number("plate.mass_g", "g", Plate, (1e-4, 1e8), (1.0, 10e3), Log, 100.0,
         "Mass of a plate that floats under its weight; of a strip, of a metre of its width")
-        .absent("the mean gap is given").instead_of("plate.mean_gap_um"),
+        .absent("the mean gap or the load is given").instead_of("plate.mean_gap_um"),
     number("plate.amplitude_um", "µm", Plate, (0.0, 1000.0), (0.0, 10.0), Linear, 0.5,
         "Amplitude of the vibration; smaller than a mean gap that is given"),
     number("plate.frequency_khz", "kHz", Plate, (0.001, 10000.0), (0.01, 1000.0), Log, 30.0, "Frequency of the vibration"),

@@ -11,6 +11,8 @@ use std::path::Path;
 pub struct BuiltIn {
     /// The name to ask for it by.
     pub name: &'static str,
+    /// What it is listed under.
+    pub group: &'static str,
     /// The file.
     pub toml: &'static str,
 }
@@ -27,38 +29,44 @@ impl BuiltIn {
 }
 
 macro_rules! built_in {
-    ($($name:literal),* $(,)?) => {
-        &[$(BuiltIn { name: $name, toml: include_str!(concat!("../../presets/", $name, ".toml")) }),*]
+    ($($group:literal: [$($name:literal),* $(,)?]),* $(,)?) => {
+        &[$($(BuiltIn { name: $name, group: $group, toml: include_str!(concat!("../../presets/", $name, ".toml")) }),*),*]
     };
 }
 
-/// All built-in presets: the rows of Table I in the paper's order, then what goes beyond it.
+/// All built-in presets, in the order of the lists: what is simple first. The rows of Table I are in the paper's order.
 pub static BUILT_IN: &[BuiltIn] = built_in![
-    "fundamental",
-    "doubled-mesh",
-    "min-spacing-100nm",
-    "rotor-width-0.6mm",
-    "tooth-width-1.16mm",
-    "tooth-width-2.31mm",
-    "frequency-3khz",
-    "frequency-20khz",
-    "frequency-40khz",
-    "frequency-60khz",
-    "frequency-100khz",
-    "tooth-radius-3m",
-    "tooth-radius-6.5m",
-    "tooth-radius-10m",
-    "levitating",
-    "ring-rotor",
-    "asperities",
-    "rough-flow",
-    "motor-60mm-helium",
-    "plate-viscous",
-    "plate-crossover",
-    "plate-trapped",
-    "plate-mems",
-    "floating-disc",
-    "floating-finger-pad",
+    "Plates: the film alone": [
+        "plate-viscous",
+        "plate-crossover",
+        "plate-trapped",
+        "plate-mems",
+        "floating-disc",
+        "floating-finger-pad",
+    ],
+    "The motor of Maeno and Bogy (1992): the first row of their Table I": ["fundamental"],
+    "Motors beyond the table": [
+        "levitating",
+        "ring-rotor",
+        "asperities",
+        "rough-flow",
+        "motor-60mm-helium",
+    ],
+    "The other rows of the table": [
+        "doubled-mesh",
+        "min-spacing-100nm",
+        "rotor-width-0.6mm",
+        "tooth-width-1.16mm",
+        "tooth-width-2.31mm",
+        "frequency-3khz",
+        "frequency-20khz",
+        "frequency-40khz",
+        "frequency-60khz",
+        "frequency-100khz",
+        "tooth-radius-3m",
+        "tooth-radius-6.5m",
+        "tooth-radius-10m",
+    ],
 ];
 
 /// The scene of a PRESET argument: the name of a built-in preset, which wins, or else a path.

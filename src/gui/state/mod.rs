@@ -3,6 +3,7 @@
 pub mod activity;
 pub mod dialogs;
 pub mod document;
+pub mod dropped;
 pub mod edits;
 pub mod exports;
 pub mod face;

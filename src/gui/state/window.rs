@@ -3,6 +3,7 @@
 use super::activity::Activity;
 use super::dialogs::Export;
 use super::document::{Document, absolute};
+use super::dropped::Dropped;
 use super::edits::RejectedEdits;
 use super::exports::ExportState;
 use super::face::FaceState;
@@ -66,6 +67,8 @@ pub struct State {
     pub lessons: LessonState,
     /// The start-up, if one was asked for.
     pub startup: Option<StartupState>,
+    /// The plate that was dropped on its vibration, if one was.
+    pub dropped: Option<Dropped>,
     /// The plate that is held, once its tab was shown.
     pub hold: Option<HoldState>,
     /// The path that the last file could not be opened from or saved to, for the next prompt.
@@ -105,6 +108,7 @@ impl State {
             sensitivity: SensitivityState::default(),
             lessons: LessonState::new(None),
             startup: None,
+            dropped: None,
             hold: None,
             failed_path: None,
             modal: None,

@@ -123,6 +123,7 @@ impl Updater {
         }
         if self.state.lessons.is_about(Tab::Startup) {
             self.state.startup = None;
+            self.state.dropped = None;
         }
     }
 

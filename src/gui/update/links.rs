@@ -13,7 +13,11 @@ impl Updater {
     pub(super) fn copy_link(&mut self) {
         let state = &self.state;
         let link = match state.lessons.running() {
-            Some(running) => Link::to_lesson(running.lesson + 1, running.step + 1),
+            Some(running) => {
+                // The recap behind the last step has no number.
+                let steps = state.lessons.lessons()[running.lesson].steps.len();
+                Link::to_lesson(running.lesson + 1, (running.step + 1).min(steps))
+            }
             None => Link::to(state.document.scene(), state.view.tab),
         };
         self.ctx.copy_text(format!("{}{link}", page()));

@@ -3,6 +3,7 @@
 use super::updater::Updater;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{HoldCommand, StartupCommand};
+use crate::gui::state::dropped::Dropped;
 use crate::gui::state::hold::{FIRST_SECONDS, HoldState};
 use crate::gui::state::startup::StartupState;
 use crate::gui::state::view::Tab;
@@ -58,8 +59,12 @@ impl Updater {
         if state.hold.as_ref().is_some_and(|hold| hold.stale(scene)) {
             state.hold = None;
         }
-        if let (Tab::Hold, None, Ok(Scenario::Plate(plate))) =
-            (state.view.tab, &state.hold, Problem::new(scene).map(|problem| problem.scenario))
+        // A plate that floats has its mean gap from the run, if that is known.
+        let run = state.run.as_ref().filter(|run| run.scene.same_model(scene));
+        let problem = || run.map_or_else(|| Problem::new(scene).ok(), |run| Some(run.problem.clone()));
+        if state.view.tab == Tab::Hold
+            && state.hold.is_none()
+            && let Some(Scenario::Plate(plate)) = problem().map(|problem| problem.scenario)
         {
             let wake = self.ctx.clone();
             let slow = slowed(&plate, FIRST_SECONDS);
@@ -92,6 +97,9 @@ impl Updater {
         if command == StartupCommand::Start {
             self.start_from_rest();
         }
+        if let (StartupCommand::Cancel, Some(dropped)) = (command, &self.state.dropped) {
+            dropped.cancel();
+        }
         let Some(startup) = &mut self.state.startup else { return };
         match command {
             StartupCommand::Start => {}
@@ -110,10 +118,17 @@ impl Updater {
         let Some(problem) = self.problem() else { return };
         // Three grids of every tooth: a finer one takes minutes.
         let fidelity = self.state.document.target().min(Fidelity::Standard);
+        let scene = self.state.document.scene().clone();
+        if scene.floats() {
+            match job::drop::start(Posed { scene: scene.clone(), problem }, fidelity, self.wake(Duration::ZERO)) {
+                Ok(task) => self.state.dropped = Some(Dropped::new(task, scene, fidelity)),
+                Err(error) => self.state.fail(format!("The plate cannot be dropped: {error}")),
+            }
+            return;
+        }
         let settings = startup::Settings { fidelity, ..startup::Settings::default() };
         // One at a time: the last one is ended first.
         let count = self.state.startup.take().map_or(0, |last| last.count() + 1);
-        let scene = self.state.document.scene().clone();
         match job::startup::start(
             Posed { scene: scene.clone(), problem: problem.clone() },
             settings,

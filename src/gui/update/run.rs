@@ -170,6 +170,12 @@ impl Updater {
                 startup.cancel();
             }
         }
+        if let Some(dropped) = &mut state.dropped {
+            dropped.drain();
+            if dropped.stale(state.document.scene()) {
+                dropped.cancel();
+            }
+        }
         self.dialogs.drain().into_iter().for_each(|(purpose, answer)| self.answered(purpose, answer));
         self.receive_pictures();
         self.update_hold();

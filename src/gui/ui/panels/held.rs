@@ -11,10 +11,7 @@ use eframe::egui;
 pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let (plate, now) = (hold.plate(), hold.now());
     let (reading, ambient) = (now.reading, plate.gas.ambient_pressure);
-    let (unit, area) = match plate.width {
-        Some(_) => ("N", "Load / (p_a · area)"),
-        None => ("N/m", "Load / (p_a · length)"),
-    };
+    let (unit, area) = if plate.is_strip() { ("N/m", "Load / (p_a · length)") } else { ("N", "Load / (p_a · area)") };
     egui::ScrollArea::vertical().id_salt("held").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
         // Room for the scroll bar, which floats.

@@ -9,8 +9,7 @@ use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
-use crate::scene::table1::published;
-use crate::scene::{Scene, presets};
+use crate::scene::presets;
 use eframe::egui::{self, Button};
 
 /// Shows the menus.
@@ -196,20 +195,11 @@ fn built_in(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 pub fn presets_menu(ui: &mut egui::Ui, command: impl Fn(&'static str) -> Command, cx: &DrawContext<'_>) {
     let room = 0.85 * ui.ctx().content_rect().height();
     egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
-        // Plates, the motor, what goes beyond the table, and its rows.
-        let group = |name: &str, scene: &Scene| match (scene.scene(), name) {
-            ("plate", _) => 0,
-            (_, "fundamental") => 1,
-            _ if published().iter().any(|row| row.preset == name) => 3,
-            _ => 2,
-        };
         // Built-in presets parse: a test opens every one.
-        let read = presets::BUILT_IN.iter().filter_map(|preset| Some((preset, preset.scene().ok()?)));
-        let mut all: Vec<_> = read.map(|(preset, scene)| (group(preset.name, &scene), preset, scene)).collect();
-        all.sort_by_key(|(group, ..)| *group);
-        let mut last = 0;
-        for (group, preset, scene) in &all {
-            if std::mem::replace(&mut last, *group) != *group {
+        let all = presets::BUILT_IN.iter().filter_map(|preset| Some((preset, preset.scene().ok()?)));
+        let mut last = None;
+        for (preset, scene) in all {
+            if last.replace(preset.group).is_some_and(|group| group != preset.group) {
                 ui.separator();
             }
             let entry = ui.add(Button::new(scene.name.as_str()).shortcut_text(preset.name));

@@ -2,7 +2,7 @@
 
 use super::convergence;
 use super::model;
-use crate::analysis::exact::units;
+use crate::analysis::exact::{slow_damping, units};
 use crate::analysis::regime;
 use crate::analysis::validity::Excess;
 use crate::digits::{capitalised, significant};
@@ -105,13 +105,15 @@ fn motor_numbers(
 fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
     let unit = force_unit(&run.problem);
     let ratio = |load| PlateResult::ratio(load, plate);
-    if let Some(Floating { mean_gap, stiffness, natural_frequency }) = result.floating {
+    if let Some(floating @ Floating { mean_gap, stiffness, natural_frequency }) = result.floating {
         headline(ui, "", "Mean gap", &uncertain(mean_gap.value * 1e6, mean_gap.error * 1e6), "µm");
         cx.note(ui, "mean gap at which the film carries the load");
         ui.add_space(4.0);
         number(ui, cx, "Stiffness of floating", &uncertain(stiffness.value, stiffness.error), units(plate)[0]);
         let frequency = uncertain(natural_frequency.value, natural_frequency.error);
         number(ui, cx, "Natural frequency", &frequency, "Hz");
+        let ratio = floating.damping_ratio(slow_damping(plate));
+        number(ui, cx, "Damping ratio", &significant(ratio, 2), "");
         number(ui, cx, "Film load, mean", &uncertain(result.film_load, result.film_load_error), unit);
     } else {
         headline(ui, "", "Film load", &uncertain(result.film_load, result.film_load_error), unit);

@@ -14,6 +14,8 @@ use eframe::egui::{self, Slider, TextStyle};
 const PRESET: &str = "plate-crossover";
 /// Below this share of what was asked for, the film is said to be slower.
 const SLOW: f64 = 0.85;
+/// Decimals of the gap in µm.
+const GAP_DECIMALS: usize = 3;
 /// Widest slider, and what stands beside either, in heights of the text.
 const WIDEST: f32 = 18.0;
 const BESIDE_GAP: f32 = 18.0;
@@ -43,11 +45,12 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let room = |ui: &egui::Ui, others: f32| (ui.available_width() - others * em).clamp(2.0 * em, WIDEST * em);
     ui.horizontal(|ui| {
         let [least, most] = hold.reach().map(|gap| gap * 1e6);
-        let mut gap = hold.target() * 1e6;
+        // As the slider rounds it: a plate that falls is not taken in the hand.
+        let mut gap = egui::emath::round_to_decimals(hold.target() * 1e6, GAP_DECIMALS);
         ui.spacing_mut().slider_width = room(ui, BESIDE_GAP);
         let label = ui.label("Gap");
         let label = glossary::here(ui, label, "Gap");
-        let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(3).smart_aim(false);
+        let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(GAP_DECIMALS).smart_aim(false);
         if ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓").changed() {
             cx.push(HoldCommand::To(gap * 1e-6));
         }

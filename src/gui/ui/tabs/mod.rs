@@ -1,6 +1,7 @@
 //! What can be in the middle of the window, one of them at a time: the motion is in `views`, the others are here.
 
 pub mod compare;
+mod dropped;
 pub mod exact;
 mod face;
 pub mod fit;

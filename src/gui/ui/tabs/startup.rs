@@ -1,5 +1,6 @@
 //! The transient from rest, cycle after cycle as it is computed: how the film pumps up until the cycle repeats.
 
+use super::dropped;
 use crate::export::startup::unsettled;
 use crate::gui::command::StartupCommand;
 use crate::gui::state::startup::StartupState;
@@ -16,6 +17,10 @@ const LINES: (f32, f32) = (6.5, 13.0);
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    if cx.state.document.scene().floats() {
+        dropped::show(ui, cx);
+        return;
+    }
     let height = ui.available_height();
     buttons(ui, cx);
     let Some(startup) = &cx.state.startup else {

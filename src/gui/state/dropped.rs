@@ -1,0 +1,67 @@
+//! A plate that was dropped on its vibration: of which scene, its way so far, and how it ended.
+
+use crate::fall::{Cycle, Fall};
+use crate::fidelity::Fidelity;
+use crate::job::drop::DropTask;
+use crate::job::task::News;
+use crate::scene::Scene;
+
+/// A drop, under way or ended.
+#[derive(Debug)]
+pub struct Dropped {
+    task: Option<DropTask>,
+    scene: Scene,
+    fidelity: Fidelity,
+    cycles: Vec<Cycle>,
+    ended: Option<Result<Fall, String>>,
+}
+
+impl Dropped {
+    /// A drop of `scene` that has begun.
+    pub fn new(task: DropTask, scene: Scene, fidelity: Fidelity) -> Self {
+        Self { task: Some(task), scene, fidelity, cycles: Vec::new(), ended: None }
+    }
+
+    /// Takes what has been computed since the last time.
+    pub fn drain(&mut self) {
+        let Some(task) = &self.task else { return };
+        let News { messages, end } = task.drain();
+        self.cycles.extend(messages);
+        if let Some(end) = end {
+            self.ended = Some(end.unwrap_or_else(|panic| Err(format!("the solver failed: {panic}"))));
+            self.task = None;
+        }
+    }
+
+    /// Asks it to end.
+    pub fn cancel(&self) {
+        if let Some(task) = &self.task {
+            task.cancel();
+        }
+    }
+
+    /// Whether it goes on.
+    pub fn running(&self) -> bool {
+        self.task.is_some()
+    }
+
+    /// The plate at the end of each cycle so far; the first is the beginning.
+    pub fn cycles(&self) -> &[Cycle] {
+        &self.cycles
+    }
+
+    /// How it ended.
+    pub fn ended(&self) -> Option<&Result<Fall, String>> {
+        self.ended.as_ref()
+    }
+
+    /// Grids and steps are those of this fidelity.
+    pub fn fidelity(&self) -> Fidelity {
+        self.fidelity
+    }
+
+    /// Whether `scene` is another one than was dropped.
+    pub fn stale(&self, scene: &Scene) -> bool {
+        !self.scene.same_model(scene) || self.scene.numerics() != scene.numerics()
+    }
+}

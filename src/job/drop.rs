@@ -1,0 +1,52 @@
+//! A plate that is dropped on its vibration, in the background: cycles come as they are marched.
+
+use super::task::Task;
+use super::work::{Posed, Work};
+use crate::control::Cancel;
+use crate::fall::{Cycle, Fall, fall};
+use crate::fidelity::Fidelity;
+use crate::solution::Status;
+use crate::startup::Settings;
+use serde::{Deserialize, Serialize};
+
+/// Cycles after which it is no longer waited for.
+const MOST_CYCLES: usize = 5000;
+
+/// A drop, as it is carried to where it is computed.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Dropping {
+    posed: Posed,
+    fidelity: Fidelity,
+}
+
+/// A drop in the background; it returns how it ended, or why there is no more.
+pub type DropTask = Task<Cycle, Result<Fall, String>>;
+
+impl Work for Dropping {
+    const NAME: &'static str = "drop";
+    type Message = Cycle;
+    type Found = Result<Fall, String>;
+
+    fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
+        let mut each = |cycle| tell(cycle);
+        let found =
+            fall(&self.posed.problem, self.fidelity, MOST_CYCLES, Settings::default().tolerance, &mut each, cancel);
+        found.map_err(|error| error.to_string())?.ok_or_else(|| "there is no plate under a load".to_owned())
+    }
+
+    fn ended() -> Self::Found {
+        Ok(Fall { status: Status::Cancelled, cycles: 0, floats: Err("cancelled".to_owned()) })
+    }
+}
+
+/// Drops the plate of a scene.
+///
+/// # Errors
+/// If it cannot be done in the background.
+pub fn start(
+    posed: Posed,
+    fidelity: Fidelity,
+    wake: impl Fn(bool) + Send + Sync + 'static,
+) -> std::io::Result<DropTask> {
+    Task::of(Dropping { posed, fidelity }, wake)
+}
