@@ -204,7 +204,7 @@ fn plain(nodes: &[Node]) -> String {
             Node::Bracketed(left, inside, right) => text.push_str(&format!("{left}{}{right}", plain(inside))),
             Node::Marked(Mark::Dot, inside) => text.push_str(&format!("d{}/dt", plain(inside))),
             Node::Marked(Mark::Bar, inside) => text.push_str(&format!("mean {}", plain(inside))),
-            Node::Space(room) if *room > 0.5 => text.push(' '),
+            Node::Space(room) if *room > 0.0 && !text.ends_with(' ') => text.push(' '),
             Node::Space(_) => {}
         }
         text

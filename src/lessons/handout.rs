@@ -30,7 +30,7 @@ const SKETCHES: &[(&str, [&str; 2])] = &[
 /// # Errors
 /// Why a scene of it was not solved.
 pub fn sheet(lesson: &Lesson, answers: bool, cancel: &Cancel) -> Result<Vec<Piece>, String> {
-    let kind = if answers { "Answers" } else { "Name ______________________  Date ______________" };
+    let kind = if answers { "Answers" } else { "Name ________________  Date _________" };
     let mut pieces = vec![Piece::Title(lesson.title.clone()), Piece::Text(kind.to_owned())];
     for (i, step) in lesson.steps.iter().enumerate() {
         let known = quoted(step, cancel).map_err(|error| format!("{}, {}: {error}", lesson.title, step.title))?;

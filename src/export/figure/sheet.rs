@@ -21,6 +21,8 @@ const LINE: f64 = 1.32;
 const RULED: f64 = 1.9;
 const AXES: f64 = 6.5;
 const INDENT: f64 = 1.4;
+/// A heading keeps as much with it.
+const HEADING_WITH: f64 = 10.0;
 
 /// A part of a sheet, below what comes before it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,7 +70,10 @@ fn set(sheet: &[Piece], size: f64) -> Vec<String> {
     for piece in sheet {
         match piece {
             Piece::Title(text) => setter.words(text, 0.0, 1.6, Colour::FILM, 0.0),
-            Piece::Heading(text) => setter.words(text, 0.0, 1.15, Colour::BLACK, 0.8),
+            Piece::Heading(text) => {
+                setter.keep(HEADING_WITH * size);
+                setter.words(text, 0.0, 1.15, Colour::BLACK, 0.8);
+            }
             Piece::Text(text) => setter.words(text, 0.0, 1.0, Colour::BLACK, 0.25),
             Piece::Answer(text) => setter.words(text, 0.0, 1.0, Colour::FILM, 0.25),
             Piece::Choice(text, ticked) => {
@@ -114,6 +119,12 @@ impl Setter {
         }
         self.y += height;
         self.y - height
+    }
+
+    /// Goes on in the next column if this height is not left in this one.
+    fn keep(&mut self, height: f64) {
+        let top = self.take(height);
+        self.y = top;
     }
 
     fn draw(&mut self, draw: impl FnOnce(&mut Svg)) {
