@@ -354,6 +354,8 @@ fn shells_and_man_are_told_every_command() {
     for command in listed {
         let page = std::fs::read_to_string(folder.path().join(format!("squeezefilm-{command}.1"))).unwrap();
         assert!(page.contains(".SH OPTIONS") && page.contains(".SH SYNOPSIS"), "{page}");
+        let head = format!(".TH squeezefilm-{command} 1 {} ", squeezefilm::citation::RELEASED);
+        assert!(page.contains(&head), "{head}: {page}");
     }
     let program = std::fs::read_to_string(folder.path().join("squeezefilm.1")).unwrap();
     assert!(program.contains("Exit status") && program.contains("squeezefilm\\-solve(1)"), "{program}");
