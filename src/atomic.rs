@@ -115,6 +115,9 @@ impl Staged {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), WriteError> {
         let path = self.folder.join(name);
+        if let Err(source) = replaceable(&path) {
+            return Err(WriteError { path, source });
+        }
         let new = self.scratch(self.targets.len(), NEW);
         let written = (|| {
             if !HAS_FILES {
@@ -150,8 +153,9 @@ impl Staged {
             hand_out(&self.folder, files).map_err(|source| WriteError { path: self.folder.clone(), source })?;
             return Ok(std::mem::take(&mut self.targets));
         }
-        if let Some(folder) = self.targets.iter().find(|path| path.is_dir()) {
-            return Err(WriteError { path: folder.clone(), source: ErrorKind::IsADirectory.into() });
+        // They may have become so since they were staged.
+        for path in &self.targets {
+            replaceable(path).map_err(|source| WriteError { path: path.clone(), source })?;
         }
         for (i, path) in self.targets.iter().enumerate() {
             let replaced = set_aside(path, &self.scratch(i, OLD)).and_then(|()| fs::rename(self.scratch(i, NEW), path));
@@ -190,6 +194,32 @@ impl Drop for Staged {
 
 const NEW: &str = ".new";
 const OLD: &str = ".old";
+
+/// Whether a file may have this name: none has it yet, or one that can be replaced. A file that is read-only stays, on every system.
+fn replaceable(path: &Path) -> io::Result<()> {
+    let Ok(older) = fs::metadata(path) else { return Ok(()) };
+    if older.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    if older.permissions().readonly() {
+        return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
+    }
+    not_held(path)
+}
+
+/// Whether no other program holds the file open in such a way that it cannot be replaced, as spreadsheets do on Windows.
+#[cfg(windows)]
+fn not_held(path: &Path) -> io::Result<()> {
+    use std::os::windows::fs::OpenOptionsExt;
+    const DELETE: u32 = 0x0001_0000;
+    OpenOptions::new().access_mode(DELETE).open(path).map(|_| ())
+}
+
+/// Elsewhere a file that is open can be replaced.
+#[cfg(not(windows))]
+fn not_held(_: &Path) -> io::Result<()> {
+    Ok(())
+}
 
 /// Keeps the file that is to be replaced under another name: by a link, so that its name is never missing, or by renaming.
 fn set_aside(path: &Path, old: &Path) -> io::Result<()> {
@@ -287,6 +317,8 @@ mod tests {
         assert_eq!(fs::read_to_string(folder.path().join("a")).unwrap(), "new");
     }
 
+    // Elsewhere a folder with an open file cannot be removed.
+    #[cfg(unix)]
     #[test]
     fn a_folder_that_vanished_is_told() {
         let parent = tempfile::tempdir().unwrap();
@@ -322,10 +354,26 @@ mod tests {
             names.iter().for_each(|name| staged.add(name, |w| w.write_all(b"new")).unwrap());
             staged
         };
-        // A folder is seen before anything is done.
+        // A folder, or a file that is read-only, is seen before anything is done.
+        let staged = stage(&["a", "b", "c"]);
         fs::create_dir(path("c")).unwrap();
-        let error = stage(&["a", "b", "c"]).commit().unwrap_err();
+        let error = Staged::new(folder.path()).unwrap().add("c", |_| Ok(())).unwrap_err();
         assert!(error.to_string().contains("c: cannot be written: is a directory"), "{error}");
+        let error = staged.commit().unwrap_err();
+        assert!(error.to_string().contains("c: cannot be written: is a directory"), "{error}");
+        let staged = stage(&["a", "b", "e"]);
+        fs::write(path("e"), "mine").unwrap();
+        let read_only = |is: bool| {
+            let mut permissions = fs::metadata(path("e")).unwrap().permissions();
+            permissions.set_readonly(is);
+            fs::set_permissions(path("e"), permissions).unwrap();
+        };
+        read_only(true);
+        let error = staged.commit().unwrap_err();
+        assert!(error.to_string().ends_with("e: cannot be written: it is read-only"), "{error}");
+        assert_eq!(fs::read_to_string(path("e")).unwrap(), "mine");
+        read_only(false);
+        fs::remove_file(path("e")).unwrap();
         assert_eq!(
             (names(folder.path()), fs::read_to_string(path("a")).unwrap()),
             (vec!["a".into(), "c".into()], "old".into())

@@ -10,18 +10,19 @@ pub const LICENCE: &str = env!("CARGO_PKG_LICENSE");
 pub fn bibtex() -> String {
     format!(
         "@software{{squeezefilm,\n  title   = {{squeezefilm: {TITLE}}},\n  author  = {{{{The squeezefilm developers}}}},\n  \
-         version = {{{VERSION}}},\n  year    = {{{YEAR}}}\n}}\n"
+         version = {{{VERSION}}},\n  year    = {{{}}}\n}}\n",
+        &RELEASED[..4]
     )
 }
 
 /// What it is, in a citation.
 const TITLE: &str = "the squeezed air film of ultrasonic motors";
-/// Year of the version.
-const YEAR: u16 = 2026;
+/// Day of the version.
+pub const RELEASED: &str = "2026-11-22";
 
 #[cfg(test)]
 mod tests {
-    use super::{LICENCE, TITLE, VERSION, YEAR};
+    use super::{LICENCE, RELEASED, TITLE, VERSION};
 
     #[test]
     fn the_citation_file_says_the_same() {
@@ -29,7 +30,7 @@ mod tests {
         for line in [
             format!("title: \"squeezefilm: {TITLE}\""),
             format!("version: {VERSION}"),
-            format!("date-released: \"{YEAR}-"),
+            format!("date-released: \"{RELEASED}\""),
         ] {
             assert!(file.contains(&line), "{line}");
         }

@@ -4,6 +4,8 @@ use crate::platform::handed_over;
 use std::io::Read;
 use std::path::Path;
 
+const MEGABYTE: u64 = 1_000_000;
+
 /// Why a file is not read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReadError {
@@ -35,16 +37,18 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     if !about.is_file() {
         return Err(ReadError::NotAFile(if about.is_dir() { "a folder" } else { "a pipe or a device" }));
     }
-    let most = limit * 1_000_000;
-    let mut bytes = Vec::new();
-    // Its length may be none, as under /proc, or change while it is read.
-    if about.len() <= most {
-        std::fs::File::open(path).map_err(system)?.take(most + 1).read_to_end(&mut bytes).map_err(system)?;
-    }
-    if about.len().max(bytes.len() as u64) > most {
+    if about.len() > limit * MEGABYTE {
         return Err(ReadError::TooLarge(limit));
     }
-    Ok(bytes)
+    // Its length may be none, as under /proc, or change while it is read.
+    bytes_of(std::fs::File::open(path).map_err(system)?, limit)
+}
+
+fn bytes_of(source: impl Read, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::new();
+    let read = source.take(limit * MEGABYTE + 1).read_to_end(&mut bytes);
+    read.map_err(|error| ReadError::System(error.to_string()))?;
+    if bytes.len() as u64 > limit * MEGABYTE { Err(ReadError::TooLarge(limit)) } else { Ok(bytes) }
 }
 
 /// The text of a regular file of up to `limit` \[MB\]. Whatever else the path names is refused without being opened.
@@ -53,5 +57,44 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
 ///
 /// [`ReadError`]: there is no such file, it is something else than a file, too large, or no text.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, ReadError> {
-    String::from_utf8(read_bytes(path, limit)?).map_err(|_| ReadError::NotText)
+    text(read_bytes(path, limit)?)
+}
+
+/// The text of up to `limit` \[MB\] that standard input, or another stream, holds.
+///
+/// # Errors
+///
+/// [`ReadError`]: it cannot be read, is too large, or no text.
+pub fn read_stream(source: impl Read, limit: u64) -> Result<String, ReadError> {
+    text(bytes_of(source, limit)?)
+}
+
+/// UTF-8, or UTF-16 behind its byte order mark, as `>` of PowerShell 5 writes it.
+fn text(bytes: Vec<u8>) -> Result<String, ReadError> {
+    let unit = match bytes.get(..2) {
+        Some([0xff, 0xfe]) => u16::from_le_bytes,
+        Some([0xfe, 0xff]) => u16::from_be_bytes,
+        _ => return String::from_utf8(bytes).map_err(|_| ReadError::NotText),
+    };
+    let (pairs, rest) = bytes[2..].as_chunks();
+    let units: Vec<u16> = pairs.iter().copied().map(unit).collect();
+    if rest.is_empty() { String::from_utf16(&units).map_err(|_| ReadError::NotText) } else { Err(ReadError::NotText) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_of_either_byte_order_is_read() {
+        let told = "h = 1 µm\r\n";
+        let units =
+            |bytes: fn(u16) -> [u8; 2]| ["\u{feff}", told].concat().encode_utf16().flat_map(bytes).collect::<Vec<_>>();
+        for bytes in [told.into(), units(u16::to_le_bytes), units(u16::to_be_bytes)] {
+            assert_eq!(read_stream(&bytes[..], 1).unwrap(), told);
+        }
+        for bytes in [&b"\xff\xfeh"[..], b"\xff\xfe\x00\xd8", b"\xff\xff"] {
+            assert_eq!(read_stream(bytes, 1), Err(ReadError::NotText));
+        }
+    }
 }

@@ -53,7 +53,11 @@ fn sources() -> Vec<Source> {
         let code = without_tests(&without_texts(&std::fs::read_to_string(&path).unwrap()));
         Source { name, module, code }
     };
-    paths.into_iter().filter(|path| !path.ends_with("src/main.rs")).map(read).collect()
+    paths
+        .into_iter()
+        .filter(|path| !path.ends_with("src/main.rs") && !path.starts_with(base.join("bin")))
+        .map(read)
+        .collect()
 }
 
 /// The code without comments and without the contents of texts.

@@ -324,7 +324,7 @@ fn bad_input_is_named_and_exits_with_2() {
 fn a_scene_in_a_file_that_is_not_one_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
-    for (bytes, word) in [(&b"schema = 2\n"[..], "schema"), (b"\xff\xfe", "UTF-8"), (b"a = [", "TOML"), (b"", "schema")]
+    for (bytes, word) in [(&b"schema = 2\n"[..], "schema"), (b"\xff\xff", "UTF-8"), (b"a = [", "TOML"), (b"", "schema")]
     {
         fs::write(&path, bytes).unwrap();
         refused(&["solve", path.to_str().unwrap()], 2, &["mine.toml", word]);
@@ -354,6 +354,8 @@ fn shells_and_man_are_told_every_command() {
     for command in listed {
         let page = std::fs::read_to_string(folder.path().join(format!("squeezefilm-{command}.1"))).unwrap();
         assert!(page.contains(".SH OPTIONS") && page.contains(".SH SYNOPSIS"), "{page}");
+        let head = format!(".TH squeezefilm-{command} 1 {} ", squeezefilm::citation::RELEASED);
+        assert!(page.contains(&head), "{head}: {page}");
     }
     let program = std::fs::read_to_string(folder.path().join("squeezefilm.1")).unwrap();
     assert!(program.contains("Exit status") && program.contains("squeezefilm\\-solve(1)"), "{program}");
@@ -848,6 +850,33 @@ fn what_does_not_converge_is_reported_marked_and_exits_with_3() {
     assert!(out(&output).contains("NOT CONVERGED"), "{}", out(&output));
 }
 
+#[test]
+fn a_preset_is_written_into_a_file_and_read_from_what_powershell_makes_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let output = run(&["presets", "levitating", "--out", &at("mine.toml")]);
+    assert_eq!((output.status.code(), out(&output), err(&output)), (Some(0), "", ""));
+    let text = fs::read_to_string(at("mine.toml")).unwrap();
+    assert_eq!(text, out(&run(&["presets", "levitating"])));
+    let utf16: Vec<u8> =
+        ["\u{feff}", &text].concat().replace('\n', "\r\n").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fs::write(at("theirs.toml"), &utf16).unwrap();
+    let read = run(&["presets", &at("theirs.toml")]);
+    assert_eq!((read.status.code(), out(&read)), (Some(0), out(&run(&["presets", &at("mine.toml")]))));
+    assert_eq!(with_input(&["presets", "-"], &utf16).stdout, read.stdout);
+    refused(&["presets", "--out", &at("all.toml")], 2, &["PRESET"]);
+    let mut permissions = fs::metadata(at("mine.toml")).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(at("mine.toml"), permissions).unwrap();
+    refused(
+        &["presets", "fundamental", "--out", &at("mine.toml")],
+        1,
+        &["mine.toml: cannot be written: it is read-only"],
+    );
+}
+
+// A display is looked for beforehand on Linux alone.
+#[cfg(target_os = "linux")]
 #[test]
 #[cfg(feature = "gui")]
 fn the_window_without_a_display_names_the_headless_command() {

@@ -3,6 +3,7 @@
 use super::exit::{CliError, Exit};
 use super::terminal;
 use crate::atomic::Staged;
+use crate::citation::{RELEASED, VERSION};
 use clap::{Args, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
@@ -42,7 +43,7 @@ pub(super) fn man(arguments: &ManArguments, program: Command) -> Result<Exit, Cl
     program.build();
     let mut pages = Staged::new(&arguments.folder)?;
     for command in std::iter::once(&program).chain(program.get_subcommands()) {
-        let page = Man::new(command.clone());
+        let page = Man::new(command.clone()).date(RELEASED).source(format!("squeezefilm {VERSION}"));
         pages.add(page.get_filename(), |file| page.render(file))?;
     }
     pages.commit()?;

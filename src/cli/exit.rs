@@ -9,7 +9,8 @@ use crate::atomic::WriteError;
 use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
 use crate::export::files::ExportError;
-use crate::export::sweep::ReadError;
+use crate::export::sweep;
+use crate::input::ReadError;
 use crate::lessons::record::RecordError;
 use crate::scene::SceneError;
 use crate::solution::Status;
@@ -89,7 +90,7 @@ pub(super) enum CliError {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        source: ReadError,
+        source: sweep::ReadError,
     },
     /// Another sweep has the folder.
     #[error("{}: another sweep is being saved into this folder; give another folder, or wait for it", folder.display())]
@@ -126,6 +127,9 @@ pub(super) enum CliError {
         /// The system's reason.
         reason: String,
     },
+    /// The thread that a command runs on.
+    #[error("no thread can be started: {0}")]
+    Thread(io::Error),
     /// A link in place of a preset.
     #[cfg(feature = "gui")]
     #[error(transparent)]
@@ -133,12 +137,17 @@ pub(super) enum CliError {
     /// The window.
     #[cfg(feature = "gui")]
     #[error(
-        "no window can be opened here: {0}\nwithout one: squeezefilm solve fundamental, or squeezefilm --help\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)"
+        "no window can be opened here: {reason}\nwithout one: squeezefilm solve fundamental, or squeezefilm --help{advice}"
     )]
-    Window(String),
+    Window {
+        /// The system's reason.
+        reason: String,
+        /// What else may help on this system.
+        advice: &'static str,
+    },
     /// A preset on standard input.
-    #[error("standard input: cannot be read: {0}")]
-    Input(io::Error),
+    #[error("standard input: {0}")]
+    Input(ReadError),
     /// Standard output.
     #[error("standard output: cannot be written: {0}")]
     Output(io::Error),
@@ -183,13 +192,14 @@ impl CliError {
             #[cfg(feature = "gui")]
             Self::Link(_) => Exit::BadInput,
             #[cfg(feature = "gui")]
-            Self::Window(_) => Exit::Other,
+            Self::Window { .. } => Exit::Other,
             Self::Solve(_)
             | Self::Write(_)
             | Self::Figure(_)
             | Self::Animation(_)
             | Self::Export(_)
             | Self::Threads { .. }
+            | Self::Thread(_)
             | Self::Output(_) => Exit::Other,
         }
     }

@@ -7,7 +7,7 @@ use crate::gui::state::document::Document;
 use crate::gui::state::link::Link;
 use crate::scene::presets::BUILT_IN;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Opens the window (as without any command), on a preset or where it was left
 #[derive(Debug, Default, Args)]
@@ -63,13 +63,24 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     };
     arguments.memory.apply();
     if no_display() {
-        return Err(CliError::Window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
+        return Err(no_window("neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()));
     }
     let step = arguments.step.map_or(1, usize::from);
     let lesson = arguments.lesson.map(|lesson| Link::Lesson { lesson: lesson.into(), step });
-    gui::open(opened, arguments.lessons.clone(), link.or(lesson))
-        .map_err(|error| CliError::Window(error.to_string()))?;
+    gui::open(opened, arguments.lessons.clone(), link.or(lesson)).map_err(|error| no_window(error.to_string()))?;
     Ok(Exit::Solved)
+}
+
+/// The error, with what this system may lack.
+fn no_window(reason: String) -> CliError {
+    let advice = if cfg!(windows) {
+        "\n(the window needs OpenGL 2.0, which remote desktops and virtual machines often lack)"
+    } else if Path::new("/etc/debian_version").exists() {
+        "\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)"
+    } else {
+        ""
+    };
+    CliError::Window { reason, advice }
 }
 
 /// Whether it is known beforehand that no window can be opened.

@@ -29,8 +29,10 @@ mod terminal;
 mod tradeoff;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use exit::{CliError, Exit};
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::{panic, thread};
 
 /// The squeezed air film of an ultrasonic motor, solved.
 ///
@@ -89,7 +91,7 @@ Examples:
   squeezefilm animate fundamental --out wave.gif
   squeezefilm new my.toml
   squeezefilm surface rotor.csv stator.csv
-  squeezefilm presets fundamental > my.toml && squeezefilm solve my.toml
+  squeezefilm presets fundamental --out my.toml && squeezefilm solve my.toml
   squeezefilm presets fundamental --set film.slip=none | squeezefilm solve -
 
 Exit status:
@@ -121,25 +123,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         None => gui::run(&gui::Arguments::default()),
         // clap asks for a command where there is no window.
         #[cfg(not(feature = "gui"))]
-        None => Ok(exit::Exit::Solved),
-        Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
-        Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
-        Some(Command::Fit(arguments)) => fit::run(&arguments, &command_line(words)),
-        Some(Command::Compare(arguments)) => compare::run(&arguments, &command_line(words)),
-        Some(Command::Table1(arguments)) => table1::run(&arguments),
-        Some(Command::Reproduce(arguments)) => reproduce::run(&arguments, &command_line(words)),
-        Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments, &command_line(words)),
-        Some(Command::Stability(arguments)) => stability::run(&arguments, &command_line(words)),
-        Some(Command::Sensitivity(arguments)) => sensitivity::run(&arguments, &command_line(words)),
-        Some(Command::Startup(arguments)) => startup::run(&arguments, &command_line(words)),
-        Some(Command::Animate(arguments)) => animate::run(&arguments),
-        Some(Command::Presets(arguments)) => presets::run(&arguments),
-        Some(Command::New(arguments)) => new::run(&arguments),
-        Some(Command::Surface(arguments)) => surface::run(&arguments, &command_line(words)),
-        Some(Command::Completions(arguments)) => completions::completions(&arguments, Cli::command()),
-        Some(Command::Man(arguments)) => completions::man(&arguments, Cli::command()),
-        #[cfg(feature = "gui")]
-        Some(Command::Lessons(arguments)) => lessons::run(&arguments),
+        None => Ok(Exit::Solved),
+        Some(command) => on_a_thread(|| carry_out(command, words)),
     };
     match ended.and_then(|exit| terminal::ended().map(|()| exit)) {
         Ok(exit) => exit.code(),
@@ -149,6 +134,60 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             }
             error.exit().code()
         }
+    }
+}
+
+/// Runs `squeezefilm gui` with the arguments of a program without a terminal, its name first. What is wrong is told to `tell`.
+#[cfg(feature = "gui")]
+pub fn run_window(arguments: impl IntoIterator<Item = OsString>, tell: impl FnOnce(&str)) -> ExitCode {
+    let mut arguments = arguments.into_iter();
+    let words = arguments.next().into_iter().chain(["gui".into()]).chain(arguments);
+    let (text, exit) = match Cli::try_parse_from(words) {
+        Ok(Cli { command: Some(Command::Gui(arguments)), .. }) => match gui::run(&arguments) {
+            Ok(exit) => return exit.code(),
+            Err(error) => (error.to_string(), error.exit()),
+        },
+        Ok(_) => return Exit::Solved.code(),
+        Err(usage) => (usage.to_string(), if usage.use_stderr() { Exit::BadInput } else { Exit::Solved }),
+    };
+    tell(&text);
+    exit.code()
+}
+
+/// The stack of the thread that a command runs on \[bytes\]. On Windows the first thread has a megabyte.
+const STACK: usize = 8 << 20;
+
+/// Carries a command out on a thread of its own: on Windows the first one also rounds otherwise than those that solve.
+fn on_a_thread(command: impl FnOnce() -> Result<Exit, CliError> + Send) -> Result<Exit, CliError> {
+    thread::scope(|scope| {
+        let thread = thread::Builder::new().name("squeezefilm-command".to_owned()).stack_size(STACK);
+        let thread = thread.spawn_scoped(scope, command).map_err(CliError::Thread)?;
+        thread.join().unwrap_or_else(|panic| panic::resume_unwind(panic))
+    })
+}
+
+fn carry_out(command: Command, words: Vec<String>) -> Result<Exit, CliError> {
+    match command {
+        #[cfg(feature = "gui")]
+        Command::Gui(arguments) => gui::run(&arguments),
+        Command::Solve(arguments) => solve::run(&arguments, &command_line(words)),
+        Command::Sweep(arguments) => sweep::run(&arguments, &command_line(words)),
+        Command::Fit(arguments) => fit::run(&arguments, &command_line(words)),
+        Command::Compare(arguments) => compare::run(&arguments, &command_line(words)),
+        Command::Table1(arguments) => table1::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments, &command_line(words)),
+        Command::Tradeoff(arguments) => tradeoff::run(&arguments, &command_line(words)),
+        Command::Stability(arguments) => stability::run(&arguments, &command_line(words)),
+        Command::Sensitivity(arguments) => sensitivity::run(&arguments, &command_line(words)),
+        Command::Startup(arguments) => startup::run(&arguments, &command_line(words)),
+        Command::Animate(arguments) => animate::run(&arguments),
+        Command::Presets(arguments) => presets::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
+        Command::Surface(arguments) => surface::run(&arguments, &command_line(words)),
+        Command::Completions(arguments) => completions::completions(&arguments, Cli::command()),
+        Command::Man(arguments) => completions::man(&arguments, Cli::command()),
+        #[cfg(feature = "gui")]
+        Command::Lessons(arguments) => lessons::run(&arguments),
     }
 }
 
@@ -168,5 +207,18 @@ mod tests {
     #[test]
     fn the_definition_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[cfg(feature = "gui")]
+    #[test]
+    fn without_a_terminal_everything_is_told_to_the_box() {
+        let told = |words: &[&str]| {
+            let mut told = String::new();
+            run_window(words.iter().map(OsString::from), |text| text.clone_into(&mut told));
+            told
+        };
+        assert!(told(&["squeezefilm-window", "levitatin"]).contains("levitating"));
+        assert!(told(&["squeezefilm-window", "--lesson", "0"]).contains("--lesson"));
+        assert!(told(&["squeezefilm-window", "--help"]).contains("PRESET"));
     }
 }

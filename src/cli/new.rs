@@ -3,6 +3,7 @@
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::terminal;
+use crate::input::ReadError;
 use crate::scene::new_motor::{Answers, NewMotor, QUESTIONS, Question};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use std::io::BufRead;
@@ -109,7 +110,7 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
                 None => format!("{}: ", question.title()),
             });
             let Some(line) = lines.next() else { return Ok(()) };
-            let answer = line.map_err(CliError::Input)?.trim().to_owned();
+            let answer = line.map_err(|error| CliError::Input(ReadError::System(error.to_string())))?.trim().to_owned();
             match question.check(&answer) {
                 _ if answer.is_empty() && question.otherwise.is_some() => {}
                 _ if answer.is_empty() => continue,

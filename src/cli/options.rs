@@ -9,12 +9,13 @@ use crate::export::figure::{Figure, Format};
 use crate::export::files::stage_figure;
 use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
+use crate::input;
 use crate::memory;
 use crate::scene::{Scene, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -71,16 +72,12 @@ pub(super) fn warn_of_given_path(scene: &Scene) {
 
 /// The PRESET argument that stands for standard input.
 pub(super) const STANDARD_INPUT: &str = "-";
-/// Most bytes of a preset on standard input.
-const LARGEST: u64 = 16 << 20;
+/// The largest preset on standard input \[MB\].
+const LARGEST: u64 = 16;
 
 fn from_standard_input() -> Result<Scene, CliError> {
-    let mut text = String::new();
-    match io::stdin().lock().take(LARGEST + 1).read_to_string(&mut text) {
-        Ok(bytes) if bytes as u64 > LARGEST => Err(CliError::Input(io::ErrorKind::FileTooLarge.into())),
-        Ok(_) => Ok(Scene::from_toml(&text, "standard input")?),
-        Err(error) => Err(CliError::Input(error)),
-    }
+    let text = input::read_stream(io::stdin().lock(), LARGEST).map_err(CliError::Input)?;
+    Ok(Scene::from_toml(&text, "standard input")?)
 }
 
 /// How to solve.

@@ -4,17 +4,19 @@ use super::columns::Columns;
 use super::exit::{CliError, Exit};
 use super::options::SceneOptions;
 use super::terminal;
+use crate::atomic::write_file;
 use crate::export::json;
 use crate::scene::presets::{BUILT_IN, BuiltIn};
 use crate::scene::{Scene, SceneError};
 use clap::Args;
 use serde::Serialize;
+use std::path::PathBuf;
 
 /// Lists the built-in presets, or prints one as a file to start your own from
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   squeezefilm presets
-  squeezefilm presets fundamental > my.toml
+  squeezefilm presets fundamental --out my.toml
   squeezefilm presets fundamental --set film.min_spacing_nm=100 > smoother.toml")]
 pub(super) struct Arguments {
     /// Prints this preset (a built-in name or a path) as a TOML file
@@ -24,6 +26,10 @@ pub(super) struct Arguments {
     /// Prints JSON to standard output
     #[arg(long)]
     json: bool,
+
+    /// Writes the preset into this file instead
+    #[arg(long, value_name = "FILE", requires = "preset", conflicts_with = "json")]
+    out: Option<PathBuf>,
 
     #[command(flatten)]
     scene: SceneOptions,
@@ -68,7 +74,9 @@ fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
         Some(built_in) if arguments.scene.changes.is_empty() => built_in.toml.to_owned(),
         _ => scene.to_toml(),
     };
-    if arguments.json {
+    if let Some(path) = &arguments.out {
+        write_file(path, |out| out.write_all(toml.as_bytes()))?;
+    } else if arguments.json {
         terminal::data(&json::text(&Object::new(preset, &scene, Some(&toml))));
     } else {
         terminal::data(&toml);

@@ -42,6 +42,7 @@ pub mod window {
     /// # Errors
     /// If there is no display, or no way to draw on it.
     pub fn run(storage: Option<PathBuf>, start: eframe::AppCreator<'static>) -> Result<(), eframe::Error> {
+        let icon = eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default();
         let options = eframe::NativeOptions {
             renderer: eframe::Renderer::Glow,
             // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.
@@ -49,6 +50,7 @@ pub mod window {
             viewport: egui::ViewportBuilder::default()
                 .with_title("squeezefilm")
                 .with_app_id("squeezefilm")
+                .with_icon(icon)
                 .with_inner_size([1400.0, 900.0])
                 // Fits a screen of 1366 × 768 at 125 %, with its bars.
                 .with_min_inner_size([800.0, 520.0])

@@ -10,7 +10,7 @@ use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::panels::field::select_all;
 use eframe::egui::{self, Id, Key, Ui};
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, is_separator};
 
 /// Widest text.
 const WIDTH: f32 = 460.0;
@@ -185,10 +185,11 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     .inner
 }
 
-/// A typed path in full, `~/` being the home folder.
+/// A typed path in full, `~/` being the home folder, on Windows `~\` as well.
 fn expanded(path: &str) -> PathBuf {
     let path = path.trim();
-    match (path.strip_prefix("~/"), std::env::home_dir()) {
+    let rest = path.strip_prefix('~').and_then(|rest| rest.strip_prefix(is_separator));
+    match (rest, std::env::home_dir()) {
         (Some(rest), Some(home)) => home.join(rest),
         _ => absolute(Path::new(path)),
     }
