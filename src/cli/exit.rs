@@ -9,7 +9,7 @@ use crate::atomic::WriteError;
 use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
 use crate::export::files::ExportError;
-use crate::export::sweep::ReadError;
+use crate::export::saved::{JoinError, ReadError};
 use crate::lessons::record::RecordError;
 use crate::scene::SceneError;
 use crate::solution::Status;
@@ -90,6 +90,17 @@ pub(super) enum CliError {
         path: PathBuf,
         /// What is wrong with it.
         source: ReadError,
+    },
+    /// Parts of a sweep that are not joined.
+    #[error(transparent)]
+    Join(#[from] JoinError),
+    /// A file that was given.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: crate::input::ReadError,
     },
     /// Another sweep has the folder.
     #[error("{}: another sweep is being saved into this folder; give another folder, or wait for it", folder.display())]
@@ -173,6 +184,8 @@ impl CliError {
             | Self::Fit(_)
             | Self::Compare(_)
             | Self::Resume { .. }
+            | Self::Join(_)
+            | Self::File { .. }
             | Self::Busy { .. }
             | Self::Answers(_)
             | Self::Record(_)

@@ -10,6 +10,7 @@ mod fit;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;
+mod join;
 #[cfg(feature = "gui")]
 mod lessons;
 mod new;
@@ -57,6 +58,7 @@ enum Command {
     Gui(gui::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
+    Join(join::Arguments),
     Fit(fit::Arguments),
     Compare(compare::Arguments),
     Table1(table1::Arguments),
@@ -124,6 +126,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         None => Ok(exit::Exit::Solved),
         Some(Command::Solve(arguments)) => solve::run(&arguments, &command_line(words)),
         Some(Command::Sweep(arguments)) => sweep::run(&arguments, &command_line(words)),
+        Some(Command::Join(arguments)) => join::run(&arguments),
         Some(Command::Fit(arguments)) => fit::run(&arguments, &command_line(words)),
         Some(Command::Compare(arguments)) => compare::run(&arguments, &command_line(words)),
         Some(Command::Table1(arguments)) => table1::run(&arguments),

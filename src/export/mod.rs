@@ -19,6 +19,7 @@ pub mod json;
 mod mp4;
 pub mod npz;
 pub mod reproduce;
+pub mod saved;
 pub mod sensitivity;
 pub mod stability;
 pub mod startup;
