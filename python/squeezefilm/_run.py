@@ -225,7 +225,8 @@ class Run:
         return figure
 
     def save(self, folder: str | os.PathLike[str], figures: tuple[str, ...] = ("svg", "png")) -> list[str]:
-        """Writes what ``squeezefilm solve --out`` writes, and returns the paths. figures: the formats of the figures."""
+        """Writes what ``squeezefilm solve --out`` writes, and returns the paths. figures: the formats of the figures;
+        ``"vtk"`` is the film at every instant for ParaView."""
         return self._inner.save(os.fspath(folder), list(figures))
 
     def __repr__(self) -> str:

@@ -82,6 +82,23 @@ fn apart<T: Send + 'static>(
     }
 }
 
+/// Does `work` on threads of its own, one for each core: the pool that a process shares does not outlive its fork.
+fn pooled<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}
+
+/// As [`apart`], on all cores.
+fn apart_on_all_cores<T: Send + 'static>(
+    py: Python<'_>,
+    told: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Cancel, Tell<'_>) -> T + Send + 'static,
+) -> PyResult<T> {
+    apart(py, told, |cancel, tell| pooled(|| work(cancel, tell)))
+}
+
 /// How to solve, as keywords of Python.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]

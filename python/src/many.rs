@@ -1,7 +1,7 @@
 //! Sweeps, at once or in parts on other machines.
 
 use crate::scene::Scene;
-use crate::{How, apart, scene_error, solve_error};
+use crate::{How, apart_on_all_cores, scene_error, solve_error};
 use pyo3::prelude::*;
 use squeezefilm::analysis::sweep::{Part, Row, Sweep, Vary};
 use squeezefilm::control::Cancel;
@@ -43,7 +43,7 @@ pub(crate) fn sweep(
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let sweep = sweep_of(scene, axes, &how)?;
-    apart(py, told, move |cancel, tell| csv(&sweep, &solved(&sweep, Part::WHOLE, cancel, tell)))?
+    apart_on_all_cores(py, told, move |cancel, tell| csv(&sweep, &solved(&sweep, Part::WHOLE, cancel, tell)))?
 }
 
 /// How many points a sweep has.
@@ -57,7 +57,7 @@ pub(crate) fn points(scene: &Scene, axes: Axes, how: How) -> PyResult<usize> {
 pub(crate) fn part(py: Python<'_>, scene: &Scene, axes: Axes, how: How, part: &str) -> PyResult<String> {
     let sweep = sweep_of(scene, axes, &how)?;
     let part: Part = part.parse().map_err(scene_error)?;
-    apart(py, None, move |cancel, tell| {
+    apart_on_all_cores(py, None, move |cancel, tell| {
         let mut text = Vec::new();
         saved::write(&sweep, part, &solved(&sweep, part, cancel, tell), &[], &mut text).map_err(solve_error)?;
         Ok(String::from_utf8_lossy(&text).into_owned())

@@ -1,7 +1,7 @@
 //! A solved scene.
 
 use crate::scene::Scene;
-use crate::{apart, scene_error, solve_error};
+use crate::{apart, apart_on_all_cores, scene_error, solve_error};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
@@ -152,8 +152,9 @@ impl Run {
     fn save(&self, py: Python<'_>, folder: String, formats: Vec<String>) -> PyResult<Vec<String>> {
         let inner = Arc::clone(&self.0);
         let known = |name: &String| Format::WRITTEN.iter().find(|format| format.name() == name).copied();
+        let vtk = formats.iter().any(|name| name == "vtk");
         let formats: Vec<Format> = formats.iter().filter_map(known).collect();
-        let written = apart(py, None, move |cancel, _| {
+        let written = apart_on_all_cores(py, None, move |cancel, _| {
             let summary = inner.complete(cancel);
             let solved = Solved {
                 scene: &inner.scene,
@@ -162,7 +163,12 @@ impl Run {
                 history: &inner.history,
                 torque: summary.torque.as_ref(),
             };
-            files::solve(Path::new(&folder), &solved, summary, &formats, &Control { cancel, drawn: &|_, _| () })
+            let (folder, control) = (Path::new(&folder), Control { cancel, drawn: &|_, _| () });
+            let mut paths = files::solve(folder, &solved, summary, &formats, &control)?;
+            if vtk {
+                paths.extend(files::vtk(folder, &solved, &control)?);
+            }
+            Ok(paths)
         })?;
         let paths = written.map_err(|error| match error {
             ExportError::Write(error) => pyo3::exceptions::PyOSError::new_err(error.to_string()),

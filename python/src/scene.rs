@@ -75,8 +75,9 @@ impl Scene {
         let settings = how.settings(Record::Everything)?;
         let scene = self.0.clone();
         let problem = Problem::new(&scene).map_err(scene_error)?;
-        check(&problem, &settings).map_err(scene_error)?;
-        let (problem, history, solved, wall_s) = apart(py, None, move |cancel, _| {
+        let (problem, history, solution, wall_s) = apart(py, None, move |cancel, _| {
+            // Of a ring this takes its time.
+            check(&problem, &settings).map_err(scene_error)?;
             let started = Instant::now();
             let cancel = match budget_ms {
                 Some(budget) => cancel.with_budget(move || {
@@ -88,9 +89,9 @@ impl Scene {
             let mut history = Vec::new();
             let mut observer = |progress: &_| history.push(*progress);
             let solved = solve(&problem, &settings, &mut observer, &cancel);
-            (problem, history, solved, started.elapsed().as_secs_f64())
-        })?;
-        let solution = solved.map_err(|error| crate::error_of(error.is_bad_input(), error))?;
+            let wall_s = started.elapsed().as_secs_f64();
+            Ok((problem, history, solved.map_err(|error| crate::error_of(error.is_bad_input(), error))?, wall_s))
+        })??;
         Ok(Run::new(scene, &problem, settings, solution, history, wall_s))
     }
 }

@@ -1,7 +1,7 @@
 //! What asks for many solves, or for a transient: the objects of `--json`, as text.
 
 use crate::scene::{Scene, cancelled, checked};
-use crate::{How, apart, error_of, scene_error, solve_error};
+use crate::{How, apart_on_all_cores, error_of, scene_error, solve_error};
 use pyo3::prelude::*;
 use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, Measured, Model};
 use squeezefilm::analysis::sensitivity::{Sensitivity, SensitivityError, Uncertainties};
@@ -43,7 +43,7 @@ pub(crate) fn sensitivity(
         .collect::<PyResult<Vec<_>>>()?;
     let uncertainties = Uncertainties::new(&scene.0, &given).map_err(scene_error)?;
     let (scene, (draws, seed)) = (scene.0.clone(), carlo);
-    apart(py, told, move |cancel, tell| {
+    apart_on_all_cores(py, told, move |cancel, tell| {
         let counted = AtomicUsize::new(0);
         let count = |all: usize| tell((counted.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64);
         let found = Sensitivity::of(&scene, &keys, &settings, cancel, &count);
@@ -85,7 +85,7 @@ pub(crate) fn fit(
         (name, None) => Measured::find(&name, &scene, settings.method),
     };
     let measured = measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(fit_error)?;
-    apart(py, told, move |cancel, tell| {
+    apart_on_all_cores(py, told, move |cancel, tell| {
         let model = Model::new(&scene, &bounds, &settings).and_then(|model| model.under(&measured));
         let model = model.map_err(fit_error)?;
         let found = fitting::fit(&model, &measured, starts, cancel, &|points, _| tell(points as f64));
@@ -111,7 +111,7 @@ pub(crate) fn optimise(
     let settings = how.settings(squeezefilm::solve::Record::Numbers)?;
     let (scene, bounds, limits) = (scene.0.clone(), parsed::<Bounds>(&vary)?, parsed::<Limit>(&limits)?);
     let goal = Goal::new(&scene, &goal.0, goal.1, &limits).map_err(fit_error)?;
-    apart(py, told, move |cancel, tell| {
+    apart_on_all_cores(py, told, move |cancel, tell| {
         let told = |points: usize, _: f64| tell(points as f64);
         let found = fitting::optimise(&scene, &bounds, &goal, &settings, (starts, cancel, &told));
         let found = found.map_err(fit_error)?.ok_or_else(cancelled)?;
@@ -133,7 +133,7 @@ pub(crate) fn startup(
     let problem = checked(scene)?;
     let (scene, fidelity) = (scene.0.clone(), how.own("a start-up is")?.fidelity);
     let settings = transient::Settings { fidelity, cycles, tolerance, ..Default::default() };
-    apart(py, told, move |cancel, tell| {
+    apart_on_all_cores(py, told, move |cancel, tell| {
         let began = Instant::now();
         let mut rows = Vec::new();
         let mut each = |cycle: Fallen| {
@@ -174,7 +174,7 @@ pub(crate) fn hold(
     if !time_s.windows(2).all(|pair| pair[0] < pair[1]) || !time_s.iter().all(|time| time.is_finite()) {
         return Err(scene_error("time_s: expected ascending instants"));
     }
-    apart(py, None, move |cancel, _| held(&problem, &settings, (&time_s, &gap_um), cancel))?
+    apart_on_all_cores(py, None, move |cancel, _| held(&problem, &settings, (&time_s, &gap_um), cancel))?
 }
 
 fn held(

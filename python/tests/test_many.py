@@ -1,6 +1,7 @@
 import concurrent.futures
 import csv
 import io
+import multiprocessing
 import os
 import shutil
 import signal
@@ -57,6 +58,12 @@ def test_the_table_has_the_same_bytes_from_any_number_of_workers(table):
     for workers in (1, 3):
         with concurrent.futures.ThreadPoolExecutor(workers) as client:
             same(sf.sweep(SCENE, KEY, VALUES, fidelity="draft", client=client), table)
+
+
+def test_processes_that_are_forked_after_a_sweep_do_not_wait_for_its_threads(table):
+    fork = multiprocessing.get_context("fork")
+    with concurrent.futures.ProcessPoolExecutor(2, fork) as client:
+        same(sf.sweep(SCENE, KEY, VALUES, fidelity="draft", client=client), table)
 
 
 def test_a_bar_is_drawn_where_it_is_asked_for(capsys):

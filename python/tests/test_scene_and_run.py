@@ -1,4 +1,5 @@
 import importlib.resources
+import json
 import pickle
 import signal
 import threading
@@ -164,6 +165,37 @@ def test_figures_are_those_of_the_library(run, tmp_path):
     assert all(np.array_equal(fields[name], array) for name, (_, array) in run.fields().items())
     with pytest.raises(OSError):
         run.save("/dev/null/results")
+
+
+@pytest.mark.parametrize("name", ["fundamental", "plate-crossover", "plate-trapped", "floating-disc"])
+def test_vtk_is_read_by_another_library(name, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    run = sf.preset(name).solve(fidelity="draft")
+    run.save(tmp_path, figures=("vtk",))
+    series = json.loads((tmp_path / "film.vtk.series").read_text())
+    assert [file["time"] for file in series["files"]] == list(run.time_s)
+    frame = len(run.time_s) // 3
+    mesh = meshio.read(tmp_path / series["files"][frame]["name"])
+    points, cells, data = mesh.points, mesh.cells_dict["quad"], mesh.point_data
+    assert len(points) == len(data["pressure_kpa"]) and cells.max() == len(points) - 1
+    corners = points[cells]
+    sides = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    areas = 0.5 * np.linalg.norm(np.cross(*sides), axis=1)
+    assert (areas > 0).all()
+    below = data["face"][cells[:, 0]] == 0
+    force = 1e-3 * (areas * (data["pressure_kpa"][cells].mean(axis=1) - run.scene["film.ambient_pressure_kpa"]))[below].sum()
+    if name == "fundamental":
+        expected = run.scene["motor.waves"] * run.fields()["film_load_n"][1][frame]
+        radius = np.linalg.norm(points[:, :2], axis=1)
+        assert abs(radius - 29).max() < 0.2 and len(data["height_mm"]) == len(points)
+        gap = 1e6 * (data["height_mm"][data["face"] == 1, 2] - data["height_mm"][data["face"] == 0, 2])
+        assert np.allclose(gap + run.scene["film.min_spacing_nm"], data["film_thickness_nm"][data["face"] == 0], atol=0.1)
+    elif "film_load_n_per_m" in run.fields():
+        # A strip is drawn as wide as it is long.
+        expected = 1e-3 * run.scene["plate.length_mm"] * run.fields()["film_load_n_per_m"][1][frame]
+    else:
+        expected = run.fields()["film_load_n"][1][frame]
+    assert force == pytest.approx(expected, rel=0.05, abs=0.02 * abs(run.film_load_n))
 
 
 def test_xarray(run):

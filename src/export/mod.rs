@@ -30,3 +30,4 @@ pub mod torque;
 pub mod tradeoff;
 #[cfg(feature = "video")]
 mod video;
+pub mod vtk;
