@@ -75,7 +75,7 @@ impl Scene {
         let settings = how.settings(Record::Everything)?;
         let scene = self.0.clone();
         let problem = Problem::new(&scene).map_err(scene_error)?;
-        let (problem, history, solution, wall_s) = apart(py, None, move |cancel, _| {
+        let (problem, history, solution, wall_s) = apart(py, None, move |cancel, _| -> PyResult<_> {
             // Of a ring this takes its time.
             check(&problem, &settings).map_err(scene_error)?;
             let started = Instant::now();
