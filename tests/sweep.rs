@@ -4,11 +4,12 @@
 use serde_json::Value;
 use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
-use squeezefilm::analysis::sweep::{Row, Sweep, Vary};
+use squeezefilm::analysis::sweep::{Part, Row, Sweep, Vary};
 use squeezefilm::analysis::validity::{names, outside};
 use squeezefilm::atomic::Lock;
 use squeezefilm::control::Cancel;
-use squeezefilm::export::sweep::{read_saved, write_csv, write_saved};
+use squeezefilm::export::saved;
+use squeezefilm::export::sweep::write_csv;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets;
@@ -39,6 +40,13 @@ fn with_threads(threads: usize, sweep: &Sweep) -> Vec<Row> {
 fn csv_of(sweep: &Sweep, rows: &[Row]) -> String {
     let mut text = Vec::new();
     write_csv(sweep, rows, &mut text).unwrap();
+    String::from_utf8(text).unwrap()
+}
+
+/// What is kept of a part, or of the whole that is not complete.
+fn saved_text(sweep: &Sweep, part: Part, rows: &[Row]) -> String {
+    let mut text = Vec::new();
+    saved::write(sweep, part, rows, &[], &mut text).unwrap();
     String::from_utf8(text).unwrap()
 }
 
@@ -110,9 +118,7 @@ fn a_cancelled_sweep_gone_on_with_equals_an_unbroken_one() {
         });
         assert!((after..sweep.len()).contains(&some.len()), "{}", some.len());
         // By way of the file.
-        let mut saved = Vec::new();
-        write_saved(&sweep, &some, &mut saved).unwrap();
-        let kept = read_saved(&sweep, &String::from_utf8(saved).unwrap()).unwrap();
+        let kept = saved::read(&sweep, Part::WHOLE, &saved_text(&sweep, Part::WHOLE, &some)).unwrap();
         assert_eq!(kept, some);
         let told = AtomicUsize::new(0);
         let rest = sweep.run(&kept, &Cancel::new(), &|_| {
@@ -201,8 +207,7 @@ fn files_and_json_agree_and_are_gone_on_with() {
     fs::create_dir(&again).unwrap();
     let left = again.join("sweep.incomplete.csv");
     let ours = sweep("fundamental", &["stator.frequency_khz=10:50:5"]);
-    let mut saved = Vec::new();
-    write_saved(&ours, &with_threads(2, &ours)[..2], &mut saved).unwrap();
+    let saved = saved_text(&ours, Part::WHOLE, &with_threads(2, &ours)[..2]);
     fs::write(&left, &saved).unwrap();
     let output = run(&COMMAND, Some(&again));
     assert_eq!(output.status.code(), Some(0));
@@ -218,15 +223,98 @@ fn files_and_json_agree_and_are_gone_on_with() {
     assert_eq!(run(&[&other[..], &["--restart"]].concat(), Some(&again)).status.code(), Some(0));
     assert!(!left.exists());
     // What somebody has changed is not taken for a result.
-    let saved = String::from_utf8(saved).unwrap();
     let changed = saved.replacen(",converged,slip-law,0.", ",converged,slip-law,1.", 1);
     assert_ne!(changed, saved);
     fs::write(&left, &changed).unwrap();
     let output = run(&COMMAND, Some(&again));
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("line 2: the row was changed after it was saved"), "{said}");
+    assert!(said.contains("line 3: the row was changed after it was saved"), "{said}");
     assert_eq!(fs::read_to_string(&left).unwrap(), changed);
+}
+
+#[test]
+fn parts_solved_one_by_one_and_joined_are_the_whole_byte_by_byte() {
+    let map = sweep("fundamental", &["film.min_spacing_nm=80:400:3:log", "stator.frequency_khz=10:50:6"]);
+    let whole = with_threads(2, &map);
+    for of in [1, 2, 5, 9] {
+        let rows_of = |part: Part| map.run_part(part, &[], &Cancel::new(), &|_| ());
+        let part = |part: Part| (part.to_string(), saved_text(&map, part, &rows_of(part)));
+        let joined = saved::join(&Part::all(of).map(part).collect::<Vec<_>>()).unwrap();
+        assert_eq!(joined.rows, whole, "{of} parts");
+        assert_eq!(csv_of(&joined.sweep, &joined.rows), csv_of(&map, &whole), "{of} parts");
+    }
+}
+
+#[test]
+fn a_part_that_is_killed_is_gone_on_with_and_joined_to_the_files_of_the_whole() {
+    let parent = tempfile::tempdir().unwrap();
+    let (folder, whole) = (parent.path().join("results"), parent.path().join("whole"));
+    let long =
+        ["sweep", "fundamental", "--fidelity=standard", "--threads=1", "--vary=film.min_spacing_nm=80:400:6000:log"];
+    let file = |part: &str| folder.join(format!("sweep.part-{part}.csv"));
+    // Killed as soon as something is saved.
+    let mut child = Command::new(env!("CARGO_BIN_EXE_squeezefilm"));
+    child
+        .args(long)
+        .arg("--part=2/3")
+        .arg("--out")
+        .arg(&folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    let mut child = child.spawn().unwrap();
+    while !file("2-of-3").exists() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let left = fs::read_to_string(file("2-of-3")).unwrap().lines().count() - 2;
+    assert!((1..2000).contains(&left), "{left}");
+    let unfinished = run(&["join", file("2-of-3").to_str().unwrap()], None);
+    let said = String::from_utf8_lossy(&unfinished.stderr);
+    assert_eq!(unfinished.status.code(), Some(2));
+    assert!(said.contains(&format!("{left} of the 2000 points of part 2/3 are solved")), "{said}");
+
+    // The same with fewer points, to its end: what was solved of its second part is not solved again.
+    let folder = parent.path().join("few");
+    let file = |part: &str| folder.join(format!("sweep.part-{part}.csv"));
+    let command = ["sweep", "fundamental", "--fidelity=draft", "--vary=stator.frequency_khz=10:50:13"];
+    let ours = sweep("fundamental", &["stator.frequency_khz=10:50:13"]);
+    let second: Part = "2/3".parse().unwrap();
+    let rows = ours.run_part(second, &[], &Cancel::new(), &|_| ());
+    fs::create_dir(&folder).unwrap();
+    fs::write(file("2-of-3"), saved_text(&ours, second, &rows[..1])).unwrap();
+    for (part, told) in [("1/3", ""), ("2/3", "1 of 4 points were solved before"), ("3/3", "")] {
+        let output = run(&[&command[..], &["--part", part]].concat(), Some(&folder));
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.contains(told), "{said}");
+    }
+    // A part that is complete is not solved again.
+    let again = run(&[&command[..], &["--part=3/3"]].concat(), Some(&folder));
+    assert!(String::from_utf8_lossy(&again.stderr).contains("5 of 5 points were solved before"));
+    // Another sweep does not take it for its own.
+    let other = run(&["sweep", "fundamental", "--vary=stator.frequency_khz=10:50:13", "--part=3/3"], Some(&folder));
+    assert_eq!(other.status.code(), Some(2), "{}", String::from_utf8_lossy(&other.stderr));
+
+    assert_eq!(run(&command, Some(&whole)).status.code(), Some(0));
+    let parts = ["3-of-3", "1-of-3", "2-of-3"].map(|part| file(part).to_str().unwrap().to_owned());
+    let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+    let missing = run(&[&["join"], &parts[..2]].concat(), None);
+    assert!(String::from_utf8_lossy(&missing.stderr).contains("parts are missing: 2/3"));
+    let out = parent.path().join("whole/joined");
+    let joined = run(&[&["join", "--json"], &parts[..]].concat(), Some(&out));
+    assert_eq!(joined.status.code(), Some(0), "{}", String::from_utf8_lossy(&joined.stderr));
+    for name in ["sweep.csv", "sweep.svg", "sweep.png", "scene.toml"] {
+        assert_eq!(fs::read(out.join(name)).unwrap(), fs::read(whole.join(name)).unwrap(), "{name}");
+    }
+    // But for the folder in the command, which differs here.
+    let object = |path: &Path| {
+        let text = fs::read_to_string(path.join("sweep.json")).unwrap();
+        text.replace(folder.to_str().unwrap(), "OUT").replace(whole.to_str().unwrap(), "OUT")
+    };
+    assert_eq!(object(&out), object(&whole));
 }
 
 #[test]

@@ -5,11 +5,14 @@
 //! its scene. A point that fails or does not converge says so in its row, and the others go on.
 //!
 //! A cancelled sweep keeps the rows it has; handed to [`Sweep::run`] again, it goes on with what is missing, and ends
-//! as one that was never cancelled. [`Sweep::fingerprint`] tells whether rows on disk are of the same sweep.
+//! as one that was never cancelled. [`Sweep::fingerprint`] tells whether rows on disk are of the same sweep. A [`Part`] of it
+//! can be solved elsewhere: the rows of all parts are those of the whole.
 
 mod axis;
+mod part;
 
 pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, SweepError, Values, Vary, spaced};
+pub use part::Part;
 
 use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity, force_unit};
@@ -55,16 +58,10 @@ pub struct Sweep {
     vary: Vec<Vary>,
     settings: Settings,
     axes: Vec<Axis>,
-    points: Vec<Point>,
+    /// The value of each axis at each point.
+    values: Vec<Vec<f64>>,
     /// The first point that can be solved.
     first: Problem,
-}
-
-/// The value of each axis, and what is to be solved there, or why nothing can be.
-#[derive(Clone, Debug)]
-struct Point {
-    values: Vec<f64>,
-    problem: Result<Problem, String>,
 }
 
 /// In bytes a sweep is what it was made of.
@@ -101,29 +98,17 @@ impl Sweep {
         if count > MOST_POINTS {
             return Err(SweepError::Points { found: count });
         }
-        let numbers = Settings { record: Record::Numbers, ..*settings };
-        let solvable = |values: &[f64]| -> Result<Problem, SweepError> {
-            let problem = Problem::new(&varied(scene, &axes, values)?)?;
-            check(&problem, &numbers)?;
-            Ok(problem)
-        };
-        let values = (0..count).map(|point| values_at(&axes, point));
-        let mut all: Vec<_> = values.map(|values| (solvable(&values), values)).collect();
-        let Some(first) = all.iter().find_map(|(problem, _)| problem.as_ref().ok()).cloned() else {
-            return Err(all.swap_remove(0).0.err().unwrap_or(SweepError::Axes { found: 0 }));
-        };
-        let unit = force_unit(&first);
-        let points = all.into_iter().map(|(problem, values)| {
-            let problem = match problem {
-                Ok(problem) if force_unit(&problem) != unit => {
-                    Err(format!("its forces are in {}, those of the other points in {unit}", force_unit(&problem)))
-                }
-                problem => problem.map_err(|error| error.to_string()),
-            };
-            Point { values, problem }
+        let values: Vec<Vec<f64>> = (0..count).map(|point| values_at(&axes, point)).collect();
+        let mut fault = None;
+        let first = values.iter().find_map(|values| match solvable(scene, &axes, values, settings) {
+            Ok(problem) => Some(problem),
+            Err(error) => {
+                fault.get_or_insert(error);
+                None
+            }
         });
-        let vary = vary.to_vec();
-        Ok(Self { scene: scene.clone(), vary, settings: *settings, points: points.collect(), axes, first })
+        let first = first.ok_or(fault.unwrap_or(SweepError::Axes { found: 0 }))?;
+        Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes, values })
     }
 
     /// The axes; the last varies fastest.
@@ -134,6 +119,11 @@ impl Sweep {
     /// The scene that is varied.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// What is varied, as it was given.
+    pub fn vary(&self) -> &[Vary] {
+        &self.vary
     }
 
     /// How it is solved.
@@ -148,17 +138,17 @@ impl Sweep {
 
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.points.len()
+        self.values.len()
     }
 
     /// Never: a sweep has points.
     pub fn is_empty(&self) -> bool {
-        self.points.is_empty()
+        self.values.is_empty()
     }
 
     /// The value of each axis at a point.
     pub fn values(&self, point: usize) -> &[f64] {
-        &self.points[point].values
+        &self.values[point]
     }
 
     /// The scene of a point, for solving it alone.
@@ -167,6 +157,18 @@ impl Sweep {
     /// The point breaks a rule between keys.
     pub fn scene_at(&self, point: usize) -> Result<Scene, SceneError> {
         varied(&self.scene, &self.axes, self.values(point))
+    }
+
+    /// What is to be solved at a point, or why nothing can be.
+    fn problem_at(&self, point: usize) -> Result<Problem, String> {
+        let problem = solvable(&self.scene, &self.axes, self.values(point), &self.settings);
+        let problem = problem.map_err(|error| error.to_string())?;
+        let (found, unit) = (force_unit(&problem), force_unit(&self.first));
+        if found == unit {
+            Ok(problem)
+        } else {
+            Err(format!("its forces are in {found}, those of the other points in {unit}"))
+        }
     }
 
     /// The quantities its rows have.
@@ -204,6 +206,12 @@ impl Sweep {
     /// in `done` included, in the order of the points: if it was cancelled, fewer than [`Sweep::len`]. `finished` is
     /// told of each new row, from whichever thread.
     pub fn run(&self, done: &[Row], cancel: &Cancel, finished: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
+        self.run_part(Part::WHOLE, done, cancel, finished)
+    }
+
+    /// As [`Sweep::run`], of the points of a part alone.
+    pub fn run_part(&self, part: Part, done: &[Row], cancel: &Cancel, finished: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
+        let points = part.points(self);
         let mut rows: Vec<Option<Row>> = vec![None; self.len()];
         for row in done {
             if let Some(place) = rows.get_mut(row.point) {
@@ -213,6 +221,7 @@ impl Sweep {
         let solved: Vec<Vec<Row>> = self
             .chunks()
             .into_par_iter()
+            .filter(|chunk| points.contains(&chunk.start))
             .map(|chunk| {
                 if rows[chunk.clone()].iter().all(Option::is_some) {
                     return Vec::new();
@@ -256,24 +265,24 @@ impl Sweep {
             if cancel.is_cancelled() {
                 break;
             }
-            let Point { values, problem } = &self.points[point];
+            let problem = self.problem_at(point);
             let mut row = Row {
                 point,
-                values: values.clone(),
+                values: self.values[point].clone(),
                 status: RunStatus::Waiting,
                 numbers: Numbers::default(),
                 outside: Vec::new(),
             };
-            let solved = problem
-                .as_ref()
-                .map_err(Clone::clone)
-                .and_then(|problem| Ok((problem, attempt_from(&mut warm, problem, &settings, &mut (), cancel)?)));
+            let solved = problem.and_then(|problem| {
+                let solution = attempt_from(&mut warm, &problem, &settings, &mut (), cancel)?;
+                Ok((problem, solution))
+            });
             match solved {
                 Ok((_, solution)) if solution.status == Status::Cancelled => break,
                 Ok((problem, solution)) => {
                     row.status = solution.status.into();
-                    row.numbers = Numbers::of(problem, &solution);
-                    row.outside = validity::names(&validity::outside(problem, Some(&solution)));
+                    row.numbers = Numbers::of(&problem, &solution);
+                    row.outside = validity::names(&validity::outside(&problem, Some(&solution)));
                 }
                 // A point that was cut short is no failure.
                 Err(_) if cancel.is_cancelled() => break,
@@ -294,6 +303,13 @@ fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
     }
     values.reverse();
     values
+}
+
+/// The problem at these values, checked.
+fn solvable(scene: &Scene, axes: &[Axis], values: &[f64], settings: &Settings) -> Result<Problem, SweepError> {
+    let problem = Problem::new(&varied(scene, axes, values)?)?;
+    check(&problem, &Settings { record: Record::Numbers, ..*settings })?;
+    Ok(problem)
 }
 
 /// The scene with the varied keys at these values.

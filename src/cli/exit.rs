@@ -9,7 +9,7 @@ use crate::atomic::WriteError;
 use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
 use crate::export::files::ExportError;
-use crate::export::sweep;
+use crate::export::saved::{self, JoinError};
 use crate::input::ReadError;
 use crate::lessons::record::RecordError;
 use crate::scene::SceneError;
@@ -90,7 +90,18 @@ pub(super) enum CliError {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        source: sweep::ReadError,
+        source: saved::ReadError,
+    },
+    /// Parts of a sweep that are not joined.
+    #[error(transparent)]
+    Join(#[from] JoinError),
+    /// A file that was given.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: ReadError,
     },
     /// Another sweep has the folder.
     #[error("{}: another sweep is being saved into this folder; give another folder, or wait for it", folder.display())]
@@ -182,6 +193,8 @@ impl CliError {
             | Self::Fit(_)
             | Self::Compare(_)
             | Self::Resume { .. }
+            | Self::Join(_)
+            | Self::File { .. }
             | Self::Busy { .. }
             | Self::Answers(_)
             | Self::Record(_)

@@ -10,7 +10,7 @@ use crate::atomic::Staged;
 use crate::control::Cancel;
 use crate::digits::{duration, significant, with_error};
 use crate::estimate::Estimate;
-use crate::export::fall::{Object, Row, figure, write_csv};
+use crate::export::fall::{Object, Row, figure, floats, write_csv};
 use crate::export::json;
 use crate::fall::{Fall, fall};
 use crate::fidelity::Fidelity;
@@ -54,20 +54,8 @@ pub(super) fn run(
     let wall_s = started.elapsed().as_secs_f64();
     drop(bar);
     let Some(ended) = ended? else { return Ok(None) };
-    let floats = ended.floats.as_ref().ok().map(|gap| Estimate { value: gap.value * 1e6, error: gap.error * 1e6 });
-    let warnings: Vec<String> = ended.floats.clone().err().into_iter().collect();
-    let object = Object {
-        preset: &scene.name,
-        scene: scene.scene(),
-        fidelity: fidelity.to_string(),
-        converged: ended.status == Status::Converged,
-        mean_gap_um: floats.map(|gap| gap.value),
-        mean_gap_error_um: floats.map(|gap| gap.error).filter(|error| error.is_finite()),
-        wall_s,
-        rows: &rows,
-        warnings: &warnings,
-    };
-    warnings.iter().for_each(|warning| terminal::warning(warning));
+    let (floats, object) = (floats(&ended), Object::new(scene, fidelity, &ended, &rows, wall_s));
+    object.warnings.iter().for_each(|warning| terminal::warning(warning));
     let human = text(scene, &rows, &ended, floats);
     terminal::result(common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles in {}", ended.cycles, duration(wall_s)));

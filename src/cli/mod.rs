@@ -10,6 +10,7 @@ mod fit;
 #[cfg(feature = "gui")]
 mod gui;
 mod interrupt;
+mod join;
 #[cfg(feature = "gui")]
 mod lessons;
 mod new;
@@ -59,6 +60,7 @@ enum Command {
     Gui(gui::Arguments),
     Solve(solve::Arguments),
     Sweep(sweep::Arguments),
+    Join(join::Arguments),
     Fit(fit::Arguments),
     Compare(compare::Arguments),
     Table1(table1::Arguments),
@@ -172,6 +174,7 @@ fn carry_out(command: Command, words: Vec<String>) -> Result<Exit, CliError> {
         Command::Gui(arguments) => gui::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments, &command_line(words)),
         Command::Sweep(arguments) => sweep::run(&arguments, &command_line(words)),
+        Command::Join(arguments) => join::run(&arguments),
         Command::Fit(arguments) => fit::run(&arguments, &command_line(words)),
         Command::Compare(arguments) => compare::run(&arguments, &command_line(words)),
         Command::Table1(arguments) => table1::run(&arguments),

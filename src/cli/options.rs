@@ -237,14 +237,26 @@ impl CommonOptions {
 #[derive(Clone, Debug, Args)]
 pub(super) struct FigureOptions {
     /// Formats of the figures in --out: svg, png, pdf; none for no figures
+    ///
+    /// vtk: of a solve the film at every instant of the cycle for ParaView, film.vtk.series.
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', requires = "out", default_values = ["svg", "png"], value_parser = figure_format())]
     figures: Vec<FigureFormat>,
 }
 
 impl FigureOptions {
-    /// The formats asked for.
+    /// The formats asked for, of a command that has no fields.
     pub(super) fn formats(&self) -> Vec<Format> {
-        self.figures.iter().filter_map(|format| format.0).collect()
+        let (formats, vtk) = self.formats_and_vtk();
+        if vtk {
+            terminal::warning("--figures vtk has no effect here: only solve has the film at every instant");
+        }
+        formats
+    }
+
+    /// The formats asked for, and whether the fields are to be written as VTK.
+    pub(super) fn formats_and_vtk(&self) -> (Vec<Format>, bool) {
+        let drawn = |format: &FigureFormat| if let FigureFormat::Drawn(format) = format { Some(*format) } else { None };
+        (self.figures.iter().filter_map(drawn).collect(), self.figures.contains(&FigureFormat::Vtk))
     }
 
     /// Stages a figure under a name, once in each format.
@@ -253,17 +265,23 @@ impl FigureOptions {
     }
 }
 
-/// A format of figures, or that there are to be none.
+/// What is written beside numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct FigureFormat(Option<Format>);
-
-impl FigureFormat {
-    const NONE: &'static str = "none";
+enum FigureFormat {
+    None,
+    Drawn(Format),
+    Vtk,
 }
 
 fn figure_format() -> ValueParser {
-    let names = Format::ALL.map(Format::name).into_iter().chain([FigureFormat::NONE]);
-    let format = |name: String| FigureFormat(Format::ALL.into_iter().find(|format| format.name() == name));
+    let names = Format::ALL.map(Format::name).into_iter().chain(["vtk", "none"]);
+    let format = |name: String| match name.as_str() {
+        "none" => FigureFormat::None,
+        "vtk" => FigureFormat::Vtk,
+        _ => {
+            Format::ALL.into_iter().find(|format| format.name() == name).map_or(FigureFormat::None, FigureFormat::Drawn)
+        }
+    };
     PossibleValuesParser::new(names).map(format).into()
 }
 

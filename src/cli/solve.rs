@@ -146,7 +146,13 @@ fn one(
             terminal::note(&text);
         }
         let control = Control { cancel, drawn: &|_, _| () };
-        match files::solve(folder, &solved, &result, &arguments.common.figures.formats(), &control) {
+        let (formats, vtk) = arguments.common.figures.formats_and_vtk();
+        let written_files = files::solve(folder, &solved, &result, &formats, &control).and_then(|mut paths| {
+            // Of many instants their series is named.
+            paths.extend(if vtk { files::vtk(folder, &solved, &control)?.pop() } else { None });
+            Ok(paths)
+        });
+        match written_files {
             Err(ExportError::Cancelled) => {
                 terminal::note(&ExportError::Cancelled.to_string());
                 exit = Exit::Other;

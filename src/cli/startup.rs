@@ -10,7 +10,7 @@ use super::terminal;
 use crate::atomic::Staged;
 use crate::digits::{duration, percent, significant, with_error};
 use crate::export::json::{self, force_unit};
-use crate::export::startup::{Object, Row, converged, figure, steady, warnings, write_csv};
+use crate::export::startup::{Object, Row, figure, place, steady, write_csv};
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
 use crate::solution::{Accuracy, Status, StoppedBy};
@@ -99,45 +99,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         let row = Row::of(&problem, &cycle);
         let main = significant(row.main().0, 4);
         if row.cycle > rows.len() {
-            bar.share_done(share(&row, &settings), &format!("cycle {}: {main}", row.cycle));
-            rows.push(row);
-            loads.push(cycle.recording.film_load);
+            bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
         } else {
             bar.share_done(1.0, &format!("cycle {} on finer grids: {main}", row.cycle));
-            loads[cycle.number - 1] = cycle.recording.film_load;
-            rows[cycle.number - 1] = row;
         }
+        place(&mut rows, cycle.number, row);
+        place(&mut loads, cycle.number, cycle.recording.film_load);
     };
     let started = Instant::now();
     let ended = startup::startup(&problem, &settings, &mut each, &cancel);
     let wall_s = started.elapsed().as_secs_f64();
     drop(bar);
     let ended = ended?;
-    let (steady, warnings) = (steady(&problem, &ended), warnings(&ended));
-    let Accuracy { asked, stated, stopped_by } = ended.accuracy;
-
-    let object = Object {
-        preset: &scene.name,
-        scene: scene.scene(),
-        fidelity: settings.fidelity.to_string(),
-        force_unit: force_unit(&problem),
-        converged: converged(&ended),
-        remaining: ended.remaining.is_finite().then_some(ended.remaining),
-        tolerance: settings.tolerance,
-        accuracy_asked: (asked > 0.0).then_some(asked),
-        accuracy_stated: stated.is_finite().then_some(stated),
-        stopped_by: stopped_by.name(),
-        steady: steady.map(|(value, _)| value),
-        steady_error: steady.map(|(_, error)| error),
-        film_steps: ended.stats.film_steps,
-        contact_solves: ended.stats.contact_solves,
-        coupling_iterations: ended.stats.coupling_iterations,
-        unsettled_steps: ended.stats.unsettled_steps,
-        wall_s,
-        rows: &rows,
-        warnings: &warnings,
-    };
-    warnings.iter().for_each(|warning| terminal::warning(warning));
+    let steady = steady(&problem, &ended);
+    let object = Object::new(&scene, &problem, &settings, &ended, &rows, wall_s);
+    object.warnings.iter().for_each(|warning| terminal::warning(warning));
     let human = text(&scene, &problem, &rows, &ended, steady);
     terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
     terminal::note(&format!("{} cycles, {} film steps in {}", ended.cycles, ended.stats.film_steps, duration(wall_s)));
@@ -159,13 +135,6 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         Status::NotConverged { .. } | Status::NotResolved { .. } => Exit::NotConverged,
         Status::Cancelled => Exit::Other,
     })
-}
-
-/// How much of the way is done, 0 to 1, as ln of what remains.
-fn share(row: &Row, settings: &startup::Settings) -> f64 {
-    let by_cycles = row.cycle as f64 / settings.cycles as f64;
-    let by_change = row.remaining.map_or(0.0, |left| (left.ln() / settings.tolerance.ln()).clamp(0.0, 1.0));
-    by_cycles.max(by_change)
 }
 
 /// Cycles shown to people at the beginning, and as powers of two after that.

@@ -8,11 +8,12 @@ use super::solve::written;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Row, Sweep, Vary};
+use crate::analysis::sweep::{Axis, Part, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
 use crate::digits::{duration, significant, with_error};
 use crate::export::compare::LIMITS;
-use crate::export::sweep::{Object, ReadError, read_saved, write_saved};
+use crate::export::saved::{self, ReadError};
+use crate::export::sweep::Object;
 use crate::export::{files, json};
 use crate::scene::show_text;
 use crate::solve::Method;
@@ -28,7 +29,8 @@ Examples:
   squeezefilm sweep fundamental --vary film.min_spacing_nm=20:500:30:log --fidelity fine --out results
   squeezefilm sweep fundamental --vary motor.load_per_wave_n=0.5:5:12 --vary film.min_spacing_nm=50:400:12:log --out map
   squeezefilm sweep fundamental --vary film.slip=first-order,fukui-kaneko,none --vary film.min_spacing_nm=50,100,200
-  squeezefilm sweep plate-crossover --vary plate.frequency_khz=0.1:1000:40:log --json";
+  squeezefilm sweep plate-crossover --vary plate.frequency_khz=0.1:1000:40:log --json
+  squeezefilm sweep fundamental --vary stator.frequency_khz=3:100:1000:log --part 3/64 --out results";
 
 const FILES: &str = "\
 Files of --out:
@@ -38,7 +40,8 @@ Files of --out:
               each value of the first (twelve at most); and sweep.png
   scene.toml  the scene that is varied: a preset again
 A sweep that is cancelled (Ctrl-C), or killed, leaves sweep.incomplete.csv
-instead; the same command goes on from there, to the same result.";
+instead; the same command goes on from there, to the same result. With --part
+3/64 there is only sweep.part-3-of-64.csv, complete or to be gone on with.";
 
 /// Solves a preset over values of one key, of two or of three
 ///
@@ -59,6 +62,13 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "KEY=FROM:TO:COUNT[:log] or KEY=VALUE,VALUE…", required = true)]
     vary: Vec<Vary>,
 
+    /// Solves a part of the points, as 3/64 the third of 64; squeezefilm join makes the whole of all parts
+    ///
+    /// Parts follow from the points alone. Each can be solved on another machine, and together they are what one machine gives, byte by
+    /// byte. A part that was ended before it was complete is gone on with by the same command.
+    #[arg(long, value_name = "NUMBER/COUNT", requires = "out")]
+    part: Option<Part>,
+
     /// Begins anew: forgets what an earlier sweep, cancelled, left in the folder of --out
     #[arg(long, requires = "out")]
     restart: bool,
@@ -75,67 +85,101 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
         warn_of_given_path(&scene);
     }
-    let folder = arguments.common.output.out.as_deref().map(|path| Folder::open(path, &sweep)).transpose()?;
+    let part = arguments.part.unwrap_or(Part::WHOLE);
+    let points = part.points(&sweep).len();
+    let command = &of_the_whole(command);
+    let folder = arguments.common.output.out.as_deref();
+    let folder = folder.map(|path| Folder::open(path, (&sweep, arguments.part), command)).transpose()?;
     let done = match &folder {
         Some(folder) if !arguments.restart => folder.left_over()?,
         _ => Vec::new(),
     };
     if !done.is_empty() {
-        terminal::note(&format!("going on: {} of {} points were solved before", done.len(), sweep.len()));
+        terminal::note(&format!("going on: {} of {points} points were solved before", done.len()));
     }
 
-    let bar = Bar::points(sweep.len(), done.len());
+    let bar = Bar::points(points, done.len());
     let started = Instant::now();
     let saved = Mutex::new((done.clone(), Instant::now()));
-    let rows = sweep.run(&done, &cancel, &|row| {
+    let rows = sweep.run_part(part, &done, &cancel, &|row| {
         bar.point_done(&place(&sweep, row));
         let Some(folder) = &folder else { return };
         let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
         saved.0.push(row.clone());
         if saved.1.elapsed() > SAVE_EVERY {
             // If it fails now it may succeed at the end, and there it is told.
-            let _ = folder.save_incomplete(&saved.0);
+            let _ = folder.save_unfinished(&saved.0);
             saved.1 = Instant::now();
         }
     });
     let wall_s = started.elapsed().as_secs_f64();
     drop(bar);
 
-    let human = text(&sweep, &rows);
-    if rows.len() < sweep.len() {
-        terminal::note(&format!("cancelled: {} of {} points are solved", rows.len(), sweep.len()));
+    if rows.len() < points {
+        terminal::note(&format!("cancelled: {} of {points} points are solved", rows.len()));
         match &folder {
             Some(_) if rows.is_empty() => {}
             Some(folder) => {
-                let path = folder.save_incomplete(&rows)?;
+                let path = folder.save_unfinished(&rows)?;
                 terminal::note(&format!("they are kept in {}; the same command goes on from there", path.display()));
             }
-            None => terminal::note(&format!("reached was\n\n{human}")),
+            None => terminal::note(&format!("reached was\n\n{}", text(&sweep, &rows))),
         }
         return Ok(Exit::Other);
     }
-    for row in &rows {
-        if let RunStatus::Failed(reason) = &row.status {
-            terminal::error(&format!("{}: {reason}", place(&sweep, row)));
-        }
-    }
-    let object = Object::new(&sweep, &rows);
-    terminal::result(arguments.common.output.json, || json::document(&object, command), || human);
+    let exit = tell(&sweep, &rows, arguments.common.output.json, command);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
-        terminal::note(&written(folder.path, &folder.save(&rows, command, &arguments.common.figures)?));
+        terminal::note(&written(folder.path, &folder.save(&rows, &arguments.common.figures)?));
     }
-    Ok(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))))
+    Ok(exit)
+}
+
+/// Prints the rows, for people or as JSON. What that leads to.
+pub(super) fn tell(sweep: &Sweep, rows: &[Row], json: bool, command: &[String]) -> Exit {
+    for row in rows {
+        if let RunStatus::Failed(reason) = &row.status {
+            terminal::error(&format!("{}: {reason}", place(sweep, row)));
+        }
+    }
+    let object = Object::new(sweep, rows);
+    terminal::result(json, || json::document(&object, command), || text(sweep, rows));
+    Exit::worst(rows.iter().map(|row| Exit::from(&row.status)))
+}
+
+/// The command line without `--part`: results say how the whole is made.
+fn of_the_whole(command: &[String]) -> Vec<String> {
+    let mut words = command.iter();
+    let mut kept = Vec::new();
+    while let Some(word) = words.next() {
+        match word.strip_prefix("--part") {
+            Some("") => drop(words.next()),
+            Some(rest) if rest.starts_with('=') => {}
+            _ => kept.push(word.clone()),
+        }
+    }
+    kept
 }
 
 /// How often what is solved is saved while the rest goes on.
 const SAVE_EVERY: Duration = Duration::from_secs(5);
-const INCOMPLETE: &str = "sweep.incomplete.csv";
+/// How the file ends of a sweep that is not complete.
+const UNFINISHED: &str = ".incomplete.csv";
 
-/// The folder of `--out`, which no other sweep has meanwhile.
+/// The file of what is solved of the whole, or of a part.
+fn unfinished(part: Option<Part>) -> String {
+    match part {
+        None => format!("sweep{UNFINISHED}"),
+        Some(part) => format!("sweep.part-{}-of-{}.csv", part.number(), part.of()),
+    }
+}
+
+/// The folder of `--out`, which no other sweep has meanwhile; parts of one share it.
 struct Folder<'a> {
     path: &'a Path,
     sweep: &'a Sweep,
+    part: Option<Part>,
+    command: &'a [String],
     /// Only dropping takes it.
     lock: Option<Lock>,
     /// The folder was made by us, and is removed if nothing comes into it.
@@ -144,37 +188,41 @@ struct Folder<'a> {
 
 impl<'a> Folder<'a> {
     /// Finds out whether it can be written, and whether another sweep is being saved there, before anything is solved.
-    fn open(path: &'a Path, sweep: &'a Sweep) -> Result<Self, CliError> {
+    fn open(path: &'a Path, (sweep, part): (&'a Sweep, Option<Part>), command: &'a [String]) -> Result<Self, CliError> {
         let made = !path.exists();
         check_writable(path)?;
         let failed = |source| WriteError { path: path.to_owned(), source };
         std::fs::create_dir_all(path).map_err(failed)?;
-        match Lock::of(path, "sweep").map_err(failed)? {
+        match Lock::of(path, unfinished(part).trim_end_matches(UNFINISHED)).map_err(failed)? {
             None => Err(CliError::Busy { folder: path.to_owned() }),
-            lock => Ok(Self { path, sweep, lock, made }),
+            lock => Ok(Self { path, sweep, part, command, lock, made }),
         }
     }
 
-    /// The rows that a cancelled sweep left.
+    /// The rows that were solved before.
     fn left_over(&self) -> Result<Vec<Row>, CliError> {
-        let path = self.path.join(INCOMPLETE);
+        let path = self.path.join(unfinished(self.part));
         let fault = |source| CliError::Resume { path: path.clone(), source };
         match std::fs::read_to_string(&path) {
-            Ok(text) => read_saved(self.sweep, &text).map_err(fault),
+            Ok(text) => saved::read(self.sweep, self.part.unwrap_or(Part::WHOLE), &text).map_err(fault),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
             Err(error) => Err(fault(ReadError::Damaged { line: 1, fault: error.to_string() })),
         }
     }
 
-    fn save_incomplete(&self, rows: &[Row]) -> Result<PathBuf, WriteError> {
-        let path = self.path.join(INCOMPLETE);
-        write_file(&path, |out| write_saved(self.sweep, rows, out))?;
+    fn save_unfinished(&self, rows: &[Row]) -> Result<PathBuf, WriteError> {
+        let path = self.path.join(unfinished(self.part));
+        let part = self.part.unwrap_or(Part::WHOLE);
+        write_file(&path, |out| saved::write(self.sweep, part, rows, self.command, out))?;
         Ok(path)
     }
 
-    fn save(&self, rows: &[Row], command: &[String], figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
-        let paths = files::swept(self.path, self.sweep, rows, command, &figures.formats())?;
-        let path = self.path.join(INCOMPLETE);
+    fn save(&self, rows: &[Row], figures: &FigureOptions) -> Result<Vec<PathBuf>, WriteError> {
+        if self.part.is_some() {
+            return self.save_unfinished(rows).map(|path| vec![path]);
+        }
+        let paths = files::swept(self.path, self.sweep, rows, self.command, &figures.formats())?;
+        let path = self.path.join(unfinished(self.part));
         match std::fs::remove_file(&path) {
             Err(source) if source.kind() != ErrorKind::NotFound => Err(WriteError { path, source }),
             _ => Ok(paths),

@@ -1,8 +1,12 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
+use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
-use crate::fall::Cycle;
+use crate::fall::{Cycle, Fall};
+use crate::fidelity::Fidelity;
 use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::solution::Status;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -56,7 +60,30 @@ pub struct Object<'a> {
     /// One for each cycle.
     pub rows: &'a [Row],
     /// What the user should know.
-    pub warnings: &'a [String],
+    pub warnings: Vec<String>,
+}
+
+impl<'a> Object<'a> {
+    /// Of a fall that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included.
+    pub fn new(scene: &'a Scene, fidelity: Fidelity, ended: &Fall, rows: &'a [Row], wall_s: f64) -> Self {
+        let floats = floats(ended);
+        Self {
+            preset: &scene.name,
+            scene: scene.scene(),
+            fidelity: fidelity.to_string(),
+            converged: ended.status == Status::Converged,
+            mean_gap_um: floats.map(|gap| gap.value),
+            mean_gap_error_um: floats.map(|gap| gap.error).filter(|error| error.is_finite()),
+            wall_s,
+            rows,
+            warnings: ended.floats.clone().err().into_iter().collect(),
+        }
+    }
+}
+
+/// The mean gap \[µm\] at which it floats; `None` if it does not.
+pub fn floats(ended: &Fall) -> Option<Estimate> {
+    ended.floats.as_ref().ok().map(|gap| Estimate { value: gap.value * 1e6, error: gap.error * 1e6 })
 }
 
 /// Writes the rows as CSV, the header first.

@@ -5,7 +5,7 @@ use super::animation::{AnimationError, Movie, Options, cycle, frames, video_fram
 use super::compare::{self, all_figures, movies, report};
 use super::figure::{Figure, FigureError, Format, to_bytes};
 use super::json::{self, Summary};
-use super::{csv, figures, fit, npz, sensitivity, sweep, torque};
+use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::fit::{Fitted, Measured, Optimum};
 use crate::analysis::sweep::{Row, Sweep};
@@ -137,6 +137,19 @@ pub fn solve(
     }
     add_figures(&mut staged, solved, formats, control)?;
     control.check()?;
+    Ok(staged.commit()?)
+}
+
+/// The fields of a solve as files of VTK, one for each instant, and the series of them that ParaView opens.
+pub fn vtk(folder: &Path, solved: &Solved<'_>, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
+    let recording = &solved.solution.recording;
+    let (names, series) = vtk::series(recording);
+    let mut staged = Staged::new(folder)?;
+    for (frame, name) in names.iter().enumerate() {
+        control.check()?;
+        staged.add(name, |out| vtk::write(solved.problem, recording, frame, out))?;
+    }
+    staged.add("film.vtk.series", |out| out.write_all(series.as_bytes()))?;
     Ok(staged.commit()?)
 }
 

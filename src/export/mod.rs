@@ -19,6 +19,7 @@ pub mod json;
 mod mp4;
 pub mod npz;
 pub mod reproduce;
+pub mod saved;
 pub mod sensitivity;
 pub mod stability;
 pub mod startup;
@@ -29,3 +30,4 @@ pub mod torque;
 pub mod tradeoff;
 #[cfg(feature = "video")]
 mod video;
+pub mod vtk;

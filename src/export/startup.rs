@@ -4,8 +4,9 @@ use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::export::json::force_unit;
 use crate::problem::{Problem, Scenario};
-use crate::solution::{Outcome, PlateResult, Status};
-use crate::startup::{Cycle, Startup};
+use crate::scene::Scene;
+use crate::solution::{Accuracy, Outcome, PlateResult, Status};
+use crate::startup::{Cycle, Settings, Startup};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -78,6 +79,13 @@ impl Row {
         let value = self.alpha.or(self.load_ratio).unwrap_or(f64::NAN);
         (value, self.alpha_error.or(self.load_ratio_error).unwrap_or(f64::NAN))
     }
+
+    /// How much of the way is done, 0 to 1, as ln of what remains.
+    pub fn share(&self, settings: &Settings) -> f64 {
+        let by_cycles = self.cycle as f64 / settings.cycles as f64;
+        let by_change = self.remaining.map_or(0.0, |left| (left.ln() / settings.tolerance.ln()).clamp(0.0, 1.0));
+        by_cycles.max(by_change)
+    }
 }
 
 fn finite(value: f64) -> Option<f64> {
@@ -125,7 +133,50 @@ pub struct Object<'a> {
     /// One for each cycle.
     pub rows: &'a [Row],
     /// What the user should know.
-    pub warnings: &'a [String],
+    pub warnings: Vec<String>,
+}
+
+impl<'a> Object<'a> {
+    /// Of a start-up that ended, and its cycles. `wall_s`: by the caller's clock, the periodic solve included.
+    pub fn new(
+        scene: &'a Scene,
+        problem: &Problem,
+        settings: &Settings,
+        ended: &Startup,
+        rows: &'a [Row],
+        wall_s: f64,
+    ) -> Self {
+        let (steady, Accuracy { asked, stated, stopped_by }) = (steady(problem, ended), ended.accuracy);
+        Self {
+            preset: &scene.name,
+            scene: scene.scene(),
+            fidelity: settings.fidelity.to_string(),
+            force_unit: force_unit(problem),
+            converged: converged(ended),
+            remaining: finite(ended.remaining),
+            tolerance: settings.tolerance,
+            accuracy_asked: (asked > 0.0).then_some(asked),
+            accuracy_stated: finite(stated),
+            stopped_by: stopped_by.name(),
+            steady: steady.map(|(value, _)| value),
+            steady_error: steady.map(|(_, error)| error),
+            film_steps: ended.stats.film_steps,
+            contact_solves: ended.stats.contact_solves,
+            coupling_iterations: ended.stats.coupling_iterations,
+            unsettled_steps: ended.stats.unsettled_steps,
+            wall_s,
+            rows,
+            warnings: warnings(ended),
+        }
+    }
+}
+
+/// Puts a cycle among the others: after them, or in place of the same one on coarser grids.
+pub fn place<T>(rows: &mut Vec<T>, number: usize, row: T) {
+    match rows.get_mut(number - 1) {
+        Some(coarser) => *coarser = row,
+        None => rows.push(row),
+    }
 }
 
 /// What the periodic solve says of where a start-up ends: α, or the load ratio, and its stated error.

@@ -1,14 +1,13 @@
-//! A sweep as JSON and as CSV, with the same names, and as a figure; and the CSV of one that was cancelled read back, to go on with it.
+//! A sweep as JSON and as CSV, with the same names, and as a figure.
 //!
 //! Numbers are written with the fewest digits that read back to the same bits, so that a sweep that was cancelled and
 //! gone on with is the same, byte by byte, as one that was not.
 
 use super::csv::words;
 use crate::analysis::attempt::RunStatus;
-use crate::analysis::quantity::{Numbers, Quantity, force_unit};
-use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, digest};
+use crate::analysis::quantity::{Quantity, force_unit};
+use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep};
 use crate::analysis::table1::Published;
-use crate::analysis::validity::NAMES;
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Figure, Grid, Layer, Legend, Line, Map, Marker, Panel, Points, Provenance, Range,
     Shading, Shape, Style, Width,
@@ -19,15 +18,13 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
 
 /// Columns before those of the keys: which sweep, and which of its points.
-const FIRST: [&str; 2] = ["sweep", "point"];
+pub(super) const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
-/// The last column of what is saved to go on with.
-const CHECK: &str = "check";
 /// Names of the limits of the model that a point exceeds, in a CSV file one after the other with this between them.
-const VALIDITY: &str = "validity";
-const BETWEEN: &str = ";";
+pub(super) const VALIDITY: &str = "validity";
+pub(super) const BETWEEN: &str = ";";
 
-fn header(sweep: &Sweep) -> Vec<String> {
+pub(super) fn header(sweep: &Sweep) -> Vec<String> {
     let mut names = FIRST.map(str::to_owned).to_vec();
     names.extend(sweep.axes().iter().map(|axis| axis.parameter.key.to_owned()));
     names.extend([STATUS, VALIDITY].map(str::to_owned));
@@ -36,8 +33,8 @@ fn header(sweep: &Sweep) -> Vec<String> {
 }
 
 /// Cells of a row. Every row carries the fingerprint of its sweep.
-fn record(sweep: &Sweep, row: &Row) -> Vec<String> {
-    let mut cells = vec![sweep.fingerprint(), row.point.to_string()];
+pub(super) fn record(sweep: &Sweep, fingerprint: &str, row: &Row) -> Vec<String> {
+    let mut cells = vec![fingerprint.to_owned(), row.point.to_string()];
     cells.extend(sweep.axes().iter().zip(&row.values).map(|(axis, value)| match axis.words.is_empty() {
         true => digits(*value),
         false => words(&axis.text(*value)).into_owned(),
@@ -55,92 +52,9 @@ fn record(sweep: &Sweep, row: &Row) -> Vec<String> {
 pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(header(sweep))?;
-    rows.iter().try_for_each(|row| writer.write_record(record(sweep, row)))?;
+    let fingerprint = sweep.fingerprint();
+    rows.iter().try_for_each(|row| writer.write_record(record(sweep, &fingerprint, row)))?;
     writer.flush()
-}
-
-/// Writes the rows of a sweep that is not complete, to go on with: as [`write_csv`], and with a checksum of each row.
-pub fn write_saved(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(header(sweep).iter().map(String::as_str).chain([CHECK]))?;
-    for row in rows {
-        let mut cells = record(sweep, row);
-        cells.push(digest(cells.iter().map(String::as_str)));
-        writer.write_record(cells)?;
-    }
-    writer.flush()
-}
-
-/// Why the rows of a file are not those of a sweep.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ReadError {
-    /// The file is of another sweep.
-    #[error("it is of another sweep: another scene, range, setting or version")]
-    Another,
-    /// The file is damaged.
-    #[error("line {line}: {fault}")]
-    Damaged {
-        /// Line of the file, from 1.
-        line: u64,
-        /// What is wrong there.
-        fault: String,
-    },
-}
-
-/// Rows of `sweep` from the CSV text that [`write_saved`] made of them.
-///
-/// # Errors
-/// [`ReadError`]. A row too many, twice, or changed since it was written, is damage.
-pub fn read_saved(sweep: &Sweep, text: &str) -> Result<Vec<Row>, ReadError> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let damaged = |line: u64, fault: String| ReadError::Damaged { line, fault };
-    let found = reader.headers().map_err(|error| damaged(1, error.to_string()))?;
-    if !found.iter().eq(header(sweep).iter().map(String::as_str).chain([CHECK])) {
-        return Err(ReadError::Another);
-    }
-    let (fingerprint, quantities) = (sweep.fingerprint(), sweep.quantities());
-    let mut rows: Vec<Row> = Vec::new();
-    for record in reader.records() {
-        let record =
-            record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), error.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        // The reader refuses a record of another length than the header.
-        let field = |column: usize| record.get(column).unwrap_or("");
-        if field(0) != fingerprint {
-            return Err(ReadError::Another);
-        }
-        if record.iter().next_back() != Some(&digest(record.iter().take(record.len() - 1))) {
-            return Err(damaged(line, "the row was changed after it was saved".to_owned()));
-        }
-        let point: usize = field(1).parse().map_err(|_| damaged(line, format!("point = {}", field(1))))?;
-        if point >= sweep.len() || rows.iter().any(|row| row.point == point) {
-            return Err(damaged(line, format!("point {point} is not expected here")));
-        }
-        let column = FIRST.len() + sweep.axes().len();
-        let status = match field(column) {
-            "converged" => RunStatus::Converged,
-            "not converged" => RunStatus::NotConverged,
-            other => match other.strip_prefix("failed: ") {
-                Some(reason) => RunStatus::Failed(reason.to_owned()),
-                None => return Err(damaged(line, format!("status = {other}"))),
-            },
-        };
-        let mut outside = Vec::new();
-        for name in field(column + 1).split(BETWEEN).filter(|name| !name.is_empty()) {
-            let known = NAMES.into_iter().find(|known| *known == name);
-            outside.push(known.ok_or_else(|| damaged(line, format!("{VALIDITY} = {name}")))?);
-        }
-        let mut numbers = Numbers::default();
-        for (i, quantity) in quantities.iter().enumerate() {
-            let text = field(column + 2 + i);
-            if !text.is_empty() {
-                let value = text.parse().map_err(|_| damaged(line, format!("{} = {text}", quantity.name())))?;
-                numbers.set(*quantity, value);
-            }
-        }
-        rows.push(Row { point, values: sweep.values(point).to_vec(), status, numbers, outside });
-    }
-    Ok(rows)
 }
 
 /// The fewest digits that read back to the same bits.
@@ -468,6 +382,7 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::quantity::Numbers;
     use crate::scene::presets;
     use crate::solve::Settings;
 
@@ -488,19 +403,6 @@ mod tests {
             outside: vec!["slip-law", "sound"],
         };
         vec![row(0, RunStatus::Converged), row(2, failed), row(1, RunStatus::NotConverged)]
-    }
-
-    #[test]
-    fn rows_read_back_to_the_same_bits() {
-        let sweep = sweep("stator.frequency_khz=3:100:3:log");
-        let mut text = Vec::new();
-        write_saved(&sweep, &rows(&sweep), &mut text).unwrap();
-        let text = String::from_utf8(text).unwrap();
-        assert_eq!(read_saved(&sweep, &text).unwrap(), rows(&sweep));
-        assert!(
-            text.starts_with("sweep,point,stator.frequency_khz,status,validity,alpha,alpha_error,film_load_n,"),
-            "{text}"
-        );
     }
 
     #[test]
@@ -533,30 +435,5 @@ mod tests {
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));
         let known: Vec<usize> = (0..6).filter(|i| map.grid.values[*i].is_finite()).collect();
         assert_eq!(known, [5]);
-    }
-
-    #[test]
-    fn rows_of_another_sweep_and_damage_are_told() {
-        let ours = sweep("stator.frequency_khz=3:100:3");
-        let mut text = Vec::new();
-        write_saved(&ours, &rows(&ours), &mut text).unwrap();
-        let text = String::from_utf8(text).unwrap();
-        assert_eq!(read_saved(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ReadError::Another));
-        assert_eq!(read_saved(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ReadError::Another));
-        assert_eq!(read_saved(&ours, ""), Err(ReadError::Another));
-        let cut = &text[..text.len() - 20];
-        assert!(matches!(read_saved(&ours, cut), Err(ReadError::Damaged { .. })), "{:?}", read_saved(&ours, cut));
-        let second = text.lines().nth(2).unwrap();
-        assert!(matches!(read_saved(&ours, &format!("{text}{second}\n")), Err(ReadError::Damaged { .. })));
-        // A row that somebody has changed is no result.
-        for (from, to) in [
-            ("0.30000000000000004", "0.31"),
-            ("0.30000000000000004", "nan"),
-            ("converged", "failed: no"),
-            (",1,", ",0,"),
-        ] {
-            let fault = read_saved(&ours, &text.replacen(from, to, 1)).unwrap_err();
-            assert!(fault.to_string().contains("the row was changed after it was saved"), "{from}: {fault}");
-        }
     }
 }

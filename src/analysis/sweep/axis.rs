@@ -3,6 +3,8 @@
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use crate::solve::SolveError;
 use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
+use std::fmt;
 use std::str::FromStr;
 
 /// Most values of one key.
@@ -37,6 +39,19 @@ pub enum Values {
     },
     /// Each as in `--set`.
     List(Vec<String>),
+}
+
+/// As it is given.
+impl fmt::Display for Vary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.values {
+            Values::Range { from, to, count, scale } => {
+                let scale = if *scale == Scale::Log { ":log" } else { "" };
+                write!(f, "{}={from}:{to}:{count}{scale}", self.key)
+            }
+            Values::List(words) => write!(f, "{}={}", self.key, words.join(",")),
+        }
+    }
 }
 
 impl SweepError {
@@ -115,9 +130,10 @@ impl Axis {
         let allowed = (2..=MOST_VALUES).contains(&count);
         match &vary.values {
             Values::List(words) => {
-                for (i, word) in words.iter().enumerate() {
+                let mut there = HashSet::new();
+                for word in words {
                     scene.clone().set(key, word)?;
-                    if words[..i].contains(word) {
+                    if !there.insert(word) {
                         return Err(SweepError::Repeated { key: key.clone(), value: word.clone() });
                     }
                 }

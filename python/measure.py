@@ -1,0 +1,50 @@
+"""What docs/performance.md says of Python: what solving from Python costs beyond the solve, and points a second over processes.
+
+    python python/measure.py [PROCESSES]
+"""
+
+import concurrent.futures
+import multiprocessing
+import os
+import statistics
+import sys
+import time
+
+import numpy as np
+import squeezefilm as sf
+
+
+def overhead() -> None:
+    scene, beyond, solves = sf.preset("fundamental"), [], []
+    for _ in range(300):
+        started = time.perf_counter()
+        run = scene.solve()
+        alpha = run.alpha
+        beyond.append(time.perf_counter() - started)
+        solves.append(run.stats["wall_s"])
+        assert alpha > 0
+    beyond = [1e3 * (whole - solve) for whole, solve in zip(beyond, solves)]
+    quartiles = statistics.quantiles(beyond, n=4)
+    print(f"solve {1e3 * statistics.median(solves):.2f} ms, beyond it {quartiles[1]:.3f} ms ({quartiles[0]:.3f} … {quartiles[2]:.3f})")
+
+
+def throughput(processes: int) -> None:
+    # One thread in each process: what a core solves.
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(processes, context, one_thread) as client:
+        list(client.map(abs, range(processes)))
+        values = np.geomspace(50, 500, 4000)
+        sf.sweep(sf.preset("fundamental"), "film.min_spacing_nm", values[:: 4000 // (64 * processes)], client=client)
+        started = time.perf_counter()
+        table = sf.sweep(sf.preset("fundamental"), "film.min_spacing_nm", values, client=client)
+        print(f"{processes} processes: {table.rows / (time.perf_counter() - started):.0f} points a second")
+
+
+def one_thread() -> None:
+    os.environ["RAYON_NUM_THREADS"] = "1"
+
+
+if __name__ == "__main__":
+    overhead()
+    for processes in range(1, int(sys.argv[1]) + 1 if len(sys.argv) > 1 else 3):
+        throughput(processes)

@@ -1,0 +1,179 @@
+//! A solved scene.
+
+use crate::scene::Scene;
+use crate::{apart, apart_on_all_cores, scene_error, solve_error};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyTuple};
+use squeezefilm::analysis::torque::TorqueCurves;
+use squeezefilm::control::{Cancel, Progress};
+use squeezefilm::export::fields::fields;
+use squeezefilm::export::figure::{Figure, Format, to_bytes};
+use squeezefilm::export::figures;
+use squeezefilm::export::files::{self, Control, ExportError, Solved};
+use squeezefilm::export::json::Summary;
+use squeezefilm::export::torque;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::Scene as Edited;
+use squeezefilm::solution::{Solution, Status, settled};
+use squeezefilm::solve::Settings;
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+/// A solved scene.
+#[pyclass(frozen, module = "squeezefilm._squeezefilm")]
+pub(crate) struct Run(Arc<Inner>);
+
+struct Inner {
+    scene: Edited,
+    problem: Problem,
+    settings: Settings,
+    solution: Solution,
+    history: Vec<Progress>,
+    wall_s: f64,
+    /// With torque over speed, once it was asked for.
+    complete: OnceLock<Summary>,
+}
+
+impl Run {
+    pub(crate) fn new(
+        scene: Edited,
+        problem: &Problem,
+        settings: Settings,
+        solution: Solution,
+        history: Vec<Progress>,
+        wall_s: f64,
+    ) -> Self {
+        let problem = settled(problem, &solution.outcome).into_owned();
+        let complete = OnceLock::new();
+        Self(Arc::new(Inner { scene, problem, settings, solution, history, wall_s, complete }))
+    }
+}
+
+impl Inner {
+    fn summary(&self) -> Summary {
+        Summary::new(&self.problem, &self.solution, self.wall_s, &[])
+    }
+
+    /// With torque over speed, for which the contact without film is solved.
+    fn complete(&self, cancel: &Cancel) -> &Summary {
+        self.complete.get_or_init(|| {
+            let mut summary = self.summary();
+            summary.add_torque(TorqueCurves::of_solve(&self.problem, self.settings.fidelity, &self.solution, cancel));
+            summary
+        })
+    }
+
+    /// The figures by name. Torque over speed is among them if `torque` is.
+    fn figures(&self, torque: Option<&TorqueCurves>) -> Vec<(&'static str, Figure)> {
+        let mut all = figures::of(&self.problem, &self.solution, &self.history);
+        if let Some(curves) = torque {
+            let drawn = figures::torque::torque(curves);
+            all.push((TORQUE, figures::dressed(&self.problem, &self.solution, drawn)));
+        }
+        all
+    }
+}
+
+/// The figure of torque over speed.
+const TORQUE: &str = "torque";
+
+#[pymethods]
+impl Run {
+    #[getter]
+    fn converged(&self) -> bool {
+        self.0.solution.status == Status::Converged
+    }
+
+    /// The object of `solve --json`, as text. `torque`: with torque over speed.
+    fn summary(&self, py: Python<'_>, torque: bool) -> PyResult<String> {
+        if !torque {
+            return Ok(self.0.summary().to_text());
+        }
+        let inner = Arc::clone(&self.0);
+        apart(py, None, move |cancel, _| inner.complete(cancel).to_text())
+    }
+
+    /// Torque over speed, of a motor, as CSV.
+    fn torque_csv(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        let inner = Arc::clone(&self.0);
+        apart(py, None, move |cancel, _| {
+            let Some(curves) = &inner.complete(cancel).torque else { return Ok(None) };
+            let mut table = Vec::new();
+            torque::write_csv(curves, &mut table).map_err(solve_error)?;
+            Ok(Some(String::from_utf8_lossy(&table).into_owned()))
+        })?
+    }
+
+    #[getter]
+    fn scene(&self) -> Scene {
+        Scene(self.0.scene.clone())
+    }
+
+    /// Name, axes and array of each field.
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        for field in fields(&self.0.problem, &self.0.solution.recording) {
+            let values = PyArray1::from_vec(py, field.values.collect());
+            let array = values.reshape(field.shape)?;
+            all.set_item(field.name, (PyTuple::new(py, field.axes)?, array))?;
+        }
+        Ok(all)
+    }
+
+    /// Names of the figures.
+    fn figures(&self) -> Vec<&'static str> {
+        let motor = matches!(self.0.problem.scenario, squeezefilm::problem::Scenario::Motor(_));
+        self.0.figures(None).into_iter().map(|(name, _)| name).chain(motor.then_some(TORQUE)).collect()
+    }
+
+    /// A figure as the bytes of a file.
+    fn figure<'py>(&self, py: Python<'py>, name: String, format: &str) -> PyResult<Bound<'py, PyBytes>> {
+        let formats = Format::WRITTEN.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
+        let known = Format::WRITTEN.iter().find(|known| known.name() == format);
+        let format =
+            *known.ok_or_else(|| scene_error(format!("format = {format} is not allowed: one of {formats}")))?;
+        let inner = Arc::clone(&self.0);
+        let drawn = apart(py, None, move |cancel, _| {
+            let curves = if name == TORQUE { inner.complete(cancel).torque.as_ref() } else { None };
+            let all = inner.figures(curves);
+            match all.iter().find(|(known, _)| *known == name) {
+                Some((_, figure)) => to_bytes(figure, format).map_err(solve_error),
+                None => {
+                    let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
+                    Err(scene_error(format!("figure = {name} is not there: one of {}", names.join(", "))))
+                }
+            }
+        })?;
+        Ok(PyBytes::new(py, &drawn?))
+    }
+
+    /// Writes what `solve --out` writes, and returns the paths.
+    fn save(&self, py: Python<'_>, folder: String, formats: Vec<String>) -> PyResult<Vec<String>> {
+        let inner = Arc::clone(&self.0);
+        let known = |name: &String| Format::WRITTEN.iter().find(|format| format.name() == name).copied();
+        let vtk = formats.iter().any(|name| name == "vtk");
+        let formats: Vec<Format> = formats.iter().filter_map(known).collect();
+        let written = apart_on_all_cores(py, None, move |cancel, _| {
+            let summary = inner.complete(cancel);
+            let solved = Solved {
+                scene: &inner.scene,
+                problem: &inner.problem,
+                solution: &inner.solution,
+                history: &inner.history,
+                torque: summary.torque.as_ref(),
+            };
+            let (folder, control) = (Path::new(&folder), Control { cancel, drawn: &|_, _| () });
+            let mut paths = files::solve(folder, &solved, summary, &formats, &control)?;
+            if vtk {
+                paths.extend(files::vtk(folder, &solved, &control)?);
+            }
+            Ok(paths)
+        })?;
+        let paths = written.map_err(|error| match error {
+            ExportError::Write(error) => pyo3::exceptions::PyOSError::new_err(error.to_string()),
+            error => solve_error(error),
+        })?;
+        Ok(paths.iter().map(|path| path.display().to_string()).collect())
+    }
+}

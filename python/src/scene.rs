@@ -1,0 +1,119 @@
+//! A scene.
+
+use crate::run::Run;
+use crate::{How, apart, scene_error, solve_error};
+use pyo3::prelude::*;
+use squeezefilm::problem::Problem;
+use squeezefilm::scene::presets::{self, BUILT_IN};
+use squeezefilm::scene::{PARAMETERS, Scene as Edited, Value};
+use squeezefilm::solve::{Record, check, solve};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// A motor or a plate.
+#[pyclass(frozen, module = "squeezefilm._squeezefilm")]
+pub(crate) struct Scene(pub(crate) Edited);
+
+#[pymethods]
+impl Scene {
+    #[staticmethod]
+    fn preset(name: &str) -> PyResult<Self> {
+        if !BUILT_IN.iter().any(|built_in| built_in.name == name) {
+            // The error that names the nearest one.
+            return presets::find(name)
+                .map_err(scene_error)
+                .and_then(|_| Err(scene_error(format!("{name} is a file, no built-in preset: load it"))));
+        }
+        presets::find(name).map(Self).map_err(scene_error)
+    }
+
+    #[staticmethod]
+    fn load(path: &str) -> PyResult<Self> {
+        Edited::load(Path::new(path)).map(Self).map_err(scene_error)
+    }
+
+    #[staticmethod]
+    fn from_toml(text: &str) -> PyResult<Self> {
+        Edited::from_toml(text, "scene").map(Self).map_err(scene_error)
+    }
+
+    fn to_toml(&self) -> String {
+        self.0.to_toml()
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// With keys changed as `--set` changes them.
+    fn changed(&self, pairs: Vec<(String, String)>) -> PyResult<Self> {
+        let mut scene = self.0.clone();
+        scene.set_all(pairs.iter().map(|(key, text)| (key.as_str(), text.as_str()))).map_err(scene_error)?;
+        scene.retitle(&self.0);
+        Ok(Self(scene))
+    }
+
+    /// The keys, each with its value, its unit and what it is.
+    fn values(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Py<PyAny>, &'static str, String)>> {
+        let value = |value: Option<Value>| -> PyResult<Py<PyAny>> {
+            Ok(match value {
+                None => py.None(),
+                Some(Value::Number(number)) => number.into_pyobject(py)?.into_any().unbind(),
+                Some(Value::Whole(whole)) => whole.into_pyobject(py)?.into_any().unbind(),
+                Some(Value::Flag(flag)) => flag.into_pyobject(py)?.to_owned().into_any().unbind(),
+                Some(Value::Rows(rows)) => rows.into_pyobject(py)?.into_any().unbind(),
+                Some(other) => other.to_string().into_pyobject(py)?.into_any().unbind(),
+            })
+        };
+        let parameters = self.0.parameters();
+        parameters.map(|p| Ok((p.key, value(self.0.get(p.key))?, p.unit, p.words()))).collect()
+    }
+
+    #[pyo3(signature = (how, budget_ms=None))]
+    fn solve(&self, py: Python<'_>, how: How, budget_ms: Option<f64>) -> PyResult<Run> {
+        let settings = how.settings(Record::Everything)?;
+        let scene = self.0.clone();
+        let problem = Problem::new(&scene).map_err(scene_error)?;
+        let (problem, history, solution, wall_s) = apart(py, None, move |cancel, _| -> PyResult<_> {
+            // Of a ring this takes its time.
+            check(&problem, &settings).map_err(scene_error)?;
+            let started = Instant::now();
+            let cancel = match budget_ms {
+                Some(budget) => cancel.with_budget(move || {
+                    let end = Instant::now() + Duration::from_secs_f64(1e-3 * budget.clamp(0.0, 1e9));
+                    move || Instant::now() >= end
+                }),
+                None => cancel.clone(),
+            };
+            let mut history = Vec::new();
+            let mut observer = |progress: &_| history.push(*progress);
+            let solved = solve(&problem, &settings, &mut observer, &cancel);
+            let wall_s = started.elapsed().as_secs_f64();
+            Ok((problem, history, solved.map_err(|error| crate::error_of(error.is_bad_input(), error))?, wall_s))
+        })??;
+        Ok(Run::new(scene, &problem, settings, solution, history, wall_s))
+    }
+}
+
+/// Names of the built-in presets.
+#[pyfunction]
+pub(crate) fn built_in() -> Vec<&'static str> {
+    BUILT_IN.iter().map(|built_in| built_in.name).collect()
+}
+
+/// Every key of a scene, with its unit and what it is.
+#[pyfunction]
+pub(crate) fn keys() -> Vec<(&'static str, &'static str, String)> {
+    PARAMETERS.iter().map(|parameter| (parameter.key, parameter.unit, parameter.words())).collect()
+}
+
+/// Sweeps and the like: the scene, as the library has it.
+pub(crate) fn checked(scene: &Scene) -> PyResult<Problem> {
+    Problem::new(&scene.0).map_err(scene_error)
+}
+
+/// The error of a solve that was cancelled without Ctrl-C.
+pub(crate) fn cancelled() -> PyErr {
+    solve_error("cancelled")
+}

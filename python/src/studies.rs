@@ -1,0 +1,217 @@
+//! What asks for many solves, or for a transient: the objects of `--json`, as text.
+
+use crate::scene::{Scene, cancelled, checked};
+use crate::{How, apart_on_all_cores, error_of, scene_error, solve_error};
+use pyo3::prelude::*;
+use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, Measured, Model};
+use squeezefilm::analysis::sensitivity::{Sensitivity, SensitivityError, Uncertainties};
+use squeezefilm::control::Cancel;
+use squeezefilm::export::fit::{Object as Fit, OptimumObject};
+use squeezefilm::export::sensitivity::Found;
+use squeezefilm::export::{fall as fallen, json, startup as export};
+use squeezefilm::fall::{Cycle as Fallen, fall};
+use squeezefilm::hold::{Hold, REACH};
+use squeezefilm::plan::Plan;
+use squeezefilm::problem::{Problem, Scenario};
+use squeezefilm::solution::settled;
+use squeezefilm::solve::{Settings, solve};
+use squeezefilm::startup as transient;
+use std::str::FromStr;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+fn parsed<T: FromStr<Err: std::fmt::Display>>(texts: &[String]) -> PyResult<Vec<T>> {
+    texts.iter().map(|text| text.parse().map_err(scene_error)).collect()
+}
+
+/// The object of `sensitivity --json`.
+#[pyfunction]
+#[pyo3(signature = (scene, keys, uncertainties, carlo, how, told=None))]
+pub(crate) fn sensitivity(
+    py: Python<'_>,
+    scene: &Scene,
+    keys: Vec<String>,
+    uncertainties: Vec<(String, String)>,
+    carlo: (usize, u64),
+    how: How,
+    told: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let settings = how.own("sensitivities are those")?;
+    let given = uncertainties
+        .into_iter()
+        .map(|(key, amount)| Ok((key, amount.parse().map_err(scene_error)?)))
+        .collect::<PyResult<Vec<_>>>()?;
+    let uncertainties = Uncertainties::new(&scene.0, &given).map_err(scene_error)?;
+    let (scene, (draws, seed)) = (scene.0.clone(), carlo);
+    apart_on_all_cores(py, told, move |cancel, tell| {
+        let counted = AtomicUsize::new(0);
+        let count = |all: usize| tell((counted.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64);
+        let found = Sensitivity::of(&scene, &keys, &settings, cancel, &count);
+        let bad_input =
+            |error: &SensitivityError| !matches!(error, SensitivityError::Solve(error) if !error.is_bad_input());
+        let found = found.map_err(|error| error_of(bad_input(&error), error))?.ok_or_else(cancelled)?;
+        counted.store(0, Ordering::Relaxed);
+        let carlo = match draws {
+            0 => None,
+            _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &|| count(draws)).ok_or_else(cancelled)?),
+        };
+        let found = Found { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
+        Ok(json::document(&found.object(&settings.fidelity.to_string()), &[]))
+    })?
+}
+
+fn fit_error(error: FitError) -> PyErr {
+    error_of(error.is_bad_input(), error)
+}
+
+/// The object of `fit --json`, and the preset with the values found. `data`: `table1` or a path, or the text of a table and no path.
+#[pyfunction]
+#[pyo3(signature = (scene, data, vary, lists, starts, how, told=None))]
+pub(crate) fn fit(
+    py: Python<'_>,
+    scene: &Scene,
+    data: (String, Option<String>),
+    vary: Vec<String>,
+    lists: (Vec<String>, Vec<String>),
+    starts: usize,
+    how: How,
+    told: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(String, Scene)> {
+    let settings = how.settings(squeezefilm::solve::Record::Numbers)?;
+    let (scene, bounds) = (scene.0.clone(), parsed::<Bounds>(&vary)?);
+    let (errors, skip) = (parsed::<ErrorSize>(&lists.0)?, lists.1);
+    let measured = match data {
+        (name, Some(text)) => Measured::from_csv(&text, &name, &Problem::new(&scene).map_err(scene_error)?),
+        (name, None) => Measured::find(&name, &scene, settings.method),
+    };
+    let measured = measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(fit_error)?;
+    apart_on_all_cores(py, told, move |cancel, tell| {
+        let model = Model::new(&scene, &bounds, &settings).and_then(|model| model.under(&measured));
+        let model = model.map_err(fit_error)?;
+        let found = fitting::fit(&model, &measured, starts, cancel, &|points, _| tell(points as f64));
+        let found = found.map_err(fit_error)?.ok_or_else(cancelled)?;
+        let object = json::document(&Fit::new(&scene.name, &found, &measured), &[]);
+        Ok((object, Scene(found.scene)))
+    })?
+}
+
+/// The object of `fit --maximise --json`, and the preset with the values found.
+#[pyfunction]
+#[pyo3(signature = (scene, goal, vary, limits, starts, how, told=None))]
+pub(crate) fn optimise(
+    py: Python<'_>,
+    scene: &Scene,
+    goal: (String, bool),
+    vary: Vec<String>,
+    limits: Vec<String>,
+    starts: usize,
+    how: How,
+    told: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(String, Scene)> {
+    let settings = how.settings(squeezefilm::solve::Record::Numbers)?;
+    let (scene, bounds, limits) = (scene.0.clone(), parsed::<Bounds>(&vary)?, parsed::<Limit>(&limits)?);
+    let goal = Goal::new(&scene, &goal.0, goal.1, &limits).map_err(fit_error)?;
+    apart_on_all_cores(py, told, move |cancel, tell| {
+        let told = |points: usize, _: f64| tell(points as f64);
+        let found = fitting::optimise(&scene, &bounds, &goal, &settings, (starts, cancel, &told));
+        let found = found.map_err(fit_error)?.ok_or_else(cancelled)?;
+        Ok((json::document(&OptimumObject::new(&scene.name, &found), &[]), Scene(found.scene)))
+    })?
+}
+
+/// The object of `startup --json`.
+#[pyfunction]
+#[pyo3(signature = (scene, cycles, tolerance, how, told=None))]
+pub(crate) fn startup(
+    py: Python<'_>,
+    scene: &Scene,
+    cycles: usize,
+    tolerance: f64,
+    how: How,
+    told: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let problem = checked(scene)?;
+    let (scene, fidelity) = (scene.0.clone(), how.own("a start-up is")?.fidelity);
+    let settings = transient::Settings { fidelity, cycles, tolerance, ..Default::default() };
+    apart_on_all_cores(py, told, move |cancel, tell| {
+        let began = Instant::now();
+        let mut rows = Vec::new();
+        let mut each = |cycle: Fallen| {
+            rows.push(fallen::Row::from(cycle));
+            tell(cycle.number as f64 / cycles as f64);
+        };
+        let fell = fall(&problem, fidelity, cycles, tolerance, &mut each, cancel);
+        if let Some(ended) = fell.map_err(|error| error_of(error.is_bad_input(), error))? {
+            let object = fallen::Object::new(&scene, fidelity, &ended, &rows, began.elapsed().as_secs_f64());
+            return Ok(json::document(&object, &[]));
+        }
+        let mut rows = Vec::new();
+        let mut each = |cycle: transient::Cycle| {
+            let row = export::Row::of(&problem, &cycle);
+            tell(row.share(&settings));
+            export::place(&mut rows, cycle.number, row);
+        };
+        let ended = transient::startup(&problem, &settings, &mut each, cancel);
+        let ended = ended.map_err(|error| error_of(error.is_bad_input(), error))?;
+        let wall_s = began.elapsed().as_secs_f64();
+        Ok(json::document(&export::Object::new(&scene, &problem, &settings, &ended, &rows, wall_s), &[]))
+    })?
+}
+
+/// Force and pressure under a plate that is moved from gap to gap \[µm\] in these instants \[s\]: names and columns.
+#[pyfunction]
+pub(crate) fn hold(
+    py: Python<'_>,
+    scene: &Scene,
+    time_s: Vec<f64>,
+    gap_um: Vec<f64>,
+    how: How,
+) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
+    let (problem, settings) = (checked(scene)?, how.own("a held plate is")?);
+    if time_s.len() != gap_um.len() || time_s.is_empty() {
+        return Err(scene_error("time_s and gap_um: expected as many gaps as instants, one or more"));
+    }
+    if !time_s.windows(2).all(|pair| pair[0] < pair[1]) || !time_s.iter().all(|time| time.is_finite()) {
+        return Err(scene_error("time_s: expected ascending instants"));
+    }
+    apart_on_all_cores(py, None, move |cancel, _| held(&problem, &settings, (&time_s, &gap_um), cancel))?
+}
+
+fn held(
+    problem: &Problem,
+    settings: &Settings,
+    (times, gaps): (&[f64], &[f64]),
+    cancel: &Cancel,
+) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
+    let Scenario::Plate(plate) = &problem.scenario else {
+        return Err(scene_error("scene = motor is not allowed: only a plate is held"));
+    };
+    let found = match plate.load {
+        // Where it floats says how far it can be moved.
+        Some(_) => solve(problem, settings, &mut (), cancel).map(|found| settled(problem, &found.outcome).into_owned()),
+        None => Ok(problem.clone()),
+    };
+    let found = found.map_err(|error| error_of(error.is_bad_input(), error))?;
+    let Scenario::Plate(plate) = &found.scenario else { return Err(cancelled()) };
+    let [least, most] = REACH.map(|share| share * plate.mean_gap * 1e6);
+    if let Some(gap) = gaps.iter().find(|gap| !(least..=most).contains(*gap)) {
+        return Err(scene_error(format!("gap_um = {gap} is out of range: allowed {least} to {most} µm")));
+    }
+    let mut hold = Hold::new(plate, &Plan::plate(plate, settings.fidelity, &problem.numerics));
+    hold.rest_at(1e-6 * gaps[0]);
+    let force = if plate.is_strip() { ["force_n_per_m", "force_error_n_per_m"] } else { ["force_n", "force_error_n"] };
+    let names = ["time_s", "gap_um", force[0], force[1], "load_ratio", "mean_pressure_kpa"];
+    let mut columns = names.map(|name| (name, Vec::with_capacity(times.len())));
+    for (i, (time, gap)) in times.iter().zip(gaps).enumerate() {
+        if cancel.is_cancelled() {
+            return Err(cancelled());
+        }
+        if i > 0 {
+            hold.advance(1e-6 * gap, time - times[i - 1]).map_err(solve_error)?;
+        }
+        let at = hold.reading();
+        let values = [*time, 1e6 * at.gap, at.force, at.error, at.ratio, 1e-3 * at.mean_pressure];
+        columns.iter_mut().zip(values).for_each(|(column, value)| column.1.push(value));
+    }
+    Ok(columns.into())
+}

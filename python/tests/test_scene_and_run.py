@@ -1,0 +1,221 @@
+import importlib.resources
+import json
+import pickle
+import signal
+import threading
+import time
+import tomllib
+
+import numpy as np
+import pytest
+import squeezefilm as sf
+
+
+@pytest.fixture(scope="module")
+def run():
+    return sf.preset("fundamental").solve(fidelity="draft")
+
+
+def test_a_run_is_that_of_the_command_line():
+    run = sf.preset("fundamental").solve(accuracy=0.001)
+    # docs/validation.md: 0.24586 ± 0.00005
+    assert abs(run.alpha - 0.24586) < run.alpha_error + 5e-5 and run.alpha_error < 0.0003
+    assert run.converged and run.accuracy_asked == 0.001
+    assert [limit["name"] for limit in run.validity] == ["slip-law"]
+    assert run.film_load_n == pytest.approx(run.alpha * 2.45)
+    assert "0.2458" in repr(run) or "0.2459" in repr(run)
+    assert run.merit["with_film"]["no_load_speed_rpm"] > 0
+
+
+def test_fields_have_the_shapes_of_their_axes(run):
+    length = {}
+    for name, (axes, array) in run.fields().items():
+        assert array.dtype == np.float64 and array.ndim == len(axes)
+        for axis, size in zip(axes, array.shape):
+            assert length.setdefault(axis, size) == size, name
+    load = (run.film_n_per_m * run.node_length_m).sum(axis=(1, 2))
+    assert np.allclose(load, run.fields()["film_load_n"][1])
+    assert run.fields()["film_load_n"][1].mean() == pytest.approx(run.film_load_n)
+    assert run.pressure_kpa.min() > 0
+    with pytest.raises(AttributeError, match="presure"):
+        run.presure_kpa
+
+
+def test_types_and_docs_name_what_there_is(run):
+    assert importlib.resources.files(sf).joinpath("py.typed").is_file()
+    source = importlib.resources.files(sf).joinpath("_run.py").read_text()
+    declared = source.split("if TYPE_CHECKING:\n        preset")[1].split("def __init__")[0]
+    names = {"preset", *(line.split(":")[0].strip() for line in declared.splitlines()[1:] if ":" in line)}
+    there = {*run.summary(torque=True), *run.fields()}
+    assert names - there == set()
+    # What is not declared is costs, limits, and series that have the name of their mean.
+    assert {name for name, (axes, _) in run.fields().items() if len(axes) > 1 or axes[0] != "frame"} <= names
+    table = sf.Run.__doc__
+    assert all(name in table for name, (axes, _) in run.fields().items() if axes != ("frame",))
+    for name in sf.__all__:
+        assert name in ("CHUNK", "__version__") or getattr(sf, name).__doc__, name
+
+
+def test_keys_are_changed_and_a_scene_stays():
+    scene = sf.preset("fundamental")
+    smoother = scene.with_(film_min_spacing_nm=100)
+    assert (smoother["film.min_spacing_nm"], scene["film_min_spacing_nm"]) == (100, 200)
+    assert smoother.solve().alpha == pytest.approx(0.499, abs=0.01)
+    crowned = scene.with_({"stator.tooth_radius_m": 3})
+    assert crowned != scene and crowned.with_(stator_tooth_radius_m=None).solve().alpha == scene.solve().alpha
+    assert pickle.loads(pickle.dumps(smoother)) == smoother
+    assert "min_spacing_nm" in scene._repr_html_() and sf.keys()["film.min_spacing_nm"][0] == "nm"
+
+
+def test_a_scene_is_made_of_keys_of_a_file_or_of_sections(tmp_path):
+    fundamental = sf.preset("fundamental")
+    (tmp_path / "my.toml").write_text(fundamental.to_toml())
+    loaded = sf.load(tmp_path / "my.toml")
+    assert loaded == fundamental
+    table = tomllib.loads(fundamental.to_toml())
+    sections = {name: value for name, value in table.items() if isinstance(value, dict)}
+    made = sf.Scene(table["scene"], table["name"], about=table["about"], **sections)
+    assert made == fundamental
+    plate = sf.Scene("plate", plate_length_mm=1, plate_mean_gap_um=1, plate_amplitude_um=0.5, plate_frequency_khz=30)
+    assert plate.solve(fidelity="draft").mean_load_ratio > 0 and plate["plate.width_mm"] is None
+    with pytest.raises(sf.SceneError, match="plate.length_mm"):
+        sf.Scene("plate", plate_length_mm=-1, plate_mean_gap_um=1, plate_amplitude_um=0.5, plate_frequency_khz=30)
+    with pytest.raises(sf.SceneError, match="mean_gap_um"):
+        sf.Scene("plate", plate_length_mm=1, plate_amplitude_um=0.5, plate_frequency_khz=30)
+
+
+@pytest.mark.parametrize("key, value", [("film_min_spacing_nm", -1), ("film_min_spacing", 100), ("film_slip", "cubic")])
+def test_bad_input_names_key_and_value(key, value):
+    with pytest.raises(sf.SceneError, match=key.replace("_", ".", 1)):
+        sf.preset("fundamental").with_({key: value})
+    assert issubclass(sf.SceneError, ValueError)
+
+
+def test_bad_names_and_settings():
+    with pytest.raises(sf.SceneError, match="fundamental"):
+        sf.preset("fundamentel")
+    with pytest.raises(sf.SceneError, match="nowhere.toml"):
+        sf.load("nowhere.toml")
+    with pytest.raises(sf.SceneError, match="accuracy = 3"):
+        sf.preset("fundamental").solve(accuracy=3)
+    with pytest.raises(sf.SceneError, match="fidelity"):
+        sf.preset("fundamental").solve(0.01, fidelity="fine")
+    with pytest.raises(sf.SceneError, match="method = magic"):
+        sf.preset("fundamental").solve(method="magic")
+    with pytest.raises(sf.SceneError, match="plate"):
+        sf.preset("plate-trapped").solve(method="paper")
+
+
+def test_ctrl_c_ends_a_solve():
+    hard = sf.preset("fundamental").with_(film_min_spacing_nm=5, numerics_steps_per_cycle=20000, numerics_teeth="all")
+    threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        hard.solve(fidelity="reference")
+    assert time.monotonic() - started < 20
+
+
+def test_other_threads_of_python_run_while_it_is_solved():
+    counted, ended = [0], threading.Event()
+
+    def count():
+        while not ended.is_set():
+            counted[0] += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    before = counted[0]
+    sf.sweep(sf.preset("fundamental"), "film.min_spacing_nm", np.linspace(50, 500, 200))
+    during = counted[0] - before
+    ended.set()
+    thread.join()
+    assert during > 5
+
+
+def test_what_does_not_converge_is_returned_with_a_warning():
+    # A single cycle at most.
+    scene = sf.preset("min-spacing-100nm").with_(film_min_spacing_nm=20)
+    keys = {"numerics.film_nodes_along": 21, "numerics.film_nodes_across": 7, "numerics.contact_nodes": 91, "numerics.steps_per_cycle": 60}
+    with pytest.warns(RuntimeWarning, match="not converged"):
+        run = scene.with_(keys).solve(method="paper")
+    assert not run.converged and run.residual > run.tolerance and "not converged" in run._repr_html_()
+
+
+def test_a_notebook_shows_numbers_and_the_wave(run):
+    shown = run._repr_html_()
+    assert "±" in shown and "<svg" in shown and len(shown) < 200_000
+    plate = sf.preset("plate-trapped").solve(fidelity="draft")
+    assert "<svg" in plate._repr_html_() and plate.mean_load_ratio > 0
+
+
+def test_figures_are_those_of_the_library(run, tmp_path):
+    assert run.figures()[:3] == ["wave", "loads", "map"] and "torque" in run.figures()
+    wave = run.figure("wave")
+    assert wave._repr_svg_().startswith("<svg") and wave._repr_png_() is None
+    assert run.figure("loads", "png").data.startswith(b"\x89PNG") and run.figure("torque", "pdf").data.startswith(b"%PDF")
+    assert run.figure(tmp_path / "wave.svg").data == (tmp_path / "wave.svg").read_bytes() == wave.data
+    with pytest.raises(sf.SceneError, match="figure = waves is not there: one of wave"):
+        run.figure("waves")
+    with pytest.raises(sf.SceneError, match="format = bmp is not allowed"):
+        run.figure("wave.bmp")
+    written = run.save(tmp_path / "results", figures=("svg",))
+    assert {"fields.npz", "summary.json", "torque.csv", "wave.svg"} <= {path.rsplit("/", 1)[-1] for path in written}
+    fields = np.load(tmp_path / "results" / "fields.npz")
+    assert all(np.array_equal(fields[name], array) for name, (_, array) in run.fields().items())
+    with pytest.raises(OSError):
+        run.save("/dev/null/results")
+
+
+@pytest.mark.parametrize("name", ["fundamental", "plate-crossover", "plate-trapped", "floating-disc"])
+def test_vtk_is_read_by_another_library(name, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    run = sf.preset(name).solve(fidelity="draft")
+    run.save(tmp_path, figures=("vtk",))
+    series = json.loads((tmp_path / "film.vtk.series").read_text())
+    assert [file["time"] for file in series["files"]] == list(run.time_s)
+    frame = len(run.time_s) // 3
+    mesh = meshio.read(tmp_path / series["files"][frame]["name"])
+    points, cells, data = mesh.points, mesh.cells_dict["quad"], mesh.point_data
+    assert len(points) == len(data["pressure_kpa"]) and cells.max() == len(points) - 1
+    corners = points[cells]
+    sides = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    areas = 0.5 * np.linalg.norm(np.cross(*sides), axis=1)
+    assert (areas > 0).all()
+    below = data["face"][cells[:, 0]] == 0
+    force = 1e-3 * (areas * (data["pressure_kpa"][cells].mean(axis=1) - run.scene["film.ambient_pressure_kpa"]))[below].sum()
+    if name == "fundamental":
+        expected = run.scene["motor.waves"] * run.fields()["film_load_n"][1][frame]
+        radius = np.linalg.norm(points[:, :2], axis=1)
+        assert abs(radius - 29).max() < 0.2 and len(data["height_mm"]) == len(points)
+        gap = 1e6 * (data["height_mm"][data["face"] == 1, 2] - data["height_mm"][data["face"] == 0, 2])
+        assert np.allclose(gap + run.scene["film.min_spacing_nm"], data["film_thickness_nm"][data["face"] == 0], atol=0.1)
+    elif "film_load_n_per_m" in run.fields():
+        # A strip is drawn as wide as it is long.
+        expected = 1e-3 * run.scene["plate.length_mm"] * run.fields()["film_load_n_per_m"][1][frame]
+    else:
+        expected = run.fields()["film_load_n"][1][frame]
+    assert force == pytest.approx(expected, rel=0.05, abs=0.02 * abs(run.film_load_n))
+
+
+def test_xarray(run):
+    xarray = pytest.importorskip("xarray")
+    data = run.to_xarray()
+    assert isinstance(data, xarray.Dataset) and data.pressure_kpa.dims == ("frame", "map_x", "map_y")
+    assert (data.pressure_kpa.units, data.film_n_per_m.units, data.stator_nm.units) == ("kPa", "N/m", "nm")
+    assert sf.preset("plate-trapped").solve(fidelity="draft").to_xarray().pressure_kpa.size
+
+
+def test_plots(run):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = run.plot.wave(phase=0.3)
+    assert len(axes.lines) == 2 * len(run.tooth_middle_m) and "0.30" in axes.get_title()
+    heights = axes.lines[0].get_ydata()
+    assert np.array_equal(heights, run.stator_nm[round(0.3 * len(run.time_s)), 0])
+    assert [line.get_label() for line in run.plot.loads().lines] == ["film", "contact"]
+    assert run.plot.pressure(0.5).collections
+    plate = sf.preset("plate-crossover").solve(fidelity="draft")
+    assert plate.plot.pressure().lines or plate.plot.pressure().collections
+    with pytest.raises(AttributeError, match="no wave"):
+        plate.plot.wave()

@@ -1,0 +1,55 @@
+//! `squeezefilm join`: the whole of a sweep whose parts were solved one by one.
+
+use super::exit::{CliError, Exit};
+use super::options::{FigureOptions, OutputOptions};
+use super::solve::written;
+use super::sweep::tell;
+use super::terminal;
+use crate::export::files;
+use crate::export::saved::{Joined, join};
+use crate::input::read_text;
+use clap::Args;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  squeezefilm join results/sweep.part-*.csv --out results
+  squeezefilm join a/sweep.part-1-of-2.csv b/sweep.part-2-of-2.csv --json";
+
+const FILES: &str = "\
+Files of --out: those of squeezefilm sweep, byte by byte what one machine
+would have written.";
+
+/// Most of a file of a part \[MB\]: more than all points that a sweep can have.
+const LARGEST: u64 = 512;
+
+/// Joins the parts of a sweep that were solved with sweep --part
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
+pub(super) struct Arguments {
+    /// The files of all parts, in any order
+    #[arg(value_name = "PART", required = true)]
+    parts: Vec<PathBuf>,
+
+    #[command(flatten)]
+    output: OutputOptions,
+
+    #[command(flatten)]
+    figures: FigureOptions,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
+    let folder = arguments.output.folder()?;
+    let read = |path: &PathBuf| match read_text(path, LARGEST) {
+        Ok(text) => Ok((path.display().to_string(), text)),
+        Err(source) => Err(CliError::File { path: path.clone(), source }),
+    };
+    let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let Joined { sweep, rows, command } = join(&parts)?;
+    let exit = tell(&sweep, &rows, arguments.output.json, &command);
+    if let Some(folder) = folder {
+        let paths = files::swept(folder, &sweep, &rows, &command, &arguments.figures.formats())?;
+        terminal::note(&written(folder, &paths));
+    }
+    Ok(exit)
+}

@@ -1,0 +1,400 @@
+//! A sweep that is not complete, or a part of it, as a CSV file: saved while it is solved, gone on with, and joined to the whole.
+//!
+//! The first line is a comment: an object of JSON that says of which sweep the rows are, and which part. The rest is the CSV of a sweep
+//! with a checksum of each row. Numbers are written with the fewest digits that read back to the same bits, so that a sweep in parts is the
+//! same, byte by byte, as one that is solved at once.
+
+use super::sweep::{BETWEEN, FIRST, VALIDITY, header, record};
+use crate::analysis::attempt::RunStatus;
+use crate::analysis::quantity::{Numbers, Quantity};
+use crate::analysis::sweep::{Part, Row, Sweep, SweepError, Vary, digest};
+use crate::analysis::validity::NAMES;
+use crate::scene::Scene;
+use crate::solve::Settings;
+use serde::{Deserialize, Serialize};
+use std::io::{self, Write};
+use std::ops::Range;
+
+/// The last column.
+const CHECK: &str = "check";
+/// What a comment begins with.
+const COMMENT: u8 = b'#';
+
+/// What the first line says.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Head {
+    /// Fingerprint of the sweep.
+    sweep: String,
+    /// Which part, as `3/64`; the whole is `1/1`.
+    part: String,
+    /// The scene that is varied.
+    scene_toml: String,
+    /// What is varied, as on the command line.
+    vary: Vec<String>,
+    settings: Settings,
+    /// The command line that solves the whole.
+    command: Vec<String>,
+}
+
+/// Writes rows of a part of a sweep, to go on with or to be joined. `command`: the command line that solves the whole, if there is one.
+///
+/// # Errors
+/// Those of writing.
+pub fn write(sweep: &Sweep, part: Part, rows: &[Row], command: &[String], out: &mut dyn Write) -> io::Result<()> {
+    let fingerprint = sweep.fingerprint();
+    let head = Head {
+        sweep: fingerprint.clone(),
+        part: part.to_string(),
+        scene_toml: sweep.scene().to_toml(),
+        vary: sweep.vary().iter().map(ToString::to_string).collect(),
+        settings: *sweep.settings(),
+        command: command.to_vec(),
+    };
+    writeln!(out, "{} {}", char::from(COMMENT), serde_json::to_string(&head)?)?;
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(header(sweep).iter().map(String::as_str).chain([CHECK]))?;
+    for row in rows {
+        let mut cells = record(sweep, &fingerprint, row);
+        cells.push(digest(cells.iter().map(String::as_str)));
+        writer.write_record(cells)?;
+    }
+    writer.flush()
+}
+
+/// Why the rows of a file are not those of a sweep.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReadError {
+    /// The file is of another sweep.
+    #[error("it is of another sweep: another scene, range, setting or version")]
+    Another,
+    /// The file is of another part.
+    #[error("it is part {found} of the sweep, not {expected}")]
+    Part {
+        /// Which part it is.
+        found: String,
+        /// Which part was expected.
+        expected: String,
+    },
+    /// The file is damaged.
+    #[error("line {line}: {fault}")]
+    Damaged {
+        /// Line of the file, from 1.
+        line: u64,
+        /// What is wrong there.
+        fault: String,
+    },
+}
+
+fn damaged(line: u64, fault: impl ToString) -> ReadError {
+    ReadError::Damaged { line, fault: fault.to_string() }
+}
+
+fn head(text: &str) -> Result<Head, ReadError> {
+    let first = text.lines().next().unwrap_or_default();
+    let object = first.strip_prefix(char::from(COMMENT)).ok_or(ReadError::Another)?;
+    serde_json::from_str(object).map_err(|error| damaged(1, error))
+}
+
+/// Rows of a part of `sweep` from the text that [`write`] made of them.
+///
+/// # Errors
+/// [`ReadError`]. A row too many, twice, or changed since it was written, is damage.
+pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<Row>, ReadError> {
+    let (fingerprint, head) = (sweep.fingerprint(), head(text)?);
+    if head.sweep != fingerprint {
+        return Err(ReadError::Another);
+    }
+    if head.part != part.to_string() {
+        return Err(ReadError::Part { found: head.part, expected: part.to_string() });
+    }
+    rows(sweep, &fingerprint, part.points(sweep), text)
+}
+
+/// The rows of a text, all of these `points`.
+fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> Result<Vec<Row>, ReadError> {
+    let mut reader = csv::ReaderBuilder::new().comment(Some(COMMENT)).from_reader(text.as_bytes());
+    let found = reader.headers().map_err(|error| damaged(2, error))?;
+    if !found.iter().eq(header(sweep).iter().map(String::as_str).chain([CHECK])) {
+        return Err(ReadError::Another);
+    }
+    let (quantities, mut there) = (sweep.quantities(), vec![false; points.len()]);
+    let mut rows: Vec<Row> = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| damaged(error.position().map_or(0, csv::Position::line), &error))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        // The reader refuses a record of another length than the header.
+        let field = |column: usize| record.get(column).unwrap_or("");
+        if field(0) != fingerprint {
+            return Err(ReadError::Another);
+        }
+        if record.iter().next_back() != Some(&digest(record.iter().take(record.len() - 1))) {
+            return Err(damaged(line, "the row was changed after it was saved"));
+        }
+        let point: usize = field(1).parse().map_err(|_| damaged(line, format!("point = {}", field(1))))?;
+        if !points.contains(&point) || std::mem::replace(&mut there[point - points.start], true) {
+            return Err(damaged(line, format!("point {point} is not expected here")));
+        }
+        let column = FIRST.len() + sweep.axes().len();
+        let status = match field(column) {
+            "converged" => RunStatus::Converged,
+            "not converged" => RunStatus::NotConverged,
+            other => match other.strip_prefix("failed: ") {
+                Some(reason) => RunStatus::Failed(reason.to_owned()),
+                None => return Err(damaged(line, format!("status = {other}"))),
+            },
+        };
+        let mut outside = Vec::new();
+        for name in field(column + 1).split(BETWEEN).filter(|name| !name.is_empty()) {
+            let known = NAMES.into_iter().find(|known| *known == name);
+            outside.push(known.ok_or_else(|| damaged(line, format!("{VALIDITY} = {name}")))?);
+        }
+        let mut numbers = Numbers::default();
+        for (i, quantity) in quantities.iter().enumerate() {
+            let text = field(column + 2 + i);
+            if !text.is_empty() {
+                let value =
+                    text.parse().map_err(|_| damaged(line, format!("{} = {text}", Quantity::name(*quantity))))?;
+                numbers.set(*quantity, value);
+            }
+        }
+        rows.push(Row { point, values: sweep.values(point).to_vec(), status, numbers, outside });
+    }
+    Ok(rows)
+}
+
+/// A sweep whose parts were solved one by one.
+#[derive(Clone, Debug)]
+pub struct Joined {
+    /// The sweep.
+    pub sweep: Sweep,
+    /// A row for each of its points, in order.
+    pub rows: Vec<Row>,
+    /// The command line that solves it at once; empty if there is none.
+    pub command: Vec<String>,
+}
+
+/// Why parts are not joined.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum JoinError {
+    /// A text that is no part, or of another sweep than the first.
+    #[error("{name}: {source}")]
+    Read {
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        source: ReadError,
+    },
+    /// The sweep of the first part cannot be made.
+    #[error("{name}: {source}")]
+    Sweep {
+        /// Its name.
+        name: String,
+        /// Why.
+        source: SweepError,
+    },
+    /// Parts of as many, and parts of another number.
+    #[error("{name}: it is part {found}, and the parts before it are of {of}")]
+    Count {
+        /// Its name.
+        name: String,
+        /// Which part it is.
+        found: Part,
+        /// How many there are of the first.
+        of: usize,
+    },
+    /// A part twice.
+    #[error("{name}: part {part} was given before")]
+    Twice {
+        /// Its name.
+        name: String,
+        /// Which part.
+        part: Part,
+    },
+    /// A part that is not solved to its end.
+    #[error("{name}: {solved} of the {points} points of part {part} are solved; the command that began it goes on")]
+    Incomplete {
+        /// Its name.
+        name: String,
+        /// Which part.
+        part: Part,
+        /// Points that are solved.
+        solved: usize,
+        /// Points that it has.
+        points: usize,
+    },
+    /// Parts that were not given.
+    #[error("parts are missing: {parts}")]
+    Missing {
+        /// Which, divided by commas; a few of many.
+        parts: String,
+    },
+}
+
+/// Missing parts that are named.
+const NAMED: usize = 8;
+
+/// The whole of all its parts, each with a name to tell it by, in any order.
+///
+/// # Errors
+/// [`JoinError`].
+pub fn join(parts: &[(String, String)]) -> Result<Joined, JoinError> {
+    let fault = |name: &str, source| JoinError::Read { name: name.to_owned(), source };
+    let Some((first, text)) = parts.first() else { return Err(JoinError::Missing { parts: "all".to_owned() }) };
+    let begun = head(text).map_err(|source| fault(first, source))?;
+    let sweep = begun.sweep().map_err(|source| JoinError::Sweep { name: first.clone(), source })?;
+    let fingerprint = sweep.fingerprint();
+    let part_of = |name: &str, head: &Head| head.part.parse::<Part>().map_err(|error| fault(name, damaged(1, error)));
+    let of = part_of(first, &begun)?.of();
+    let mut found: Vec<Option<Vec<Row>>> = vec![None; of];
+    for (name, text) in parts {
+        let head = head(text).map_err(|source| fault(name, source))?;
+        if head.sweep != fingerprint {
+            return Err(fault(name, ReadError::Another));
+        }
+        let part = part_of(name, &head)?;
+        if part.of() != of {
+            return Err(JoinError::Count { name: name.clone(), found: part, of });
+        }
+        let points = part.points(&sweep);
+        let mut rows = rows(&sweep, &fingerprint, points.clone(), text).map_err(|source| fault(name, source))?;
+        if rows.len() < points.len() {
+            let (solved, points) = (rows.len(), points.len());
+            return Err(JoinError::Incomplete { name: name.clone(), part, solved, points });
+        }
+        rows.sort_by_key(|row| row.point);
+        if found[part.number() - 1].replace(rows).is_some() {
+            return Err(JoinError::Twice { name: name.clone(), part });
+        }
+    }
+    let missing: Vec<Part> =
+        Part::all(of).zip(&found).filter(|(_, rows)| rows.is_none()).map(|(part, _)| part).collect();
+    if !missing.is_empty() {
+        let mut parts: Vec<String> = missing.iter().take(NAMED).map(ToString::to_string).collect();
+        if missing.len() > NAMED {
+            parts.push(format!("{} more", missing.len() - NAMED));
+        }
+        return Err(JoinError::Missing { parts: parts.join(", ") });
+    }
+    Ok(Joined { sweep, rows: found.into_iter().flatten().flatten().collect(), command: begun.command })
+}
+
+impl Head {
+    /// The sweep that it names.
+    fn sweep(&self) -> Result<Sweep, SweepError> {
+        let scene = Scene::from_toml(&self.scene_toml, "the scene of the part")?;
+        let vary = self.vary.iter().map(|text| text.parse()).collect::<Result<Vec<Vary>, _>>()?;
+        Sweep::new(&scene, &vary, &self.settings)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::presets;
+
+    fn sweep(vary: &str) -> Sweep {
+        Sweep::new(&presets::find("fundamental").unwrap(), &[vary.parse().unwrap()], &Settings::default()).unwrap()
+    }
+
+    fn rows(sweep: &Sweep) -> Vec<Row> {
+        let mut numbers = Numbers::default();
+        numbers.set(Quantity::Alpha, 0.1 + 0.2);
+        numbers.set(Quantity::AlphaError, 1e-300);
+        let failed = RunStatus::Failed("film, step 3: no \"solution\",\nat all".to_owned());
+        let row = |point: usize, status: RunStatus| Row {
+            point,
+            values: sweep.values(point).to_vec(),
+            status,
+            numbers,
+            outside: vec!["slip-law", "sound"],
+        };
+        vec![row(0, RunStatus::Converged), row(2, failed), row(1, RunStatus::NotConverged)]
+    }
+
+    fn saved(sweep: &Sweep, part: Part, rows: &[Row]) -> String {
+        let mut text = Vec::new();
+        write(sweep, part, rows, &["squeezefilm".to_owned()], &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    }
+
+    #[test]
+    fn rows_read_back_to_the_same_bits() {
+        let sweep = sweep("stator.frequency_khz=3:100:3:log");
+        let text = saved(&sweep, Part::WHOLE, &rows(&sweep));
+        assert_eq!(read(&sweep, Part::WHOLE, &text).unwrap(), rows(&sweep));
+        let second = text.lines().nth(1).unwrap();
+        assert!(
+            second.starts_with("sweep,point,stator.frequency_khz,status,validity,alpha,alpha_error,film_load_n,"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn rows_of_another_sweep_and_damage_are_told() {
+        let ours = sweep("stator.frequency_khz=3:100:3");
+        let text = saved(&ours, Part::WHOLE, &rows(&ours));
+        let read = |sweep: &Sweep, text: &str| super::read(sweep, Part::WHOLE, text);
+        assert_eq!(read(&sweep("stator.frequency_khz=3:100:4"), &text), Err(ReadError::Another));
+        assert_eq!(read(&sweep("film.min_spacing_nm=50:100:3"), &text), Err(ReadError::Another));
+        assert_eq!(read(&ours, ""), Err(ReadError::Another));
+        let other = Part::all(2).last().unwrap();
+        assert_eq!(
+            super::read(&ours, other, &text),
+            Err(ReadError::Part { found: "1/1".to_owned(), expected: "2/2".to_owned() })
+        );
+        let cut = &text[..text.len() - 20];
+        assert!(matches!(read(&ours, cut), Err(ReadError::Damaged { .. })), "{:?}", read(&ours, cut));
+        let third = text.lines().nth(2).unwrap();
+        assert!(matches!(read(&ours, &format!("{text}{third}\n")), Err(ReadError::Damaged { .. })));
+        // A row that somebody has changed is no result.
+        for (from, to) in [
+            ("0.30000000000000004", "0.31"),
+            ("0.30000000000000004", "nan"),
+            ("converged", "failed: no"),
+            (",1,", ",0,"),
+        ] {
+            let fault = read(&ours, &text.replacen(from, to, 1)).unwrap_err();
+            assert!(fault.to_string().contains("the row was changed after it was saved"), "{from}: {fault}");
+        }
+    }
+
+    #[test]
+    fn all_parts_are_the_whole_and_what_is_no_whole_is_told() {
+        // Of a range, of a logarithmic one and of words.
+        for vary in [
+            "stator.frequency_khz=3:100:3",
+            "stator.frequency_khz=3.3:100:3:log",
+            "film.slip=none,first-order,fukui-kaneko",
+        ] {
+            let ours = sweep(vary);
+            let mut all = rows(&ours);
+            all.sort_by_key(|row| row.point);
+            let mut parts: Vec<(String, String)> = Part::all(4)
+                .map(|part| {
+                    let rows: Vec<Row> =
+                        all.iter().filter(|row| part.points(&ours).contains(&row.point)).cloned().collect();
+                    (format!("{part}.csv"), saved(&ours, part, &rows))
+                })
+                .collect();
+            parts.reverse();
+            let joined = join(&parts).unwrap();
+            assert_eq!((joined.rows, joined.command), (all, vec!["squeezefilm".to_owned()]));
+            assert_eq!(joined.sweep.fingerprint(), ours.fingerprint());
+            let told = |parts: &[(String, String)]| join(parts).unwrap_err().to_string();
+            assert_eq!(told(&parts[..2]), "parts are missing: 1/4, 2/4");
+            assert_eq!(told(&[&parts[..], &parts[1..2]].concat()), "3/4.csv: part 3/4 was given before");
+            let none = ("x.csv".to_owned(), saved(&ours, Part::all(4).last().unwrap(), &[]));
+            let told_none = "x.csv: 0 of the 3 points of part 4/4 are solved; the command that began it goes on";
+            assert_eq!(told(std::slice::from_ref(&none)), told_none);
+            let third = ("y.csv".to_owned(), saved(&ours, Part::all(3).next().unwrap(), &[]));
+            assert_eq!(told(&[parts[3].clone(), third]), "y.csv: it is part 1/3, and the parts before it are of 4");
+            let other = sweep("film.min_spacing_nm=100:200:3");
+            let other = ("z.csv".to_owned(), saved(&other, Part::WHOLE, &[]));
+            assert!(told(&[parts[3].clone(), other]).starts_with("z.csv: it is of another sweep"));
+        }
+        assert_eq!(join(&[]).unwrap_err().to_string(), "parts are missing: all");
+        assert!(
+            join(&[("a".to_owned(), "b".to_owned())]).unwrap_err().to_string().starts_with("a: it is of another sweep")
+        );
+    }
+}
