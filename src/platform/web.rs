@@ -15,6 +15,11 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, Url};
 /// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
 pub const HAS_FILES: bool = false;
 
+/// The font of figures, with the glyphs that texts of the program use: `assets/fonts/page/subset` makes this font and the others.
+pub const LIBERATION: &[u8] = include_bytes!("../../assets/fonts/page/LiberationSans-Regular.ttf");
+/// DejaVu Sans, for the glyphs that other fonts lack.
+pub const DEJAVU: &[u8] = include_bytes!("../../assets/fonts/page/DejaVuSans.ttf");
+
 thread_local! {
     /// Files that the user has opened or dropped, under their names.
     static HANDED_OVER: RefCell<HashMap<PathBuf, Vec<u8>>> = RefCell::default();
@@ -236,14 +241,18 @@ pub mod window {
         Ok(())
     }
 
-    /// The fonts to begin with: those of egui that text is written with. The others would be a third of what is loaded.
+    /// The fonts to begin with: those of egui that text is written with, with fewer glyphs.
     pub fn fonts() -> egui::FontDefinitions {
-        use epaint_default_fonts::{EGUI_ICONS, UBUNTU_LIGHT};
+        use egui::FontFamily::{Monospace, Proportional};
+        const UBUNTU: &[u8] = include_bytes!("../../assets/fonts/page/Ubuntu-Light.ttf");
+        const HACK: &[u8] = include_bytes!("../../assets/fonts/page/Hack-Regular.ttf");
         let mut fonts = egui::FontDefinitions::empty();
-        for (name, font) in [("Ubuntu-Light", UBUNTU_LIGHT), ("egui-icons", EGUI_ICONS)] {
+        for (name, font) in [("Hack", HACK), ("Ubuntu-Light", UBUNTU), ("egui-icons", epaint_default_fonts::EGUI_ICONS)]
+        {
             fonts.font_data.insert(name.to_owned(), egui::FontData::from_static(font).into());
-            for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace] {
-                fonts.families.entry(family).or_default().push(name.to_owned());
+            let families = if name == "Hack" { &[Monospace][..] } else { &[Proportional, Monospace] };
+            for family in families {
+                fonts.families.entry(family.clone()).or_default().push(name.to_owned());
             }
         }
         fonts
