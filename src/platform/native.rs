@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 /// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
 pub const HAS_FILES: bool = true;
 
+/// Where it is solved, as the window says it: nothing, in a process.
+pub const SOLVED_HERE: &str = "";
+
 /// The font of figures: Liberation Sans 2.1.5, with the widths of Arial and Helvetica, so that an SVG looks alike where only those are.
 pub const LIBERATION: &[u8] = include_bytes!("../../assets/fonts/LiberationSans-Regular.ttf");
 /// DejaVu Sans, for the glyphs that other fonts lack.

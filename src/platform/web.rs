@@ -15,6 +15,9 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, Url};
 /// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
 pub const HAS_FILES: bool = false;
 
+/// Where it is solved, as the window says it.
+pub const SOLVED_HERE: &str = " in this browser";
+
 /// The font of figures, with the glyphs that texts of the program use: `assets/fonts/page/subset` makes this font and the others.
 pub const LIBERATION: &[u8] = include_bytes!("../../assets/fonts/page/LiberationSans-Regular.ttf");
 /// DejaVu Sans, for the glyphs that other fonts lack.
@@ -202,6 +205,7 @@ pub mod window {
     use super::super::{Asked, FileDialog};
     use super::{ARRIVED, HANDED_OVER};
     use eframe::egui;
+    use eframe::egui::accesskit::{Role, Toggled};
     use std::cell::RefCell;
     use std::collections::HashMap;
     use std::path::PathBuf;
@@ -343,33 +347,39 @@ pub mod window {
         RUN.set(run);
     }
 
-    /// What is shown, as JSON: the run on screen, and of each thing in the window what it is, what it is called, its value, and where it is
-    /// \[CSS pixels\], in the order in which it is read.
+    /// What is shown, as JSON: the run on screen, what has the keyboard, and of each thing in the window what it is, what it is called, its
+    /// value and state, and where it is \[CSS pixels\], in the order in which it is read.
     pub fn told() -> String {
-        let nodes = SHOWN.with_borrow(|shown| {
-            let Some((tree, zoom)) = shown else { return Vec::new() };
+        let (focus, nodes) = SHOWN.with_borrow(|shown| {
+            let Some((tree, zoom)) = shown else { return (None, Vec::new()) };
             let known: HashMap<_, _> = tree.nodes.iter().map(|(id, node)| (*id, node)).collect();
             let mut left: Vec<_> = tree.tree.iter().map(|tree| tree.root).collect();
             let mut told = Vec::new();
             while let Some(id) = left.pop() {
-                let Some(node) = known.get(&id) else { continue };
+                // Lines of a text are parts of what has the whole of it.
+                let Some(node) = known.get(&id).filter(|node| node.role() != Role::TextRun) else { continue };
                 left.extend(node.children().iter().rev());
                 let said = |id| known.get(id).and_then(|node| node.label().or(node.value()));
                 let label = node.label().or_else(|| node.labelled_by().iter().find_map(said));
                 if label.is_some() || node.value().is_some() {
                     let place = node.bounds().map(|b| [b.x0, b.y0, b.x1, b.y1].map(|length| length * zoom));
                     told.push(serde_json::json!({
+                        // Too many digits for a number in JavaScript.
+                        "id": id.0.to_string(),
                         "role": format!("{:?}", node.role()),
                         "label": label,
                         "value": node.value(),
                         "number": node.numeric_value(),
+                        "range": [node.min_numeric_value(), node.max_numeric_value()],
+                        "on": node.toggled().map(|toggled| toggled == Toggled::True),
+                        "disabled": node.is_disabled(),
                         "box": place,
                     }));
                 }
             }
-            told
+            (Some(tree.focus.0.to_string()), told)
         });
-        RUN.with_borrow(|run| serde_json::json!({ "run": run, "nodes": nodes }).to_string())
+        RUN.with_borrow(|run| serde_json::json!({ "run": run, "focus": focus, "nodes": nodes }).to_string())
     }
 
     /// What file dialogs are shown over.
