@@ -5,6 +5,7 @@
 //! after every event. In a process a named thread solves (`thread`), which is cancelled and joined on drop; on a page it is a worker
 //! (`page`), to which scenes are sent as bytes, and which is ended and replaced when it is cancelled.
 
+pub mod export;
 pub mod fit;
 pub mod hold;
 #[cfg(target_arch = "wasm32")]
