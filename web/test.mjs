@@ -222,6 +222,20 @@ await until("what is wrong", says(/begins with a built-in preset/));
 check("what is wrong with a link is told", true);
 await fresh.close();
 
+// As slow as a class's network is.
+fresh = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+page = await fresh.newPage();
+watch(page);
+const slow = await fresh.newCDPSession(page);
+await slow.send("Network.emulateNetworkConditions", { offline: false, latency: 20, downloadThroughput: 10e6 / 8, uploadThroughput: 10e6 / 8 });
+const asked = Date.now();
+await page.goto(address);
+await page.waitForFunction(() => document.getElementById("message")?.textContent === "Starting…");
+console.log(`    at 10 Mbit/s the program was loaded after ${((Date.now() - asked) / 1000).toFixed(2)} s`);
+await until("a solve", ({ run }) => run);
+console.log(`    and solved after ${((Date.now() - asked) / 1000).toFixed(2)} s`);
+await fresh.close();
+
 // Small screens, by fingers.
 async function fingers(steps) {
   const line = await page.context().newCDPSession(page);
