@@ -6,6 +6,7 @@
 //! (`page`), to which scenes are sent as bytes, and which is ended and replaced when it is cancelled.
 
 pub mod drop;
+pub mod export;
 pub mod fit;
 pub mod hold;
 #[cfg(target_arch = "wasm32")]

@@ -218,7 +218,6 @@ pub struct Stats {
     /// Newton iterations (or active-set changes) in them.
     pub contact_iterations: u64,
     /// Steps of a start-up in which film and contact did not agree to the tolerance within their rounds.
-    #[serde(skip)]
     pub unsettled_steps: u64,
     /// Film nodes of one tooth as stored.
     pub film_nodes: usize,

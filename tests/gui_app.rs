@@ -767,6 +767,18 @@ fn panels_are_as_wide_again_as_before_the_window_was_small() {
 }
 
 #[test]
+fn what_pins_is_beside_the_labels_or_below_them() {
+    let mut window = window("fundamental");
+    solved(&mut window);
+    for width in [1024.0, 1240.0, 1260.0, 1280.0, 1300.0, 1400.0] {
+        window.set_size(Vec2::new(width, 800.0));
+        window.run_steps(4);
+        let [pin, fit] = ["Pin", "Fit"].map(|label| window.get_by_role_and_label(Role::Button, label).rect());
+        assert!(!pin.intersects(fit), "{width}: {pin} is over {fit}");
+    }
+}
+
+#[test]
 fn a_key_without_effect_on_a_plate_is_read_and_not_set() {
     let mut window = window_in("plate-crossover", 2400.0, Platform::default());
     solved(&mut window);

@@ -57,6 +57,7 @@ const check = (what, holds) => {
   if (!holds) throw new Error(what);
   console.log(`ok  ${what}`);
 };
+const says = (words) => ({ nodes }) => nodes.some(({ label, value }) => words.test(`${label} ${value}`));
 const picture = (name) => page.screenshot({ path: join(pictures, `${name}.png`) });
 // The middle of what is called so.
 async function place(label, role) {
@@ -73,6 +74,20 @@ async function click(label, role) {
   await page.waitForTimeout(300);
 }
 
+// Why it does not open is said, where it cannot.
+for (const [missing, script, words] of [
+  ["WebAssembly", () => { delete window.WebAssembly; }, /needs WebAssembly/],
+  ["WebGL", () => { HTMLCanvasElement.prototype.getContext = () => null; }, /does not draw with WebGL/],
+]) {
+  const without = await browser.newContext();
+  const poor = await without.newPage();
+  await poor.addInitScript(script);
+  await poor.goto(address);
+  await poor.waitForFunction((words) => new RegExp(words).test(document.getElementById("message").textContent), words.source);
+  check(`without ${missing}: ${await poor.textContent("#message")}`, await poor.isVisible("#message"));
+  await without.close();
+}
+
 const began = Date.now();
 await page.goto(address);
 const first = await until("the first solve", ({ run }) => run && run.fidelity === "fine");
@@ -85,6 +100,20 @@ await picture("start");
 await page.keyboard.press("Escape");
 await page.waitForTimeout(500);
 await picture("solved");
+
+// Labels above the middle, and the button beside them.
+const [fit, pin] = [await place("Fit", "Button"), await place("Pin", "Button")];
+check("Pin is not over Fit", pin.box[0] >= fit.box[2] || pin.box[1] >= fit.box[3]);
+
+// For screen readers: what is shown, as elements of the page.
+const said = page.locator("#said");
+check(`the result is said: ${await said.textContent()}`, /Fundamental case: α 0\.24.* fine/.test(await said.textContent()));
+const slider = page.getByRole("slider", { name: "Minimum spacing H_m" });
+check("a slider is in the page, with its value and range", (await slider.getAttribute("aria-valuenow")) === "200" && (await slider.getAttribute("aria-valuemin")) > 0);
+await page.getByRole("button", { name: "Torque", exact: true }).evaluate((button) => button.click());
+await until("the tab that was clicked there", says(/without film/i));
+check("a button in the page does what that of the window does", true);
+await page.keyboard.press("Control+1");
 
 // H_m, by its slider.
 const spacing = ({ nodes }) => nodes.find((node) => node.role === "Slider" && node.label?.startsWith("Minimum spacing"));
@@ -102,6 +131,8 @@ const after = spacing(dragged).number;
 check(`H_m was dragged from ${before} to ${after} nm, α from ${first.run.numbers.alpha} to ${dragged.run.numbers.alpha}`,
   after < before && dragged.run.numbers.alpha > first.run.numbers.alpha);
 await picture("dragged");
+await page.waitForFunction((alpha) => !document.getElementById("said").textContent.includes(alpha), `${first.run.numbers.alpha}`.slice(0, 6));
+check(`the new result is said: ${await said.textContent()}`, (await slider.getAttribute("aria-valuenow")) === `${after}`);
 
 // What was changed is there after the page was loaded again.
 await page.waitForTimeout(4000);
@@ -127,7 +158,7 @@ async function follow(link, viewport = { width: 1280, height: 800 }, touch = fal
 }
 let fresh = await follow("#fundamental&film.min_spacing_nm=100&tab=torque");
 const linked = await until("the scene of a link", ({ run }) => run?.fidelity === "fine" && /changed: 1 key/.test(run.scene));
-await until("its tab", ({ nodes }) => nodes.some(({ label, value }) => /without film/i.test(`${label} ${value}`)));
+await until("its tab", says(/without film/i));
 check(`a link is a scene: α ${linked.run.numbers.alpha}`, linked.run.numbers.alpha > first.run.numbers.alpha);
 await page.waitForTimeout(1000);
 await picture("torque");
@@ -145,7 +176,6 @@ const table = await readFile(await (await download).path(), "utf8");
 check(`a table was downloaded: ${table.split("\n").length} lines`, /alpha/.test(table) && table.split("\n").length > 5);
 
 // Every tab, and what is computed in it.
-const says = (words) => ({ nodes }) => nodes.some(({ label, value }) => words.test(`${label} ${value}`));
 async function computed(key, button, words, name) {
   await page.keyboard.press(`Control+${key}`);
   if (button) await click(button, "Button");
@@ -163,26 +193,82 @@ await page.waitForTimeout(1500);
 await picture("motion");
 await fresh.close();
 
-// A lesson, and its next step.
+// A lesson's first step: what is asked first is answered, its words are said.
+const heard = (words) => page.waitForFunction((words) => new RegExp(words).test(document.getElementById("lesson").textContent), words.source);
 fresh = await follow("#lesson=1&step=1");
-await until("a lesson", ({ nodes }) => nodes.some(({ label }) => label === "Next"));
 await until("its run", ({ run }) => run?.fidelity === "fine");
-await page.waitForTimeout(1000);
+await heard(/step 1 of 6: Push on it/);
 await picture("lesson");
+await click("It is squeezed into half the volume: up to twice the pressure", "RadioButton");
+await click("This is my prediction", "Button");
+await until("what is to be done then", ({ nodes }) => !nodes.some(({ label }) => label === "This is my prediction"));
+await picture("lesson-answered");
+await click("Next", "Button");
+await heard(/step 2 of 6/);
+check("a lesson's first step is followed", true);
+await fresh.close();
+
+// A link to a later step.
+fresh = await follow("#lesson=3&step=4");
+await until("its run", ({ run }) => run?.fidelity === "fine");
+await heard(/step 4 of/);
+check("a link is a step of a lesson", true);
+await picture("lesson-linked");
 await fresh.close();
 
 // What is wrong with a link is told.
 fresh = await follow("#fundemental");
-await until("what is wrong", ({ nodes }) => nodes.some(({ label, value }) => /begins with a built-in preset/.test(`${label} ${value}`)));
+await until("what is wrong", says(/begins with a built-in preset/));
 check("what is wrong with a link is told", true);
 await fresh.close();
 
-// Small screens.
+// As slow as a class's network is.
+fresh = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+page = await fresh.newPage();
+watch(page);
+const slow = await fresh.newCDPSession(page);
+await slow.send("Network.emulateNetworkConditions", { offline: false, latency: 20, downloadThroughput: 10e6 / 8, uploadThroughput: 10e6 / 8 });
+const asked = Date.now();
+await page.goto(address);
+await page.waitForFunction(() => document.getElementById("message")?.textContent !== "Loading…");
+console.log(`    at 10 Mbit/s the program was loaded after ${((Date.now() - asked) / 1000).toFixed(2)} s`);
+await until("a solve", ({ run }) => run);
+console.log(`    and solved after ${((Date.now() - asked) / 1000).toFixed(2)} s`);
+await fresh.close();
+
+// Small screens, by fingers.
+async function fingers(steps) {
+  const line = await page.context().newCDPSession(page);
+  for (const [i, points] of steps.entries()) {
+    await line.send("Input.dispatchTouchEvent", { type: i ? "touchMove" : "touchStart", touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    await page.waitForTimeout(80);
+  }
+  await line.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await page.waitForTimeout(500);
+}
 for (const [name, width, height] of [["tablet", 1024, 768], ["phone", 844, 390]]) {
+  fresh = await follow("#fundamental", { width, height }, true);
+  const before = await until("a motor", ({ run }) => run?.fidelity === "fine");
+  await picture(name);
+  const { x, y, box } = await place("Minimum spacing H_m", "Slider");
+  await fingers([0, 1, 2, 3, 4, 5].map((step) => [[x - (step * (box[2] - box[0])) / 12, y]]));
+  const dragged = await until("another α", ({ run }) => run.fidelity === "fine" && run.numbers.alpha !== before.run.numbers.alpha);
+  check(`${name}: H_m was dragged by a finger to ${spacing(dragged).number} nm`, spacing(dragged).number < spacing(before).number);
+  await page.keyboard.press("Control+4");
+  await until("its curve", says(/without film/i));
+  await page.waitForTimeout(1500);
+  const { box: chart } = await place("Torque of the ring, N·m", "Image");
+  const clip = { x: chart[0], y: chart[1], width: chart[2] - chart[0], height: chart[3] - chart[1] };
+  const [middle, level] = [clip.x + clip.width / 2, clip.y + clip.height / 2];
+  const wide = await page.screenshot({ clip });
+  await fingers([20, 30, 40, 60, 80].map((apart) => [[middle - apart, level], [middle + apart, level]]));
+  check(`${name}: a chart is pinched`, !wide.equals(await page.screenshot({ clip })));
+  await picture(`${name}-torque`);
+  await fresh.close();
   fresh = await follow("#plate-crossover&tab=hold", { width, height }, true);
   await until("a plate", ({ run }) => run?.fidelity === "fine");
   await page.waitForTimeout(800);
-  await picture(name);
+  await picture(`${name}-hold`);
   await fresh.close();
 }
 

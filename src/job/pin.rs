@@ -35,6 +35,14 @@ pub struct Found {
 }
 
 impl Found {
+    /// Of a run that is there.
+    pub(super) fn of(run: &ComparedRun) -> Self {
+        let ComparedRun { label, scene, problem, solved } = run;
+        let posed = Posed { scene: scene.clone(), problem: problem.clone() };
+        let solved = solved.as_ref().map(|solution| solution.as_ref().clone()).map_err(Clone::clone);
+        Self { label: label.clone(), posed, solved }
+    }
+
     /// As a comparison has it.
     pub fn into_run(self) -> ComparedRun {
         let Self { label, posed: Posed { scene, problem }, solved } = self;

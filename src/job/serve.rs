@@ -1,6 +1,7 @@
 //! What a worker of a page does: the work that it is sent, by its name.
 
 use super::drop::Dropping;
+use super::export::Files;
 use super::fit::Asked;
 use super::line::{end, message};
 use super::page::Step;
@@ -43,6 +44,7 @@ const WORKS: &[(&str, Run)] = &[
     (Asked::NAME, run::<Asked>),
     (Derivatives::NAME, run::<Derivatives>),
     (Draws::NAME, run::<Draws>),
+    (Files::NAME, run::<Files>),
 ];
 
 fn run<W: Work>(bytes: &[u8]) {

@@ -74,6 +74,7 @@ mod tests {
     use crate::job::sweep::Points;
     use crate::job::torque::Curves;
     use crate::scene::presets;
+    use crate::solution::Stats;
     use crate::solve::{Settings, solve};
 
     fn carried<T: Serialize + DeserializeOwned>(what: &T) -> T {
@@ -103,6 +104,8 @@ mod tests {
             same(&carried(&solution), &solution);
             same(&carried(&candidates(&posed.problem)), &candidates(&posed.problem));
         }
+        let counted = Stats { unsettled_steps: 3, ..Stats::default() };
+        assert_eq!(carried(&counted), counted);
     }
 
     #[test]

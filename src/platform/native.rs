@@ -6,6 +6,14 @@ use std::path::{Path, PathBuf};
 /// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
 pub const HAS_FILES: bool = true;
 
+/// Where it is solved, as the window says it: nothing, in a process.
+pub const SOLVED_HERE: &str = "";
+
+/// The font of figures: Liberation Sans 2.1.5, with the widths of Arial and Helvetica, so that an SVG looks alike where only those are.
+pub const LIBERATION: &[u8] = include_bytes!("../../assets/fonts/LiberationSans-Regular.ttf");
+/// DejaVu Sans, for the glyphs that other fonts lack.
+pub const DEJAVU: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
+
 /// Calls `handler` at every Ctrl-C, and whenever the program is asked to end.
 pub fn on_interrupt(handler: impl FnMut() + Send + 'static) {
     // Without a handler Ctrl-C ends the program at once, which is all that would be lost.

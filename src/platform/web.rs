@@ -15,6 +15,14 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, Url};
 /// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
 pub const HAS_FILES: bool = false;
 
+/// Where it is solved, as the window says it.
+pub const SOLVED_HERE: &str = " in this browser";
+
+/// The font of figures, with the glyphs that texts of the program use: `assets/fonts/page/subset` makes this font and the others.
+pub const LIBERATION: &[u8] = include_bytes!("../../assets/fonts/page/LiberationSans-Regular.ttf");
+/// DejaVu Sans, for the glyphs that other fonts lack.
+pub const DEJAVU: &[u8] = include_bytes!("../../assets/fonts/page/DejaVuSans.ttf");
+
 thread_local! {
     /// Files that the user has opened or dropped, under their names.
     static HANDED_OVER: RefCell<HashMap<PathBuf, Vec<u8>>> = RefCell::default();
@@ -197,6 +205,7 @@ pub mod window {
     use super::super::{Asked, FileDialog};
     use super::{ARRIVED, HANDED_OVER};
     use eframe::egui;
+    use eframe::egui::accesskit::{Role, Toggled};
     use std::cell::RefCell;
     use std::collections::HashMap;
     use std::path::PathBuf;
@@ -236,14 +245,18 @@ pub mod window {
         Ok(())
     }
 
-    /// The fonts to begin with: those of egui that text is written with. The others would be a third of what is loaded.
+    /// The fonts to begin with: those of egui that text is written with, with fewer glyphs.
     pub fn fonts() -> egui::FontDefinitions {
-        use epaint_default_fonts::{EGUI_ICONS, UBUNTU_LIGHT};
+        use egui::FontFamily::{Monospace, Proportional};
+        const UBUNTU: &[u8] = include_bytes!("../../assets/fonts/page/Ubuntu-Light.ttf");
+        const HACK: &[u8] = include_bytes!("../../assets/fonts/page/Hack-Regular.ttf");
         let mut fonts = egui::FontDefinitions::empty();
-        for (name, font) in [("Ubuntu-Light", UBUNTU_LIGHT), ("egui-icons", EGUI_ICONS)] {
+        for (name, font) in [("Hack", HACK), ("Ubuntu-Light", UBUNTU), ("egui-icons", epaint_default_fonts::EGUI_ICONS)]
+        {
             fonts.font_data.insert(name.to_owned(), egui::FontData::from_static(font).into());
-            for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace] {
-                fonts.families.entry(family).or_default().push(name.to_owned());
+            let families = if name == "Hack" { &[Monospace][..] } else { &[Proportional, Monospace] };
+            for family in families {
+                fonts.families.entry(family.clone()).or_default().push(name.to_owned());
             }
         }
         fonts
@@ -334,33 +347,39 @@ pub mod window {
         RUN.set(run);
     }
 
-    /// What is shown, as JSON: the run on screen, and of each thing in the window what it is, what it is called, its value, and where it is
-    /// \[CSS pixels\], in the order in which it is read.
+    /// What is shown, as JSON: the run on screen, what has the keyboard, and of each thing in the window what it is, what it is called, its
+    /// value and state, and where it is \[CSS pixels\], in the order in which it is read.
     pub fn told() -> String {
-        let nodes = SHOWN.with_borrow(|shown| {
-            let Some((tree, zoom)) = shown else { return Vec::new() };
+        let (focus, nodes) = SHOWN.with_borrow(|shown| {
+            let Some((tree, zoom)) = shown else { return (None, Vec::new()) };
             let known: HashMap<_, _> = tree.nodes.iter().map(|(id, node)| (*id, node)).collect();
             let mut left: Vec<_> = tree.tree.iter().map(|tree| tree.root).collect();
             let mut told = Vec::new();
             while let Some(id) = left.pop() {
-                let Some(node) = known.get(&id) else { continue };
+                // Lines of a text are parts of what has the whole of it.
+                let Some(node) = known.get(&id).filter(|node| node.role() != Role::TextRun) else { continue };
                 left.extend(node.children().iter().rev());
                 let said = |id| known.get(id).and_then(|node| node.label().or(node.value()));
                 let label = node.label().or_else(|| node.labelled_by().iter().find_map(said));
                 if label.is_some() || node.value().is_some() {
                     let place = node.bounds().map(|b| [b.x0, b.y0, b.x1, b.y1].map(|length| length * zoom));
                     told.push(serde_json::json!({
+                        // Too many digits for a number in JavaScript.
+                        "id": id.0.to_string(),
                         "role": format!("{:?}", node.role()),
                         "label": label,
                         "value": node.value(),
                         "number": node.numeric_value(),
+                        "range": [node.min_numeric_value(), node.max_numeric_value()],
+                        "on": node.toggled().map(|toggled| toggled == Toggled::True),
+                        "disabled": node.is_disabled(),
                         "box": place,
                     }));
                 }
             }
-            told
+            (Some(tree.focus.0.to_string()), told)
         });
-        RUN.with_borrow(|run| serde_json::json!({ "run": run, "nodes": nodes }).to_string())
+        RUN.with_borrow(|run| serde_json::json!({ "run": run, "focus": focus, "nodes": nodes }).to_string())
     }
 
     /// What file dialogs are shown over.

@@ -1,5 +1,6 @@
 // Loads the program, shows how far that is, and opens the window. Says in words what a browser lacks.
 import init, { open, told } from "./squeezefilm.js";
+import { mirror } from "./mirror.js";
 import unpacker, { unpack } from "./unpack.js";
 
 const size = "PROGRAM_BYTES"; // a number once it is built
@@ -53,13 +54,7 @@ async function start() {
   open();
   // For screen readers, and for tests.
   window.shown = () => JSON.parse(told());
-  const text = document.getElementById("told");
-  setInterval(() => {
-    const { nodes } = window.shown();
-    const lines = nodes.map(({ label, value }) => [label, value].filter(Boolean).join(": "));
-    const now = lines.join("\n");
-    if (text.textContent !== now) text.textContent = now;
-  }, 1000);
+  mirror(told, ...["squeezefilm", "told", "said", "lesson"].map((id) => document.getElementById(id)));
 }
 
 start().catch((error) => stop(`The program cannot be started: ${error.message ?? error}`));

@@ -1,12 +1,9 @@
 //! Words of a figure: how wide they are in the bundled font, and raised and lowered parts.
 
+use crate::platform::{DEJAVU, LIBERATION};
 use std::sync::LazyLock;
 use ttf_parser::Face;
 
-/// Liberation Sans 2.1.5: the widths of Arial and Helvetica, so that an SVG looks alike where only those are.
-pub(super) const SANS: &[u8] = include_bytes!("../../../assets/fonts/LiberationSans-Regular.ttf");
-/// DejaVu Sans, for the few glyphs that the other lacks.
-pub(super) const FALLBACK: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
 /// The fonts asked for in an SVG, best first.
 pub(super) const FAMILIES: &str = "Liberation Sans, Arial, Helvetica, DejaVu Sans, sans-serif";
 /// Size of raised and lowered text, of that round it.
@@ -78,7 +75,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 /// Width of a character, in its size.
 fn advance(c: char) -> f64 {
     static FACES: LazyLock<Vec<Face<'static>>> =
-        LazyLock::new(|| [SANS, FALLBACK].iter().filter_map(|data| Face::parse(data, 0).ok()).collect());
+        LazyLock::new(|| [LIBERATION, DEJAVU].iter().filter_map(|data| Face::parse(data, 0).ok()).collect());
     let found = FACES.iter().find_map(|face| {
         let glyph = face.glyph_index(c)?;
         Some(f64::from(face.glyph_hor_advance(glyph)?) / f64::from(face.units_per_em()))

@@ -1,13 +1,10 @@
 //! An export under way, or what the last one wrote.
 
 use super::dialogs::Export;
-use crate::job::task::{News, Task};
+use crate::job::export::ExportTask;
+use crate::job::task::News;
 use crate::platform::Instant;
 use std::path::PathBuf;
-
-/// The work of an export: it tells how many pictures are drawn, of how many, and returns what was written, or why nothing
-/// was; nothing at all if it was cancelled.
-pub type ExportTask = Task<(usize, usize), Result<Vec<PathBuf>, Option<String>>>;
 
 /// An export under way.
 #[derive(Debug)]

@@ -130,7 +130,7 @@ fn dress(visuals: &mut egui::Visuals, dark: bool) {
 /// Installs the fonts: egui's own, or some of them, and DejaVu Sans for the glyphs that they lack.
 pub fn install_fonts(ctx: &egui::Context) {
     let mut fonts = crate::platform::window::fonts();
-    let dejavu = FontData::from_static(include_bytes!("../../../assets/fonts/DejaVuSans.ttf"));
+    let dejavu = FontData::from_static(crate::platform::DEJAVU);
     fonts.font_data.insert("dejavu".to_owned(), Arc::new(dejavu));
     for family in [FontFamily::Proportional, FontFamily::Monospace] {
         fonts.families.entry(family).or_default().insert(1, "dejavu".to_owned());

@@ -1,39 +1,29 @@
 //! Exports: the same code and the same names as those of the command line, on a thread of their own.
 
 use super::updater::Updater;
-use crate::analysis::compare;
-use crate::analysis::torque::TorqueCurves;
+use crate::analysis::compare::ComparedRun;
 use crate::analysis::tradeoff::Target;
 use crate::atomic::write_file;
-use crate::control::Cancel;
-use crate::export::animation::Options;
-use crate::export::figure::{self, Format};
-use crate::export::files::{self, Control, ExportError, Solved};
-use crate::export::json::Summary;
+use crate::export::figure;
+use crate::export::files::{self, ExportError};
 use crate::export::sweep::{figure_of, write_csv};
 use crate::export::{csv, sensitivity, tradeoff};
-use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::fit::Found;
-use crate::gui::state::pins::{fidelity, to_compare};
 use crate::job::SolvedScene;
+use crate::job::export::{BESIDE_DATA, Files, OfRun, OfRuns, Ran, reason};
 use crate::job::task::Task;
+use crate::job::work::Posed;
 use crate::lessons::record;
-use crate::motor::MotorError;
 use crate::problem::Problem;
-use crate::scene::Scene;
-use crate::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 /// Progress is drawn at most this often.
 const REDRAW: Duration = Duration::from_millis(100);
-/// Formats of the figures beside data, as without `--figures`.
-const BESIDE_DATA: &[Format] = if cfg!(feature = "render") { &[Format::Svg, Format::Png] } else { Format::WRITTEN };
-
 /// What is left to do once everything that it needs is at hand.
-type Work = Box<dyn FnOnce(&Control<'_>) -> Result<Vec<PathBuf>, ExportError> + Send>;
+type Work = Box<dyn FnOnce() -> Result<Vec<PathBuf>, ExportError> + Send>;
 
 impl Updater {
     pub(super) fn export(&mut self, export: Export, path: &Path) {
@@ -45,81 +35,67 @@ impl Updater {
             Ok(path) => path,
             Err(reason) => return self.state.fail(reason),
         };
-        let Some(work) = self.export_work(export, path) else { return };
-        let task = Task::start("export", self.wake(REDRAW), move |cancel, tell| {
-            let control = Control { cancel, drawn: &|drawn, all| tell((drawn, all)) };
-            work(&control).map_err(|error| match error {
-                ExportError::Cancelled => None,
-                error => Some(error.to_string()),
-            })
-        });
+        let task = match self.files(export, &path) {
+            Some(files) => Task::of(files, self.wake(REDRAW)),
+            None => {
+                let Some(work) = self.export_work(export, path) else { return };
+                Task::start("export", self.wake(REDRAW), move |_, _| work().map_err(reason))
+            }
+        };
         match task {
             Ok(task) => self.state.exports.begin(export, task, self.now()),
             Err(error) => self.state.fail(format!("The export cannot be started: {error}")),
         }
     }
 
-    /// The run on screen, and its scene with a name and a description that claim no more than is true of it.
-    fn named(&self) -> Option<(Arc<SolvedScene>, (Scene, Problem))> {
-        let run = self.state.run.clone()?;
+    /// The run on screen; its scene has a name and a description that claim no more than is true of it.
+    fn named(&self) -> Option<Ran> {
+        let run = self.state.run.as_ref()?;
         let mut scene = run.scene.clone();
         scene.retitle(self.state.document.saved());
         let problem = Problem { name: scene.name.clone(), ..run.problem.clone() };
-        Some((run, (scene, problem)))
+        let SolvedScene { fidelity, solution, wall_s, history, .. } = &**run;
+        let (posed, solution, history) = (Posed { scene, problem }, solution.clone(), history.clone());
+        Some(Ran { posed, fidelity: *fidelity, solution, wall_s: *wall_s, history })
     }
 
-    /// What is to be done, with its own share of all that it needs.
+    /// Files of runs, which a page has made elsewhere.
+    fn files(&self, export: Export, path: &Path) -> Option<Files> {
+        let of_run = |what| Some(Files::Run(what, path.to_owned(), Box::new(self.named()?)));
+        let of_runs = |what, runs: &[ComparedRun]| Some(Files::of(what, path.to_owned(), runs));
+        match export {
+            Export::Data => of_run(OfRun::Data),
+            Export::Figures => of_run(OfRun::Figures),
+            Export::Fields => of_run(OfRun::Fields),
+            Export::Animation => of_run(OfRun::Animation),
+            Export::Report => {
+                let Ran { posed: Posed { scene, problem }, solution, .. } = self.named()?;
+                let run = ComparedRun { label: scene.name.clone(), scene, problem, solved: Ok(Arc::new(solution)) };
+                of_runs(OfRuns::Report, &[run])
+            }
+            Export::ComparisonReport => of_runs(OfRuns::Report, self.state.pins.runs()),
+            Export::Comparison => {
+                of_runs(OfRuns::Comparison { all: self.state.pins.all_parameters }, self.state.pins.runs())
+            }
+            _ => None,
+        }
+    }
+
+    /// What else there is to be done, with its own share of all that it needs. It takes a page less than a few redraws.
     fn export_work(&self, export: Export, path: PathBuf) -> Option<Work> {
         Some(match export {
-            Export::Data => {
-                let (run, named) = self.named()?;
-                Box::new(move |control| {
-                    let mut summary = Summary::new(&named.1, &run.solution, run.wall_s, &[]);
-                    summary.add_torque(merit(&run, control.cancel));
-                    let solved = Solved { torque: summary.torque.as_ref(), ..solved(&run, &named) };
-                    files::solve(&path, &solved, &summary, BESIDE_DATA, control)
-                })
-            }
-            Export::Figures => {
-                let (run, named) = self.named()?;
-                Box::new(move |control| {
-                    // Without it the other figures are still worth having.
-                    let merit = merit(&run, control.cancel).ok().flatten();
-                    let solved = Solved { torque: merit.as_ref(), ..solved(&run, &named) };
-                    files::solve_figures(&path, &solved, Format::WRITTEN, control)
-                })
-            }
-            Export::Fields => {
-                let (run, named) = self.named()?;
-                Box::new(move |_| files::fields(&path, &solved(&run, &named)))
-            }
-            Export::Animation => {
-                let (run, named) = self.named()?;
-                Box::new(move |control| files::animation(&path, &solved(&run, &named), &Options::default(), control))
-            }
-            Export::Report => {
-                let (run, (scene, problem)) = self.named()?;
-                let run = compare::ComparedRun { label: scene.name.clone(), scene, problem, ..to_compare(&run) };
-                let settings = at(&[fidelity(&run)]);
-                Box::new(move |control| files::html(&path, &[run], &settings, control))
-            }
-            Export::Comparison | Export::ComparisonReport => {
-                let runs = self.state.pins.runs().to_vec();
-                let settings = at(&runs.iter().map(fidelity).collect::<Vec<_>>());
-                if export == Export::ComparisonReport {
-                    Box::new(move |control| files::html(&path, &runs, &settings, control))
-                } else {
-                    let all = self.state.pins.all_parameters;
-                    Box::new(move |control| {
-                        files::comparison(&path, &runs, (&settings, all, &[]), BESIDE_DATA, control)
-                    })
-                }
-            }
+            Export::Data
+            | Export::Figures
+            | Export::Fields
+            | Export::Animation
+            | Export::Report
+            | Export::Comparison
+            | Export::ComparisonReport => return None,
             Export::SweepTable | Export::SweepFigure | Export::Sweep => {
                 let swept = self.state.sweep.swept()?;
                 let (sweep, rows) = (Arc::clone(swept.sweep()), swept.rows().to_vec());
                 let quantity = self.state.sweep.quantity(&sweep.quantities());
-                Box::new(move |_| match export {
+                Box::new(move || match export {
                     Export::SweepTable => {
                         write_file(&path, |out| write_csv(&sweep, &rows, out))?;
                         Ok(vec![path])
@@ -135,7 +111,7 @@ impl Updater {
                 let state = &self.state.sensitivity;
                 let (found, uncertainties) = (Arc::clone(state.found()?), state.uncertainties()?.clone());
                 let (carlo, fidelity) = (state.carlo().cloned(), state.fidelity().to_string());
-                Box::new(move |_| {
+                Box::new(move || {
                     let found = sensitivity::Found {
                         sensitivity: &found,
                         uncertainties: &uncertainties,
@@ -148,7 +124,7 @@ impl Updater {
                 let (scene, found) = self.state.fit.found()?;
                 let (name, found) = (scene.name.clone(), Arc::clone(found));
                 let problem = Problem::new(found.scene()).ok()?;
-                Box::new(move |_| {
+                Box::new(move || {
                     let of = (name.as_str(), &problem);
                     Ok(match &*found {
                         Found::Fit(measured, fitted) => files::fitted(&path, of, (fitted, measured), &[], BESIDE_DATA)?,
@@ -158,7 +134,7 @@ impl Updater {
             }
             Export::Answers => {
                 let records = self.state.lessons.records();
-                Box::new(move |_| {
+                Box::new(move || {
                     let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
                     write_file(&path, |out| match lines {
                         true => out.write_all(record::statements(&record::student(&path), &records).as_bytes()),
@@ -171,7 +147,7 @@ impl Updater {
                 let measured = self.state.tradeoff.as_ref()?;
                 let (name, tradeoff) = (measured.name().to_owned(), measured.tradeoff().clone());
                 let targets = [Target::Accuracy(self.state.view.accuracy), Target::Budget(self.state.view.budget)];
-                Box::new(move |_| {
+                Box::new(move || {
                     if export == Export::TradeoffTable {
                         write_file(&path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?;
                     } else {
@@ -184,19 +160,4 @@ impl Updater {
             }
         })
     }
-}
-
-fn solved<'a>(run: &'a SolvedScene, (scene, problem): &'a (Scene, Problem)) -> Solved<'a> {
-    let SolvedScene { solution, history, .. } = run;
-    Solved { scene, problem, solution, history, torque: None }
-}
-
-fn merit(run: &SolvedScene, cancel: &Cancel) -> Result<Option<TorqueCurves>, MotorError> {
-    TorqueCurves::of_solve(&run.problem, run.fidelity, &run.solution, cancel)
-}
-
-/// Settings of runs at these fidelities: of several, the coarsest.
-fn at(fidelities: &[&str]) -> Settings {
-    let known = fidelities.iter().filter_map(|name| name.parse::<Fidelity>().ok());
-    Settings { fidelity: known.min().unwrap_or_default(), ..Settings::default() }
 }

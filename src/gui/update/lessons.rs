@@ -83,6 +83,7 @@ impl Updater {
         if shows {
             self.state.lessons.acts().into_iter().for_each(|act| self.act(act));
         }
+        self.tell_page();
     }
 
     /// Answers what the step asks now with one of its choices.

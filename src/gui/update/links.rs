@@ -1,12 +1,15 @@
 //! Links: to what is shown, and to what is to be shown.
 
 use super::updater::Updater;
-use crate::analysis::quantity::{Numbers, Quantity};
+use crate::analysis::quantity::{Numbers, Quantity, force_unit};
 use crate::gui::command::{Command, LessonCommand};
+use crate::gui::derived::format::uncertain;
 use crate::gui::state::document::Next;
 use crate::gui::state::link::Link;
+use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
 use crate::platform::window::{page, publish};
+use crate::solution::Outcome;
 
 impl Updater {
     /// Copies a link to the step of the lesson that runs, or to the scene.
@@ -23,16 +26,29 @@ impl Updater {
         self.ctx.copy_text(format!("{}{link}", page()));
     }
 
-    /// Tells the page of the run that has come on screen.
-    pub(super) fn publish_run(&self) {
+    /// Tells the page what is on screen: the run, and in words what screen readers are to say of it and of the lesson.
+    pub(super) fn tell_page(&self) {
         let Some(run) = self.state.run.as_ref().filter(|_| !HAS_FILES) else { return };
         let known = Numbers::of(&run.problem, &run.solution);
         let numbers =
             Quantity::all().filter_map(|quantity| Some((quantity.name().to_owned(), known.get(quantity)?.into())));
+        let result = match run.solution.outcome {
+            Outcome::Motor(found) => format!("α {}", uncertain(found.alpha, found.alpha_error)),
+            Outcome::Plate(found) => {
+                format!("film load {} {}", uncertain(found.film_load, found.film_load_error), force_unit(&run.problem))
+            }
+        };
+        let lessons = &self.state.lessons;
+        let lesson = lessons.running().zip(lessons.step()).map(|(running, (lesson, step))| {
+            let (number, of) = (running.step + 1, lesson.steps.len());
+            format!("{}, step {number} of {of}: {}. {}", lesson.title, step.title, plain_blocks(&step.body))
+        });
         publish(serde_json::json!({
             "scene": run.scene.name,
             "fidelity": run.fidelity.to_string(),
             "numbers": numbers.collect::<serde_json::Map<_, _>>(),
+            "said": format!("{}: {result}, {}", run.scene.name, run.fidelity),
+            "lesson": lesson,
         }));
     }
 

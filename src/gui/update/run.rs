@@ -143,7 +143,7 @@ impl Updater {
             }
         }
         if solved {
-            self.publish_run();
+            self.tell_page();
         }
         let state = &mut self.state;
         state.tradeoff.iter_mut().for_each(|measured| measured.drain());

@@ -7,6 +7,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::keys;
+use crate::platform::SOLVED_HERE;
 use crate::solution::{Outcome, Status};
 use eframe::egui::{self, ProgressBar, RichText, Slider};
 
@@ -87,7 +88,8 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             };
             let stale = cx.state.stale(run);
             let ended = if run.solution.status == Status::Converged && !stale { "converged, " } else { "" };
-            let text = format!("Shown: {}, {ended}{error}, solved in {:.1} ms", run.fidelity, 1e3 * run.wall_s);
+            let text =
+                format!("Shown: {}, {ended}{error}, solved{SOLVED_HERE} in {:.1} ms", run.fidelity, 1e3 * run.wall_s);
             let label = ui.label(text);
             glossary::hover(ui, label, "Fidelity");
             match run.solution.status {

@@ -23,6 +23,11 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         }
         if present != Tab::Compare {
+            // Below the labels where they leave no room for it.
+            let room = ui.available_size_before_wrap().x;
+            if room < ui.spacing().interact_size.x {
+                ui.end_row();
+            }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let pin = Command::Pin(PinCommand::Shown);
                 let about = format!("Keeps this run for comparison ({})", keys::of(&pin));
