@@ -530,6 +530,15 @@ fn figures_are_written_in_the_formats_asked_for() {
         names.sort();
         assert_eq!(names, expected, "{formats}");
     }
+    // The film at every instant, and a note where there is none.
+    let out = folder.path().join("vtk");
+    let vtk = ["--fidelity", "draft", "--figures", "vtk", "--out", out.to_str().unwrap()];
+    assert_eq!(run(&[&["solve", "plate-viscous"], &vtk[..]].concat()).status.code(), Some(0));
+    let series: Value = serde_json::from_slice(&fs::read(out.join("film.vtk.series")).unwrap()).unwrap();
+    let files = series["files"].as_array().unwrap();
+    assert!(files.len() > 30 && files.iter().all(|file| out.join(file["name"].as_str().unwrap()).exists()));
+    let swept = run(&[&["sweep", "plate-viscous", "--vary=plate.frequency_khz=1,2"], &vtk[..]].concat());
+    assert!(String::from_utf8_lossy(&swept.stderr).contains("--figures vtk has no effect here"));
     refused(&["solve", "plate-viscous", "--figures", "jpg", "--out", "x"], 2, &["jpg", "svg, png, pdf, none"]);
     refused(&["solve", "plate-viscous", "--figures", "svg"], 2, &["--out"]);
 }

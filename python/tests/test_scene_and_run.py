@@ -198,12 +198,16 @@ def test_vtk_is_read_by_another_library(name, tmp_path):
     assert force == pytest.approx(expected, rel=0.05, abs=0.02 * abs(run.film_load_n))
 
 
-def test_xarray(run):
+def test_xarray(run, tmp_path):
     xarray = pytest.importorskip("xarray")
+    pytest.importorskip("scipy")
     data = run.to_xarray()
     assert isinstance(data, xarray.Dataset) and data.pressure_kpa.dims == ("frame", "map_x", "map_y")
     assert (data.pressure_kpa.units, data.film_n_per_m.units, data.stator_nm.units) == ("kPa", "N/m", "nm")
     assert sf.preset("plate-trapped").solve(fidelity="draft").to_xarray().pressure_kpa.size
+    data.to_netcdf(tmp_path / "run.nc", engine="scipy")
+    with xarray.open_dataset(tmp_path / "run.nc", engine="scipy", decode_times=False) as read:
+        assert np.array_equal(read.pressure_kpa, run.pressure_kpa) and read.attrs["preset"] == run.preset
 
 
 def test_plots(run):

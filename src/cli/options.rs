@@ -274,7 +274,7 @@ enum FigureFormat {
 }
 
 fn figure_format() -> ValueParser {
-    let names = Format::ALL.map(Format::name).into_iter().chain(["vtk", "none"]);
+    let names = Format::ALL.map(Format::name).into_iter().chain(["none", "vtk"]);
     let format = |name: String| match name.as_str() {
         "none" => FigureFormat::None,
         "vtk" => FigureFormat::Vtk,
