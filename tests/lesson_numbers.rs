@@ -10,7 +10,7 @@ use squeezefilm::film::exact;
 use squeezefilm::hold::leak_time;
 use squeezefilm::lessons::BUILT_IN;
 use squeezefilm::problem::{Outline, Problem, Scenario};
-use squeezefilm::scene::presets;
+use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solution::{Outcome, Performance, PlateResult};
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup;
@@ -54,17 +54,6 @@ const CLAIMS: &[Claim] = &[
         0.003,
     ),
     (9, "less than 2.3 µm", "floating-finger-pad", &["plate.amplitude_um=0.58"], "min_gap_nm", 2255.0, 0.005),
-];
-
-/// The mass of lesson 10 on its film.
-const SENSOR: [&str; 7] = [
-    "plate.length_mm=0.4",
-    "plate.width_mm=0.4",
-    "plate.amplitude_um=0.05",
-    "plate.frequency_khz=5",
-    "film.gas=nitrogen",
-    "film.slip=fukui-kaneko",
-    "plate.mean_gap_um=4.73",
 ];
 
 fn numbers(preset: &str, set: &[&str]) -> Numbers {
@@ -225,8 +214,8 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
 
 /// Stiffness \[N/m\] and damping \[N s/m\] of the film of lesson 10, and its Knudsen number.
 fn sensor(set: &[&str]) -> [f64; 3] {
-    let mut scene = presets::find("plate-mems").unwrap();
-    scene.set_all(SENSOR.iter().chain(set).map(|change| change.split_once('=').unwrap())).unwrap();
+    let mut scene = Scene::from_toml(BUILT_IN[9].presets[0].1, "accelerometer").unwrap();
+    scene.set_all(["plate.mean_gap_um=4.73"].iter().chain(set).map(|change| change.split_once('=').unwrap())).unwrap();
     let problem = Problem::new(&scene).unwrap();
     let solution = solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };

@@ -62,7 +62,7 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     "7-contact-and-air": [],
     "8-lost-torque": [],
     "9-floating": [],
-    "10-accelerometers": [],
+    "10-accelerometers": ["accelerometer.toml"],
 ];
 
 /// The built-in lessons.
