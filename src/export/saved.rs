@@ -290,26 +290,7 @@ impl Head {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::presets;
-
-    fn sweep(vary: &str) -> Sweep {
-        Sweep::new(&presets::find("fundamental").unwrap(), &[vary.parse().unwrap()], &Settings::default()).unwrap()
-    }
-
-    fn rows(sweep: &Sweep) -> Vec<Row> {
-        let mut numbers = Numbers::default();
-        numbers.set(Quantity::Alpha, 0.1 + 0.2);
-        numbers.set(Quantity::AlphaError, 1e-300);
-        let failed = RunStatus::Failed("film, step 3: no \"solution\",\nat all".to_owned());
-        let row = |point: usize, status: RunStatus| Row {
-            point,
-            values: sweep.values(point).to_vec(),
-            status,
-            numbers,
-            outside: vec!["slip-law", "sound"],
-        };
-        vec![row(0, RunStatus::Converged), row(2, failed), row(1, RunStatus::NotConverged)]
-    }
+    use crate::export::sweep::tests::{rows, sweep};
 
     fn saved(sweep: &Sweep, part: Part, rows: &[Row]) -> String {
         let mut text = Vec::new();

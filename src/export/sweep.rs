@@ -380,17 +380,17 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::analysis::quantity::Numbers;
     use crate::scene::presets;
     use crate::solve::Settings;
 
-    fn sweep(vary: &str) -> Sweep {
+    pub(in crate::export) fn sweep(vary: &str) -> Sweep {
         Sweep::new(&presets::find("fundamental").unwrap(), &[vary.parse().unwrap()], &Settings::default()).unwrap()
     }
 
-    fn rows(sweep: &Sweep) -> Vec<Row> {
+    pub(in crate::export) fn rows(sweep: &Sweep) -> Vec<Row> {
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.1 + 0.2);
         numbers.set(Quantity::AlphaError, 1e-300);
