@@ -22,7 +22,7 @@ fn sweep_of(scene: &Scene, axes: Axes, how: &How) -> PyResult<Sweep> {
 
 /// The rows of a part; tells how much of it is done.
 fn solved(sweep: &Sweep, part: Part, cancel: &Cancel, tell: crate::Tell<'_>) -> Vec<Row> {
-    let (done, all) = (AtomicUsize::new(0), part.points(sweep).len());
+    let (done, all) = (AtomicUsize::new(0), sweep.points_of(part).len());
     sweep.run_part(part, &[], cancel, &|_| tell((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all as f64))
 }
 

@@ -211,7 +211,7 @@ impl Sweep {
 
     /// As [`Sweep::run`], of the points of a part alone.
     pub fn run_part(&self, part: Part, done: &[Row], cancel: &Cancel, finished: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
-        let points = part.points(self);
+        let points = self.points_of(part);
         let mut rows: Vec<Option<Row>> = vec![None; self.len()];
         for row in done {
             if let Some(place) = rows.get_mut(row.point) {
@@ -238,6 +238,15 @@ impl Sweep {
             rows[place] = Some(row);
         }
         rows.into_iter().flatten().collect()
+    }
+
+    /// The points of a part. They begin and end where chunks do that are solved from one cold start, and so the parts together are
+    /// the whole, to the last bit. A part of a small sweep can be empty.
+    pub fn points_of(&self, part: Part) -> Range<usize> {
+        let chunks = self.chunks();
+        let start =
+            |number: usize| chunks.get(number * chunks.len() / part.of()).map_or(self.len(), |chunk| chunk.start);
+        start(part.number() - 1)..start(part.number())
     }
 
     /// The points in runs of neighbours along the last axis, none across its end.

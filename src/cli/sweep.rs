@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         warn_of_given_path(&scene);
     }
     let part = arguments.part.unwrap_or(Part::WHOLE);
-    let points = part.points(&sweep).len();
+    let points = sweep.points_of(part).len();
     let command = &of_the_whole(command);
     let folder = arguments.common.output.out.as_deref();
     let folder = folder.map(|path| Folder::open(path, (&sweep, arguments.part), command)).transpose()?;

@@ -107,7 +107,7 @@ pub fn read(sweep: &Sweep, part: Part, text: &str) -> Result<Vec<Row>, ReadError
     if head.part != part.to_string() {
         return Err(ReadError::Part { found: head.part, expected: part.to_string() });
     }
-    rows(sweep, &fingerprint, part.points(sweep), text)
+    rows(sweep, &fingerprint, sweep.points_of(part), text)
 }
 
 /// The rows of a text, all of these `points`.
@@ -255,7 +255,7 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, JoinError> {
         if part.of() != of {
             return Err(JoinError::Count { name: name.clone(), found: part, of });
         }
-        let points = part.points(&sweep);
+        let points = sweep.points_of(part);
         let mut rows = rows(&sweep, &fingerprint, points.clone(), text).map_err(|source| fault(name, source))?;
         if rows.len() < points.len() {
             let (solved, points) = (rows.len(), points.len());
@@ -372,7 +372,7 @@ mod tests {
             let mut parts: Vec<(String, String)> = Part::all(4)
                 .map(|part| {
                     let rows: Vec<Row> =
-                        all.iter().filter(|row| part.points(&ours).contains(&row.point)).cloned().collect();
+                        all.iter().filter(|row| ours.points_of(part).contains(&row.point)).cloned().collect();
                     (format!("{part}.csv"), saved(&ours, part, &rows))
                 })
                 .collect();

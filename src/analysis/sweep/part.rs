@@ -1,8 +1,7 @@
 //! Parts of a sweep, for many machines.
 
-use super::{MOST_POINTS, Sweep};
+use super::axis::MOST_POINTS;
 use std::fmt;
-use std::ops::Range;
 use std::str::FromStr;
 
 /// A part of a sweep: the third of 64 is `3/64`.
@@ -30,14 +29,6 @@ impl Part {
     pub fn number(self) -> usize {
         self.number
     }
-
-    /// Its points. They begin and end where chunks do that are solved from one cold start, and so the parts together are
-    /// the whole, to the last bit. A part of a small sweep can be empty.
-    pub fn points(self, sweep: &Sweep) -> Range<usize> {
-        let chunks = sweep.chunks();
-        let start = |part: usize| chunks.get(part * chunks.len() / self.of).map_or(sweep.len(), |chunk| chunk.start);
-        start(self.number - 1)..start(self.number)
-    }
 }
 
 impl fmt::Display for Part {
@@ -63,15 +54,17 @@ impl FromStr for Part {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::sweep::Sweep;
     use crate::scene::presets;
     use crate::solve::Settings;
+    use std::ops::Range;
 
     #[test]
     fn parts_cover_every_point_once_and_no_chunk_is_cut() {
         let vary = ["motor.waves=5:8:4", "film.min_spacing_nm=100:150:6"].map(|text| text.parse().unwrap());
         let sweep = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         for of in [1, 2, 3, 7, 8, 9, 64] {
-            let points: Vec<Range<usize>> = Part::all(of).map(|part| part.points(&sweep)).collect();
+            let points: Vec<Range<usize>> = Part::all(of).map(|part| sweep.points_of(part)).collect();
             assert_eq!(points.iter().cloned().flatten().collect::<Vec<_>>(), (0..sweep.len()).collect::<Vec<_>>());
             let starts: Vec<usize> = sweep.chunks().iter().map(|chunk| chunk.start).collect();
             assert!(points.iter().all(|points| points.is_empty() || starts.contains(&points.start)), "{points:?}");
