@@ -12,6 +12,7 @@ import time
 
 import numpy as np
 import squeezefilm as sf
+from squeezefilm import _many, _text
 
 
 def overhead() -> None:
@@ -26,6 +27,16 @@ def overhead() -> None:
     beyond = [1e3 * (whole - solve) for whole, solve in zip(beyond, solves)]
     quartiles = statistics.quantiles(beyond, n=4)
     print(f"solve {1e3 * statistics.median(solves):.2f} ms, beyond it {quartiles[1]:.3f} ms ({quartiles[0]:.3f} … {quartiles[2]:.3f})")
+
+
+def each_point() -> None:
+    values, scene = np.geomspace(50, 500, 4000), sf.preset("fundamental")
+    started = time.process_time()
+    table = sf.sweep(scene, "film.min_spacing_nm", values)
+    print(f"a sweep of {table.rows} points: {1e3 * (time.process_time() - started) / table.rows:.2f} ms of a core for each")
+    started = time.process_time()
+    _many._part(scene, [("film.min_spacing_nm", ",".join(map(repr, values.tolist())))], _text.how(None, None), "1/1000")
+    print(f"a part with 4 of its points: {1e3 * (time.process_time() - started):.1f} ms of a core")
 
 
 def throughput(processes: int) -> None:
@@ -46,5 +57,6 @@ def one_thread() -> None:
 
 if __name__ == "__main__":
     overhead()
+    each_point()
     for processes in range(1, int(sys.argv[1]) + 1 if len(sys.argv) > 1 else 3):
         throughput(processes)

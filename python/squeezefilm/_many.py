@@ -12,8 +12,8 @@ from ._progress import Progress, told
 from ._scene import Scene
 from ._table import Table
 
-#: Points that one task of a `client` solves, about; each task pays for being sent.
-CHUNK = 64
+#: Points that one task of a `client` solves, at least, and tasks of a sweep, at most: each pays for being sent.
+CHUNK, MOST_TASKS = 64, 256
 
 
 def sweep(
@@ -43,7 +43,7 @@ def sweep(
     with told(progress, "sweep") as tell:
         if client is None:
             return Table.of_csv(_squeezefilm.sweep(scene._inner, axes, how, tell))
-        count = -(-_squeezefilm.points(scene._inner, axes, how) // CHUNK)
+        count = min(-(-_squeezefilm.points(scene._inner, axes, how) // CHUNK), MOST_TASKS)
         tasks = [client.submit(_part, scene, axes, how, f"{number}/{count}") for number in range(1, count + 1)]
         parts = []
         for number, task in enumerate(tasks, 1):

@@ -80,8 +80,8 @@ def test_a_scene_is_made_of_keys_of_a_file_or_of_sections(tmp_path):
     assert plate.solve(fidelity="draft").mean_load_ratio > 0 and plate["plate.width_mm"] is None
     with pytest.raises(sf.SceneError, match="plate.length_mm"):
         sf.Scene("plate", plate_length_mm=-1, plate_mean_gap_um=1, plate_amplitude_um=0.5, plate_frequency_khz=30)
-    with pytest.raises(sf.SceneError, match="mean_gap_um"):
-        sf.Scene("plate", plate_length_mm=1, plate_amplitude_um=0.5, plate_frequency_khz=30)
+    with pytest.raises(sf.SceneError, match="plate.length_mm"):
+        sf.Scene("plate", plate_length=1)
 
 
 @pytest.mark.parametrize("key, value", [("film_min_spacing_nm", -1), ("film_min_spacing", 100), ("film_slip", "cubic")])
@@ -106,13 +106,17 @@ def test_bad_names_and_settings():
         sf.preset("plate-trapped").solve(method="paper")
 
 
-def test_ctrl_c_ends_a_solve():
-    hard = sf.preset("fundamental").with_(film_min_spacing_nm=5, numerics_steps_per_cycle=20000, numerics_teeth="all")
-    threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
-    started = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        hard.solve(fidelity="reference")
-    assert time.monotonic() - started < 20
+def test_ctrl_c_ends_what_takes_long():
+    mesh = {"film_nodes_along": 201, "film_nodes_across": 41, "contact_nodes": 1441, "steps_per_cycle": 1440}
+    hard = sf.preset("fundamental").with_({f"numerics.{key}": value for key, value in mesh.items()})
+    for work in (lambda: hard.solve(method="paper"), lambda: sf.sweep(hard, "motor.waves", [6, 7, 8], method="paper")):
+        timer = threading.Timer(0.3, signal.raise_signal, [signal.SIGINT])
+        timer.start()
+        started = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            work()
+        timer.join()
+        assert time.monotonic() - started < 20
 
 
 def test_other_threads_of_python_run_while_it_is_solved():
@@ -177,6 +181,7 @@ def test_vtk_is_read_by_another_library(name, tmp_path):
     frame = len(run.time_s) // 3
     mesh = meshio.read(tmp_path / series["files"][frame]["name"])
     points, cells, data = mesh.points, mesh.cells_dict["quad"], mesh.point_data
+    data = {name: values.squeeze() for name, values in data.items()}
     assert len(points) == len(data["pressure_kpa"]) and cells.max() == len(points) - 1
     corners = points[cells]
     sides = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]

@@ -8,7 +8,7 @@ SCENE = sf.preset("fundamental")
 def test_sensitivity():
     found = sf.sensitivity(SCENE, ["film.min_spacing_nm"], {"film_min_spacing_nm": "10%"}, fidelity="draft", draws=8)
     alpha = next(output for output in found.outputs if output["name"] == "alpha")
-    derivative = alpha["derivatives"][0]
+    derivative = alpha["by"][0]
     assert derivative["key"] == "film.min_spacing_nm" and derivative["derivative"] < 0
     assert found.monte_carlo["solved"] == 8 and found["converged"]
     with pytest.raises(sf.SceneError, match="min_spacing"):

@@ -119,7 +119,8 @@ fn piece<'a>(
     let nodes = &recording.x;
     let mirrored = recording.half_length && !recording.radial && nodes.first().is_some_and(|x| *x >= 0.0);
     let images = if mirrored { nodes.len() } else { 0 };
-    let all = (0..images).rev().map(|i| (-nodes[i], i)).chain(nodes.iter().copied().zip(0..));
+    let images = (0..images).rev().map(|i| (-nodes[i], i)).filter(|(x, _)| *x < 0.0);
+    let all = images.chain(nodes.iter().copied().zip(0..));
     let line = recording.line_offset(tooth, frame);
     // Round, or along a strip, all values are the same.
     let alone = recording.map_y.len() < 2;
