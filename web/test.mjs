@@ -203,6 +203,15 @@ await click("It is squeezed into half the volume: up to twice the pressure", "Ra
 await click("This is my prediction", "Button");
 await until("what is to be done then", ({ nodes }) => !nodes.some(({ label }) => label === "This is my prediction"));
 await picture("lesson-answered");
+await click("Gap", "SpinButton");
+await page.keyboard.press("Control+a");
+await page.keyboard.type("0.5");
+await page.keyboard.press("Enter");
+await until("the task is done, and what was seen is asked", says(/What did you see/));
+await page.waitForTimeout(500);
+await page.keyboard.press("3");
+await until("the step is done", ({ nodes }) => nodes.some(({ label }) => label === "Next"));
+await picture("lesson-done");
 await click("Next", "Button");
 await heard(/step 2 of 6/);
 check("a lesson's first step is followed", true);

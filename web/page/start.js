@@ -57,9 +57,9 @@ async function start() {
   mirror(told, ...["squeezefilm", "told", "said", "lesson"].map((id) => document.getElementById(id)));
 }
 
-start().catch((error) => stop(`The program cannot be started: ${error.message ?? error}`));
-
-if ("serviceWorker" in navigator && window.isSecureContext) {
-  // Without it the page works as long as there is a network.
-  navigator.serviceWorker.register("./offline.js").catch(() => {});
+// Keeps the page for work without a network, which it needs until then. Not before it is loaded: what is kept is asked for once more.
+function keep() {
+  if ("serviceWorker" in navigator && window.isSecureContext) navigator.serviceWorker.register("./offline.js").catch(() => {});
 }
+
+start().then(() => setTimeout(keep, 2000)).catch((error) => stop(`The program cannot be started: ${error.message ?? error}`));
