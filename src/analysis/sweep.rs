@@ -249,15 +249,6 @@ impl Sweep {
         rows.into_iter().flatten().collect()
     }
 
-    /// The points of a part. They begin and end where chunks do that are solved from one cold start, and so the parts together are
-    /// the whole, to the last bit. A part of a small sweep can be empty.
-    pub fn points_of(&self, part: Part) -> Range<usize> {
-        let chunks = self.chunks();
-        let start =
-            |number: usize| chunks.get(number * chunks.len() / part.of()).map_or(self.len(), |chunk| chunk.start);
-        start(part.number() - 1)..start(part.number())
-    }
-
     /// The points in runs of neighbours along the last axis, none across its end.
     fn chunks(&self) -> Vec<Range<usize>> {
         let line = self.axes.last().map_or(1, |axis| axis.values.len());
