@@ -95,7 +95,7 @@ fn head(text: &str) -> Result<Head, ReadError> {
     serde_json::from_str(object).map_err(|error| damaged(1, error))
 }
 
-/// Rows of a part of `sweep` from the text that [`write`] made of them.
+/// Rows of a part of `sweep` from the text that [`write()`] made of them.
 ///
 /// # Errors
 /// [`ReadError`]. A row too many, twice, or changed since it was written, is damage.
