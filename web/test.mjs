@@ -29,7 +29,14 @@ const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
   args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
 });
-const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, acceptDownloads: true });
+// A machine with other work may take its time.
+const PATIENCE = 180;
+async function opened(options) {
+  const context = await browser.newContext(options);
+  context.setDefaultTimeout(1000 * PATIENCE);
+  return context;
+}
+const context = await opened({ viewport: { width: 1280, height: 800 }, acceptDownloads: true });
 let page = await context.newPage();
 const faults = [];
 const outside = [];
@@ -41,7 +48,7 @@ function watch(page) {
 watch(page);
 
 const told = () => page.evaluate(() => window.shown?.() ?? null);
-async function until(what, ready, seconds = 60) {
+async function until(what, ready, seconds = PATIENCE) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
     const now = await told();
@@ -79,7 +86,7 @@ for (const [missing, script, words] of [
   ["WebAssembly", () => { delete window.WebAssembly; }, /needs WebAssembly/],
   ["WebGL", () => { HTMLCanvasElement.prototype.getContext = () => null; }, /does not draw with WebGL/],
 ]) {
-  const without = await browser.newContext();
+  const without = await opened();
   const poor = await without.newPage();
   await poor.addInitScript(script);
   await poor.goto(address);
@@ -150,7 +157,7 @@ await context.setOffline(false);
 
 // A link, in a page of its own.
 async function follow(link, viewport = { width: 1280, height: 800 }, touch = false) {
-  const fresh = await browser.newContext({ viewport, acceptDownloads: true, hasTouch: touch });
+  const fresh = await opened({ viewport, acceptDownloads: true, hasTouch: touch });
   page = await fresh.newPage();
   watch(page);
   await page.goto(address + link);
@@ -232,7 +239,7 @@ check("what is wrong with a link is told", true);
 await fresh.close();
 
 // As slow as a class's network is.
-fresh = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+fresh = await opened({ viewport: { width: 1280, height: 800 } });
 page = await fresh.newPage();
 watch(page);
 const slow = await fresh.newCDPSession(page);
