@@ -247,7 +247,7 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named_with_what_is_allowed() {
         for (link, words) in [
-            ("#fundemental", "fundamental, doubled-mesh"),
+            ("#fundemental", "fundamental, levitating"),
             ("#../etc/passwd", "begins with a built-in preset"),
             ("#fundamental&film.min_spacing_nm=-1", "film.min_spacing_nm"),
             ("#fundamental&tab=torqe", "motion, compare"),
