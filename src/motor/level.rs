@@ -564,9 +564,14 @@ impl Level {
     }
 
     /// How far α may be from that of a cycle that repeats: the trapped gas still changes, and its force with it; film and contact
-    /// disagree about their shares. (Twice the latter: calibrated, docs/validation.md.)
+    /// disagree about their shares.
     pub(super) fn astray(&self) -> f64 {
-        self.drift / self.load + 2.0 * self.mean_imbalance()
+        self.drift / self.load + self.unbalanced()
+    }
+
+    /// The latter. (Twice the mean: calibrated, docs/validation.md.)
+    fn unbalanced(&self) -> f64 {
+        2.0 * self.mean_imbalance()
     }
 
     /// Cycle mean of the film load on one wavelength \[N\].

@@ -22,6 +22,8 @@ const ROUND_LIMIT: usize = 60;
 
 /// Cycles that a state is given to repeat.
 const CYCLE_LIMIT: usize = 250;
+/// Cycles in a row whose steps leave the load out of balance by more than is allowed: as many do not settle later, and each takes all its rounds.
+const UNBALANCED_LIMIT: usize = 10;
 /// Residual of their steps, as a share of the plan's tolerance.
 const SETTLED_SHARE: f64 = 0.01;
 /// Where three cycles change the film's load hardly less than the three before, the state may be that many times as far off.
@@ -104,7 +106,7 @@ impl Level {
         report: &mut Reporter<'_>,
         cancel: &Cancel,
     ) -> Result<Status, Stop> {
-        let mut loads = Vec::new();
+        let (mut loads, mut unbalanced) = (Vec::new(), 0);
         for cycle in 1..=CYCLE_LIMIT {
             let (_, change) =
                 self.transient_cycle(SETTLED_SHARE * plan.tolerance, stats, cancel, |_| Recording::default())?;
@@ -115,8 +117,13 @@ impl Level {
             let (before, after) = ((middle - first).abs(), (last - middle).abs());
             let ratio = after / before;
             self.drift = if ratio < 0.7 { after * ratio / (1.0 - ratio) } else { CREEP * after };
-            if self.astray() <= self.allowed(plan) {
+            let allowed = self.allowed(plan);
+            if self.astray() <= allowed {
                 return Ok(Status::Converged);
+            }
+            unbalanced = if self.unbalanced() > allowed { unbalanced + 1 } else { 0 };
+            if unbalanced == UNBALANCED_LIMIT {
+                break;
             }
         }
         Ok(Status::NotConverged { residual: self.astray(), tolerance: self.allowed(plan) })
