@@ -192,11 +192,13 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The state that cycle after cycle of every tooth settles to, if it does, and the work and memory are what a solve may take.
+    /// The state that cycle after cycle of every tooth settles to, if it does, and the work and memory are what a solve may take. Over
+    /// asperities, whose contact problems cost many times as much, that would be too much.
     fn march(&mut self) -> Option<Found<Level>> {
         let plan = Plan { every_tooth: true, trapped: false, most_grids: self.plan.grids.len(), ..self.plan.clone() };
         let work = plan.grids.last()?.work() * self.motor.teeth as f64;
-        if work > MOST_MARCHED || memory::check(memory::motor(self.motor, &plan)).is_err() {
+        let rough = self.motor.surface.asperities.is_some();
+        if rough || work > MOST_MARCHED || memory::check(memory::motor(self.motor, &plan)).is_err() {
             return None;
         }
         let (observer, stats) = (&mut *self.observer, &mut *self.stats);
