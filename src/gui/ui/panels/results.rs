@@ -112,8 +112,10 @@ fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &P
         number(ui, cx, "Stiffness of floating", &uncertain(stiffness.value, stiffness.error), units(plate)[0]);
         let frequency = uncertain(natural_frequency.value, natural_frequency.error);
         number(ui, cx, "Natural frequency", &frequency, "Hz");
-        let ratio = floating.damping_ratio(slow_damping(plate));
-        number(ui, cx, "Damping ratio", &significant(ratio, 2), "");
+        if natural_frequency.value > 0.0 {
+            let ratio = floating.damping_ratio(slow_damping(plate));
+            number(ui, cx, "Damping ratio", &significant(ratio, 2), "");
+        }
         number(ui, cx, "Film load, mean", &uncertain(result.film_load, result.film_load_error), unit);
     } else {
         headline(ui, "", "Film load", &uncertain(result.film_load, result.film_load_error), unit);
