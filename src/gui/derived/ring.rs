@@ -486,23 +486,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn tmp_ring_time() {
-        with_ring(7, 9, |ring| {
-            let t = std::time::Instant::now();
-            let mut n = 0;
-            for i in 0..200 {
-                n += ring.faces(from(0.01 * f64::from(i), 0.5)).len();
-            }
-            println!("ring {} faces {:.3} ms", n / 200, t.elapsed().as_secs_f64() * 5.0);
-        });
-    }
-
-    #[test]
-    fn it_is_turned_no_further_than_straight_above() {
-        let turned = Orbit::default().turned(-1.0, 9.0);
-        assert!((turned.elevation - FRAC_PI_2).abs() < 1e-12 && (turned.azimuth - (TAU - 1.0)).abs() < 1e-12);
-        assert!((turned.turned(1.0, -9.0).elevation + FRAC_PI_2).abs() < 1e-12);
-    }
 }
