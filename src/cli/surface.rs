@@ -23,8 +23,9 @@ Examples:
   squeezefilm surface rotor.csv stator.csv --degree 2 --out results";
 
 const FILES: &str = "\
-A file is a grid of heights, with lines \"# dx_um = 0.5\", \"# dy_um = 0.5\" and \"# height = nm\" before them and a line of numbers for
-each y; or a profile, with a line \"x_um,z_nm\" and a pair on each line. Units are m, mm, um and nm. x is along the wave.
+A file is a grid of heights, with lines \"# dx_um = 0.5\", \"# dy_um = 0.5\" and \"# height = nm\" before them and a line of numbers for \
+each y; or a profile, with a line \"x_um,z_nm\" and a pair on each line. Units are m, mm, um and nm. x is along the wave. \
+Instruments that write X3P or SUR export such tables too: no Rust library reads those formats.
 
 Files of --out:
   surface.json      what --json prints
