@@ -37,33 +37,23 @@ use super::mesh::{Halved, Mesh};
 use super::section::{Band, RingError, Section};
 use super::solve::{Factor, System, cancelled, contact_load, free_motions};
 use crate::control::Cancel;
+use crate::estimate::Estimate;
 use crate::numerics::dot;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// A number and its estimated absolute numerical error, in the same unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stated {
-    /// The number.
-    pub value: f64,
-    /// Estimated error of `value`.
-    pub error: f64,
-}
-
-impl Stated {
-    /// From a mesh and one with elements half as large.
-    pub(super) fn extrapolated(coarse: f64, fine: f64) -> Self {
-        let rest = (fine - coarse) / 3.0;
-        Self { value: fine + rest, error: rest.abs() }
-    }
+/// From a mesh and one with elements half as large.
+pub(super) fn of_two_meshes(coarse: f64, fine: f64) -> Estimate {
+    let rest = (fine - coarse) / 3.0;
+    Estimate { value: fine + rest, error: rest.abs() }
 }
 
 /// The compliance of each harmonic of the wave.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RingCompliances {
     /// C(k_n) \[m²/N\] for n = 1, 2, …: order m = waves·n, wavenumber k_n = waves·n/r. All that were asked for.
-    pub harmonics: Vec<Stated>,
+    pub harmonics: Vec<Estimate>,
     /// How many of them the finite elements resolve. Beyond, each continues the last that is resolved as an elastic
     /// half-space under the same band does: the local part, which no longer depends on the shape of the section.
     pub resolved: usize,
@@ -138,7 +128,7 @@ impl Section {
         for n in 1..=count.min(resolved) {
             let order = first * n as f64;
             let [coarse, fine] = [coarse.compliance(order)?, fine.compliance(order)?].map(|work| work / band.radius);
-            let mut found = Stated::extrapolated(coarse, fine);
+            let mut found = of_two_meshes(coarse, fine);
             let left_out = not_refined(order / last);
             found.error += LEFT_OUT * found.value + 4.0 / 3.0 * left_out / (1.0 - left_out) * (fine - coarse).abs();
             harmonics.push(found);
@@ -152,7 +142,7 @@ impl Section {
             harmonics.extend((resolved + 1..=count).map(|n| {
                 let (share, edges) = local(n);
                 let value = known.value * share * edges / (from * from_edges);
-                Stated { value, error: value * (known.error / known.value + (edges / from_edges - 1.0).abs()) }
+                Estimate { value, error: value * (known.error / known.value + (edges / from_edges - 1.0).abs()) }
             }));
         }
         Ok(RingCompliances { harmonics, resolved, elements: meshes[1].elements.len() })
@@ -563,7 +553,7 @@ mod tests {
             let mut moved = load.clone();
             system.factor(7.0 * n as f64, 0.0).unwrap().solve(&mut moved, 1).unwrap();
             let finer = dot(&load, &moved) / band.radius;
-            let Stated { value, error } = found.harmonics[n - 1];
+            let Estimate { value, error } = found.harmonics[n - 1];
             assert!((value - finer).abs() < 1.5 * error && error < 2e-3 * value, "{n}: {value} ± {error}, {finer}");
         }
     }

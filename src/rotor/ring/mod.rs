@@ -21,6 +21,6 @@ pub mod modes;
 pub mod section;
 mod solve;
 
-pub use compliance::{Deflection, RingCompliances, Stated};
+pub use compliance::{Deflection, RingCompliances};
 pub use mesh::{Element, Mesh};
 pub use section::{Band, MATERIALS, Material, Part, RingError, Section, Support};

@@ -5,12 +5,13 @@
 //! shift s > 0 makes the matrix positive definite where nothing holds a rigid motion.
 //! Source: K.-J. Bathe, *Finite Element Procedures* (1996), section 11.6.
 
-use super::compliance::Stated;
+use super::compliance::of_two_meshes;
 use super::element::DIRECTIONS;
 use super::mesh::{Halved, Mesh};
 use super::section::{RingError, Section};
 use super::solve::{System, cancelled, free_motions};
 use crate::control::Cancel;
+use crate::estimate::Estimate;
 use crate::numerics::dot;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
@@ -34,7 +35,7 @@ impl Section {
         orders: &[u32],
         count: usize,
         cancel: &Cancel,
-    ) -> Result<Vec<Vec<Stated>>, RingError> {
+    ) -> Result<Vec<Vec<Estimate>>, RingError> {
         let meshes = self.meshes(None)?;
         let [coarse, fine] = &meshes;
         let equations = |mesh: &Mesh| cancelled(cancel).and_then(|()| System::new(self, mesh));
@@ -57,7 +58,7 @@ impl Section {
             let (fine, _) = Iteration { system: &second, ..from }.lowest(finer)?;
             let hertz = |square: &f64| (square - shift).max(0.0).sqrt() / std::f64::consts::TAU;
             let both = coarse.iter().zip(&fine).take(wanted).skip(rigid);
-            Ok(both.map(|(coarse, fine)| Stated::extrapolated(hertz(coarse), hertz(fine))).collect())
+            Ok(both.map(|(coarse, fine)| of_two_meshes(hertz(coarse), hertz(fine))).collect())
         };
         orders.par_iter().map(of_order).collect()
     }
