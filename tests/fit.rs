@@ -229,7 +229,9 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
             "alpha,film_load_n,alpha_error\n0.2,0.5,0.1\n",
             "table.csv:1: give the errors of all that was measured, or of none",
         ),
-        ("torque_nm\n0.2\n", "table.csv:1: torque_nm and rotor_speed_rpm go together"),
+        ("torque_nm\n0.2\n", "table.csv:1: torque_nm needs a column rotor_speed_rpm, the speed of each torque"),
+        ("rotor_speed_rpm,alpha\n3,0.2\n", "table.csv:1: rotor_speed_rpm needs a column torque_nm"),
+        ("alpha;film.min_spacing_nm\n0,2,1;100\n", "table.csv:2: column alpha: 0,2,1 is not a number"),
         ("torque_nm,rotor_speed_rpm\n0.2,\n", "table.csv:2: column rotor_speed_rpm: empty"),
         ("alpha,weight\n0.2,-1\n", "table.csv:2: column weight: \"-1\": expected a number above 0"),
         ("alpha,mean_load_ratio\n0.2,1\n", "column mean_load_ratio: unknown"),
@@ -241,6 +243,9 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         assert!(error.contains(words), "{text:?}: {error}");
     }
     let motor = scene("fundamental", &[]);
+    // As spreadsheets write it where the comma is in decimals.
+    let [dots, commas] = ["speed_rpm,torque_nm\n1.5,0.2\n", "speed_rpm;torque_nm\n1,5;0,2\n"];
+    assert_eq!(table(&motor, dots).measurements, table(&motor, commas).measurements);
     let measured = table(&motor, "alpha,film.min_spacing_nm\n0.2,3\n");
     let model = || Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6"]), &DRAFT).unwrap();
     let error = model().under(&measured).unwrap_err().to_string();
@@ -312,6 +317,7 @@ fn the_optimum_is_that_of_a_fine_sweep() {
     let best = rows.iter().filter_map(|row| Some((row.numbers.get(Quantity::StallTorque)?, row.values[0])));
     let best = best.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     assert!((found.value.value / best.0 - 1.0).abs() < 0.01, "{found:?} {best:?}");
+    assert!(found.warnings.iter().any(|text| text.contains("always brake")), "{:?}", found.warnings);
     let line = &found.lines[0];
     assert!(line.flat.0 <= line.value && line.value <= line.flat.1 && (line.flat.0..=line.flat.1).contains(&best.1));
 }
@@ -330,6 +336,20 @@ fn an_optimum_keeps_its_limits() {
     let goal = Goal::new(&motor, "film_load_n", true, &[]).unwrap();
     let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();
     assert_eq!((found.lines[0].at, found.lines[0].value), (Some(Bound::Lower), 100.0));
+    assert!(found.warnings[0].ends_with("is at its lower bound, 100 nm: a better value lies beyond it, if anywhere"));
+    // In next to a vacuum the torque does not depend on the pressure.
+    let goal = Goal::new(&motor, "max_torque_nm", false, &[]).unwrap();
+    let found = optimise(
+        &motor,
+        &bounds(&["film.ambient_pressure_kpa=0.01:1"]),
+        &goal,
+        &DRAFT,
+        (1, &Cancel::new(), &|_, _| ()),
+    );
+    let found = found.unwrap().unwrap();
+    assert!(
+        found.warnings[0].contains("bound, ") && found.warnings[0].ends_with("max_torque_nm changes by less than 1 %")
+    );
     let error = Goal::new(&motor, "torque", true, &[]).unwrap_err().to_string();
     assert!(error.contains("maximise torque: no such number; allowed: alpha,"), "{error}");
 }

@@ -295,8 +295,8 @@ fn summary(fitted: &Fitted, measured: &Measured) -> String {
 
 /// An optimum for people.
 fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
-    let which = if found.goal.greatest { "greatest" } else { "least" };
-    let title = format!("{}: {which} {}", show_text(&scene.name), found.goal.quantity.label(problem));
+    let size = if found.goal.greatest { "large" } else { "small" };
+    let title = format!("{}: {}, as {size} as possible", show_text(&scene.name), found.goal.quantity.label(problem));
     let mut text = paragraph(&title, "", "");
     text.push('\n');
     let mut columns = Columns::new();

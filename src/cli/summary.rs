@@ -5,7 +5,7 @@ use crate::analysis::exact::{Comparison, units};
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::Excess;
-use crate::digits::{as_given, duration, percent, significant, with_error};
+use crate::digits::{as_given, duration, percent, short, significant, with_error};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::export::json::{FloatingObject, Summary, beside_limit};
@@ -84,7 +84,7 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
         &with_error(or_nan(summary.alpha), error),
         &format!(
             "of the {} N pressed on one wavelength{}",
-            as_given(motor.load),
+            short(motor.load, 6),
             if negative { "; the film sucks" } else { "" }
         ),
     ]);

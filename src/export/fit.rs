@@ -441,7 +441,8 @@ pub fn write_optimum_csv(found: &Optimum, out: &mut dyn Write) -> io::Result<()>
 pub fn optimum_figure(problem: &Problem, found: &Optimum) -> Figure {
     let words = found.goal.quantity.label(problem);
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
-    let mut figure = Figure::new(format!("{} {label}", if found.goal.greatest { "greatest" } else { "least" }));
+    let size = if found.goal.greatest { "large" } else { "small" };
+    let mut figure = Figure::new(format!("{label}, as {size} as possible"));
     figure.provenance = Provenance::named(&found.scene.name);
     for line in &found.lines {
         let parameter = line.unknown.parameter;

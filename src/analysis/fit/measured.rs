@@ -196,8 +196,11 @@ impl Measured {
     /// [`FitError::Table`], which names line, column, value and what is allowed.
     pub fn from_csv(text: &str, origin: &str, problem: &Problem) -> Result<Self, FitError> {
         let fault = |line: Option<u64>, what: String| FitError::Table { origin: origin.to_owned(), line, what };
-        let mut reader =
-            csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
+        // Where the comma is in decimals, semicolons divide the columns.
+        let semicolons = text.lines().find(|line| !line.starts_with('#')).is_some_and(|head| head.contains(';'));
+        let mut reader = csv::ReaderBuilder::new();
+        reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(if semicolons { b';' } else { b',' });
+        let mut reader = reader.from_reader(text.as_bytes());
         let head = reader.headers().map_err(|error| fault(Some(1), error.to_string()))?.clone();
         let columns = head.iter().map(|name| column(problem, name).map_err(|what| fault(Some(1), what)));
         let columns = columns.collect::<Result<Vec<Column>, _>>()?;
@@ -219,7 +222,12 @@ impl Measured {
         }
         let torque = values.iter().any(|i| matches!(columns[*i], Column::Value(None)));
         if torque != speed.is_some() {
-            return Err(fault(Some(1), format!("{TORQUE} and {SPEED} go together; of each speed its torque")));
+            let what = if torque {
+                format!("{TORQUE} needs a column {SPEED}, the speed of each torque")
+            } else {
+                format!("{SPEED} needs a column {TORQUE}")
+            };
+            return Err(fault(Some(1), what));
         }
         let error_of = |value: usize| {
             let Column::Value(of) = columns[value] else { return None };
@@ -244,7 +252,8 @@ impl Measured {
             let cell = |i: usize| record.get(i).unwrap_or_default();
             let number = |i: usize| -> Result<Option<f64>, FitError> {
                 let text = cell(i);
-                match text.parse::<f64>() {
+                let decimal = if semicolons { text.replace(',', ".") } else { text.to_owned() };
+                match decimal.parse::<f64>() {
                     _ if text.is_empty() => Ok(None),
                     Ok(number) if number.is_finite() => Ok(Some(number)),
                     _ => Err(fault(line, format!("column {}: {} is not a number", &head[i], show_text(text)))),
@@ -259,7 +268,7 @@ impl Measured {
             };
             let changes: Vec<(String, String)> = (0..columns.len())
                 .filter(|i| matches!(columns[*i], Column::Key) && !cell(*i).is_empty())
-                .map(|i| (head[i].to_owned(), cell(i).to_owned()))
+                .map(|i| (head[i].to_owned(), if semicolons { cell(i).replace(',', ".") } else { cell(i).to_owned() }))
                 .collect();
             let named = (0..columns.len()).find(|i| matches!(columns[*i], Column::Label) && !cell(*i).is_empty());
             let label = match (named, line) {
@@ -383,7 +392,8 @@ fn column(problem: &Problem, name: &str) -> Result<Column, String> {
     }
     match name {
         TORQUE => return Ok(Column::Value(None)),
-        SPEED => return Ok(Column::Speed),
+        // As the program writes it: torque.csv.
+        SPEED | "speed_rpm" => return Ok(Column::Speed),
         WEIGHT => return Ok(Column::Weight),
         name if LABELS.contains(&name) => return Ok(Column::Label),
         _ => {}

@@ -6,7 +6,7 @@ use super::measured::{What, named, names};
 use super::model::{Computed, Model};
 use super::starts::spread;
 use super::unknown::{Bound, Bounds, Unknown};
-use crate::analysis::attempt::caught;
+use crate::analysis::attempt::{attempt, caught};
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
 use crate::digits::{short, with_error};
@@ -35,6 +35,8 @@ const AT_BOUND: f64 = 2e-3;
 const LINE: usize = 21;
 /// A share of the optimum that a designer does not mind.
 pub const FLAT: f64 = 0.01;
+/// Share of the bounds over which a number that changes less makes a plateau.
+const PLATEAU: f64 = 0.1;
 /// What stands for a number that could not be computed, in units of what is sought.
 const NOTHING: f64 = 1e3;
 
@@ -384,15 +386,20 @@ fn describe(
     }
     let limited: Vec<Estimate> = here.iter().skip(1).filter_map(|found| found.as_ref().ok()).copied().collect();
     let mut warnings = Vec::new();
-    for line in lines.iter().filter(|line| line.at.is_some()) {
-        let parameter = line.unknown.parameter;
-        warnings.push(format!(
-            "{} is at its {} bound, {} {}: a better value lies beyond it, if anywhere",
-            parameter.key,
-            line.at.map_or("", Bound::name),
-            short(line.value, 6),
-            parameter.unit
-        ));
+    for line in &lines {
+        let Some(bound) = line.at else { continue };
+        let name = goal.quantity.name();
+        let (parameter, lower) = (line.unknown.parameter, bound == Bound::Lower);
+        let flat_to = if lower { line.flat.1 } else { line.flat.0 };
+        let range = (line.unknown.value(1.0) - line.unknown.value(0.0)).abs();
+        let flat = format!("{} {}", short(flat_to, 3), parameter.unit);
+        let beyond = match (line.value - flat_to).abs() > PLATEAU * range {
+            true if lower => format!("up to {flat} {name} changes by less than 1 %"),
+            true => format!("from {flat} on {name} changes by less than 1 %"),
+            false => "a better value lies beyond it, if anywhere".to_owned(),
+        };
+        let (side, value) = (bound.name(), short(line.value, 6));
+        warnings.push(format!("{} is at its {side} bound, {value} {}: {beyond}", parameter.key, parameter.unit));
     }
     for ((limit, _), found) in goal.limits.iter().zip(&limited) {
         let over = if limit.below { found.value - limit.value } else { limit.value - found.value };
@@ -413,6 +420,11 @@ fn describe(
             short(there, 6)
         ));
     }
+    let scene = model.fitted(&x, "optimised")?;
+    // What is said of it wherever it is solved.
+    if let Ok(solution) = attempt(&Problem::new(&scene)?, model.settings(), &mut (), cancel) {
+        warnings.extend(solution.warnings);
+    }
     Ok(Some(Optimum {
         goal: goal.clone(),
         value: best,
@@ -422,7 +434,7 @@ fn describe(
         converged,
         solves: model.solves(),
         warnings,
-        scene: model.fitted(&x, "optimised")?,
+        scene,
     }))
 }
 

@@ -278,6 +278,11 @@ pub(in crate::gui::ui) fn field_colours() -> &'static [Color32; 256] {
     COLOURS.get_or_init(|| std::array::from_fn(|i| theme::field_colour(i as f64 / 255.0)))
 }
 
+/// Colours of the field per pascal over a range; none where both ends are written as the same number, and the rest is noise.
+pub(in crate::gui::ui) fn colours_per_pascal([low, high]: [f64; 2]) -> f64 {
+    if number(low / 1e3) == number(high / 1e3) { 0.0 } else { 255.0 / (high - low) }
+}
+
 /// A title above `plot` with the colour bar and its ends at the right end of the same line.
 /// `word`: what the glossary explains it under.
 pub(in crate::gui::ui) fn title_with_bar(

@@ -64,11 +64,11 @@ impl Updater {
             Link::Lesson { lesson, step } => {
                 let Some(found) = self.state.lessons.lessons().get(lesson - 1) else {
                     let most = self.state.lessons.lessons().len();
-                    return self.state.fail(format!("lesson={lesson} in a link: allowed is 1 to {most}"));
+                    return self.state.fail(format!("lesson {lesson}: allowed is 1 to {most}"));
                 };
                 let most = found.steps.len();
                 if step > most {
-                    return self.state.fail(format!("step={step} in a link: lesson {lesson} has {most} steps"));
+                    return self.state.fail(format!("step {step}: lesson {lesson} has {most} steps"));
                 }
                 self.carry_out(LessonCommand::OpenAt(lesson - 1, step - 1).into());
             }

@@ -2,7 +2,7 @@
 
 use crate::fidelity::Fidelity;
 use crate::gui::derived::sample::{self, Plane, between};
-use crate::gui::ui::paint::{Axes, PlotStyle, field_colours};
+use crate::gui::ui::paint::{Axes, PlotStyle, colours_per_pascal, field_colours};
 use crate::recording::Recording;
 use eframe::egui::{Color32, ColorImage, Id, Painter, Rect, TextureHandle, TextureOptions, Ui, pos2};
 
@@ -79,7 +79,7 @@ fn pixels(recording: &Recording, stamp: &Stamp, [columns, rows]: [usize; 2], gro
         (0..rows).map(|j| plane.row(half * (1.0 - (2.0 * j as f64 + 1.0) / rows as f64))).collect();
     let colours = field_colours();
     let [low, high] = stamp.range;
-    let per_colour = if high > low { 255.0 / (high - low) } else { 0.0 };
+    let per_colour = colours_per_pascal([low, high]);
     let mut values = vec![0.0; recording.map_y.len()];
     for i in 0..columns {
         let x = stamp.x[0] + (i as f64 + 0.5) / columns as f64 * (stamp.x[1] - stamp.x[0]);

@@ -8,7 +8,7 @@ use crate::gui::derived::format::times;
 use crate::gui::derived::ring::{Face, Orbit, Part, Ring};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::describe;
-use crate::gui::ui::paint::{Axes, PlotStyle, field_colours};
+use crate::gui::ui::paint::{Axes, PlotStyle, colours_per_pascal, field_colours};
 use crate::gui::ui::theme;
 use eframe::egui::epaint::{Mesh, Shape};
 use eframe::egui::{
@@ -90,9 +90,8 @@ fn turned(ui: &Ui, response: &Response, orbit: Orbit) -> Option<Orbit> {
 
 /// The faces, `scale` points to a contact radius, round the middle of `rect`; `range`: pressures of the first and last colour.
 fn mesh(faces: &[Face], style: &PlotStyle, (rect, scale): (Rect, f64), range: [f64; 2]) -> Mesh {
-    let [low, high] = range;
+    let (low, per_colour) = (range[0], colours_per_pascal(range));
     let colours = field_colours();
-    let per_colour = if high > low { 255.0 / (high - low) } else { 0.0 };
     let palette = &style.palette;
     let [stator, rotor] = [palette.stator, palette.rotor].map(|colour| style.solid(colour));
     let mut mesh = Mesh::default();
