@@ -1,5 +1,6 @@
 //! What is drawn: it reads the state and pushes commands, and changes nothing.
 
+pub mod button;
 pub mod cache;
 pub mod chart;
 pub mod context;

@@ -3,12 +3,13 @@
 use super::{lesson_numbers, lesson_parts};
 use crate::gui::command::{Command, LessonCommand};
 use crate::gui::state::running_lesson::RunningLesson;
+use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::keys;
 use crate::gui::ui::rich::Look;
 use crate::lessons::work::{Score, Stage, StepWork, answer_words};
 use crate::lessons::{Lesson, Step};
-use eframe::egui::{self, Align, Button, Color32, Id, Layout, Response, RichText, Stroke, TextStyle, Ui, vec2};
+use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
 
 /// Shows the lesson that is followed.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
@@ -100,21 +101,13 @@ fn dots(ui: &mut Ui, running: &RunningLesson, lesson: &Lesson, cx: &DrawContext<
     });
 }
 
-/// A button that is lit: what comes next.
-fn lit(ui: &mut Ui, text: &str, lit: bool, cx: &DrawContext<'_>) -> Response {
-    let mut button = Button::new(RichText::new(text).strong());
-    if lit {
-        button = button.fill(ui.visuals().selection.bg_fill).stroke(Stroke::new(1.0, cx.colours.film));
-    }
-    ui.add(button)
-}
-
 fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &StepWork, cx: &DrawContext<'_>) {
     let stage = work.stage(step);
     // What keeps to an answer is always in sight, however long the text is.
     if let (Some(question), Stage::Question) = (&step.question, stage) {
         let ready = work.prediction.is_some();
-        let commit = ui.add_enabled_ui(ready, |ui| lit(ui, lesson_parts::commit_label(question.kind), ready, cx)).inner;
+        let commit =
+            ui.add_enabled_ui(ready, |ui| button::next(ui, lesson_parts::commit_label(question.kind), ready, cx)).inner;
         let commit = commit.on_hover_text("Enter").on_disabled_hover_text("Answer first: guessing is welcome");
         if commit.clicked() {
             cx.push(LessonCommand::Commit);
@@ -141,7 +134,7 @@ fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &S
             } else {
                 "Goes on; this step is then shown as skipped".to_owned()
             };
-            if lit(ui, text, complete, cx).on_hover_text(hover).clicked() {
+            if button::next(ui, text, complete, cx).on_hover_text(hover).clicked() {
                 cx.push(LessonCommand::Next);
             }
         });
@@ -157,11 +150,11 @@ fn foot_of_recap(ui: &mut Ui, cx: &DrawContext<'_>) {
             cx.push(LessonCommand::Again);
         }
         let next = cx.state.lessons.following();
-        if lit(ui, "Close", next.is_none(), cx).on_hover_text("Brings your own scene back").clicked() {
+        if button::next(ui, "Close", next.is_none(), cx).on_hover_text("Brings your own scene back").clicked() {
             cx.push(LessonCommand::Leave);
         }
         if let Some(next) = next {
-            let button = lit(ui, "Next lesson", true, cx);
+            let button = button::next(ui, "Next lesson", true, cx);
             if button.on_hover_text("Enter").clicked() {
                 cx.push(LessonCommand::Open(next));
             }

@@ -7,6 +7,7 @@ use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::pins::{Note, Page, fidelity};
+use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, text_width};
@@ -87,7 +88,8 @@ fn note(ui: &mut Ui, cx: &DrawContext<'_>) {
 /// What adds a pin.
 fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     let pin = Command::Pin(PinCommand::Shown);
-    let button = ui.add_enabled(cx.state.run.is_some(), egui::Button::new("Pin the run on screen"));
+    let empty = cx.state.pins.pins().is_empty();
+    let button = button::first(ui, "Pin the run on screen", (empty, cx.state.run.is_some()), cx);
     if button.hint(keys::about(&pin)).clicked() {
         cx.push(pin);
     }

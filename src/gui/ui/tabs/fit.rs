@@ -8,6 +8,7 @@ use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::state::fit::{FitState, Found, Sought, chooses, quantities};
 use crate::gui::state::sweep::AxisForm;
+use crate::gui::ui::button;
 use crate::gui::ui::chart::{SOLID, axes, chart, dots, framed, legend, level, line, place, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
@@ -16,7 +17,7 @@ use crate::gui::ui::panels::menu::{FIT, export_button};
 use crate::problem::Problem;
 use crate::scene::Parameter;
 use eframe::egui::accesskit::Role;
-use eframe::egui::{self, ComboBox, Grid, RichText, ScrollArea, TextEdit, TextStyle, Ui, Vec2b, WidgetInfo};
+use eframe::egui::{ComboBox, Grid, RichText, ScrollArea, TextEdit, TextStyle, Ui, Vec2b, WidgetInfo};
 
 /// Height of a chart: its share of the tab, and at least this many lines of text.
 const SHARE: f32 = 0.3;
@@ -224,11 +225,8 @@ fn buttons(ui: &mut Ui, state: &FitState, cx: &DrawContext<'_>) {
         let good = state.faults().iter().all(Option::is_none) && !state.form().is_empty();
         let good = good && (agreement || state.goal_fault().is_none());
         let about = "Searches on all cores; the window stays usable, and the scene as it is";
-        if ui
-            .add_enabled(good, egui::Button::new(if agreement { "Fit the scene" } else { "Find the optimum" }))
-            .hint(about)
-            .clicked()
-        {
+        let text = if agreement { "Fit the scene" } else { "Find the optimum" };
+        if button::first(ui, text, (state.found().is_none(), good), cx).hint(about).clicked() {
             cx.push(FitCommand::Start);
         }
         if state.has_room() && ui.button("Add a key…").hint("One more parameter to choose").clicked() {

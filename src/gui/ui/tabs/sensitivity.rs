@@ -7,6 +7,7 @@ use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::sensitivity::SensitivityState;
+use crate::gui::ui::button;
 use crate::gui::ui::chart::{axes, between, chart, framed, line, place, title, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
@@ -71,7 +72,7 @@ fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
             ui.add(egui::ProgressBar::new(share as f32).desired_width(140.0).text(text));
         } else {
             let hover = "Solves the scene with every parameter a little changed, in the background; a second or so";
-            let button = ui.button("Compute sensitivities").hint(hover);
+            let button = button::first(ui, "Compute sensitivities", (state.found().is_none(), true), cx).hint(hover);
             if button.clicked() {
                 cx.push(SensitivityCommand::Start);
             }

@@ -4,6 +4,7 @@ use super::dropped;
 use crate::export::startup::unsettled;
 use crate::gui::command::StartupCommand;
 use crate::gui::state::startup::StartupState;
+use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::views;
@@ -51,7 +52,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
             None => {
                 let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
-                let button = ui.button("Start from rest").hint(hover);
+                let button = button::first(ui, "Start from rest", (cx.state.startup.is_none(), true), cx).hint(hover);
                 cx.mark(ui, "start", button.rect);
                 if button.clicked() {
                     cx.push(StartupCommand::Start);

@@ -7,6 +7,7 @@ use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::rough;
 use crate::gui::derived::words::label;
 use crate::gui::state::sweep::{AxisForm, Form, Swept, candidates};
+use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::fidelity;
 use crate::gui::ui::glossary;
@@ -160,7 +161,7 @@ fn buttons(ui: &mut Ui, form: &Form, cx: &DrawContext<'_>) {
                 }
                 let about = "Solves every point on all cores; the window stays usable";
                 let good = cx.state.sweep.faults().iter().all(Option::is_none);
-                if ui.add_enabled(good, egui::Button::new("Start the sweep")).hint(about).clicked() {
+                if button::first(ui, "Start the sweep", (swept.is_none(), good), cx).hint(about).clicked() {
                     cx.push(SweepCommand::Start);
                 }
                 let (combo, chosen) = fidelity::choose(ui, "fidelity", form.fidelity, None, cx);

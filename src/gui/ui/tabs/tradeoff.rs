@@ -8,6 +8,7 @@ use crate::gui::command::Command;
 use crate::gui::derived::format::{rough, trimmed};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
+use crate::gui::ui::button;
 use crate::gui::ui::chart::{axes, bare, line, place as chart_place, powers};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
@@ -81,7 +82,9 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 ui.ctx().request_repaint_after(std::time::Duration::from_secs(1));
             }
             None => {
-                if ui.button("Measure").hint("Takes about a minute; the window stays usable").clicked() {
+                let about = "Takes about a minute; the window stays usable";
+                if button::first(ui, "Measure", (cx.state.tradeoff.as_ref().is_none(), true), cx).hint(about).clicked()
+                {
                     cx.push(Command::Measure);
                 }
             }
