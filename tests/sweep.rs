@@ -318,6 +318,26 @@ fn a_part_that_is_killed_is_gone_on_with_and_joined_to_the_files_of_the_whole() 
 }
 
 #[test]
+fn of_ten_million_points_a_part_is_solved_and_the_whole_is_refused() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("results");
+    let map = ["--vary=film.min_spacing_nm=80:400:10000:log", "--vary=stator.frequency_khz=10:50:1000"];
+    let command = ["sweep", "fundamental", "--fidelity=draft", map[0], map[1]];
+    let solved = run(&[&command[..], &["--part=50000/100000"]].concat(), Some(&folder));
+    assert_eq!(solved.status.code(), Some(0), "{}", String::from_utf8_lossy(&solved.stderr));
+    let file = folder.join("sweep.part-50000-of-100000.csv");
+    // 250 chunks a line, so 25 a part, of four points each.
+    assert_eq!(fs::read_to_string(&file).unwrap().lines().count(), 2 + 100);
+    let refused = |arguments: &[&str], told: &str| {
+        let output = run(arguments, None);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains(told), "{said}");
+    };
+    refused(&command, "vary: 10000000 points: allowed up to 100000, or as many in each part");
+    refused(&["join", file.to_str().unwrap()], "10000000 points: joined are up to 100000");
+}
+
+#[test]
 fn two_sweeps_into_one_folder_do_not_destroy_each_other() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("out");

@@ -30,15 +30,17 @@ def sweep(
     """Solves a scene at every value of a key, or every combination of two or three: ``sweep(scene, "film.min_spacing_nm", [100, 200])`` or
     ``sweep(scene, {"film.min_spacing_nm": [...], "stator.frequency_khz": [...]})``.
 
-    values: at least two, each once; numbers in the unit of the key, or words (``"film.slip", ["none", "first-order"]``).
+    values: at least two, each once; numbers in the unit of the key, or words (``"film.slip", ["none", "first-order"]``); or as the command
+    line has them, ``"50:400:8:log"``.
     client: a Dask client or an executor of `concurrent.futures`, whose workers solve the points. Parts follow from the points alone, so
     that the table is the same to the last bit with any number of workers, and a worker that is lost costs its part only.
 
     Returns the columns of ``squeezefilm sweep``'s CSV, a row for each point; the last key varies fastest. A point that failed says so in
-    ``status``, and its numbers are NaN. Raises `SceneError` or `SolveError`.
+    ``status``, and its numbers are NaN. A sweep has at most 100 000 points; of more, ``squeezefilm sweep --part`` solves a part at a time.
+    Raises `SceneError` or `SolveError`.
     """
     given = key if isinstance(key, Mapping) else {key: () if values is None else values}
-    axes = [(_text.key(name), ",".join(map(_number, points))) for name, points in given.items()]
+    axes = [(_text.key(name), points if isinstance(points, str) else ",".join(map(_number, points))) for name, points in given.items()]
     how = _text.how(accuracy, fidelity, method)
     with told(progress, "sweep") as tell:
         if client is None:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import os
 import warnings
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _squeezefilm
+from . import _squeezefilm, _text
 from ._table import Table, rows_html
 
 if TYPE_CHECKING:
@@ -224,24 +225,23 @@ class Run:
             path.write_bytes(figure.data)
         return figure
 
-    def save(self, folder: str | os.PathLike[str], figures: tuple[str, ...] = ("svg", "png")) -> list[str]:
-        """Writes what ``squeezefilm solve --out`` writes, and returns the paths. figures: the formats of the figures;
-        ``"vtk"`` is the film at every instant for ParaView."""
-        return self._inner.save(os.fspath(folder), list(figures))
+    def save(self, folder: str | os.PathLike[str], figures: Iterable[str] = ("svg", "png")) -> list[str]:
+        """Writes what ``squeezefilm solve --out`` writes, and returns the paths. figures: the formats of the figures, ``"svg"``, ``"png"``
+        and ``"pdf"``; ``"vtk"`` is the film at every instant for ParaView and PyVista. Raises `SceneError` or `OSError`."""
+        return self._inner.save(os.fspath(folder), _text.several(figures))
 
     def __repr__(self) -> str:
         name, error = ("alpha", "alpha_error") if self.alpha is not None else ("mean_load_ratio", "mean_load_ratio_error")
         value, spread = self.summary()[name], self.summary()[error]
-        plus = "" if spread is None else f" ± {spread:.1g}"
-        return f"<squeezefilm.Run {self.preset!r}: {name} = {value:.6g}{plus}>"
+        return f"<squeezefilm.Run {self.preset!r}: {name} = {_squeezefilm.with_error(value, spread)}>"
 
     def _repr_html_(self) -> str:
         rows = []
         for words, (name, error, unit) in _HEADLINES.items():
             value, spread = self.summary()[name], self.summary()[error]
             if value is not None:
-                plus = "" if spread is None else f" ± {spread:.1g}"
-                rows.append((words, f"{value:.5g}{plus} {self.force_unit if unit == 'force_unit' else unit}"))
+                unit = self.force_unit if unit == "force_unit" else unit
+                rows.append((words, f"{_squeezefilm.with_error(value, spread)} {unit}"))
         if not self.converged:
             rows.append(("status", self.status))
         return rows_html((self.preset, ""), rows) + (self.figure(self.figures()[0])._repr_svg_() or "")

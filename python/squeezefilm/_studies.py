@@ -61,11 +61,12 @@ def sensitivity(
 ) -> Found:
     """Derivatives of the results by each key (all keys that are numbers, if none is named), each with its error.
 
-    uncertainties: one standard deviation of each key, ``0.5`` in its unit or ``"20%"``; `draws` random scenes are solved for them.
+    uncertainties: one standard deviation of each key, ``0.5`` in its unit or ``"20%"``; `draws` random scenes are solved for them (0, or 2
+    and more).
     Returns the object of ``squeezefilm sensitivity --json``. Raises `SceneError` or `SolveError`.
     """
     given = [(_text.key(name), str(amount)) for name, amount in (uncertainties or {}).items()]
-    asked = [_text.key(name) for name in keys]
+    asked = [_text.key(name) for name in _text.several(keys)]
     if asked:
         asked += [name for name, _ in given if name not in asked]
     how = _text.how(accuracy, fidelity)
@@ -108,8 +109,11 @@ def fit(
         source: tuple[str, str | None] = (os.fspath(data), None)
     else:
         columns = {name: list(data[name]) for name in data}
+        lengths = {name: len(column) for name, column in columns.items()}
+        if len({*lengths.values()}) > 1:
+            raise _squeezefilm.SceneError(f"data: columns of different lengths: {lengths}")
         source = ("data", Table.of_rows(dict(zip(columns, row)) for row in zip(*columns.values())).to_csv())
-    lists = (list(errors), list(skip))
+    lists = (_text.several(errors), _text.several(skip))
     how = _text.how(accuracy, fidelity, method)
     with told(progress, "fit", None) as tell:
         text, inner = _squeezefilm.fit(scene._inner, source, _bounds(vary), lists, starts, how, tell)
@@ -140,7 +144,7 @@ def optimise(
     goal = (maximise or minimise or "", maximise is not None)
     how = _text.how(accuracy, fidelity)
     with told(progress, "optimum", None) as tell:
-        text, inner = _squeezefilm.optimise(scene._inner, goal, _bounds(vary), list(subject_to), starts, how, tell)
+        text, inner = _squeezefilm.optimise(scene._inner, goal, _bounds(vary), _text.several(subject_to), starts, how, tell)
     return _found(text, inner)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,6 +36,11 @@ def toml(given: Any) -> str:
     return json.dumps(given, ensure_ascii=False) if isinstance(given, str) else value(given)
 
 
+def several(given: Iterable[str]) -> list[str]:
+    """Words, of which a single one may be given as it is."""
+    return [given] if isinstance(given, str) else list(given)
+
+
 def how(accuracy: float | str | None, fidelity: str | None, method: str = "auto") -> How:
     """How to solve."""
-    return {"accuracy": None if accuracy is None else str(accuracy), "fidelity": fidelity, "method": method}
+    return {"accuracy": None if accuracy is None else str(accuracy), "fidelity": None if fidelity is None else str(fidelity), "method": str(method)}

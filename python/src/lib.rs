@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::{self, Fidelity};
 use squeezefilm::solve::{Method, Record, Settings};
+use std::ops::RangeInclusive;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -34,6 +35,15 @@ fn solve_error(error: impl std::fmt::Display) -> PyErr {
 /// The error of bad input, or that of a solve.
 fn error_of(bad_input: bool, error: impl std::fmt::Display) -> PyErr {
     if bad_input { scene_error(error) } else { solve_error(error) }
+}
+
+/// A number of a keyword, if it is within the bounds that the command line has for it.
+fn within<T: PartialOrd + std::fmt::Display>(name: &str, value: T, allowed: RangeInclusive<T>) -> PyResult<T> {
+    if allowed.contains(&value) {
+        return Ok(value);
+    }
+    let (least, most) = allowed.into_inner();
+    Err(scene_error(format!("{name} = {value} is out of range: allowed {least} to {most}")))
 }
 
 /// How often Python is asked whether Ctrl-C was pressed.
@@ -143,6 +153,7 @@ fn _squeezefilm(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<run::Run>()?;
     module.add_function(wrap_pyfunction!(scene::built_in, module)?)?;
     module.add_function(wrap_pyfunction!(scene::keys, module)?)?;
+    module.add_function(wrap_pyfunction!(run::with_error, module)?)?;
     module.add_function(wrap_pyfunction!(many::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(many::points, module)?)?;
     module.add_function(wrap_pyfunction!(many::part, module)?)?;

@@ -13,11 +13,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Keys with their values, as `--vary` takes them.
 type Axes = Vec<(String, String)>;
 
-fn sweep_of(scene: &Scene, axes: Axes, how: &How) -> PyResult<Sweep> {
+fn sweep_of(scene: &Scene, axes: Axes, how: &How, part: Part) -> PyResult<Sweep> {
     let settings = how.settings(Record::Numbers)?;
     let vary = axes.into_iter().map(|(key, values)| format!("{key}={values}").parse::<Vary>());
     let vary = vary.collect::<Result<Vec<_>, _>>().map_err(scene_error)?;
-    Sweep::new(&scene.0, &vary, &settings).map_err(scene_error)
+    Sweep::of_part(&scene.0, &vary, &settings, part).map_err(scene_error)
 }
 
 /// The rows of a part; tells how much of it is done.
@@ -42,21 +42,21 @@ pub(crate) fn sweep(
     how: How,
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let sweep = sweep_of(scene, axes, &how)?;
+    let sweep = sweep_of(scene, axes, &how, Part::WHOLE)?;
     apart_on_all_cores(py, told, move |cancel, tell| csv(&sweep, &solved(&sweep, Part::WHOLE, cancel, tell)))?
 }
 
 /// How many points a sweep has.
 #[pyfunction]
 pub(crate) fn points(scene: &Scene, axes: Axes, how: How) -> PyResult<usize> {
-    sweep_of(scene, axes, &how).map(|sweep| sweep.len())
+    sweep_of(scene, axes, &how, Part::WHOLE).map(|sweep| sweep.len())
 }
 
 /// A part of a sweep, as text to be joined.
 #[pyfunction]
 pub(crate) fn part(py: Python<'_>, scene: &Scene, axes: Axes, how: How, part: &str) -> PyResult<String> {
-    let sweep = sweep_of(scene, axes, &how)?;
     let part: Part = part.parse().map_err(scene_error)?;
+    let sweep = sweep_of(scene, axes, &how, part)?;
     apart_on_all_cores(py, None, move |cancel, tell| {
         let mut text = Vec::new();
         saved::write(&sweep, part, &solved(&sweep, part, cancel, tell), &[], &mut text).map_err(solve_error)?;

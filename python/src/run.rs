@@ -77,6 +77,24 @@ impl Inner {
 
 /// The figure of torque over speed.
 const TORQUE: &str = "torque";
+/// The film at every instant, among the formats of figures.
+const VTK: &str = "vtk";
+
+/// The format of this name. `others`: what else `what` can be.
+fn known(what: &str, name: &str, others: &[&str]) -> PyResult<Format> {
+    let found = Format::WRITTEN.iter().find(|format| format.name() == name).copied();
+    let names = Format::WRITTEN.iter().map(|format| format.name()).chain(others.iter().copied());
+    found.ok_or_else(|| {
+        scene_error(format!("{what} = {name} is not allowed: one of {}", names.collect::<Vec<_>>().join(", ")))
+    })
+}
+
+/// A value and its error, to the digits that the error leaves.
+#[pyfunction]
+#[pyo3(signature = (value, error))]
+pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
+    squeezefilm::digits::with_error(value, error.unwrap_or(f64::INFINITY))
+}
 
 #[pymethods]
 impl Run {
@@ -129,10 +147,7 @@ impl Run {
 
     /// A figure as the bytes of a file.
     fn figure<'py>(&self, py: Python<'py>, name: String, format: &str) -> PyResult<Bound<'py, PyBytes>> {
-        let formats = Format::WRITTEN.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
-        let known = Format::WRITTEN.iter().find(|known| known.name() == format);
-        let format =
-            *known.ok_or_else(|| scene_error(format!("format = {format} is not allowed: one of {formats}")))?;
+        let format = known("format", format, &[])?;
         let inner = Arc::clone(&self.0);
         let drawn = apart(py, None, move |cancel, _| {
             let curves = if name == TORQUE { inner.complete(cancel).torque.as_ref() } else { None };
@@ -151,9 +166,8 @@ impl Run {
     /// Writes what `solve --out` writes, and returns the paths.
     fn save(&self, py: Python<'_>, folder: String, formats: Vec<String>) -> PyResult<Vec<String>> {
         let inner = Arc::clone(&self.0);
-        let known = |name: &String| Format::WRITTEN.iter().find(|format| format.name() == name).copied();
-        let vtk = formats.iter().any(|name| name == "vtk");
-        let formats: Vec<Format> = formats.iter().filter_map(known).collect();
+        let (vtk, formats): (Vec<_>, Vec<_>) = formats.into_iter().partition(|name| name == VTK);
+        let formats = formats.iter().map(|name| known("figures", name, &[VTK])).collect::<PyResult<Vec<_>>>()?;
         let written = apart_on_all_cores(py, None, move |cancel, _| {
             let summary = inner.complete(cancel);
             let solved = Solved {
@@ -165,7 +179,7 @@ impl Run {
             };
             let (folder, control) = (Path::new(&folder), Control { cancel, drawn: &|_, _| () });
             let mut paths = files::solve(folder, &solved, summary, &formats, &control)?;
-            if vtk {
+            if !vtk.is_empty() {
                 paths.extend(files::vtk(folder, &solved, &control)?);
             }
             Ok(paths)

@@ -1,7 +1,7 @@
 //! A scene.
 
 use crate::run::Run;
-use crate::{How, apart, scene_error, solve_error};
+use crate::{How, apart, scene_error, solve_error, within};
 use pyo3::prelude::*;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets::{self, BUILT_IN};
@@ -73,16 +73,20 @@ impl Scene {
     #[pyo3(signature = (how, budget_ms=None))]
     fn solve(&self, py: Python<'_>, how: How, budget_ms: Option<f64>) -> PyResult<Run> {
         let settings = how.settings(Record::Everything)?;
+        let budget = match budget_ms {
+            Some(time) => Some(Duration::from_secs_f64(1e-3 * within("budget_ms", time, 0.001..=86_400_000.0)?)),
+            None => None,
+        };
         let scene = self.0.clone();
         let problem = Problem::new(&scene).map_err(scene_error)?;
         let (problem, history, solution, wall_s) = apart(py, None, move |cancel, _| -> PyResult<_> {
             // Of a ring this takes its time.
             check(&problem, &settings).map_err(scene_error)?;
             let started = Instant::now();
-            let cancel = match budget_ms {
+            let cancel = match budget {
                 Some(budget) => cancel.with_budget(move || {
-                    let end = Instant::now() + Duration::from_secs_f64(1e-3 * budget.clamp(0.0, 1e9));
-                    move || Instant::now() >= end
+                    let started = Instant::now();
+                    move || started.elapsed() >= budget
                 }),
                 None => cancel.clone(),
             };

@@ -1,7 +1,7 @@
 //! What asks for many solves, or for a transient: the objects of `--json`, as text.
 
 use crate::scene::{Scene, cancelled, checked};
-use crate::{How, apart_on_all_cores, error_of, scene_error, solve_error};
+use crate::{How, apart_on_all_cores, error_of, scene_error, solve_error, within};
 use pyo3::prelude::*;
 use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, Measured, Model};
 use squeezefilm::analysis::sensitivity::{Sensitivity, SensitivityError, Uncertainties};
@@ -32,7 +32,7 @@ pub(crate) fn sensitivity(
     scene: &Scene,
     keys: Vec<String>,
     uncertainties: Vec<(String, String)>,
-    carlo: (usize, u64),
+    carlo: (i64, u64),
     how: How,
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
@@ -42,7 +42,8 @@ pub(crate) fn sensitivity(
         .map(|(key, amount)| Ok((key, amount.parse().map_err(scene_error)?)))
         .collect::<PyResult<Vec<_>>>()?;
     let uncertainties = Uncertainties::new(&scene.0, &given).map_err(scene_error)?;
-    let (scene, (draws, seed)) = (scene.0.clone(), carlo);
+    let (scene, seed) = (scene.0.clone(), carlo.1);
+    let draws = if carlo.0 == 0 { 0 } else { within("draws", carlo.0, 2..=1_000_000)? as usize };
     apart_on_all_cores(py, told, move |cancel, tell| {
         let counted = AtomicUsize::new(0);
         let count = |all: usize| tell((counted.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64);
@@ -60,6 +61,10 @@ pub(crate) fn sensitivity(
     })?
 }
 
+fn starts_of(starts: i64) -> PyResult<usize> {
+    within("starts", starts, 1..=MOST_STARTS as i64).map(|starts| starts as usize)
+}
+
 fn fit_error(error: FitError) -> PyErr {
     error_of(error.is_bad_input(), error)
 }
@@ -73,13 +78,13 @@ pub(crate) fn fit(
     data: (String, Option<String>),
     vary: Vec<String>,
     lists: (Vec<String>, Vec<String>),
-    starts: usize,
+    starts: i64,
     how: How,
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, Scene)> {
     let settings = how.settings(squeezefilm::solve::Record::Numbers)?;
     let (scene, bounds) = (scene.0.clone(), parsed::<Bounds>(&vary)?);
-    let (errors, skip) = (parsed::<ErrorSize>(&lists.0)?, lists.1);
+    let (errors, skip, starts) = (parsed::<ErrorSize>(&lists.0)?, lists.1, starts_of(starts)?);
     let measured = match data {
         (name, Some(text)) => Measured::from_csv(&text, &name, &Problem::new(&scene).map_err(scene_error)?),
         (name, None) => Measured::find(&name, &scene, settings.method),
@@ -104,13 +109,14 @@ pub(crate) fn optimise(
     goal: (String, bool),
     vary: Vec<String>,
     limits: Vec<String>,
-    starts: usize,
+    starts: i64,
     how: How,
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, Scene)> {
     let settings = how.settings(squeezefilm::solve::Record::Numbers)?;
     let (scene, bounds, limits) = (scene.0.clone(), parsed::<Bounds>(&vary)?, parsed::<Limit>(&limits)?);
     let goal = Goal::new(&scene, &goal.0, goal.1, &limits).map_err(fit_error)?;
+    let starts = starts_of(starts)?;
     apart_on_all_cores(py, told, move |cancel, tell| {
         let told = |points: usize, _: f64| tell(points as f64);
         let found = fitting::optimise(&scene, &bounds, &goal, &settings, (starts, cancel, &told));
@@ -125,13 +131,15 @@ pub(crate) fn optimise(
 pub(crate) fn startup(
     py: Python<'_>,
     scene: &Scene,
-    cycles: usize,
+    cycles: i64,
     tolerance: f64,
     how: How,
     told: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let problem = checked(scene)?;
     let (scene, fidelity) = (scene.0.clone(), how.own("a start-up is")?.fidelity);
+    let cycles = within("cycles", cycles, 1..=100_000)? as usize;
+    let tolerance = within("tolerance", tolerance, 1e-8..=0.1)?;
     let settings = transient::Settings { fidelity, cycles, tolerance, ..Default::default() };
     apart_on_all_cores(py, told, move |cancel, tell| {
         let began = Instant::now();

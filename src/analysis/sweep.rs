@@ -13,6 +13,7 @@ mod part;
 
 pub use axis::{Axis, MOST_KEYS, MOST_POINTS, MOST_VALUES, SweepError, Values, Vary, spaced};
 pub use part::Part;
+use part::{CHUNK, chunk, count};
 
 use super::attempt::attempt_from;
 use super::quantity::{Numbers, Quantity, force_unit};
@@ -31,9 +32,6 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::hash::Hasher;
 use std::ops::Range;
-
-/// Neighbours along the last axis that one thread solves one after the other.
-const CHUNK: usize = 4;
 
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,8 +56,6 @@ pub struct Sweep {
     vary: Vec<Vary>,
     settings: Settings,
     axes: Vec<Axis>,
-    /// The value of each axis at each point.
-    values: Vec<Vec<f64>>,
     /// The first point that can be solved.
     first: Problem,
 }
@@ -85,6 +81,14 @@ impl Sweep {
     /// # Errors
     /// [`SweepError`], which names the key, the value and what is allowed; if no point can be solved, that of the first.
     pub fn new(scene: &Scene, vary: &[Vary], settings: &Settings) -> Result<Self, SweepError> {
+        Self::of_part(scene, vary, settings, Part::WHOLE)
+    }
+
+    /// The same of which only a part is to be solved: that alone has to be small enough.
+    ///
+    /// # Errors
+    /// Those of [`Sweep::new`].
+    pub fn of_part(scene: &Scene, vary: &[Vary], settings: &Settings, part: Part) -> Result<Self, SweepError> {
         if !(1..=MOST_KEYS).contains(&vary.len()) {
             return Err(SweepError::Axes { found: vary.len() });
         }
@@ -94,21 +98,24 @@ impl Sweep {
                 return Err(SweepError::Twice { key: axis.parameter.key.to_owned() });
             }
         }
-        let count = axes.iter().fold(1_usize, |count, axis| count.saturating_mul(axis.values.len()));
-        if count > MOST_POINTS {
-            return Err(SweepError::Points { found: count });
+        let found = part.points(&axes).len();
+        if found > MOST_POINTS {
+            return Err(SweepError::Points { found, parts: part.of() });
         }
-        let values: Vec<Vec<f64>> = (0..count).map(|point| values_at(&axes, point)).collect();
         let mut fault = None;
-        let first = values.iter().find_map(|values| match solvable(scene, &axes, values, settings) {
-            Ok(problem) => Some(problem),
-            Err(error) => {
-                fault.get_or_insert(error);
-                None
+        // Of a larger sweep some points, which are those of every part.
+        let looked_at = (0..count(&axes)).step_by(count(&axes).div_ceil(MOST_POINTS));
+        let first = looked_at.map(|point| values_at(&axes, point)).find_map(|values| {
+            match solvable(scene, &axes, &values, settings) {
+                Ok(problem) => Some(problem),
+                Err(error) => {
+                    fault.get_or_insert(error);
+                    None
+                }
             }
         });
         let first = first.ok_or(fault.unwrap_or(SweepError::Axes { found: 0 }))?;
-        Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes, values })
+        Ok(Self { first, scene: scene.clone(), vary: vary.to_vec(), settings: *settings, axes })
     }
 
     /// The axes; the last varies fastest.
@@ -138,17 +145,17 @@ impl Sweep {
 
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.values.len()
+        count(&self.axes)
     }
 
     /// Never: a sweep has points.
     pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
+        self.len() == 0
     }
 
     /// The value of each axis at a point.
-    pub fn values(&self, point: usize) -> &[f64] {
-        &self.values[point]
+    pub fn values(&self, point: usize) -> Vec<f64> {
+        values_at(&self.axes, point)
     }
 
     /// The scene of a point, for solving it alone.
@@ -156,12 +163,12 @@ impl Sweep {
     /// # Errors
     /// The point breaks a rule between keys.
     pub fn scene_at(&self, point: usize) -> Result<Scene, SceneError> {
-        varied(&self.scene, &self.axes, self.values(point))
+        varied(&self.scene, &self.axes, &self.values(point))
     }
 
     /// What is to be solved at a point, or why nothing can be.
     fn problem_at(&self, point: usize) -> Result<Problem, String> {
-        let problem = solvable(&self.scene, &self.axes, self.values(point), &self.settings);
+        let problem = solvable(&self.scene, &self.axes, &self.values(point), &self.settings);
         let problem = problem.map_err(|error| error.to_string())?;
         let (found, unit) = (force_unit(&problem), force_unit(&self.first));
         if found == unit {
@@ -212,53 +219,38 @@ impl Sweep {
     /// The points of a part. They begin and end where chunks do that are solved from one cold start, and so the parts together are
     /// the whole, to the last bit. A part of a small sweep can be empty.
     pub fn points_of(&self, part: Part) -> Range<usize> {
-        let chunks = self.chunks();
-        let start =
-            |part_of: usize| chunks.get(part_of * chunks.len() / part.of()).map_or(self.len(), |chunk| chunk.start);
-        start(part.number() - 1)..start(part.number())
+        part.points(&self.axes)
     }
 
     /// As [`Sweep::run`], of the points of a part alone.
     pub fn run_part(&self, part: Part, done: &[Row], cancel: &Cancel, finished: &(dyn Fn(&Row) + Sync)) -> Vec<Row> {
         let points = self.points_of(part);
-        let mut rows: Vec<Option<Row>> = vec![None; self.len()];
+        let mut rows: Vec<Option<Row>> = vec![None; points.len()];
         for row in done {
-            if let Some(place) = rows.get_mut(row.point) {
+            if let Some(place) = row.point.checked_sub(points.start).and_then(|place| rows.get_mut(place)) {
                 *place = Some(row.clone());
             }
         }
-        let solved: Vec<Vec<Row>> = self
-            .chunks()
+        let solved: Vec<Vec<Row>> = part
+            .chunks(&self.axes)
             .into_par_iter()
-            .filter(|chunk| points.contains(&chunk.start))
-            .map(|chunk| {
-                if rows[chunk.clone()].iter().all(Option::is_some) {
+            .map(|number| {
+                let chunk = chunk(&self.axes, number);
+                if rows[chunk.start - points.start..chunk.end - points.start].iter().all(Option::is_some) {
                     return Vec::new();
                 }
                 self.solve_chunk(chunk, cancel, &|row| {
-                    if rows[row.point].is_none() {
+                    if rows[row.point - points.start].is_none() {
                         finished(row);
                     }
                 })
             })
             .collect();
         for row in solved.into_iter().flatten() {
-            let place = row.point;
+            let place = row.point - points.start;
             rows[place] = Some(row);
         }
         rows.into_iter().flatten().collect()
-    }
-
-    /// The points in runs of neighbours along the last axis, none across its end.
-    fn chunks(&self) -> Vec<Range<usize>> {
-        let line = self.axes.last().map_or(1, |axis| axis.values.len());
-        let mut chunks = Vec::new();
-        for start in (0..self.len()).step_by(line.max(1)) {
-            for from in (start..start + line).step_by(CHUNK) {
-                chunks.push(from..(from + CHUNK).min(start + line));
-            }
-        }
-        chunks
     }
 
     /// Solves the points of a chunk one after the other; ends early if cancelled.
@@ -277,7 +269,7 @@ impl Sweep {
             let problem = self.problem_at(point);
             let mut row = Row {
                 point,
-                values: self.values[point].clone(),
+                values: self.values(point),
                 status: RunStatus::Waiting,
                 numbers: Numbers::default(),
                 outside: Vec::new(),
@@ -408,7 +400,7 @@ mod tests {
         assert_ne!(slip.fingerprint(), sweep("fundamental", &["film.slip=first-order,none"]).unwrap().fingerprint());
         let three = ["film.slip=none,first-order", "motor.waves=7:8:2", "film.min_spacing_nm=100:150:3"];
         let three = sweep("fundamental", &three).unwrap();
-        assert_eq!((three.len(), three.values(10)), (12, &[1.0, 8.0, 125.0][..]));
+        assert_eq!((three.len(), three.values(10)), (12, vec![1.0, 8.0, 125.0]));
     }
 
     #[test]
@@ -430,10 +422,11 @@ mod tests {
     #[test]
     fn chunks_cover_every_point_once_and_stay_on_a_line() {
         let sweep = sweep("fundamental", &["motor.waves=1:3:3", "film.min_spacing_nm=100:150:6"]).unwrap();
-        let chunks = sweep.chunks();
+        let chunks: Vec<Range<usize>> =
+            Part::WHOLE.chunks(sweep.axes()).map(|number| chunk(sweep.axes(), number)).collect();
         assert_eq!(chunks.iter().cloned().flatten().collect::<Vec<_>>(), (0..18).collect::<Vec<_>>());
         assert!(chunks.iter().all(|chunk| chunk.start / 6 == (chunk.end - 1) / 6));
-        assert_eq!((sweep.values(0), sweep.values(7)), (&[1.0, 100.0][..], &[2.0, 110.0][..]));
+        assert_eq!((sweep.values(0), sweep.values(7)), (vec![1.0, 100.0], vec![2.0, 110.0]));
     }
 
     #[test]

@@ -80,12 +80,12 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
-    let sweep = Sweep::new(&scene, &arguments.vary, &settings)?;
+    let part = arguments.part.unwrap_or(Part::WHOLE);
+    let sweep = Sweep::of_part(&scene, &arguments.vary, &settings, part)?;
     let varies = |key: &str| sweep.axes().iter().any(|axis| axis.parameter.key == key);
     if varies(PRESSURE) && !varies("film.mean_free_path_nm") && !varies("film.gas") {
         warn_of_given_path(&scene);
     }
-    let part = arguments.part.unwrap_or(Part::WHOLE);
     let points = sweep.points_of(part).len();
     let command = &of_the_whole(command);
     let folder = arguments.common.output.out.as_deref();
@@ -339,7 +339,7 @@ mod tests {
         numbers.set(Quantity::Alpha, 0.25);
         let row = |point: usize, status: RunStatus| {
             let outside = if point == 2 { vec!["slip-law", "sound"] } else { Vec::new() };
-            Row { point, values: sweep.values(point).to_vec(), status, numbers, outside }
+            Row { point, values: sweep.values(point), status, numbers, outside }
         };
         let mut rows = vec![row(0, RunStatus::Converged)];
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Solved);

@@ -7,7 +7,7 @@
 use super::sweep::{BETWEEN, FIRST, VALIDITY, header, record};
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::{Numbers, Quantity};
-use crate::analysis::sweep::{Part, Row, Sweep, SweepError, Vary, digest};
+use crate::analysis::sweep::{MOST_POINTS, Part, Row, Sweep, SweepError, Vary, digest};
 use crate::analysis::validity::NAMES;
 use crate::scene::Scene;
 use crate::solve::Settings;
@@ -157,7 +157,7 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
                 numbers.set(*quantity, value);
             }
         }
-        rows.push(Row { point, values: sweep.values(point).to_vec(), status, numbers, outside });
+        rows.push(Row { point, values: sweep.values(point), status, numbers, outside });
     }
     Ok(rows)
 }
@@ -191,6 +191,14 @@ pub enum JoinError {
         name: String,
         /// Why.
         source: SweepError,
+    },
+    /// More points than one sweep can have.
+    #[error(
+        "{found} points: joined are up to {MOST_POINTS}; of more, each file of a part is a table by itself, whose first line is a comment"
+    )]
+    Large {
+        /// How many.
+        found: usize,
     },
     /// Parts of as many, and parts of another number.
     #[error("{name}: it is part {found}, and the parts before it are of {of}")]
@@ -241,7 +249,10 @@ pub fn join(parts: &[(String, String)]) -> Result<Joined, JoinError> {
     let fault = |name: &str, source| JoinError::Read { name: name.to_owned(), source };
     let Some((first, text)) = parts.first() else { return Err(JoinError::Missing { parts: "all".to_owned() }) };
     let begun = head(text).map_err(|source| fault(first, source))?;
-    let sweep = begun.sweep().map_err(|source| JoinError::Sweep { name: first.clone(), source })?;
+    let sweep = begun.sweep().map_err(|source| match source {
+        SweepError::Points { found, .. } => JoinError::Large { found },
+        source => JoinError::Sweep { name: first.clone(), source },
+    })?;
     let fingerprint = sweep.fingerprint();
     let part_of = |name: &str, head: &Head| head.part.parse::<Part>().map_err(|error| fault(name, damaged(1, error)));
     let of = part_of(first, &begun)?.of();

@@ -397,7 +397,7 @@ pub(super) mod tests {
         let failed = RunStatus::Failed("film, step 3: no \"solution\",\nat all".to_owned());
         let row = |point: usize, status: RunStatus| Row {
             point,
-            values: sweep.values(point).to_vec(),
+            values: sweep.values(point),
             status,
             numbers,
             outside: vec!["slip-law", "sound"],
@@ -423,13 +423,7 @@ pub(super) mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = Row {
-            point: 1,
-            values: plane.values(1).to_vec(),
-            status: RunStatus::Converged,
-            numbers,
-            outside: Vec::new(),
-        };
+        let row = Row { point: 1, values: plane.values(1), status: RunStatus::Converged, numbers, outside: Vec::new() };
         let drawn = figure(&plane, &[row]);
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));

@@ -9,7 +9,7 @@ use std::str::FromStr;
 
 /// Most values of one key.
 pub const MOST_VALUES: usize = 10_000;
-/// Most points of a sweep.
+/// Most points of a sweep, or of a part of it that is solved alone.
 pub const MOST_POINTS: usize = 100_000;
 /// Most keys that are varied at once.
 pub const MOST_KEYS: usize = 3;
@@ -248,10 +248,15 @@ pub enum SweepError {
         key: String,
     },
     /// More points than anyone waits for.
-    #[error("vary: {found} points: allowed up to {MOST_POINTS}")]
+    #[error(
+        "vary: {found} points{}: allowed up to {MOST_POINTS}, or as many in each part of sweep --part",
+        if *parts == 1 { String::new() } else { format!(" in one of {parts} parts") }
+    )]
     Points {
         /// How many.
         found: usize,
+        /// In one of how many parts; 1 is the whole.
+        parts: usize,
     },
     /// A value outside its range, or a key that does not exist.
     #[error("{0}")]

@@ -1,7 +1,8 @@
-//! Parts of a sweep, for many machines.
+//! Parts of a sweep, for many machines, and the chunks that they are made of. Both follow from the axes alone.
 
-use super::axis::MOST_POINTS;
+use super::axis::{Axis, MOST_POINTS};
 use std::fmt;
+use std::ops::Range;
 use std::str::FromStr;
 
 /// A part of a sweep: the third of 64 is `3/64`.
@@ -29,6 +30,43 @@ impl Part {
     pub fn number(self) -> usize {
         self.number
     }
+
+    /// The numbers of its chunks.
+    pub(super) fn chunks(self, axes: &[Axis]) -> Range<usize> {
+        let all = (count(axes) / line(axes)).saturating_mul(line(axes).div_ceil(CHUNK)) as u128;
+        let start = |parts: usize| (parts as u128 * all / self.of as u128) as usize;
+        start(self.number - 1)..start(self.number)
+    }
+
+    /// Its points.
+    pub(super) fn points(self, axes: &[Axis]) -> Range<usize> {
+        let chunks = self.chunks(axes);
+        start(axes, chunks.start)..start(axes, chunks.end)
+    }
+}
+
+/// Neighbours along the last axis that one thread solves one after the other.
+pub(super) const CHUNK: usize = 4;
+
+/// How many points there are over these axes.
+pub(super) fn count(axes: &[Axis]) -> usize {
+    axes.iter().fold(1, |count, axis| count.saturating_mul(axis.values.len()))
+}
+
+/// How many of them are along the last axis.
+fn line(axes: &[Axis]) -> usize {
+    axes.last().map_or(1, |axis| axis.values.len().max(1))
+}
+
+/// The first point of a chunk: chunks are runs of neighbours along the last axis, none across its end.
+fn start(axes: &[Axis], chunk: usize) -> usize {
+    let each = line(axes).div_ceil(CHUNK);
+    chunk / each * line(axes) + chunk % each * CHUNK
+}
+
+/// The points of a chunk.
+pub(super) fn chunk(axes: &[Axis], number: usize) -> Range<usize> {
+    start(axes, number)..start(axes, number + 1)
 }
 
 impl fmt::Display for Part {
@@ -54,10 +92,12 @@ impl FromStr for Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::sweep::Sweep;
+    use crate::analysis::sweep::{Sweep, SweepError};
+    use crate::control::Cancel;
+    use crate::fidelity::Fidelity;
     use crate::scene::presets;
     use crate::solve::Settings;
-    use std::ops::Range;
+    use std::sync::Mutex;
 
     #[test]
     fn parts_cover_every_point_once_and_no_chunk_is_cut() {
@@ -66,9 +106,58 @@ mod tests {
         for of in [1, 2, 3, 7, 8, 9, 64] {
             let points: Vec<Range<usize>> = Part::all(of).map(|part| sweep.points_of(part)).collect();
             assert_eq!(points.iter().cloned().flatten().collect::<Vec<_>>(), (0..sweep.len()).collect::<Vec<_>>());
-            let starts: Vec<usize> = sweep.chunks().iter().map(|chunk| chunk.start).collect();
+            let starts: Vec<usize> =
+                Part::WHOLE.chunks(sweep.axes()).map(|number| start(sweep.axes(), number)).collect();
             assert!(points.iter().all(|points| points.is_empty() || starts.contains(&points.start)), "{points:?}");
         }
+    }
+
+    #[test]
+    fn of_a_large_sweep_a_part_is_enough() {
+        let scene = presets::find("fundamental").unwrap();
+        let vary =
+            ["motor.load_per_wave_n=1:5:1000", "film.min_spacing_nm=50:500:1000", "stator.frequency_khz=3:100:101"];
+        let vary = vary.map(|text| text.parse().unwrap());
+        let of = |part: &str| Sweep::of_part(&scene, &vary, &Settings::default(), part.parse().unwrap());
+        let (first, last) = (of("1/2000").unwrap(), of("2000/2000").unwrap());
+        assert_eq!((first.len(), first.fingerprint()), (101_000_000, last.fingerprint()));
+        let points: Vec<Range<usize>> = Part::all(2000).map(|part| first.points_of(part)).collect();
+        assert!(points.windows(2).all(|pair| pair[0].end == pair[1].start && pair[0].len().abs_diff(50_500) < 101));
+        assert_eq!((points[0].start, points[1999].end), (0, first.len()));
+        assert_eq!(first.values(first.len() - 1), [5.0, 500.0, 100.0]);
+        for (part, found) in [("1/1", 101_000_000), ("3/1000", 101_000)] {
+            let parts = part.split_once('/').unwrap().1.parse().unwrap();
+            assert_eq!(of(part).unwrap_err(), SweepError::Points { found, parts });
+        }
+    }
+
+    #[test]
+    fn a_part_of_a_large_sweep_solves_its_points_alone() {
+        let scene = presets::find("fundamental").unwrap();
+        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+        let part: Part = "50000/100000".parse().unwrap();
+        let vary =
+            ["motor.load_per_wave_n=1:5:1000", "film.min_spacing_nm=50:500:400"].map(|text| text.parse().unwrap());
+        let large = Sweep::of_part(&scene, &vary, &settings, part).unwrap();
+        let told = Mutex::new(Vec::new());
+        let rows = large.run_part(part, &[], &Cancel::new(), &|row| told.lock().unwrap().push(row.point));
+        assert_eq!((rows.len(), told.into_inner().unwrap()), (4, large.points_of(part).collect()));
+        let list = |key: &str, axis: usize| {
+            let mut values: Vec<String> = rows.iter().map(|row| row.values[axis].to_string()).collect();
+            values.dedup();
+            if axis == 0 {
+                values.push("5".to_owned())
+            }
+            format!("{key}={}", values.join(",")).parse().unwrap()
+        };
+        let small = [list("motor.load_per_wave_n", 0), list("film.min_spacing_nm", 1)];
+        let small = Sweep::new(&scene, &small, &settings).unwrap().run_part(
+            "1/2".parse().unwrap(),
+            &[],
+            &Cancel::new(),
+            &|_| (),
+        );
+        assert!(rows.iter().zip(&small).all(|(one, other)| one.numbers == other.numbers && one.values == other.values));
     }
 
     #[test]
