@@ -3,7 +3,9 @@
 use crate::scene::{Scene, cancelled, checked};
 use crate::{How, apart_on_all_cores, error_of, scene_error, solve_error, within};
 use pyo3::prelude::*;
-use squeezefilm::analysis::fit::{self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, Measured, Model};
+use squeezefilm::analysis::fit::{
+    self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, MOST_STARTS, Measured, Model,
+};
 use squeezefilm::analysis::sensitivity::{Sensitivity, SensitivityError, Uncertainties};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::fit::{Object as Fit, OptimumObject};

@@ -40,6 +40,9 @@ def test_a_sweep_is_a_table(table):
 def test_pandas_and_polars_take_it(table):
     pandas = pytest.importorskip("pandas")
     assert pandas.DataFrame(table).set_index(KEY)["alpha"].iloc[0] == table["alpha"][0]
+    part = sf._many._part(SCENE, [(KEY, "50:800:150:log")], sf._text.how(None, "draft"), "1/50")
+    # docs/python.md: the file of a part is a table below its first line.
+    assert list(pandas.read_csv(io.StringIO(part), skiprows=1)["alpha"]) == pytest.approx(list(table["alpha"][:4]), abs=2e-3)
     polars = pytest.importorskip("polars")
     assert polars.DataFrame(table).filter(polars.col("alpha") > 0.5).height == (table["alpha"] > 0.5).sum()
 
@@ -52,6 +55,17 @@ def test_several_keys_and_words():
         sf.sweep(SCENE, "motor.waves", [6])
     with pytest.raises(sf.SceneError, match="film.min_spacing_nm = 3"):
         sf.sweep(SCENE, KEY, [3, 100])
+    same(sf.sweep(SCENE, KEY, "100:300:3", fidelity="draft"), sf.sweep(SCENE, KEY, "100:300:3:lin", fidelity="draft"))
+
+
+def test_a_part_of_more_points_than_a_sweep_can_have():
+    axes, how = [(KEY, "50:500:10000"), ("stator.frequency_khz", "10:50:1000")], sf._text.how(None, "draft")
+    text = sf._many._part(SCENE, axes, how, "50000/100000")
+    assert len(text.splitlines()) == 2 + 100
+    with pytest.raises(sf.SceneError, match="10000000 points: joined are up to 100000"):
+        sf._squeezefilm.join([("it", text)])
+    with pytest.raises(sf.SceneError, match="10000000 points: allowed up to 100000, or as many in each part"):
+        sf.sweep(SCENE, dict(axes), progress=False)
 
 
 def test_the_table_has_the_same_bytes_from_any_number_of_workers(table):

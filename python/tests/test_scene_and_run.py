@@ -1,6 +1,9 @@
 import importlib.resources
+import os
 import pickle
+import shutil
 import signal
+import subprocess
 import threading
 import time
 import tomllib
@@ -36,6 +39,8 @@ def test_fields_have_the_shapes_of_their_axes(run):
     assert np.allclose(load, run.fields()["film_load_n"][1])
     assert run.fields()["film_load_n"][1].mean() == pytest.approx(run.film_load_n)
     assert run.pressure_kpa.min() > 0
+    # A view of what the library handed over, made once; xarray has the same.
+    assert run.pressure_kpa is run.pressure_kpa and not run.pressure_kpa.flags.owndata
     with pytest.raises(AttributeError, match="presure"):
         run.presure_kpa
 
@@ -103,6 +108,19 @@ def test_bad_names_and_settings():
         sf.preset("fundamental").solve(method="magic")
     with pytest.raises(sf.SceneError, match="plate"):
         sf.preset("plate-trapped").solve(method="paper")
+    for budget in (-1, float("nan"), float("inf")):
+        with pytest.raises(sf.SceneError, match="budget_ms = .* is out of range: allowed 0.001 to 86400000"):
+            sf.preset("fundamental").solve(budget_ms=budget)
+
+
+@pytest.mark.skipif("SQUEEZEFILM" not in os.environ and not shutil.which("squeezefilm"), reason="there is no command line")
+@pytest.mark.parametrize("setting", ["film.min_spacing_nm=-1", "film.min_spacing=3", "film.slip=cubic", "motor.waves=6.5", "film.gas=neon"])
+def test_a_message_is_that_of_the_command_line(setting):
+    program = os.environ.get("SQUEEZEFILM", "squeezefilm")
+    told = subprocess.run([program, "solve", "fundamental", "--set", setting], capture_output=True, text=True).stderr
+    with pytest.raises(sf.SceneError) as raised:
+        sf.preset("fundamental").with_(dict([setting.split("=")])).solve()
+    assert told == f"error: {raised.value}\n"
 
 
 def test_ctrl_c_ends_what_takes_long():
@@ -147,7 +165,7 @@ def test_what_does_not_converge_is_returned_with_a_warning():
 
 def test_a_notebook_shows_numbers_and_the_wave(run):
     shown = run._repr_html_()
-    assert "±" in shown and "<svg" in shown and len(shown) < 200_000
+    assert f"{run.alpha:.4f} ± {run.alpha_error:.4f}" in shown and "<svg" in shown and len(shown) < 200_000
     plate = sf.preset("plate-trapped").solve(fidelity="draft")
     assert "<svg" in plate._repr_html_() and plate.mean_load_ratio > 0
 
@@ -162,7 +180,9 @@ def test_figures_are_those_of_the_library(run, tmp_path):
         run.figure("waves")
     with pytest.raises(sf.SceneError, match="format = bmp is not allowed"):
         run.figure("wave.bmp")
-    written = run.save(tmp_path / "results", figures=("svg",))
+    with pytest.raises(sf.SceneError, match="figures = bmp is not allowed: one of svg, png, pdf, vtk"):
+        run.save(tmp_path / "results", figures=("svg", "bmp"))
+    written = run.save(tmp_path / "results", figures="svg")
     assert {"fields.npz", "summary.json", "torque.csv", "wave.svg"} <= {path.rsplit("/", 1)[-1] for path in written}
     fields = np.load(tmp_path / "results" / "fields.npz")
     assert all(np.array_equal(fields[name], array) for name, (_, array) in run.fields().items())
@@ -210,6 +230,7 @@ def test_xarray(run, tmp_path):
     pytest.importorskip("scipy")
     data = run.to_xarray()
     assert isinstance(data, xarray.Dataset) and data.pressure_kpa.dims == ("frame", "map_x", "map_y")
+    assert np.shares_memory(data.pressure_kpa.values, run.pressure_kpa)
     assert (data.pressure_kpa.units, data.film_n_per_m.units, data.stator_nm.units) == ("kPa", "N/m", "nm")
     assert sf.preset("plate-trapped").solve(fidelity="draft").to_xarray().pressure_kpa.size
     data.to_netcdf(tmp_path / "run.nc", engine="scipy")

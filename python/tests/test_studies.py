@@ -11,8 +11,10 @@ def test_sensitivity():
     derivative = alpha["by"][0]
     assert derivative["key"] == "film.min_spacing_nm" and derivative["derivative"] < 0
     assert found.monte_carlo["solved"] == 8 and found["converged"]
-    with pytest.raises(sf.SceneError, match="min_spacing"):
-        sf.sensitivity(SCENE, ["film.min_spacing"])
+    with pytest.raises(sf.SceneError, match="unknown key film.min_spacing: did you mean film.min_spacing_nm"):
+        sf.sensitivity(SCENE, "film.min_spacing")
+    with pytest.raises(sf.SceneError, match="draws = -1 is out of range: allowed 2 to 1000000"):
+        sf.sensitivity(SCENE, "film.min_spacing_nm", draws=-1)
 
 
 def test_a_fit_finds_the_key_that_the_measurements_were_made_with():
@@ -40,6 +42,10 @@ def test_table_1_is_there_to_be_fitted_and_bad_tables_are_told(tmp_path):
         sf.fit(SCENE, tmp_path / "data.csv", {"film.min_spacing_nm": (100, 400)})
     with pytest.raises(sf.SceneError, match="film.min_spacing_nm=100"):
         sf.fit(SCENE, "table1", {"film.min_spacing_nm": (100,)})
+    with pytest.raises(sf.SceneError, match="columns of different lengths: {'motor.load_per_wave_n': 2, 'alpha': 1}"):
+        sf.fit(SCENE, {"motor.load_per_wave_n": [1, 2], "alpha": [0.3]}, {"film.min_spacing_nm": (100, 400)})
+    with pytest.raises(sf.SceneError, match="starts = 0 is out of range: allowed 1 to 10000"):
+        sf.fit(SCENE, "table1", {"film.min_spacing_nm": (100, 400)}, starts=0)
 
 
 def test_an_optimum():
@@ -61,6 +67,9 @@ def test_a_start_up_ends_where_the_periodic_solve_says():
     assert abs(cycles["alpha"][-1] - found.steady) < found.steady_error + cycles["alpha_error"][-1] + 2e-3
     dropped = sf.startup(sf.preset("floating-disc"), cycles=5, fidelity="draft")
     assert not dropped.converged and dropped.table()["height_um"].size == 6
+    for bad in ({"cycles": 0}, {"tolerance": 1}):
+        with pytest.raises(sf.SceneError, match="is out of range"):
+            sf.startup(SCENE, **bad)
 
 
 def test_a_held_plate_is_pressed_apart_when_it_is_pushed_together():

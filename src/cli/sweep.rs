@@ -65,7 +65,8 @@ pub(super) struct Arguments {
     /// Solves a part of the points, as 3/64 the third of 64; squeezefilm join makes the whole of all parts
     ///
     /// Parts follow from the points alone. Each can be solved on another machine, and together they are what one machine gives, byte by
-    /// byte. A part that was ended before it was complete is gone on with by the same command.
+    /// byte. A part that was ended before it was complete is gone on with by the same command. At most 100 000 points are in a part, and are
+    /// joined; all parts together may have more.
     #[arg(long, value_name = "NUMBER/COUNT", requires = "out")]
     part: Option<Part>,
 

@@ -194,7 +194,7 @@ pub enum JoinError {
     },
     /// More points than one sweep can have.
     #[error(
-        "{found} points: joined are up to {MOST_POINTS}; of more, each file of a part is a table by itself, whose first line is a comment"
+        "{found} points: joined are up to {MOST_POINTS}; of more, the file of each part is a table by itself, below its first line"
     )]
     Large {
         /// How many.
