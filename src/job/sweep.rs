@@ -24,7 +24,7 @@ pub type SweepTask = Task<SweepMessage, Result<Vec<Row>, String>>;
 /// A sweep, as it is carried to where it is computed.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Points {
-    /// To be built of a scene, what is varied, and how it is solved. There can be 100 000 points to make.
+    /// To be built of a scene, what is varied, and how it is solved. There can be 100 000 points to look at.
     New(Scene, Vec<Vary>, Settings),
     /// Built, with the rows that are known.
     Known(#[serde(with = "shared")] Arc<Sweep>, Vec<Row>),
