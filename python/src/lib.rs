@@ -14,6 +14,7 @@ use squeezefilm::fidelity::{self, Fidelity};
 use squeezefilm::solve::{Method, Record, Settings};
 use std::ops::RangeInclusive;
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 create_exception!(
@@ -52,6 +53,18 @@ const ASKED: Duration = Duration::from_millis(50);
 /// Tells how much is done, from any thread.
 type Tell<'a> = &'a (dyn Fn(f64) + Sync);
 
+/// How many of many are done, told in order from any thread.
+#[derive(Default)]
+struct Counted(Mutex<usize>);
+
+impl Counted {
+    fn one_more(&self, all: usize, tell: Tell<'_>) {
+        let mut done = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *done += 1;
+        tell(*done as f64 / all.max(1) as f64);
+    }
+}
+
 /// Does `work` on a thread of its own, without Python's lock, until it is done or Ctrl-C is pressed. What `work` reports is given
 /// to `told`, if there is one, in Python.
 fn apart<T: Send + 'static>(
@@ -65,7 +78,7 @@ fn apart<T: Send + 'static>(
     }
     let cancel = Cancel::new();
     let (sender, events) = channel();
-    let (inside, shares) = (cancel.clone(), std::sync::Mutex::new(sender.clone()));
+    let (inside, shares) = (cancel.clone(), Mutex::new(sender.clone()));
     let listens = told.is_some();
     std::thread::spawn(move || {
         let tell = |share: f64| {
@@ -76,7 +89,7 @@ fn apart<T: Send + 'static>(
         let done = work(&inside, &tell);
         let _ = sender.send(Event::Done(done));
     });
-    let events = std::sync::Mutex::new(events);
+    let events = Mutex::new(events);
     loop {
         let event = py.detach(|| events.lock().map_or(Err(RecvTimeoutError::Disconnected), |e| e.recv_timeout(ASKED)));
         match event {

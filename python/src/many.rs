@@ -1,14 +1,13 @@
 //! Sweeps, at once or in parts on other machines.
 
 use crate::scene::Scene;
-use crate::{How, apart_on_all_cores, scene_error, solve_error};
+use crate::{Counted, How, apart_on_all_cores, scene_error, solve_error};
 use pyo3::prelude::*;
 use squeezefilm::analysis::sweep::{Part, Row, Sweep, Vary};
 use squeezefilm::control::Cancel;
 use squeezefilm::export::saved;
 use squeezefilm::export::sweep::write_csv;
 use squeezefilm::solve::Record;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Keys with their values, as `--vary` takes them.
 type Axes = Vec<(String, String)>;
@@ -22,8 +21,8 @@ fn sweep_of(scene: &Scene, axes: Axes, how: &How, part: Part) -> PyResult<Sweep>
 
 /// The rows of a part; tells how much of it is done.
 fn solved(sweep: &Sweep, part: Part, cancel: &Cancel, tell: crate::Tell<'_>) -> Vec<Row> {
-    let (done, all) = (AtomicUsize::new(0), sweep.points_of(part).len());
-    sweep.run_part(part, &[], cancel, &|_| tell((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all as f64))
+    let (done, all) = (Counted::default(), sweep.points_of(part).len());
+    sweep.run_part(part, &[], cancel, &|_| done.one_more(all, tell))
 }
 
 fn csv(sweep: &Sweep, rows: &[Row]) -> PyResult<String> {

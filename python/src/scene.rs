@@ -10,6 +10,9 @@ use squeezefilm::solve::{Record, check, solve};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+/// A key, its value, its unit and what it is.
+type Entry = (&'static str, Py<PyAny>, &'static str, String);
+
 /// A motor or a plate.
 #[pyclass(frozen, module = "squeezefilm._squeezefilm")]
 pub(crate) struct Scene(pub(crate) Edited);
@@ -55,7 +58,7 @@ impl Scene {
     }
 
     /// The keys, each with its value, its unit and what it is.
-    fn values(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Py<PyAny>, &'static str, String)>> {
+    fn values(&self, py: Python<'_>) -> PyResult<Vec<Entry>> {
         let value = |value: Option<Value>| -> PyResult<Py<PyAny>> {
             Ok(match value {
                 None => py.None(),

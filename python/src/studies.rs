@@ -1,7 +1,7 @@
 //! What asks for many solves, or for a transient: the objects of `--json`, as text.
 
 use crate::scene::{Scene, cancelled, checked};
-use crate::{How, apart_on_all_cores, error_of, scene_error, solve_error, within};
+use crate::{Counted, How, apart_on_all_cores, error_of, scene_error, solve_error, within};
 use pyo3::prelude::*;
 use squeezefilm::analysis::fit::{
     self as fitting, Bounds, ErrorSize, FitError, Goal, Limit, MOST_STARTS, Measured, Model,
@@ -19,7 +19,6 @@ use squeezefilm::solution::settled;
 use squeezefilm::solve::{Settings, solve};
 use squeezefilm::startup as transient;
 use std::str::FromStr;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 fn parsed<T: FromStr<Err: std::fmt::Display>>(texts: &[String]) -> PyResult<Vec<T>> {
@@ -47,16 +46,15 @@ pub(crate) fn sensitivity(
     let (scene, seed) = (scene.0.clone(), carlo.1);
     let draws = if carlo.0 == 0 { 0 } else { within("draws", carlo.0, 2..=1_000_000)? as usize };
     apart_on_all_cores(py, told, move |cancel, tell| {
-        let counted = AtomicUsize::new(0);
-        let count = |all: usize| tell((counted.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64);
-        let found = Sensitivity::of(&scene, &keys, &settings, cancel, &count);
+        let (solved, drawn) = (Counted::default(), Counted::default());
+        let found = Sensitivity::of(&scene, &keys, &settings, cancel, &|all| solved.one_more(all, tell));
         let bad_input =
             |error: &SensitivityError| !matches!(error, SensitivityError::Solve(error) if !error.is_bad_input());
         let found = found.map_err(|error| error_of(bad_input(&error), error))?.ok_or_else(cancelled)?;
-        counted.store(0, Ordering::Relaxed);
+        let one_more = || drawn.one_more(draws, tell);
         let carlo = match draws {
             0 => None,
-            _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &|| count(draws)).ok_or_else(cancelled)?),
+            _ => Some(found.monte_carlo(&uncertainties, draws, seed, cancel, &one_more).ok_or_else(cancelled)?),
         };
         let found = Found { sensitivity: &found, uncertainties: &uncertainties, carlo: carlo.as_ref() };
         Ok(json::document(&found.object(&settings.fidelity.to_string()), &[]))

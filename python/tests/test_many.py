@@ -29,7 +29,7 @@ def same(one, other):
 def test_a_sweep_is_a_table(table):
     told = []
     few = sf.sweep(SCENE, KEY, VALUES[:8], fidelity="draft", progress=told.append)
-    assert table.rows == 150 and np.allclose(table[KEY], VALUES) and len(told) == 8 and told[-1] == 1
+    assert table.rows == 150 and np.allclose(table[KEY], VALUES) and told == [i / 8 for i in range(1, 9)]
     assert (np.diff(table["alpha"]) < 0).all() and (table["status"] == "converged").all()
     assert np.array_equal(few["alpha"], table["alpha"][:8])
     assert "150 rows" in repr(table) and "… 150 rows" in table._repr_html_()
@@ -40,7 +40,7 @@ def test_a_sweep_is_a_table(table):
 def test_pandas_and_polars_take_it(table):
     pandas = pytest.importorskip("pandas")
     assert pandas.DataFrame(table).set_index(KEY)["alpha"].iloc[0] == table["alpha"][0]
-    part = sf._many._part(SCENE, [(KEY, "50:800:150:log")], sf._text.how(None, "draft"), "1/50")
+    part = sf._many._part(SCENE, [(KEY, "50:800:150:log")], sf._text.how(None, "draft"), "1/38")
     # docs/python.md: the file of a part is a table below its first line.
     assert list(pandas.read_csv(io.StringIO(part), skiprows=1)["alpha"]) == pytest.approx(list(table["alpha"][:4]), abs=2e-3)
     polars = pytest.importorskip("polars")
