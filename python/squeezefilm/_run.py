@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +25,7 @@ _TORQUE = frozenset({"merit"})
 #: Numbers that a notebook shows, with their error and their unit.
 _HEADLINES = {
     "share of the load on the film α": ("alpha", "alpha_error", ""),
+    "mean gap at which it floats": ("mean_gap_um", "mean_gap_error_um", "µm"),
     "load over ambient pressure × area": ("mean_load_ratio", "mean_load_ratio_error", ""),
     "film load": ("film_load_n", "film_load_error_n", "force_unit"),
     "stall torque": ("stall_torque_nm", "stall_torque_error_nm", "N m"),
@@ -231,17 +232,19 @@ class Run:
         return self._inner.save(os.fspath(folder), _text.several(figures))
 
     def __repr__(self) -> str:
-        name, error = ("alpha", "alpha_error") if self.alpha is not None else ("mean_load_ratio", "mean_load_ratio_error")
-        value, spread = self.summary()[name], self.summary()[error]
-        return f"<squeezefilm.Run {self.preset!r}: {name} = {_squeezefilm.with_error(value, spread)}>"
+        name, value, _ = next(self._headlines())[1]
+        return f"<squeezefilm.Run {self.preset!r}: {name} = {value}>"
+
+    def _headlines(self) -> Iterator[tuple[str, tuple[str, str, str]]]:
+        """In words, and by name, the numbers that there are of `_HEADLINES`, with their errors and units."""
+        numbers = {**self.summary(), **(self.floating or {})}
+        for words, (name, error, unit) in _HEADLINES.items():
+            if numbers.get(name) is not None:
+                unit = self.force_unit if unit == "force_unit" else unit
+                yield words, (name, _squeezefilm.with_error(numbers[name], numbers[error]), unit)
 
     def _repr_html_(self) -> str:
-        rows = []
-        for words, (name, error, unit) in _HEADLINES.items():
-            value, spread = self.summary()[name], self.summary()[error]
-            if value is not None:
-                unit = self.force_unit if unit == "force_unit" else unit
-                rows.append((words, f"{_squeezefilm.with_error(value, spread)} {unit}"))
+        rows = [(words, f"{value} {unit}") for words, (_, value, unit) in self._headlines()]
         if not self.converged:
             rows.append(("status", self.status))
         return rows_html((self.preset, ""), rows) + (self.figure(self.figures()[0])._repr_svg_() or "")

@@ -168,6 +168,9 @@ def test_a_notebook_shows_numbers_and_the_wave(run):
     assert f"{run.alpha:.4f} ± {run.alpha_error:.4f}" in shown and "<svg" in shown and len(shown) < 200_000
     plate = sf.preset("plate-trapped").solve(fidelity="draft")
     assert "<svg" in plate._repr_html_() and plate.mean_load_ratio > 0
+    floating = sf.preset("floating-disc").solve(fidelity="draft")
+    gap = f"{floating.floating['mean_gap_um']:.4f}"
+    assert f"mean_gap_um = {gap}" in repr(floating) and f"it floats</td><td>{gap}" in floating._repr_html_()
 
 
 def test_figures_are_those_of_the_library(run, tmp_path):
