@@ -18,6 +18,9 @@ impl Updater {
     /// Moves what is animated on by `elapsed` \[s\]; whether anything moves.
     pub fn animate(&mut self, elapsed: f64) -> bool {
         let state = &mut self.state;
+        if let Some(hold) = state.held() {
+            return hold.animate(elapsed);
+        }
         if !state.view.playing || state.on_timeline().is_none() {
             return false;
         }
@@ -89,6 +92,7 @@ impl Updater {
             HoldCommand::By(share) => hold.move_to(hold.target() + share * mean_gap),
             HoldCommand::LetGo { vibrates } => hold.let_go(vibrates),
             HoldCommand::Reset => hold.reset(),
+            HoldCommand::Replay => hold.replay(),
             HoldCommand::Seconds(seconds) => hold.set_seconds(seconds),
         }
     }

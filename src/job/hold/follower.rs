@@ -45,12 +45,14 @@ pub(super) struct Target {
     pub(super) reset: bool,
     /// It is let go, and whether the face below it vibrates.
     pub(super) free: Option<bool>,
+    /// Nothing moves, and no time passes.
+    pub(super) paused: bool,
 }
 
 impl Target {
     /// Held at the mean gap.
     pub(super) fn first(plate: &Plate, slowed: f64) -> Self {
-        Self { gap: plate.mean_gap, slowed, reset: false, free: None }
+        Self { gap: plate.mean_gap, slowed, reset: false, free: None, paused: false }
     }
 }
 
@@ -71,13 +73,13 @@ impl Follower {
         Self { hold: Hold::new(plate, &plan), last: None, number: 0, pace: 1.0 }
     }
 
-    /// Whether neither the plate nor the pressure moves.
+    /// Whether neither the plate nor the pressure moves, or may.
     pub(super) fn rests(&self, target: &Target) -> bool {
         let still = match target.free {
             Some(vibrates) => !vibrates && self.hold.is_still(),
             None => (target.gap - self.hold.gap()).abs() <= THERE * self.hold.gap(),
         };
-        !target.reset && still && self.hold.unrest() <= AT_REST
+        !target.reset && (target.paused || still && self.hold.unrest() <= AT_REST)
     }
 
     /// Marches the film on to the time `began`. Where that fails it is put to rest.
