@@ -331,7 +331,7 @@ fn what_lessons_compute_by_hand_is_right() {
     assert!((1.0 + 6.0 * 0.32 - 2.92f64).abs() < 1e-12);
     // Lesson 6: 63 teeth on 58 mm; lesson 7: how much lower a round tooth is at its edge, and the short way out.
     says(6, "All 63 of the ring");
-    says(6, "a ring of 58 mm across");
+    says(6, "a ring 58 mm across");
     let scene = presets::find("fundamental").unwrap();
     let get = |key: &str| scene.get(key).unwrap().as_number().unwrap();
     assert_eq!(get("motor.waves") * get("stator.teeth_per_wave"), 63.0);
