@@ -272,7 +272,6 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     let [paused, _] = readings(&window);
     wait(&mut window);
     assert_eq!(readings(&window), [paused; 2], "nothing goes on");
-    assert!(gap(window.state()) < 0.95, "it has not yet arrived: {paused:?}");
 
     // Back to what was recorded, and step by step.
     window.key_press(Key::Home);
@@ -307,10 +306,9 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     window.get_by_label("Stop");
     let hold = window.state().state().hold.as_ref().unwrap();
     let next = hold.trail().find(|reading| reading.time > paused.time).unwrap();
-    // A reading is at most 60 ms of the clock after the one before.
-    assert!(next.time - paused.time < 0.061 / hold.slowed(), "{next:?} after {paused:?}");
-    assert!((next.gap / paused.gap - 1.0).abs() < 0.1, "{next:?} after {paused:?}");
-    until(&mut window, "it rises further", |app| gap(app) > paused.gap / 5e-6 + 0.05);
+    // The first reading is 20 ms of the clock later, however long it was paused.
+    assert!((next.time - paused.time) * hold.slowed() < 0.0201, "{next:?} after {paused:?}");
+    assert!((next.gap / paused.gap - 1.0).abs() < 0.15, "{next:?} after {paused:?}");
 
     // A hand that takes it is not kept waiting.
     window.key_press(Key::Space);

@@ -53,7 +53,7 @@ const CLAIMS: &[Claim] = &[
         8.0,
         0.003,
     ),
-    (9, "less than 2.3 µm", "floating-finger-pad", &["plate.amplitude_um=0.58"], "min_gap_nm", 2255.0, 0.005),
+    (9, "below 2.3 µm", "floating-finger-pad", &["plate.amplitude_um=0.58"], "min_gap_nm", 2255.0, 0.005),
 ];
 
 fn numbers(preset: &str, set: &[&str]) -> Numbers {
@@ -235,7 +235,7 @@ fn what_lesson_9_says_of_a_plate_that_floats_is_right() {
     let (force, weight) = (101_325.0 * std::f64::consts::PI * 0.008f64.powi(2), 0.1 * 9.80665);
     assert!((force - 20.4).abs() < 0.05 && (weight - 0.98f64).abs() < 0.005);
     states(9, "The root is 5.1, and 8 µm over 5.1 is 1.57 µm", (1.25 * force / weight).sqrt(), 5.1, 0.005);
-    says(9, "Neither the frequency nor the viscosity is in it");
+    says(9, "Neither the frequency nor the viscosity is in the formula.");
     assert!((disc(&["plate.frequency_khz=10"], "mean_gap_um") / disc(&[], "mean_gap_um") - 1.0).abs() < 0.02);
     says(9, "About 3 kg");
     assert!(disc(&["plate.mass_g=3000"], "min_gap_nm") > 200.0);

@@ -11,16 +11,13 @@ mod page;
 mod thread;
 
 use follower::Target;
-pub use follower::{Snapshot, slowed};
+pub use follower::{SNAPSHOTS, Snapshot, slowed};
 #[cfg(target_arch = "wasm32")]
 pub use page::HeldPlate;
 #[cfg(not(target_arch = "wasm32"))]
 pub use thread::HeldPlate;
 
 use crate::hold::Hold;
-
-/// Snapshots that are kept at most: those of 10 s of the clock, and of some more where marching takes longer.
-pub const SNAPSHOTS: usize = 512;
 
 /// What is asked of a held plate, wherever it is marched.
 impl HeldPlate {

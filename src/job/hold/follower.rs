@@ -11,6 +11,8 @@ use std::time::Duration;
 /// How often the film is marched on, and how much time at most is made up for at once.
 pub(super) const TICK: Duration = Duration::from_millis(20);
 const MOST: Duration = Duration::from_millis(60);
+/// Snapshots that are kept at most: those of 10 s of the clock, and of some more where marching takes longer.
+pub const SNAPSHOTS: usize = 512;
 /// A hand is not faster than this \[s\]: the gap follows what is asked for with this time constant.
 const HAND: f64 = 0.03;
 /// Where the gap is what was asked for, a share of it, and |p/p_a − 1| below which the film is at rest.

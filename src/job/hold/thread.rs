@@ -1,7 +1,6 @@
 //! A held plate of a process: a named thread marches its film.
 
-use super::SNAPSHOTS;
-use super::follower::{Follower, Snapshot, TICK, Target};
+use super::follower::{Follower, SNAPSHOTS, Snapshot, TICK, Target};
 use crate::platform::Instant;
 use crate::problem::Plate;
 use std::collections::VecDeque;
