@@ -13,6 +13,7 @@ use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::startup::StartupState;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::hold::Reading;
 use squeezefilm::problem::Scenario;
 use squeezefilm::scene::presets;
 use squeezefilm::solution::{Outcome, Status};
@@ -235,6 +236,91 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     assert_eq!(ratio(window.state()), 0.0);
 }
 
+/// What is read off the held plate now, and as it is shown.
+fn readings(window: &Window) -> [Reading; 2] {
+    let hold = window.state().state().hold.as_ref().unwrap();
+    [hold.now().reading, hold.shown().reading]
+}
+
+/// Some redraws, in which a held plate that goes on would have gone on.
+fn wait(window: &mut Window) {
+    for _ in 0..10 {
+        std::thread::sleep(Duration::from_millis(20));
+        window.run_steps(2);
+    }
+}
+
+#[test]
+fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
+    let mut window = window("floating-disc", HOLD);
+    solved(&mut window);
+    window.get_by_role_and_label(Role::Slider, "Recorded time");
+    for _ in 0..12 {
+        window.key_press(Key::ArrowDown);
+        window.step();
+    }
+    until(&mut window, "it is pushed down", |app| gap(app) < 0.45);
+    click(&mut window, "Let go");
+    until(&mut window, "it rises", |app| {
+        gap(app) > 0.5 && app.state().hold.as_ref().is_some_and(|hold| hold.trail().len() > 30)
+    });
+
+    window.key_press(Key::Space);
+    wait(&mut window);
+    window.get_by_label("Play");
+    window.get_by_label("paused");
+    let [paused, _] = readings(&window);
+    wait(&mut window);
+    assert_eq!(readings(&window), [paused; 2], "nothing goes on");
+
+    // Back to what was recorded, and step by step.
+    window.key_press(Key::Home);
+    window.run_steps(2);
+    let [now, first] = readings(&window);
+    assert_eq!(now, paused);
+    let recorded: Vec<Reading> = window.state().state().hold.as_ref().unwrap().trail().copied().collect();
+    assert!(recorded.len() > 30 && first == recorded[0], "{first:?}");
+    window.get_by_label_contains(" ago");
+    window.key_press(Key::ArrowRight);
+    window.run_steps(2);
+    assert_eq!(readings(&window), [paused, recorded[1]]);
+    window.key_press(Key::ArrowLeft);
+    window.run_steps(2);
+    assert_eq!(readings(&window), [paused, first]);
+
+    // Played to its end, it is paused where it was.
+    click(&mut window, "Replay");
+    until(&mut window, "it is played", |app| {
+        let shown = app.state().hold.as_ref().unwrap().shown().reading.time;
+        shown > recorded[5].time && shown < paused.time
+    });
+    window.get_by_label("Pause");
+    until(&mut window, "it is played to the end", |app| !app.state().hold.as_ref().unwrap().plays());
+    window.run_steps(2);
+    assert_eq!(readings(&window), [paused; 2]);
+    window.get_by_label("paused");
+
+    // It goes on from there: neither held nor at rest, and no time is missed.
+    click(&mut window, "Play");
+    until(&mut window, "it goes on", |app| app.state().hold.as_ref().unwrap().now().reading.time > paused.time);
+    window.get_by_label("Stop");
+    let hold = window.state().state().hold.as_ref().unwrap();
+    let next = hold.trail().find(|reading| reading.time > paused.time).unwrap();
+    // The first reading is 20 ms of the clock later, however long it was paused.
+    assert!((next.time - paused.time) * hold.slowed() < 0.0201, "{next:?} after {paused:?}");
+    assert!((next.gap / paused.gap - 1.0).abs() < 0.15, "{next:?} after {paused:?}");
+
+    // A hand that takes it is not kept waiting.
+    window.key_press(Key::Space);
+    wait(&mut window);
+    window.key_press(Key::ArrowDown);
+    until(&mut window, "it follows the hand", |app| app.state().hold.as_ref().unwrap().plays());
+    until(&mut window, "it is there", |app| {
+        let hold = app.state().hold.as_ref().unwrap();
+        (hold.now().reading.gap / hold.target() - 1.0).abs() < 1e-3
+    });
+}
+
 #[test]
 fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     let mut window = window("floating-disc", HOLD);
@@ -258,6 +344,9 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     let heights: Vec<f64> =
         window.state().state().dropped.as_ref().unwrap().cycles().iter().map(|cycle| cycle.height.value).collect();
     assert!(heights[0] > 9.9e-6 && heights[60] < 0.8 * heights[0], "{heights:?}");
+    window.run_steps(2);
+    assert!(window.state().state().dropped.as_ref().unwrap().running());
+    window.get_by_label_contains("; the periodic solve has 4.96");
     window.get_by_role_and_label(Role::Image, "Height of the plate over time");
     click(&mut window, "Cancel");
     until(&mut window, "it ends", |app| app.state().dropped.as_ref().is_some_and(|dropped| !dropped.running()));

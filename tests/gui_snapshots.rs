@@ -105,7 +105,7 @@ fn pollster_wait<T>(future: impl std::future::Future<Output = T>) -> T {
 /// The window on a preset, solved, standing at a phase in which several teeth touch.
 fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
     let scene = presets::find(preset).unwrap();
-    let platform = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few, storage: None };
+    let platform = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
     let mut window = Harness::builder()
         .with_size(Vec2::from(size))
         .with_pixels_per_point(1.0)

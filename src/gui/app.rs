@@ -162,7 +162,7 @@ impl eframe::App for App {
             // Only OpenGL is sure to have cleared the window with this.
             ui.painter().rect_filled(ctx.content_rect(), 0.0, ui.visuals().panel_fill);
         }
-        if self.updater.state.observe() {
+        if self.updater.observe() {
             ctx.request_repaint();
         }
         let cx = DrawContext::new(self.state(), self.updater.now());

@@ -113,13 +113,13 @@ pub enum Command {
     CloseExportNote,
     /// Writes this to a file.
     WriteExport(Export, PathBuf),
-    /// Play or pause.
+    /// Play or pause what moves in the middle.
     TogglePlay,
     /// Moves by this many frames, pausing.
     StepFrames(i64),
     /// The pointer is at this x of a view \[m\], or in none.
     Hover(Option<f64>),
-    /// Jumps to this phase of the cycle, 0 to 1, pausing.
+    /// Jumps to this phase of the cycle, or share of what is recorded of a held plate, 0 to 1, pausing.
     Seek(f64),
     /// Seconds on screen for one cycle.
     SecondsPerCycle(f64),
@@ -303,6 +303,8 @@ pub enum HoldCommand {
     },
     /// Puts the film to rest at the mean gap, and clears the charts.
     Reset,
+    /// Plays what the charts hold once more.
+    Replay,
     /// Slow motion: the leak time takes this many seconds.
     Seconds(f64),
 }

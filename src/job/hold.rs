@@ -1,7 +1,7 @@
 //! A plate held by hand, that follows the hand in slow motion.
 //!
 //! Its film is marched on while the plate moves or the pressure still relaxes, paced by the clock. Only the newest gap that is asked for
-//! counts. What is published is bounded: one snapshot, and the samples since they were last taken. In a process a named thread marches
+//! counts. What is published is bounded: the newest snapshots since they were last taken. In a process a named thread marches
 //! (`thread`), and sleeps when nothing moves; a page marches before each redraw (`page`).
 
 mod follower;
@@ -10,7 +10,8 @@ mod page;
 #[cfg(not(target_arch = "wasm32"))]
 mod thread;
 
-pub use follower::{Snapshot, slowed};
+use follower::Target;
+pub use follower::{SNAPSHOTS, Snapshot, slowed};
 #[cfg(target_arch = "wasm32")]
 pub use page::HeldPlate;
 #[cfg(not(target_arch = "wasm32"))]
@@ -23,12 +24,17 @@ impl HeldPlate {
     /// Moves the plate to `gap` \[m\], or as near as it may come.
     pub fn move_to(&self, gap: f64) {
         let gap = Hold::within_reach(&self.plate, gap);
-        self.ask(|target| (target.gap, target.free) = (gap, None));
+        self.ask(|target| *target = Target { gap, free: None, paused: false, ..*target });
+    }
+
+    /// Stops plate, film and their clock, or lets them go on from where they are, and as fast.
+    pub fn pause(&self, paused: bool) {
+        self.ask(|target| target.paused = paused);
     }
 
     /// Lets a plate under a load go, above a face that vibrates or stands still.
     pub fn let_go(&self, vibrates: bool) {
-        self.ask(|target| target.free = Some(vibrates));
+        self.ask(|target| (target.free, target.paused) = (Some(vibrates), false));
     }
 
     /// Takes `slowed` seconds for a second of the film from now on.
@@ -38,7 +44,6 @@ impl HeldPlate {
 
     /// Puts the film to rest at the mean gap.
     pub fn reset(&self) {
-        let gap = self.plate.mean_gap;
-        self.ask(|target| (target.gap, target.reset, target.free) = (gap, true, None));
+        self.ask(|target| *target = Target { reset: true, ..Target::first(&self.plate, target.slowed) });
     }
 }

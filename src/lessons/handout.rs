@@ -65,7 +65,7 @@ fn on_paper(pieces: &mut Vec<Piece>, step: &Step, known: &Quoted, answers: bool)
             pieces.push(Piece::Text(format!("Sketch: {before}solid what you saw.")));
             pieces.push(Piece::Axes(axes.map(str::to_owned)));
         }
-        if let (Some(observe), false) = (step.observe.as_ref().filter(|observe| !observe.ask.is_empty()), answers) {
+        if let Some(observe) = step.observe.as_ref().filter(|observe| !observe.ask.is_empty()) {
             pieces.extend(lines(&observe.ask, &known.told).map(Piece::Text));
             choices(pieces, observe, answers);
         }

@@ -35,6 +35,9 @@ pub struct Record {
     pub success: Option<bool>,
     /// Tries that it took.
     pub tries: usize,
+    /// When it was done, ISO 8601 in UTC; empty if that is not known.
+    #[serde(default)]
+    pub time: String,
 }
 
 /// Names of verbs by the registry of xAPI.
@@ -48,31 +51,47 @@ const VERBS: &[(&str, &str)] = &[
 pub fn of(lesson: &Lesson, work: &[StepWork]) -> Vec<Record> {
     let mut records = Vec::new();
     for (i, (step, work)) in lesson.steps.iter().zip(work).enumerate() {
-        let mut add = |kind: &str, verb: &str, response: String, success: Option<bool>, tries: usize| {
+        let times = work.times;
+        let mut add = |kind: &str, verb: &str, response: String, success: Option<bool>, tries: usize, time| {
             let (lesson, title) = (lesson.id.clone(), step.title.clone());
             let (kind, verb) = (kind.to_owned(), verb.to_owned());
-            records.push(Record { lesson, step: i + 1, title, kind, verb, response, success, tries });
+            let time = Option::map_or_else(time, String::new, iso_8601);
+            records.push(Record { lesson, step: i + 1, title, kind, verb, response, success, tries, time });
         };
         if let (Some(question), Some(given), true) = (&step.question, work.prediction, work.committed) {
             let right = question.answer.is_right(given);
             let kind = if question.kind == Kind::Calculate { "calculation" } else { "prediction" };
-            add(kind, "answered", words(question, given), Some(right), work.wrong + usize::from(right));
+            add(kind, "answered", words(question, given), Some(right), work.wrong + usize::from(right), times.question);
         }
         if let (Some(_), true) = (&step.task, work.fulfilled) {
             let response = format!("{} hints", work.hints);
-            add("task", "completed", response, Some(!work.shown), 1);
+            add("task", "completed", response, Some(!work.shown), 1, times.task);
         }
         if let (Some(observe), Some(choice)) = (&step.observe, work.observed) {
             let right = work.misread == 0;
             let response = words(observe, Prediction::Choice(choice));
-            add("observation", "answered", response, Some(right), work.misread + 1);
+            add("observation", "answered", response, Some(right), work.misread + 1, times.observation);
         }
         if work.left {
             let verb = if work.stage(step) == Stage::Told { "completed" } else { "skipped" };
-            add("step", verb, String::new(), None, 1);
+            add("step", verb, String::new(), None, 1, times.step);
         }
     }
     records
+}
+
+/// The date and time so many seconds after the beginning of 1970, UTC. The Gregorian calendar repeats after 400 years, here those that
+/// begin in March, so that the day that may be missing is the last (H. Hinnant, "chrono-compatible low-level date algorithms", 2014).
+fn iso_8601(seconds: u64) -> String {
+    let (days, of_day) = (seconds / 86_400 + 719_468, seconds % 86_400);
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
+    let of_year = day - (365 * year + year / 4 - year / 100);
+    let since_march = (5 * of_year + 2) / 153;
+    let day = of_year - (153 * since_march + 2) / 5 + 1;
+    let (month, next) = if since_march < 10 { (since_march + 3, 0) } else { (since_march - 9, 1) };
+    let (hour, minute, second) = (of_day / 3600, of_day / 60 % 60, of_day % 60);
+    format!("{:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z", 400 * era + year + next)
 }
 
 fn words(question: &Question, given: Prediction) -> String {
@@ -95,12 +114,15 @@ pub fn statements(student: &str, records: &[Record]) -> String {
         if let Some(success) = record.success {
             result["success"] = json!(success);
         }
-        let statement = json!({
+        let mut statement = json!({
             "actor": { "objectType": "Agent", "account": { "homePage": "urn:squeezefilm", "name": student } },
             "verb": { "id": id, "display": { "en": record.verb } },
             "object": { "id": activity, "definition": { "name": { "en": record.title } } },
             "result": result,
         });
+        if !record.time.is_empty() {
+            statement["timestamp"] = json!(record.time);
+        }
         format!("{statement}\n")
     };
     records.iter().map(line).collect()
@@ -218,12 +240,16 @@ mod tests {
         if !skipped {
             work[0].observed = Some(2);
         }
+        work[0].note_times(1_795_383_744);
+        // The first time counts.
+        work[0].note_times(1_795_383_999);
         of(&lesson, &work)
     }
 
     #[test]
     fn what_was_done_is_told_and_read_again() {
-        let records = answered(2, false);
+        let mut records = answered(2, false);
+        assert!(records.iter().all(|record| record.time == "2026-11-22T21:42:24Z"), "{records:?}");
         let kinds: Vec<(&str, &str, Option<bool>)> =
             records.iter().map(|record| (record.kind.as_str(), record.verb.as_str(), record.success)).collect();
         let all = [
@@ -244,9 +270,28 @@ mod tests {
             let verb = statement["verb"]["id"].as_str().unwrap();
             assert!(verb.starts_with("http") && verb.ends_with(&record.verb));
             assert_eq!(statement["result"]["success"].as_bool(), record.success);
+            assert_eq!(statement["timestamp"], record.time);
         }
+        // A record of before times were noted.
+        let table = std::fs::read_to_string(&path).unwrap().replace(",time", "").replace(",2026-11-22T21:42:24Z", "");
+        std::fs::write(&path, table).unwrap();
+        records.iter_mut().for_each(|record| record.time.clear());
+        assert_eq!(read(&path).unwrap(), records);
+        assert!(!super::statements("anna", &records).contains("timestamp"));
         std::fs::write(&path, "lesson,step\n1,x\n").unwrap();
         assert!(read(&path).unwrap_err().to_string().contains("is not a record of answers"));
+    }
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        let dates = [
+            (0, "1970-01-01T00:00:00Z"),
+            (951_868_799, "2000-02-29T23:59:59Z"),
+            (951_868_800, "2000-03-01T00:00:00Z"),
+            (1_798_761_599, "2026-12-31T23:59:59Z"),
+            (4_107_542_400, "2100-03-01T00:00:00Z"),
+        ];
+        dates.iter().for_each(|(seconds, date)| assert_eq!(iso_8601(*seconds), *date));
     }
 
     #[test]

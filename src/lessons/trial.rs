@@ -53,8 +53,8 @@ pub enum Fault {
     NoWrong,
     /// A text quotes a number that the run does not have, as written.
     Unknown(String),
-    /// A wrong choice without a reply, from 1.
-    NoReply(usize),
+    /// A wrong choice without a reply: which.
+    NoReply(String),
     /// The scene could not be solved, and why.
     Unsolved(String),
 }
@@ -76,7 +76,7 @@ impl fmt::Display for Fault {
             Self::NoTry => f.write_str("no try: nobody can be shown how, and the check is not tried"),
             Self::NoWrong => f.write_str("no wrong: it is not tried whether the check can fail"),
             Self::Unknown(source) => write!(f, "{{{source}}} is not known in the run that does the task"),
-            Self::NoReply(choice) => write!(f, "choice {choice} is wrong and has no reply"),
+            Self::NoReply(choice) => write!(f, "{choice} is wrong and has no reply"),
             Self::Unsolved(why) => write!(f, "the scene was not solved: {why}"),
         }
     }
@@ -133,13 +133,16 @@ fn wanted(step: &Step) -> Vec<Live> {
     step.task.iter().flat_map(|task| task.check.live()).chain(quoted.flat_map(Reading::live)).collect()
 }
 
-/// Wrong choices of the question without a reply.
+/// Wrong choices without a reply, of the question and of what is to be observed, if that has choices of its own.
 fn replies(step: &Step) -> Vec<Fault> {
-    let Some(Answer::Choice { choices, right }) = step.question.as_ref().map(|question| &question.answer) else {
-        return Vec::new();
-    };
-    let silent = choices.iter().enumerate().filter(|(i, choice)| i != right && choice.reply.is_empty());
-    silent.map(|(i, _)| Fault::NoReply(i + 1)).collect()
+    let observe = step.observe.as_ref().filter(|observe| !observe.ask.is_empty());
+    let mut faults = Vec::new();
+    for (asked, of) in [(step.question.as_ref(), ""), (observe, " of observe")] {
+        let Some(Answer::Choice { choices, right }) = asked.map(|question| &question.answer) else { continue };
+        let silent = choices.iter().enumerate().filter(|(i, choice)| i != right && choice.reply.is_empty());
+        faults.extend(silent.map(|(i, _)| Fault::NoReply(format!("choice {}{of}", i + 1))));
+    }
+    faults
 }
 
 /// A run, and what is read off the tabs beside it.

@@ -44,6 +44,8 @@ pub struct StepWork {
     pub left: bool,
     /// Numbers of the run that fulfilled the task, as texts quote them.
     pub readings: BTreeMap<String, f64>,
+    /// When it was done.
+    pub times: Times,
     /// Why the task is not fulfilled, of the newest run.
     #[serde(skip)]
     pub unmet: Option<String>,
@@ -53,6 +55,20 @@ pub struct StepWork {
     /// Whether the newest run goes beyond what the task is about.
     #[serde(skip)]
     pub too_far: bool,
+}
+
+/// When something was done in a step \[s since 1970, UTC\], as far as it was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Times {
+    /// The answer was committed to.
+    pub question: Option<u64>,
+    /// The task was fulfilled.
+    pub task: Option<u64>,
+    /// It was said what was seen.
+    pub observation: Option<u64>,
+    /// The student went on.
+    pub step: Option<u64>,
 }
 
 /// What a step waits for.
@@ -89,6 +105,16 @@ impl StepWork {
 
     fn has_seen(&self, observe: &Question) -> bool {
         self.observed.is_some_and(|choice| observe.answer.is_right(Prediction::Choice(choice)))
+    }
+
+    /// Notes that what is done, and was not when this was last asked for, was done at `now` \[s since 1970, UTC\].
+    pub fn note_times(&mut self, now: u64) {
+        let Times { question, task, observation, step } = &mut self.times;
+        let observed = self.observed.is_some();
+        let parts = [(self.committed, question), (self.fulfilled, task), (observed, observation), (self.left, step)];
+        for (_, time) in parts.into_iter().filter(|(done, _)| *done) {
+            time.get_or_insert(now);
+        }
     }
 
     /// Gives the answer, for now.

@@ -10,7 +10,7 @@ mod web;
 pub use native::*;
 #[cfg(target_arch = "wasm32")]
 pub use web::*;
-pub use web_time::Instant;
+pub use web_time::{Instant, SystemTime};
 
 /// What a file dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

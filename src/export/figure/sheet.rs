@@ -21,8 +21,10 @@ const LINE: f64 = 1.32;
 const RULED: f64 = 1.9;
 const AXES: f64 = 6.5;
 const INDENT: f64 = 1.4;
-/// A heading keeps as much with it.
+/// A heading keeps as much with it, and a paragraph as much of its own and for each choice that follows it.
 const HEADING_WITH: f64 = 10.0;
+const TEXT_WITH: f64 = 2.5;
+const CHOICE: f64 = 2.0;
 
 /// A part of a sheet, below what comes before it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,14 +69,17 @@ pub fn sheets_to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, Figu
 /// A sheet in type of this size: the body of each of its pages.
 fn set(sheet: &[Piece], size: f64) -> Vec<String> {
     let mut setter = Setter { pages: vec![Svg::default()], column: 0, y: MARGIN, size };
-    for piece in sheet {
+    for (i, piece) in sheet.iter().enumerate() {
         match piece {
             Piece::Title(text) => setter.words(text, 0.0, 1.6, Colour::FILM, 0.0),
             Piece::Heading(text) => {
                 setter.keep(HEADING_WITH * size);
                 setter.words(text, 0.0, 1.15, Colour::BLACK, 0.8);
             }
-            Piece::Text(text) => setter.words(text, 0.0, 1.0, Colour::BLACK, 0.25),
+            Piece::Text(text) => {
+                setter.keep(kept_with_text(&sheet[i + 1..]) * size);
+                setter.words(text, 0.0, 1.0, Colour::BLACK, 0.25);
+            }
             Piece::Answer(text) => setter.words(text, 0.0, 1.0, Colour::FILM, 0.25),
             Piece::Choice(text, ticked) => {
                 let indent = INDENT * size;
@@ -87,6 +92,17 @@ fn set(sheet: &[Piece], size: f64) -> Vec<String> {
         }
     }
     setter.pages.into_iter().map(|page| page.body).collect()
+}
+
+/// The height of what a paragraph keeps with it of what comes `next`, its choices or axes, and of itself.
+fn kept_with_text(next: &[Piece]) -> f64 {
+    match next.first() {
+        Some(Piece::Axes(_)) => TEXT_WITH + AXES + 2.0,
+        Some(Piece::Choice(..)) => {
+            TEXT_WITH + CHOICE * next.iter().take_while(|piece| matches!(piece, Piece::Choice(..))).count() as f64
+        }
+        _ => 0.0,
+    }
 }
 
 struct Setter {
@@ -199,5 +215,28 @@ mod tests {
             pages(&[vec![Piece::Axes(["x".into(), "y".into()]), Piece::Room(2), Piece::Choice("c".into(), true)]]),
             1
         );
+    }
+
+    #[test]
+    fn a_question_keeps_its_choices_and_a_sketch_its_axes() {
+        let choices = ["one", "two", "three"].map(|choice| Piece::Choice(choice.to_owned(), false));
+        let axes = [Piece::Axes(["along".to_owned(), "up".to_owned()])];
+        let mut moved = false;
+        for before in 30..75 {
+            for (with, last) in [(&choices[..], "three"), (&axes[..], "up")] {
+                let mut sheet = vec![Piece::Text("a line".to_owned()); before];
+                sheet.push(Piece::Text("ask".to_owned()));
+                sheet.extend_from_slice(with);
+                let page = &set(&sheet, SIZES[0])[0];
+                let in_second = |word: &str| {
+                    let place = page.find(&format!(">{word}")).unwrap();
+                    let x = page[..place].rsplit("<text x=\"").next().unwrap().split('"').next().unwrap();
+                    x.parse::<f64>().unwrap() > 0.5 * PAGE[0]
+                };
+                assert_eq!(in_second("ask"), in_second(last), "{last} after {before} lines");
+                moved |= in_second("ask");
+            }
+        }
+        assert!(moved);
     }
 }

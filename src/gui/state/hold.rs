@@ -1,7 +1,7 @@
-//! The held plate as the window has it: where it is held, what was read off it lately, and the ranges of its axes.
+//! The held plate as the window has it: where it is held, how it was lately, which of that is shown, and the ranges of its axes.
 
 use crate::hold::{Hold, REACH, Reading, leak_time};
-use crate::job::hold::{HeldPlate, Snapshot, slowed};
+use crate::job::hold::{HeldPlate, SNAPSHOTS, Snapshot, slowed};
 use crate::problem::Plate;
 use crate::scene::Scene;
 use std::collections::VecDeque;
@@ -11,11 +11,26 @@ use std::sync::Arc;
 pub const SECONDS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 /// Seconds for the leak time at first.
 pub const FIRST_SECONDS: f64 = 1.0;
-/// Seconds of slow motion that the charts hold, and samples at most.
+/// Seconds of slow motion that the charts hold.
 const WINDOW: f64 = 8.0;
-const SAMPLES: usize = 2000;
 /// Pressures that the colours hold at least, over ambient.
 const LEAST_RANGE: [f64; 2] = [0.8, 1.25];
+
+/// What is shown of a held plate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shown {
+    /// It, as it moves.
+    Now,
+    /// It, and it does not go on.
+    Paused,
+    /// What was recorded, while it does not go on.
+    Recorded {
+        /// Time of the film \[s\].
+        time: f64,
+        /// Whether it is played on from there.
+        playing: bool,
+    },
+}
 
 /// A held plate.
 #[derive(Debug)]
@@ -29,7 +44,8 @@ pub struct HoldState {
     /// It is let go, and whether the face below it vibrates.
     free: Option<bool>,
     now: Arc<Snapshot>,
-    trail: VecDeque<Reading>,
+    trail: VecDeque<Arc<Snapshot>>,
+    shown: Shown,
     pressure: [f64; 2],
     force: [f64; 2],
 }
@@ -46,15 +62,16 @@ impl HoldState {
             free: None,
             now,
             trail: VecDeque::new(),
+            shown: Shown::Now,
             pressure: LEAST_RANGE.map(|ratio| ratio * plate.gas.ambient_pressure),
             force: [0.0; 2],
             plate,
         }
     }
 
-    /// Takes what was read off since the last time.
+    /// Takes what it did since the last time.
     pub fn drain(&mut self) {
-        let (now, readings) = self.job.take();
+        let (now, taken) = self.job.take();
         if now.number == self.now.number {
             return;
         }
@@ -64,18 +81,19 @@ impl HoldState {
         if self.free.is_some() {
             self.target = Hold::within_reach(&self.plate, now.reading.gap);
         }
-        if readings.front().is_some_and(|first| self.trail.back().is_some_and(|last| first.time < last.time)) {
+        let time = |snapshot: &Arc<Snapshot>| snapshot.reading.time;
+        if taken.front().zip(self.trail.back()).is_some_and(|(first, last)| time(first) < time(last)) {
             self.trail.clear();
         }
         for pressure in &now.pressure {
             self.pressure = [self.pressure[0].min(*pressure), self.pressure[1].max(*pressure)];
         }
-        for reading in &readings {
+        for Snapshot { reading, .. } in taken.iter().map(AsRef::as_ref) {
             self.force = [self.force[0].min(reading.force), self.force[1].max(reading.force)];
         }
-        self.trail.extend(readings);
+        self.trail.extend(taken);
         let begin = now.reading.time - self.window();
-        while self.trail.len() > SAMPLES || self.trail.front().is_some_and(|first| first.time < begin) {
+        while self.trail.len() > SNAPSHOTS || self.trail.front().is_some_and(|first| time(first) < begin) {
             self.trail.pop_front();
         }
         self.now = now;
@@ -83,7 +101,7 @@ impl HoldState {
 
     /// Puts the film to rest at the mean gap, and clears the charts.
     pub fn reset(&mut self) {
-        (self.target, self.free) = (self.plate.mean_gap, None);
+        (self.target, self.free, self.shown) = (self.plate.mean_gap, None, Shown::Now);
         self.trail.clear();
         self.pressure = LEAST_RANGE.map(|ratio| ratio * self.plate.gas.ambient_pressure);
         self.force = [0.0; 2];
@@ -99,7 +117,7 @@ impl HoldState {
     /// Holds the plate at `gap` \[m\], or as near as it may come.
     pub fn move_to(&mut self, gap: f64) {
         self.target = Hold::within_reach(&self.plate, gap);
-        self.free = None;
+        (self.free, self.shown) = (None, Shown::Now);
         self.job.move_to(self.target);
     }
 
@@ -108,8 +126,71 @@ impl HoldState {
         if self.plate.load.is_none() {
             return self.move_to(self.plate.mean_gap);
         }
-        self.free = Some(vibrates);
+        (self.free, self.shown) = (Some(vibrates), Shown::Now);
         self.job.let_go(vibrates);
+    }
+
+    /// Pauses what moves on screen, or lets it go on: the plate itself, or what was recorded of it.
+    pub fn toggle_play(&mut self) {
+        self.show(match self.shown {
+            Shown::Now => Shown::Paused,
+            Shown::Paused => Shown::Now,
+            Shown::Recorded { time, playing } => Shown::Recorded { time, playing: !playing },
+        });
+    }
+
+    /// Plays what the charts hold once more, from its beginning or from where that was paused, in slow motion; at its end the plate is paused.
+    pub fn replay(&mut self) {
+        if let Some(first) = self.trail.front() {
+            self.show(Shown::Recorded { time: first.reading.time, playing: true });
+        }
+    }
+
+    /// Shows what was recorded after this share of what the charts hold; at its end the plate itself, paused.
+    pub fn seek(&mut self, share: f64) {
+        self.show_recorded((share * self.trail.len().saturating_sub(1) as f64).round() as usize);
+    }
+
+    /// Shows what was recorded so many snapshots later than what is shown.
+    pub fn step(&mut self, by: i64) {
+        self.show_recorded(self.place().saturating_add_signed(by as isize));
+    }
+
+    fn show_recorded(&mut self, place: usize) {
+        let recorded = self.trail.get(place).filter(|_| place + 1 < self.trail.len());
+        self.show(recorded.map_or(Shown::Paused, |at| Shown::Recorded { time: at.reading.time, playing: false }));
+    }
+
+    fn show(&mut self, shown: Shown) {
+        let goes_on = |shown| shown == Shown::Now;
+        if goes_on(shown) != goes_on(std::mem::replace(&mut self.shown, shown)) {
+            self.job.pause(!goes_on(shown));
+        }
+    }
+
+    /// Plays what was recorded on by `elapsed` \[s\] of the clock; whether that moves.
+    pub fn animate(&mut self, elapsed: f64) -> bool {
+        let Shown::Recorded { time, playing: true } = self.shown else { return false };
+        let on = time + elapsed / self.slowed();
+        let ended = self.trail.back().is_none_or(|last| on >= last.reading.time);
+        self.show(if ended { Shown::Paused } else { Shown::Recorded { time: on, playing: true } });
+        true
+    }
+
+    /// Whether what is shown moves, if anything does.
+    pub fn plays(&self) -> bool {
+        matches!(self.shown, Shown::Now | Shown::Recorded { playing: true, .. })
+    }
+
+    /// The place of what is shown among what is recorded, oldest first; the newest is last.
+    pub fn place(&self) -> usize {
+        let newest = self.trail.len().saturating_sub(1);
+        match self.shown {
+            Shown::Now | Shown::Paused => newest,
+            Shown::Recorded { time, .. } => {
+                self.trail.partition_point(|snapshot| snapshot.reading.time <= time).clamp(1, newest + 1) - 1
+            }
+        }
     }
 
     /// Whether it is let go, and if so, whether the face below it vibrates.
@@ -137,14 +218,20 @@ impl HoldState {
         self.target
     }
 
-    /// The film now.
+    /// The film now, whatever is shown of it.
     pub fn now(&self) -> &Snapshot {
         &self.now
     }
 
+    /// The film as it is shown.
+    pub fn shown(&self) -> &Snapshot {
+        let recorded = matches!(self.shown, Shown::Recorded { .. });
+        self.trail.get(self.place()).filter(|_| recorded).unwrap_or(&self.now)
+    }
+
     /// What was read off it lately, oldest first.
-    pub fn trail(&self) -> &VecDeque<Reading> {
-        &self.trail
+    pub fn trail(&self) -> impl ExactSizeIterator<Item = &Reading> {
+        self.trail.iter().map(|snapshot| &snapshot.reading)
     }
 
     /// Time of the film that the charts hold \[s\].

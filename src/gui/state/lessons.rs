@@ -200,6 +200,11 @@ impl LessonState {
         self.lessons.iter().flat_map(of).collect()
     }
 
+    /// Notes that what is done in the lesson that is followed, and was not a moment ago, was done at `now` \[s since 1970, UTC\].
+    pub fn note_times(&mut self, now: u64) {
+        self.running.iter_mut().flat_map(|running| &mut running.work).for_each(|work| work.note_times(now));
+    }
+
     /// Keeps what was done in the lesson that is followed.
     fn keep(&mut self) {
         self.progress.extend(self.present());

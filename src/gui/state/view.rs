@@ -55,9 +55,9 @@ impl Tab {
         self != if plate { Self::Rotor } else { Self::Hold }
     }
 
-    /// Whether it moves with the cycle.
+    /// Whether something moves in it.
     pub fn moves(self) -> bool {
-        matches!(self, Self::Motion | Self::Compare | Self::Startup)
+        matches!(self, Self::Motion | Self::Compare | Self::Startup | Self::Hold)
     }
 }
 

@@ -136,6 +136,11 @@ impl State {
         self.recent.truncate(RECENT);
     }
 
+    /// The plate in the hand, while it is what moves in the middle.
+    pub fn held(&mut self) -> Option<&mut HoldState> {
+        self.hold.as_mut().filter(|_| self.view.tab == Tab::Hold)
+    }
+
     /// What moves in the middle: its frames are those of the timeline.
     pub fn on_timeline(&self) -> Option<&Recording> {
         let pinned = || self.pins.runs().iter().find_map(|run| run.solved.as_ref().ok()).map(|s| &s.recording);

@@ -91,7 +91,7 @@ pub const GROUPS: &[(&str, &[Shortcut])] = &[
             idle(key(NONE, Key::Space), "Play or pause", || Command::TogglePlay),
             idle(key(NONE, Key::ArrowLeft), "One frame back", || Command::StepFrames(-1)),
             idle(key(NONE, Key::ArrowRight), "One frame on", || Command::StepFrames(1)),
-            idle(key(NONE, Key::Home), "Start of the cycle", || Command::Seek(0.0)),
+            idle(key(NONE, Key::Home), "To the start", || Command::Seek(0.0)),
             idle(key(NONE, Key::OpenBracket), "Follow the tooth before", || Command::NextTooth(-1)),
             idle(key(NONE, Key::CloseBracket), "Follow the next tooth", || Command::NextTooth(1)),
         ],

@@ -8,6 +8,7 @@ use crate::gui::state::view::Tab;
 use crate::gui::state::window::State;
 use crate::lessons::work::{Stage, StepWork};
 use crate::lessons::{Act, Prediction, Step};
+use crate::platform::SystemTime;
 use std::path::Path;
 
 impl Updater {
@@ -34,6 +35,15 @@ impl Updater {
         if !text.is_empty() {
             self.state.fail(text);
         }
+    }
+
+    /// Lets the lesson look at what is on screen, and notes when what is done was done; whether it needs another frame soon.
+    pub fn observe(&mut self) -> bool {
+        let soon = self.state.observe();
+        if let Ok(since) = (self.platform.date)().duration_since(SystemTime::UNIX_EPOCH) {
+            self.state.lessons.note_times(since.as_secs());
+        }
+        soon
     }
 
     pub(super) fn teach(&mut self, command: LessonCommand) {

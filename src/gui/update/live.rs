@@ -18,6 +18,9 @@ impl Updater {
     /// Moves what is animated on by `elapsed` \[s\]; whether anything moves.
     pub fn animate(&mut self, elapsed: f64) -> bool {
         let state = &mut self.state;
+        if let Some(hold) = state.held() {
+            return hold.animate(elapsed);
+        }
         if !state.view.playing || state.on_timeline().is_none() {
             return false;
         }
@@ -59,11 +62,13 @@ impl Updater {
         if state.hold.as_ref().is_some_and(|hold| hold.stale(scene)) {
             state.hold = None;
         }
-        // A plate that floats has its mean gap from the run, if that is known.
+        // A plate that floats has its mean gap from the run, and waits for it.
         let run = state.run.as_ref().filter(|run| run.scene.same_model(scene));
         let problem = || run.map_or_else(|| Problem::new(scene).ok(), |run| Some(run.problem.clone()));
+        let known = run.is_some() || !scene.floats() || !state.awaits_result();
         if state.view.tab == Tab::Hold
             && state.hold.is_none()
+            && known
             && let Some(Scenario::Plate(plate)) = problem().map(|problem| problem.scenario)
         {
             let wake = self.ctx.clone();
@@ -89,6 +94,7 @@ impl Updater {
             HoldCommand::By(share) => hold.move_to(hold.target() + share * mean_gap),
             HoldCommand::LetGo { vibrates } => hold.let_go(vibrates),
             HoldCommand::Reset => hold.reset(),
+            HoldCommand::Replay => hold.replay(),
             HoldCommand::Seconds(seconds) => hold.set_seconds(seconds),
         }
     }

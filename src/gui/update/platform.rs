@@ -1,9 +1,9 @@
-//! What the window takes from outside: the time, what file dialogs answer, and how much is measured. Tests bring their own.
+//! What the window takes from outside: the clock and the date, what file dialogs answer, and how much is measured. Tests bring their own.
 
 use crate::analysis::tradeoff::{Candidate, Effort, candidates};
 use crate::gui::state::dialogs::{Answer, Purpose};
 use crate::platform::window::Parent;
-use crate::platform::{Asked, FileDialog, HAS_FILES, Instant};
+use crate::platform::{Asked, FileDialog, HAS_FILES, Instant, SystemTime};
 use crate::problem::Problem;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,6 +13,8 @@ use std::time::Duration;
 pub struct Platform {
     /// The present moment.
     pub now: fn() -> Instant,
+    /// The same as a date, for what is kept longer than a window.
+    pub date: fn() -> SystemTime,
     /// Asks for a file; blocks until there is an answer.
     pub ask: fn(Purpose, &DialogStart) -> Answer,
     /// The file in which the window keeps what the next one begins with; none if it keeps nothing in a file.
@@ -34,6 +36,7 @@ impl Default for Platform {
     fn default() -> Self {
         Self {
             now: Instant::now,
+            date: SystemTime::now,
             ask: native_dialog,
             storage: None,
             measure: |problem| (candidates(problem), Effort::default()),

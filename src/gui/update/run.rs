@@ -76,18 +76,23 @@ impl Updater {
             Command::WriteExport(export, path) => self.export(export, &path),
             Command::CancelExport => state.exports.cancel(),
             Command::CloseExportNote => state.exports.close(),
-            Command::TogglePlay => state.view.playing = !state.view.playing,
+            Command::TogglePlay => match state.held() {
+                Some(hold) => hold.toggle_play(),
+                None => state.view.playing = !state.view.playing,
+            },
             Command::StepFrames(by) => {
-                if let Some(phase) = state.on_timeline().map(|recording| state.view.stepped(recording, by)) {
+                if let Some(hold) = state.held() {
+                    hold.step(by);
+                } else if let Some(phase) = state.on_timeline().map(|recording| state.view.stepped(recording, by)) {
                     state.view.playing = false;
                     state.view.phase = phase;
                 }
             }
             Command::Hover(x) => state.view.cursor_x = x,
-            Command::Seek(phase) => {
-                state.view.playing = false;
-                state.view.phase = phase.rem_euclid(1.0);
-            }
+            Command::Seek(share) => match state.held() {
+                Some(hold) => hold.seek(share),
+                None => (state.view.playing, state.view.phase) = (false, share.rem_euclid(1.0)),
+            },
             Command::SecondsPerCycle(seconds) => state.view.seconds_per_cycle = seconds,
             Command::FollowTooth(tooth) => state.view.tooth = tooth,
             Command::NextTooth(by) => {

@@ -11,6 +11,8 @@ use std::time::Duration;
 /// How often the film is marched on, and how much time at most is made up for at once.
 pub(super) const TICK: Duration = Duration::from_millis(20);
 const MOST: Duration = Duration::from_millis(60);
+/// Snapshots that are kept at most: those of 10 s of the clock, and of some more where marching takes longer.
+pub const SNAPSHOTS: usize = 512;
 /// A hand is not faster than this \[s\]: the gap follows what is asked for with this time constant.
 const HAND: f64 = 0.03;
 /// Where the gap is what was asked for, a share of it, and |p/p_a − 1| below which the film is at rest.
@@ -45,12 +47,14 @@ pub(super) struct Target {
     pub(super) reset: bool,
     /// It is let go, and whether the face below it vibrates.
     pub(super) free: Option<bool>,
+    /// Nothing moves, and no time passes.
+    pub(super) paused: bool,
 }
 
 impl Target {
     /// Held at the mean gap.
     pub(super) fn first(plate: &Plate, slowed: f64) -> Self {
-        Self { gap: plate.mean_gap, slowed, reset: false, free: None }
+        Self { gap: plate.mean_gap, slowed, reset: false, free: None, paused: false }
     }
 }
 
@@ -71,13 +75,13 @@ impl Follower {
         Self { hold: Hold::new(plate, &plan), last: None, number: 0, pace: 1.0 }
     }
 
-    /// Whether neither the plate nor the pressure moves.
+    /// Whether neither the plate nor the pressure moves, or may.
     pub(super) fn rests(&self, target: &Target) -> bool {
         let still = match target.free {
             Some(vibrates) => !vibrates && self.hold.is_still(),
             None => (target.gap - self.hold.gap()).abs() <= THERE * self.hold.gap(),
         };
-        !target.reset && still && self.hold.unrest() <= AT_REST
+        !target.reset && (target.paused || still && self.hold.unrest() <= AT_REST)
     }
 
     /// Marches the film on to the time `began`. Where that fails it is put to rest.

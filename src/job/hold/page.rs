@@ -1,7 +1,6 @@
 //! A held plate of a page: its film is marched on when it is looked at, before each redraw.
 
 use super::follower::{Follower, Snapshot, TICK, Target};
-use crate::hold::Reading;
 use crate::platform::Instant;
 use crate::problem::Plate;
 use std::cell::RefCell;
@@ -43,8 +42,8 @@ impl HeldPlate {
         (self.wake)();
     }
 
-    /// The newest snapshot, and what was read off since the last time.
-    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Reading>) {
+    /// The newest snapshot, and all since the last time, oldest first.
+    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Arc<Snapshot>>) {
         let (follower, target) = &mut *self.held.borrow_mut();
         if follower.rests(target) {
             follower.last = None;
@@ -60,7 +59,7 @@ impl HeldPlate {
         if snapshot.failure.is_some() {
             (target.gap, target.free) = (follower.hold.gap(), None);
         }
-        let reading = snapshot.reading;
-        (Arc::new(snapshot), VecDeque::from([reading]))
+        let snapshot = Arc::new(snapshot);
+        (Arc::clone(&snapshot), VecDeque::from([snapshot]))
     }
 }

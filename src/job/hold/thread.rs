@@ -1,7 +1,6 @@
 //! A held plate of a process: a named thread marches its film.
 
-use super::follower::{Follower, Snapshot, TICK, Target};
-use crate::hold::Reading;
+use super::follower::{Follower, SNAPSHOTS, Snapshot, TICK, Target};
 use crate::platform::Instant;
 use crate::problem::Plate;
 use std::collections::VecDeque;
@@ -9,15 +8,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
-/// Samples that wait to be taken at most.
-const SAMPLES: usize = 2048;
-
 #[derive(Debug)]
 struct Shared {
     target: Mutex<Target>,
     closed: AtomicBool,
     changed: Condvar,
-    published: Mutex<(Arc<Snapshot>, VecDeque<Reading>)>,
+    published: Mutex<(Arc<Snapshot>, VecDeque<Arc<Snapshot>>)>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -61,8 +57,8 @@ impl HeldPlate {
         self.shared.changed.notify_all();
     }
 
-    /// The newest snapshot, and what was read off since the last time.
-    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Reading>) {
+    /// The newest snapshot, and all since the last time, oldest first.
+    pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Arc<Snapshot>>) {
         let mut published = lock(&self.shared.published);
         (Arc::clone(&published.0), std::mem::take(&mut published.1))
     }
@@ -111,11 +107,11 @@ fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &
             if target.reset {
                 published.1.clear();
             }
-            if published.1.len() == SAMPLES {
+            if published.1.len() == SNAPSHOTS {
                 published.1.pop_front();
             }
-            let reading = published.0.reading;
-            published.1.push_back(reading);
+            let newest = Arc::clone(&published.0);
+            published.1.push_back(newest);
         }
         wake();
         // Until the next tick, or the end.
@@ -167,7 +163,7 @@ mod tests {
         held.move_to(0.6 * plate.mean_gap);
         until("it is there and at rest", || {
             let (seen, samples) = held.take();
-            assert!(samples.len() <= SAMPLES && seen.failure.is_none());
+            assert!(samples.len() <= SNAPSHOTS && seen.failure.is_none());
             let (gap, force) = (seen.reading.gap, seen.reading.ratio);
             (gap / plate.mean_gap - 0.6).abs() < 1e-3 && force.abs() < 1e-3
         });

@@ -1,8 +1,10 @@
-//! The bottom panel: the cycle's timeline, and what the solver is doing.
+//! The bottom panel: the timeline of the cycle or of a plate in the hand, and what the solver is doing.
 
 use crate::fidelity::Fidelity;
-use crate::gui::command::Command;
+use crate::gui::command::{Command, HoldCommand};
 use crate::gui::derived::format::{thousands, time};
+use crate::gui::state::hold::HoldState;
+use crate::gui::state::view::Tab;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
@@ -16,25 +18,15 @@ const SPEEDS: [f64; 6] = [0.5, 1.5, 3.0, 6.0, 12.0, 30.0];
 
 /// Play, step, scrub and speed.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+    if let (Tab::Hold, Some(hold)) = (cx.state.view.tab, &cx.state.hold) {
+        return of_held(ui, hold, cx);
+    }
     let Some(recording) = cx.state.on_timeline() else { return };
     let (periods, view) = (cx.state.periods(recording), &cx.state.view);
     ui.add_space(2.0);
     let (frames, place) = (recording.frames.max(1) as f64, view.place(recording));
     let row = ui.horizontal(|ui| {
-        let play = if view.playing { "Pause" } else { "Play" };
-        if ui
-            .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
-            .hint(keys::about(&Command::TogglePlay))
-            .clicked()
-        {
-            cx.push(Command::TogglePlay);
-        }
-        if ui.button("◀").hint(keys::about(&Command::StepFrames(-1))).clicked() {
-            cx.push(Command::StepFrames(-1));
-        }
-        if ui.button("▶").hint(keys::about(&Command::StepFrames(1))).clicked() {
-            cx.push(Command::StepFrames(1));
-        }
+        play_and_step(ui, view.playing, cx);
         let alike = same(periods);
         let slowed = |seconds: f64| {
             let [most, least] = periods.map(|period| thousands(seconds / period));
@@ -51,13 +43,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             });
         name(&speed.response, "Speed");
         glossary::here(ui, speed.response, "Slow motion");
-        let mut at = place;
-        ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
-        let slider = Slider::new(&mut at, 0.0..=frames).clamping(egui::SliderClamping::Never).show_value(false);
-        let scrub = ui.add(slider.smart_aim(false));
-        name(&scrub, "Time in the cycle");
-        let scrub = scrub.hint("Drag to an instant of the cycle");
-        if scrub.changed() {
+        if let Some(at) = scrub(ui, place, frames, ["Time in the cycle", "Drag to an instant of the cycle"]) {
             // To a recorded frame; the end of the cycle is its start.
             cx.push(Command::Seek(at.round().clamp(0.0, frames - 1.0) / frames));
         }
@@ -70,6 +56,56 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         });
     });
     cx.mark(ui, "timeline", row.response.rect);
+}
+
+/// Pause, step and scrub what a plate in the hand has done lately.
+fn of_held(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
+    ui.add_space(2.0);
+    let newest = hold.trail().len().saturating_sub(1);
+    let row = ui.horizontal(|ui| {
+        play_and_step(ui, hold.plays(), cx);
+        let hover = "Plays what the charts show once more, in slow motion; the plate waits";
+        if ui.add_enabled(newest > 0, egui::Button::new("Replay")).hint(hover).clicked() {
+            cx.push(HoldCommand::Replay);
+        }
+        let most = newest.max(1) as f64;
+        let place = if newest == 0 { most } else { hold.place() as f64 };
+        if let Some(at) = scrub(ui, place, most, ["Recorded time", "Drag to an instant that was recorded"]) {
+            cx.push(Command::Seek(at / most));
+        }
+        let ago = hold.now().reading.time - hold.shown().reading.time;
+        ui.label(match (ago > 0.0, hold.plays()) {
+            (true, _) => format!("{} ago", time(ago)),
+            (false, true) => "now".to_owned(),
+            (false, false) => "paused".to_owned(),
+        });
+    });
+    cx.mark(ui, "timeline", row.response.rect);
+}
+
+fn play_and_step(ui: &mut egui::Ui, playing: bool, cx: &DrawContext<'_>) {
+    let play = if playing { "Pause" } else { "Play" };
+    if ui
+        .add_sized([64.0, ui.spacing().interact_size.y], egui::Button::new(play))
+        .hint(keys::about(&Command::TogglePlay))
+        .clicked()
+    {
+        cx.push(Command::TogglePlay);
+    }
+    for (arrow, by) in [("◀", -1), ("▶", 1)] {
+        if ui.button(arrow).hint(keys::about(&Command::StepFrames(by))).clicked() {
+            cx.push(Command::StepFrames(by));
+        }
+    }
+}
+
+/// A slider from 0 to `most` over what is left of the row but for a label; where it was dragged to.
+fn scrub(ui: &mut egui::Ui, mut at: f64, most: f64, [called, hover]: [&'static str; 2]) -> Option<f64> {
+    ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(60.0);
+    let slider = Slider::new(&mut at, 0.0..=most).clamping(egui::SliderClamping::Never).show_value(false);
+    let scrub = ui.add(slider.smart_aim(false));
+    name(&scrub, called);
+    scrub.hint(hover).changed().then_some(at)
 }
 
 /// Whether all that moves has one period.

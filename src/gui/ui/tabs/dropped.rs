@@ -8,7 +8,7 @@ use crate::gui::state::dropped::Dropped;
 use crate::gui::ui::chart::{SOLID, axes, between, chart, framed, level, line, place};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
-use crate::solution::Status;
+use crate::solution::{Outcome, Status};
 use eframe::egui::{self, Color32, RichText, Role, WidgetInfo};
 use egui_plot::{Axis, Span};
 
@@ -61,7 +61,6 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 /// Height over time, and the mean gap of the periodic solve.
 fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) {
-    let floats = dropped.ended().and_then(|ended| ended.as_ref().ok()?.floats.as_ref().ok());
     let micrometres = |height: Estimate| [1e6 * height.value, 1e6 * height.error];
     let (mut curve, mut band) = (Vec::new(), Vec::new());
     for cycle in dropped.cycles() {
@@ -69,7 +68,7 @@ fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) 
         curve.push([time, height]);
         band.push([time, height + error, height - error]);
     }
-    let aim = floats.copied().map(micrometres);
+    let aim = periodic(dropped, cx).map(micrometres);
     let highest = curve.iter().map(|point| point[1]).fold(0.0, f64::max);
     let bounds = [[0.0, curve.last().map_or(1.0, |point| point[0])], [0.0, 1.1 * highest]];
     let (film, good) = (cx.colours.film, cx.colours.good);
@@ -88,6 +87,18 @@ fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) 
     axes(ui, whole, *shown.transform.frame(), None, "Floating plate");
 }
 
+/// The mean gap of the periodic solve: of the drop's own at its end, until then of the run on screen.
+fn periodic(dropped: &Dropped, cx: &DrawContext<'_>) -> Option<Estimate> {
+    if let Some(ended) = dropped.ended() {
+        return ended.as_ref().ok()?.floats.as_ref().ok().copied();
+    }
+    let run = cx.state.run.as_deref().filter(|run| !dropped.stale(&run.scene))?;
+    match run.solution.outcome {
+        Outcome::Plate(plate) => plate.floating.map(|floating| floating.mean_gap),
+        Outcome::Motor(_) => None,
+    }
+}
+
 /// How far it is, in words.
 fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, Color32) {
     let last = dropped.cycles().last();
@@ -95,16 +106,15 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
         let (time, height) = (significant(1e3 * cycle.time, 3), cycle.height);
         format!("{time} ms: height {} µm", with_error(1e6 * height.value, 1e6 * height.error))
     });
+    let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
+        format!("; the periodic solve has {} µm", with_error(1e6 * gap.value, 1e6 * gap.error))
+    });
     match dropped.ended() {
         None if last.is_none() => ("The gap at which it floats is being computed".to_owned(), usual),
-        None => (at, usual),
+        None => (format!("{at}{aim}"), usual),
         Some(Err(message)) => (message.clone(), cx.colours.alarm),
-        Some(Ok(Fall { status, floats, .. })) => {
+        Some(Ok(Fall { status, .. })) => {
             let rests = last.is_some_and(|cycle| cycle.rests);
-            let aim = match floats {
-                Ok(gap) => format!("; the periodic solve has {} µm", with_error(1e6 * gap.value, 1e6 * gap.error)),
-                Err(_) => String::new(),
-            };
             match status {
                 Status::Converged if rests => (format!("{at}. It rests on its roughness"), cx.colours.alarm),
                 Status::Converged => (format!("{at}. It floats{aim}"), cx.colours.good),

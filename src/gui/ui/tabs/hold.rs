@@ -25,6 +25,9 @@ const BESIDE_SECONDS: f32 = 21.0;
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let Some(hold) = &cx.state.hold else {
         ui.add_space(8.0);
+        if cx.state.document.scene().floats() {
+            return cx.note(ui, "Solving…");
+        }
         let text = "Only a plate can be held: the teeth of a motor follow their wave. Open a plate to feel how the film answers.";
         cx.note(ui, text);
         ui.add_space(4.0);

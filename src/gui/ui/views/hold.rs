@@ -126,7 +126,7 @@ fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
 }
 
 fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) -> Axes {
-    let Reading { gap, force, error, ratio, mean_pressure, .. } = shown.hold.now().reading;
+    let Reading { gap, force, error, ratio, mean_pressure, .. } = shown.hold.shown().reading;
     let highest = shown.hold.reach()[1];
     let part = f64::from(1.0 - BELOW - ABOVE);
     let bottom = -highest * f64::from(BELOW) / part;
@@ -173,7 +173,7 @@ fn film(painter: &Painter, axes: &Axes, [top, bottom]: [f32; 2], shown: &HoldFra
 
 /// (x, absolute pressure) at mid-width, from end to end.
 fn profile_points<'a>(shown: &'a HoldFrame<'_>) -> impl Iterator<Item = (f64, f64)> + 'a {
-    let now = shown.hold.now();
+    let now = shown.hold.shown();
     let across = now.y.len().max(1);
     let half = move |i: usize| (now.x[i], now.pressure[i * across]);
     let mirrored = (1..now.x.len()).rev().map(move |i| (-half(i).0, half(i).1));
@@ -234,7 +234,7 @@ fn profile(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'
 
 /// The pressure over the whole plate.
 fn map(ui: &Ui, painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>) {
-    let now = shown.hold.now();
+    let now = shown.hold.shown();
     let half = now.y.last().copied().unwrap_or(0.0);
     let axes = Axes::new(rect, [-shown.half, shown.half], [-half, half]);
     let length = 2.0 * shown.half;
@@ -278,14 +278,15 @@ fn chart(
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let quiet = Stroke::new(1.0, style.palette.quiet);
     inside.hline(rect.x_range(), axes.py(if range.is_some() { 0.0 } else { hold.plate().mean_gap }), quiet);
-    let columns = hold.trail().iter().map(|reading| {
+    let columns = hold.trail().map(|reading| {
         let [value, error] = of(reading);
         (axes.px(reading.time), axes.py(value + error), axes.py(value - error))
     });
     band(inside, columns, colour.gamma_multiply(0.3));
-    let line: Vec<Pos2> = hold.trail().iter().map(|reading| axes.at(reading.time, of(reading)[0])).collect();
+    let line: Vec<Pos2> = hold.trail().map(|reading| axes.at(reading.time, of(reading)[0])).collect();
     inside.line(line, Stroke::new(1.6, colour));
-    painter.circle_filled(axes.at(end, of(&hold.now().reading)[0]), 3.0, colour);
+    let now = hold.shown().reading;
+    painter.circle_filled(axes.at(now.time, of(&now)[0]), 3.0, colour);
     axes
 }
 
@@ -304,7 +305,7 @@ fn boyle(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>
     let hold = shown.hold;
     let [near, far] = hold.reach();
     let law = |gap: f64| shown.ambient * hold.plate().mean_gap / gap;
-    let means = hold.trail().iter().map(|reading| reading.mean_pressure);
+    let means = hold.trail().map(|reading| reading.mean_pressure);
     let [low, high] = span(means.chain([law(far), 2.0 * shown.ambient]));
     let side = 0.04 * (far - near);
     let axes = Axes::new(rect, [near - side, far + side], [0.9 * low, 1.06 * high]);
@@ -325,8 +326,8 @@ fn boyle(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFrame<'_>
     let at = |i: usize| near + (far - near) * (i as f64 / SAMPLES as f64).powi(2);
     let hyperbola: Vec<Pos2> = (0..=SAMPLES).map(|i| axes.at(at(i), law(at(i)))).collect();
     inside.extend(Shape::dashed_line(&hyperbola, Stroke::new(1.4, style.palette.contact), 6.0, 4.0));
-    let line: Vec<Pos2> = hold.trail().iter().map(|reading| axes.at(reading.gap, reading.mean_pressure)).collect();
+    let line: Vec<Pos2> = hold.trail().map(|reading| axes.at(reading.gap, reading.mean_pressure)).collect();
     inside.line(line, Stroke::new(1.6, film));
-    let now = hold.now().reading;
+    let now = hold.shown().reading;
     painter.circle(axes.at(now.gap, now.mean_pressure), 4.0, film, Stroke::new(1.0, style.palette.canvas));
 }
