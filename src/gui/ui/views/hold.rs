@@ -189,9 +189,11 @@ fn arrow(painter: &Painter, style: &PlotStyle, rect: Rect, from: f32, force: f64
     let colour = style.palette.film;
     let at = pos2(rect.left() + 0.12 * rect.width(), from);
     painter.circle_filled(at, 4.0, colour);
-    if length.abs() > 3.0 {
+    // Below that the dot covers it.
+    if length.abs() > 6.0 {
         let tip = at - vec2(0.0, length);
-        let head = vec2(0.45 * style.row, 0.7 * style.row.min(length.abs()) * length.signum());
+        let size = style.row.min(length.abs());
+        let head = vec2(0.45 * size, 0.7 * size * length.signum());
         painter.line_segment([at, tip + vec2(0.0, head.y)], Stroke::new(5.0, colour));
         let corners = vec![tip, tip + head, tip + vec2(-head.x, head.y)];
         painter.add(Shape::convex_polygon(corners, colour, Stroke::new(1.0, style.palette.canvas)));
