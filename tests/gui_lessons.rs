@@ -762,7 +762,7 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     // A place that is not there is named.
     window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 8 });
     window.run_steps(3);
-    window.get_by_label_contains("step=8 in a link: lesson");
+    window.get_by_label_contains("step 8: lesson");
 }
 
 #[test]
