@@ -2,28 +2,17 @@
 //
 // Needs playwright-core and a Chromium: CHROMIUM names it. What is clicked is found by what the page tells screen readers.
 import { execFileSync } from "node:child_process";
-import { createServer } from "node:http";
 import { mkdir, readFile } from "node:fs/promises";
-import { extname, join, normalize } from "node:path";
+import { join } from "node:path";
 import { createRequire } from "node:module";
+import { serve } from "./serve.mjs";
 
 const [page_folder, pictures] = process.argv.slice(2);
 const require = createRequire(join(process.env.NODE_MODULES ?? process.cwd(), "/"));
 const { chromium } = require("playwright-core");
 await mkdir(pictures, { recursive: true });
 
-const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json", ".svg": "image/svg+xml" };
-const server = createServer(async (request, answer) => {
-  const path = normalize(new URL(request.url, "http://x").pathname.replace(/\/$/, "/index.html"));
-  try {
-    const body = await readFile(join(page_folder, path));
-    answer.writeHead(200, { "Content-Type": types[extname(path)] ?? "application/octet-stream" }).end(body);
-  } catch {
-    answer.writeHead(404).end();
-  }
-});
-await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
-const address = `http://127.0.0.1:${server.address().port}/`;
+const { server, address } = await serve(page_folder);
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
