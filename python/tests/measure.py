@@ -1,6 +1,6 @@
 """What docs/performance.md says of Python: what solving from Python costs beyond the solve, and points a second over processes.
 
-    python python/measure.py [PROCESSES]
+    python python/tests/measure.py [PROCESSES]
 """
 
 import concurrent.futures
