@@ -34,8 +34,8 @@ Files of --out:
 /// Tells how much the results depend on each parameter, and how uncertain they are if the parameters are
 ///
 /// Derivatives of α, stall torque and no-load speed (of a plate: load, stiffness and damping) by every key that is a number, from solves
-/// on one set of grids. Each comes with its own error. 1 % of a temperature is 1 % of the kelvins. Uncertainties of the parameters become one of the results, kept apart from the
-/// numerical error.
+/// on one set of grids. Each comes with its own error. 1 % of a temperature is 1 % of the kelvins. Uncertainties of the parameters become
+/// one of the results, kept apart from the numerical error.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {

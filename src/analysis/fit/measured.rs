@@ -185,7 +185,7 @@ impl Measured {
         Ok(measured)
     }
 
-    /// Reads a table. Its first line names the columns:
+    /// Reads a table, of commas, or of semicolons with decimal commas. Its first line names the columns:
     ///
     /// * a key of the scene, as `film.min_spacing_nm`: the condition of the line; an empty cell leaves it as the scene has it;
     /// * a number of a solve, as `film_load_n`, or `torque_nm` with `rotor_speed_rpm`: measured; an empty cell was not measured;
@@ -198,6 +198,7 @@ impl Measured {
         let fault = |line: Option<u64>, what: String| FitError::Table { origin: origin.to_owned(), line, what };
         // Where the comma is in decimals, semicolons divide the columns.
         let semicolons = text.lines().find(|line| !line.starts_with('#')).is_some_and(|head| head.contains(';'));
+        let decimal = |text: &str| if semicolons { text.replace(',', ".") } else { text.to_owned() };
         let mut reader = csv::ReaderBuilder::new();
         reader.trim(csv::Trim::All).comment(Some(b'#')).delimiter(if semicolons { b';' } else { b',' });
         let mut reader = reader.from_reader(text.as_bytes());
@@ -252,8 +253,7 @@ impl Measured {
             let cell = |i: usize| record.get(i).unwrap_or_default();
             let number = |i: usize| -> Result<Option<f64>, FitError> {
                 let text = cell(i);
-                let decimal = if semicolons { text.replace(',', ".") } else { text.to_owned() };
-                match decimal.parse::<f64>() {
+                match decimal(text).parse::<f64>() {
                     _ if text.is_empty() => Ok(None),
                     Ok(number) if number.is_finite() => Ok(Some(number)),
                     _ => Err(fault(line, format!("column {}: {} is not a number", &head[i], show_text(text)))),
@@ -268,7 +268,7 @@ impl Measured {
             };
             let changes: Vec<(String, String)> = (0..columns.len())
                 .filter(|i| matches!(columns[*i], Column::Key) && !cell(*i).is_empty())
-                .map(|i| (head[i].to_owned(), if semicolons { cell(i).replace(',', ".") } else { cell(i).to_owned() }))
+                .map(|i| (head[i].to_owned(), decimal(cell(i))))
                 .collect();
             let named = (0..columns.len()).find(|i| matches!(columns[*i], Column::Label) && !cell(*i).is_empty());
             let label = match (named, line) {

@@ -121,6 +121,9 @@ mod tests {
         // Tooth 1 is half a cycle ahead.
         assert_eq!(at(10, 4), field_colours()[85]);
         assert_eq!(at(30, 4), field_colours()[255]);
+        // What is written as one number is one colour.
+        assert_eq!(colours_per_pascal([101_325.0, 101_325.3]), 0.0);
+        assert!((colours_per_pascal([100_000.0, 102_000.0]) - 0.1275).abs() < 1e-12);
         for i in 0..columns {
             for j in 0..rows {
                 assert_eq!(at(i, j), at(i, rows - 1 - j));
