@@ -6,8 +6,8 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether a budget is spent.
-type Spent = Arc<dyn Fn() -> bool + Send + Sync>;
+/// Whether a budget is spent, or something else that counts as the flag being up.
+type Asked = Arc<dyn Fn() -> bool + Send + Sync>;
 
 /// A flag that any thread may raise; solvers look at it in their inner loops. It may come with a budget for each solve: one that has
 /// a result stops making it better once that is spent.
@@ -16,11 +16,11 @@ pub struct Cancel {
     flag: Arc<AtomicBool>,
     above: Option<Box<Cancel>>,
     /// Starts the budget of a solve on the caller's clock.
-    start: Option<Arc<dyn Fn() -> Spent + Send + Sync>>,
+    start: Option<Arc<dyn Fn() -> Asked + Send + Sync>>,
     /// The budget of the solve that is running.
-    spent: Option<Spent>,
-    /// The flag counts as raised when the budget is spent.
-    strict: bool,
+    spent: Option<Asked>,
+    /// The flag counts as raised when this says so.
+    raised: Option<Asked>,
 }
 
 impl fmt::Debug for Cancel {
@@ -66,7 +66,12 @@ impl Cancel {
 
     /// A flag that is also up once the budget is spent.
     pub fn within_budget(&self) -> Self {
-        Self { strict: true, ..self.child() }
+        Self { raised: self.spent.clone(), ..self.child() }
+    }
+
+    /// A flag that is also up when `raised` says so; it is asked whenever a solver looks.
+    pub fn or(&self, raised: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Self { raised: Some(Arc::new(raised)), ..self.child() }
     }
 
     /// Raises the flag.
@@ -78,7 +83,7 @@ impl Cancel {
     pub fn is_cancelled(&self) -> bool {
         self.flag.load(Ordering::Relaxed)
             || self.above.as_ref().is_some_and(|above| above.is_cancelled())
-            || self.strict && self.is_spent()
+            || self.raised.as_ref().is_some_and(|raised| raised())
     }
 }
 

@@ -13,9 +13,10 @@ use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::{self, Fidelity};
 use squeezefilm::solve::{Method, Record, Settings};
 use std::ops::RangeInclusive;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 create_exception!(
     _squeezefilm,
@@ -102,6 +103,33 @@ fn apart<T: Send + 'static>(
             Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| cancel.cancel())?,
             Err(RecvTimeoutError::Disconnected) => return Err(solve_error("the solver ended without a word")),
         }
+    }
+}
+
+/// Does `work` on this thread, without Python's lock, until it is done or Ctrl-C is pressed: Python is asked when `work` looks at its flag. For
+/// what is done in a millisecond, of which a thread of its own would be a tenth.
+fn here<T: Send>(py: Python<'_>, work: impl FnOnce(&Cancel) -> T + Send) -> PyResult<T> {
+    let pressed = Arc::new(OnceLock::new());
+    let (started, asked) = (Instant::now(), AtomicU64::new(0));
+    let signals = {
+        let pressed = Arc::clone(&pressed);
+        move || {
+            let now = started.elapsed().as_millis() as u64;
+            if now >= asked.load(Ordering::Relaxed) + ASKED.as_millis() as u64 {
+                asked.store(now, Ordering::Relaxed);
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    let _ = pressed.set(error);
+                }
+            }
+            pressed.get().is_some()
+        }
+    };
+    let cancel = Cancel::new().or(signals);
+    let done = py.detach(|| work(&cancel));
+    drop(cancel);
+    match Arc::into_inner(pressed).and_then(OnceLock::into_inner) {
+        Some(error) => Err(error),
+        None => Ok(done),
     }
 }
 

@@ -1,12 +1,12 @@
 //! A scene.
 
 use crate::run::Run;
-use crate::{How, apart, scene_error, solve_error, within};
+use crate::{How, here, scene_error, solve_error, within};
 use pyo3::prelude::*;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets::{self, BUILT_IN};
 use squeezefilm::scene::{PARAMETERS, Scene as Edited, Value};
-use squeezefilm::solve::{Record, check, solve};
+use squeezefilm::solve::{Record, solve};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -82,9 +82,7 @@ impl Scene {
         };
         let scene = self.0.clone();
         let problem = Problem::new(&scene).map_err(scene_error)?;
-        let (problem, history, solution, wall_s) = apart(py, None, move |cancel, _| -> PyResult<_> {
-            // Of a ring this takes its time.
-            check(&problem, &settings).map_err(scene_error)?;
+        let (history, solution, wall_s) = here(py, |cancel| -> PyResult<_> {
             let started = Instant::now();
             let cancel = match budget {
                 Some(budget) => cancel.with_budget(move || {
@@ -97,7 +95,7 @@ impl Scene {
             let mut observer = |progress: &_| history.push(*progress);
             let solved = solve(&problem, &settings, &mut observer, &cancel);
             let wall_s = started.elapsed().as_secs_f64();
-            Ok((problem, history, solved.map_err(|error| crate::error_of(error.is_bad_input(), error))?, wall_s))
+            Ok((history, solved.map_err(|error| crate::error_of(error.is_bad_input(), error))?, wall_s))
         })??;
         Ok(Run::new(scene, &problem, settings, solution, history, wall_s))
     }
