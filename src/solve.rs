@@ -103,16 +103,28 @@ impl SolveError {
 /// # Errors
 /// [`SolveError::PaperPlate`], [`SolveError::PaperSurface`], [`MotorError::Rotor`] or [`SolveError::Memory`].
 pub fn check(problem: &Problem, settings: &Settings) -> Result<(), SolveError> {
-    Ok(memory::check(need(problem, settings, &Cancel::new())?)?)
+    let (_, need) = planned(problem, settings, &settings.fidelity.spec(), &Cancel::new())?;
+    Ok(memory::check(need)?)
 }
 
-fn need(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<memory::Need, SolveError> {
-    let spec = settings.fidelity.spec();
+/// The plan, if there is one, and the memory that it needs.
+fn planned(
+    problem: &Problem,
+    settings: &Settings,
+    spec: &Spec,
+    cancel: &Cancel,
+) -> Result<(Option<Plan>, memory::Need), SolveError> {
     Ok(match (&problem.scenario, settings.method) {
         (Scenario::Motor(motor), Method::Auto) => {
-            memory::motor(motor, &motor_plan(motor, problem, settings, &spec, cancel)?)
+            let plan = motor_plan(motor, problem, settings, spec, cancel)?;
+            let need = memory::motor(motor, &plan);
+            (Some(plan), need)
         }
-        (Scenario::Plate(plate), Method::Auto) => memory::plate(plate, &plate_plan(plate, problem, settings, &spec)),
+        (Scenario::Plate(plate), Method::Auto) => {
+            let plan = plate_plan(plate, problem, settings, spec);
+            let need = memory::plate(plate, &plan);
+            (Some(plan), need)
+        }
         (Scenario::Motor(motor), Method::Paper) if motor.surface != Surface::default() => {
             return Err(SolveError::PaperSurface);
         }
@@ -120,7 +132,7 @@ fn need(problem: &Problem, settings: &Settings, cancel: &Cancel) -> Result<memor
             let paper::Mesh { nx, ny, n, steps } = paper::Mesh::of(&problem.numerics);
             // Resolved before anything is taken, and kept.
             motor.compliances(n / 2, cancel).map_err(MotorError::from)?;
-            memory::paper(motor, (nx, ny, n, steps))
+            (None, memory::paper(motor, (nx, ny, n, steps)))
         }
         (Scenario::Plate(_), Method::Paper) => return Err(SolveError::PaperPlate),
     })
@@ -172,23 +184,18 @@ pub fn solve_from(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, SolveError> {
-    let need = need(problem, settings, cancel)?;
     let spec = settings.fidelity.spec();
     let spec = if cancel.started().has_budget() { spec.from_coarse() } else { spec };
+    let (plan, need) = planned(problem, settings, &spec, cancel)?;
     if let (Scenario::Plate(plate @ Plate { load: Some(load), .. }), Method::Auto) =
         (&problem.scenario, settings.method)
     {
         memory::check(need)?;
         return floated(plate, *load, problem, settings, &spec, observer, &cancel.started());
     }
-    let planned = match (&problem.scenario, settings.method) {
-        (Scenario::Motor(motor), Method::Auto) => Some(motor_plan(motor, problem, settings, &spec, cancel)?),
-        (Scenario::Plate(plate), Method::Auto) => Some(plate_plan(plate, problem, settings, &spec)),
-        (_, Method::Paper) => None,
-    };
     let taken = memory::take(need, cancel)?;
     let cancel = &cancel.started();
-    let mut solution = match (&problem.scenario, planned) {
+    let mut solution = match (&problem.scenario, plan) {
         (Scenario::Motor(motor), Some(plan)) => {
             let mut found = motor::periodic_from(warm, motor, &plan, observer, cancel)?;
             let other = touching(&mut found, motor, &plan, observer, cancel);
