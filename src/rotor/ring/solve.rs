@@ -156,44 +156,49 @@ impl System {
         Ok(Factor { symbolic: &self.symbolic, values })
     }
 
-    /// The products of `vector` with the three parts of the stiffness, K = K₀ + m K₁ + m² K₂.
-    pub(super) fn products(&self, vector: &[f64]) -> [Vec<f64>; 3] {
+    /// The products of each of the `vectors` with the three parts of the stiffness, K = K₀ + m K₁ + m² K₂. The parts, larger than a processor's
+    /// cache, are read once for all of them.
+    pub(super) fn products(&self, vectors: &[&[f64]]) -> Vec<[Vec<f64>; 3]> {
         /// Of the places that do not couple θ with another direction, and of those that do.
         fn apart(base: [[f64; DIRECTIONS]; DIRECTIONS], [r, t, z]: [f64; DIRECTIONS]) -> [[f64; DIRECTIONS]; 2] {
             let [[rr, rt, rz], [tr, tt, tz], [zr, zt, zz]] = base;
             [[rr * r + rz * z, tt * t, zr * r + zz * z], [rt * t, tr * r + tz * z, zt * t]]
         }
-        let (moved, _) = vector.as_chunks::<DIRECTIONS>();
-        let mut out = [(); 3].map(|()| vec![[0.0; DIRECTIONS]; moved.len()]);
-        for (b, at) in moved.iter().enumerate() {
-            let mut sums = [[0.0; DIRECTIONS]; 3];
-            let mut add = |[constant, linear]: [[f64; DIRECTIONS]; 2], square: [f64; DIRECTIONS], other: &[f64; 3]| {
-                for p in 0..DIRECTIONS {
-                    sums[0][p] += constant[p];
-                    sums[1][p] += linear[p];
-                    sums[2][p] += square[p] * other[p];
-                }
-            };
+        let nodes = self.size / DIRECTIONS;
+        let moved: Vec<&[[f64; DIRECTIONS]]> = vectors.iter().map(|vector| vector.as_chunks().0).collect();
+        let mut out = vec![[(); 3].map(|()| vec![[0.0; DIRECTIONS]; nodes]); vectors.len()];
+        let mut sums = vec![[[0.0; DIRECTIONS]; 3]; vectors.len()];
+        for b in 0..nodes {
+            sums.fill([[0.0; DIRECTIONS]; 3]);
             for (a, pair) in self.coupled(b) {
                 let Pair { base, square, .. } = *pair;
-                if a == b {
-                    add(apart(base, *at), square, at);
-                    continue;
-                }
                 let across = std::array::from_fn(|p| std::array::from_fn(|q| base[q][p]));
-                add(apart(across, moved[a]), square, &moved[a]);
-                let [constant, linear] = apart(base, *at);
-                for p in 0..DIRECTIONS {
-                    out[0][a][p] += constant[p];
-                    out[1][a][p] += linear[p];
-                    out[2][a][p] += square[p] * at[p];
+                for ((moved, out), sums) in moved.iter().zip(&mut out).zip(&mut sums) {
+                    let at = &moved[b];
+                    let other = &moved[a];
+                    let [constant, linear] = apart(if a == b { base } else { across }, *other);
+                    for p in 0..DIRECTIONS {
+                        sums[0][p] += constant[p];
+                        sums[1][p] += linear[p];
+                        sums[2][p] += square[p] * other[p];
+                    }
+                    if a != b {
+                        let [constant, linear] = apart(base, *at);
+                        for p in 0..DIRECTIONS {
+                            out[0][a][p] += constant[p];
+                            out[1][a][p] += linear[p];
+                            out[2][a][p] += square[p] * at[p];
+                        }
+                    }
                 }
             }
-            for (out, sums) in out.iter_mut().zip(sums) {
-                (0..DIRECTIONS).for_each(|p| out[b][p] += sums[p]);
+            for (out, sums) in out.iter_mut().zip(&sums) {
+                for (out, sums) in out.iter_mut().zip(sums) {
+                    (0..DIRECTIONS).for_each(|p| out[b][p] += sums[p]);
+                }
             }
         }
-        out.map(Vec::into_flattened)
+        out.into_iter().map(|parts| parts.map(Vec::into_flattened)).collect()
     }
 
     /// The product of `vector` with the mass.
@@ -307,7 +312,7 @@ mod tests {
 
     /// Forces K u of order `order`.
     fn forces(system: &System, moved: &[f64], order: f64) -> Vec<f64> {
-        let [constant, linear, square] = system.products(moved);
+        let [constant, linear, square] = &system.products(&[moved])[0];
         (0..moved.len()).map(|i| constant[i] + order * (linear[i] + order * square[i])).collect()
     }
 
