@@ -283,15 +283,20 @@ fn a_refusal_opens_the_group_it_is_in() {
 }
 
 #[test]
-fn one_click_brings_the_default_back() {
-    let mut scene = Scene::motor();
-    scene.set("motor.load_per_wave_n", "1").unwrap();
-    let mut harness = panel(Edited::of(scene));
-    assert!(harness.query_by_label("Reset tooth width").is_none(), "it has its default");
+fn one_click_brings_back_what_was_opened() {
+    let mut opened = Scene::motor();
+    opened.set("motor.load_per_wave_n", "1").unwrap();
+    let mut edited = Edited::of(opened.clone());
+    let mut changed = opened.clone();
+    changed.set("motor.load_per_wave_n", "2").unwrap();
+    edited.state.document.edit(changed, "motor.load_per_wave_n", false);
+    let mut harness = panel(edited);
+    assert!(harness.query_by_label("Reset tooth width").is_none(), "it is as it was");
     harness.get_by_label("Reset load on one wave").click();
     harness.run();
-    assert_eq!(harness.state().pushed, [Command::Reset { key: "motor.load_per_wave_n" }]);
-    assert_eq!(harness.state().scene(), &Scene::motor());
+    let (key, value) = ("motor.load_per_wave_n", Value::Number(1.0));
+    assert_eq!(harness.state().pushed, [Command::Set { key, value, dragging: false }]);
+    assert_eq!(harness.state().scene(), &opened);
     assert!(harness.query_by_label("Reset load on one wave").is_none());
 }
 

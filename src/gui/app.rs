@@ -30,6 +30,8 @@ pub struct App {
     /// What was asked for while text was being typed: it is carried out once the text is taken.
     after_text: Vec<Command>,
     last_frame: Option<Instant>,
+    /// Something was done since the last time that all was written away.
+    unwritten: bool,
     /// What followed the `#` of the page's address when it was last looked at.
     address: String,
 }
@@ -53,7 +55,8 @@ impl App {
         mirror(&context.egui_ctx);
         let state = restored(context.storage, opened, platform.storage.as_deref())?;
         let updater = Updater::start(&context.egui_ctx, state, platform, Parent::of(context))?;
-        Ok(Self { updater, typing: false, after_text: Vec::new(), last_frame: None, address: String::new() })
+        let (after_text, address) = (Vec::new(), String::new());
+        Ok(Self { updater, typing: false, after_text, last_frame: None, unwritten: false, address })
     }
 
     /// All that the window knows.
@@ -68,6 +71,7 @@ impl App {
 
     /// Does what a panel or a key would ask for.
     pub fn carry_out(&mut self, command: Command) {
+        self.unwritten |= !matches!(command, Command::Hover(_));
         self.updater.carry_out(command);
     }
 
@@ -97,7 +101,7 @@ impl App {
     /// Carries `commands` out, in a frame or two if text is being typed, which has to be taken first.
     fn after_text(&mut self, ctx: &egui::Context, commands: Vec<Command>) {
         if commands.is_empty() || !ctx.text_edit_focused() {
-            commands.into_iter().for_each(|command| self.updater.carry_out(command));
+            commands.into_iter().for_each(|command| self.carry_out(command));
         } else {
             self.after_text.extend(commands);
             ctx.request_repaint();
@@ -111,7 +115,7 @@ impl App {
         }
         let commands = std::mem::take(&mut self.after_text);
         if asked.iter().all(|key| self.state().rejected.of(key).is_none()) {
-            commands.into_iter().for_each(|command| self.updater.carry_out(command));
+            commands.into_iter().for_each(|command| self.carry_out(command));
         }
         ctx.request_repaint();
     }
@@ -146,7 +150,7 @@ impl eframe::App for App {
             pressed.into_iter().partition(|shortcut| shortcut.scope == Scope::Window);
         commands.extend(at_once.iter().map(|shortcut| (shortcut.command)()));
         commands.extend(dropped(ctx).into_iter().map(Command::opened));
-        commands.into_iter().for_each(|command| self.updater.carry_out(command));
+        commands.into_iter().for_each(|command| self.carry_out(command));
         let mut waiting: Vec<Command> = waiting.iter().map(|shortcut| (shortcut.command)()).collect();
         let closing = ctx.input(|input| input.viewport().close_requested()) && !self.state().quitting;
         if closing && (ctx.text_edit_focused() || self.updater.quitting_loses()) {
@@ -176,13 +180,13 @@ impl eframe::App for App {
             // What a command changes is drawn soon.
             ctx.request_repaint();
         }
-        if commands.iter().any(|command| !matches!(command, Command::Hover(_))) {
-            // And written away.
+        let asked: Vec<&'static str> = commands.iter().filter_map(Command::edited).collect();
+        commands.into_iter().for_each(|command| self.carry_out(command));
+        self.text_taken(&ctx, &asked);
+        if self.unwritten {
+            // The frame in which it is written away. Asked for in every frame until then, since an earlier one takes its place.
             ctx.request_repaint_after(SAVE_INTERVAL + Duration::from_millis(500));
         }
-        let asked: Vec<&'static str> = commands.iter().filter_map(Command::edited).collect();
-        commands.into_iter().for_each(|command| self.updater.carry_out(command));
-        self.text_taken(&ctx, &asked);
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
@@ -191,6 +195,7 @@ impl eframe::App for App {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.unwritten = false;
         let state = self.state();
         // The next window begins with the student's own scene, not with that of a lesson.
         let document = state.lessons.student_document(&state.document);

@@ -14,6 +14,16 @@ pub fn number(value: f64) -> String {
     signed(format!("{value:.decimals$}"))
 }
 
+/// The ends of a range, in as many digits as tell them apart: 99.96 and 100.02 are both 100 to three. The same twice, if they differ by less.
+pub fn ends(range: [f64; 2]) -> [String; 2] {
+    let written = range.map(number);
+    if written[0] == written[1] || trimmed(&written[0]) != trimmed(&written[1]) {
+        return written;
+    }
+    let decimals = written[0].len() - trimmed(&written[0]).len();
+    range.map(|value| signed(format!("{value:.decimals$}")))
+}
+
 /// `value` as it is, without trailing zeros.
 pub fn plain(value: f64) -> String {
     trimmed(&number(value)).to_owned()
@@ -142,6 +152,14 @@ mod tests {
         assert_eq!(number(0.0), "0");
         assert_eq!(times(9012.0), "×9000");
         assert_eq!(times(0.0), "×1");
+    }
+
+    #[test]
+    fn ends_of_a_range_are_told_apart_where_they_round_to_the_same() {
+        assert_eq!(ends([79.5, 541.3]), ["79.5", "541"]);
+        assert_eq!(ends([99.96, 100.02]), ["99.96", "100.02"]);
+        assert_eq!(ends([9.997, 10.0]), ["9.997", "10.000"]);
+        assert_eq!(ends([101.325, 101.3251]), ["101", "101"]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::glossary;
 use super::hint::Hint;
 use super::theme::{self, Palette};
-use crate::gui::derived::format::{number, plain};
+use crate::gui::derived::format::{ends, plain};
 use crate::gui::derived::ticks::{Ticks, round_down};
 use crate::recording::Recording;
 use eframe::egui::epaint::{Mesh, Shape};
@@ -280,7 +280,8 @@ pub(in crate::gui::ui) fn field_colours() -> &'static [Color32; 256] {
 
 /// Colours of the field per pascal over a range; none where both ends are written as the same number, and the rest is noise.
 pub(in crate::gui::ui) fn colours_per_pascal([low, high]: [f64; 2]) -> f64 {
-    if number(low / 1e3) == number(high / 1e3) { 0.0 } else { 255.0 / (high - low) }
+    let [least, most] = ends([low / 1e3, high / 1e3]);
+    if least == most { 0.0 } else { 255.0 / (high - low) }
 }
 
 /// A title above `plot` with the colour bar and its ends at the right end of the same line.
@@ -293,7 +294,7 @@ pub(in crate::gui::ui) fn title_with_bar(
     titles: [&str; 2],
     range: [f64; 2],
 ) {
-    let ends = range.map(|pascal| number(pascal / 1e3));
+    let ends = ends(range.map(|pascal| pascal / 1e3));
     // Of one value there is no scale.
     if ends[0] == ends[1] {
         let everywhere = titles.map(|title| format!("{title}: {} kPa everywhere", ends[1]));

@@ -190,7 +190,7 @@ impl Panel<'_> {
         });
     }
 
-    /// The name, and at its right the button that brings the default back.
+    /// The name, and at its right the button that brings back what it was.
     fn label_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) -> egui::Response {
         let explanation = self.explanation(parameter);
         let text = RichText::new(label(parameter));
@@ -201,30 +201,28 @@ impl Panel<'_> {
         })
     }
 
-    /// `add` at the left, and the reset button at the right if the value is not the default.
+    /// `add` at the left, and the reset button at the right if the value is not the one that was opened.
     fn beside_reset<R>(
         &mut self,
         ui: &mut egui::Ui,
         parameter: &'static Parameter,
         add: impl FnOnce(&mut egui::Ui) -> R,
     ) -> R {
-        let default = self.default(parameter);
-        let changed = default.is_some() && default != self.scene.get(parameter.key);
+        let original = self.original(parameter).filter(|value| Some(value) != self.scene.get(parameter.key).as_ref());
         let side = ui.text_style_height(&TextStyle::Body);
         let right = ui.max_rect().right();
         let row = ui.scope(|ui| {
             ui.set_max_width((ui.available_width() - side - ui.spacing().item_spacing.x).max(side));
             add(ui)
         });
-        if changed {
+        if let Some(value) = original {
             // Placed over the row, which keeps its height when the button comes and goes.
             let corner = egui::pos2(right - side, row.response.rect.top());
             let area = egui::Rect::from_min_size(corner, egui::vec2(side, side));
-            let text = default.as_ref().map(|value| self.in_words(parameter, value)).unwrap_or_default();
             let response = reset_button(ui, area, &format!("Reset {}", label(parameter).to_lowercase()))
-                .hint(format!("Reset to {text}"));
+                .hint(format!("Reset to {}", self.in_words(parameter, &value)));
             if response.clicked() {
-                self.cx.push(Command::Reset { key: parameter.key });
+                self.cx.push(Command::Set { key: parameter.key, value, dragging: false });
             }
         }
         row.inner
@@ -430,6 +428,12 @@ impl Panel<'_> {
             return None;
         }
         parameter.default()
+    }
+
+    /// Its value in the scene as it was opened or last saved; its default where it had none.
+    fn original(&self, parameter: &Parameter) -> Option<Value> {
+        let default = self.default(parameter)?;
+        Some(self.cx.state.document.saved().get(parameter.key).unwrap_or(default))
     }
 
     fn explanation(&self, parameter: &Parameter) -> String {
