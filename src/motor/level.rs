@@ -506,7 +506,7 @@ impl Level {
             // What is left of a change that falls so fast.
             self.drift = if ratio < 0.5 { change * ratio / (1.0 - ratio) } else { change };
             report.round(round, residual, self.mean_film_load());
-            if residual < plan.tolerance && self.astray() <= self.allowed(plan) {
+            if residual < plan.tolerance && self.astray() <= self.allowed(plan.accuracy) {
                 return Ok(Status::Converged);
             }
             anderson.advance(&mut present, &image);
@@ -514,19 +514,19 @@ impl Level {
         }
         // What has not become small enough: what single nodes change by, or else what is left of α.
         let (residual, tolerance) = match residual < plan.tolerance {
-            true => (self.astray(), self.allowed(plan)),
+            true => (self.astray(), self.allowed(plan.accuracy)),
             false => (residual, plan.tolerance),
         };
         Ok(Status::NotConverged { residual, tolerance })
     }
 
-    /// How far α may still be from that of a cycle that repeats.
-    fn allowed(&self, plan: &Plan) -> f64 {
-        if plan.accuracy == 0.0 {
+    /// How far α may still be from that of a cycle that repeats, if it is asked for this exactly; any distance, if no accuracy is.
+    fn allowed(&self, accuracy: f64) -> f64 {
+        if accuracy == 0.0 {
             return f64::INFINITY;
         }
         let alpha = self.mean_film_load() / self.load;
-        (REPEATING_SHARE * plan.accuracy * unit(alpha)).max(LEAST_CHANGE)
+        (REPEATING_SHARE * accuracy * unit(alpha)).max(LEAST_CHANGE)
     }
 
     /// Film line load \[N/m\] at a node of the lines, from the film's own pressure.

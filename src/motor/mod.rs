@@ -112,13 +112,10 @@ pub fn periodic_from(
     let mut search =
         Search { motor, plan, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
-    if let Status::NotConverged { .. } = found.status {
-        if let Some(settled) = search.march() {
-            return Ok(finish(motor, plan, &settled, stats));
-        }
-        if let Some((longer, found)) = search.on_longer_grids() {
-            return Ok(finish(motor, &longer, &found, stats));
-        }
+    if let Status::NotConverged { .. } = found.status
+        && let Some(settled) = search.march()
+    {
+        return Ok(finish(motor, plan, &settled, stats));
     }
     let result = finish(motor, plan, &found, stats);
     if found.status == Status::Converged {
@@ -208,16 +205,6 @@ impl Search<'_> {
         let mut marching = Search { plan: &plan, marching: true, observer, stats, ..*self };
         let found = climb_once(&mut marching, &plan, None, self.cancel).ok()?;
         (found.status == Status::Converged).then_some(found)
-    }
-
-    /// The state on grids with twice as many nodes along a tooth, and their plan, if there is one and the work is little. A film of slow, viscous gas whose
-    /// load is nearly zero may have a state on these and none on coarser ones.
-    fn on_longer_grids(&mut self) -> Option<(Plan, Found<Level>)> {
-        let plan = self.plan.longer().filter(|plan| plan.grids.iter().all(|grid| grid.work() <= self.most_work()))?;
-        let (observer, stats) = (&mut *self.observer, &mut *self.stats);
-        let mut search = Search { plan: &plan, observer, stats, ..*self };
-        let found = climb(&mut search, &plan, None, self.cancel).ok()?;
-        (found.status == Status::Converged).then_some((plan, found))
     }
 }
 

@@ -225,12 +225,6 @@ impl Plan {
         Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
     }
 
-    /// The same plan with twice as many nodes along a tooth, where it may be refined so far.
-    pub fn longer(&self) -> Option<Self> {
-        let grids = self.grids.iter().map(|grid| Grid { along: 2 * grid.along, ..*grid }).collect();
-        (self.most_grids > self.grids.len()).then(|| Self { grids, most_grids: self.grids.len(), ..self.clone() })
-    }
-
     /// The same plan with the sides of the plate as they are in the scene; of finite volumes.
     pub fn not_turned(&self) -> Self {
         if !self.turned {

@@ -106,6 +106,8 @@ impl Level {
         report: &mut Reporter<'_>,
         cancel: &Cancel,
     ) -> Result<Status, Stop> {
+        // Nothing else says that a cycle repeats: on grids that the scene prescribes as well.
+        let accuracy = if plan.accuracy == 0.0 { plan.target_error } else { plan.accuracy };
         let (mut loads, mut unbalanced) = (Vec::new(), 0);
         for cycle in 1..=CYCLE_LIMIT {
             let (_, change) =
@@ -117,7 +119,7 @@ impl Level {
             let (before, after) = ((middle - first).abs(), (last - middle).abs());
             let ratio = after / before;
             self.drift = if ratio < 0.7 { after * ratio / (1.0 - ratio) } else { CREEP * after };
-            let allowed = self.allowed(plan);
+            let allowed = self.allowed(accuracy);
             if self.astray() <= allowed {
                 return Ok(Status::Converged);
             }
@@ -126,7 +128,7 @@ impl Level {
                 break;
             }
         }
-        Ok(Status::NotConverged { residual: self.astray(), tolerance: self.allowed(plan) })
+        Ok(Status::NotConverged { residual: self.astray(), tolerance: self.allowed(accuracy) })
     }
 
     /// Largest residual of a step of the last cycle, in ln ζ.
