@@ -415,6 +415,35 @@ fn motors_that_were_hard_to_reach_converge() {
     }
 }
 
+/// Marched cycle after cycle, it comes to no end; on grids that the scene prescribes it once counted as converged after seven.
+#[test]
+fn on_prescribed_grids_too_a_march_has_to_repeat() {
+    let motor = [
+        ("motor.contact_radius_mm", 500.0),
+        ("motor.waves", 48.0),
+        ("motor.load_per_wave_n", 0.012_356_03),
+        ("motor.rotor_speed_rpm", 1456.9777),
+        ("stator.frequency_khz", 0.010_395_299_65),
+        ("stator.normal_amplitude_um", 16.418_349),
+        ("stator.teeth_per_wave", 2.0),
+        ("stator.tooth_width_mm", 26.267_077),
+        ("stator.tooth_radius_m", 233.952_33),
+        ("rotor.contact_width_mm", 6.185_942_45),
+        ("rotor.decay_length_mm", 21.524_484_7),
+        ("rotor.point_compliance_um_per_n", 1.684_946_17),
+        ("rotor.local_compliance_m2_per_n", 3.226_242e-9),
+        ("film.min_spacing_nm", 16.760_954_58),
+        ("film.ambient_pressure_kpa", 934.323_748),
+        ("film.viscosity_upa_s", 552.316_628),
+        ("film.mean_free_path_nm", 149_311.443),
+        ("numerics.film_nodes_along", 45.0),
+    ];
+    let problem = Problem::new(&scene_with("fundamental", &motor)).unwrap();
+    let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
+    let found = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
+    assert!(matches!(found.status, Status::NotConverged { .. }), "{:?}", found.status);
+}
+
 #[test]
 fn the_coarsest_grid_that_a_scene_may_ask_for() {
     for width in [0.03, 0.15, 1.7353, 2.88] {

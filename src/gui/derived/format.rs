@@ -20,7 +20,7 @@ pub fn ends(range: [f64; 2]) -> [String; 2] {
     if written[0] == written[1] || trimmed(&written[0]) != trimmed(&written[1]) {
         return written;
     }
-    let decimals = written[0].len() - trimmed(&written[0]).len();
+    let decimals = written.iter().map(|end| end.len() - trimmed(end).len()).max().unwrap_or(0);
     range.map(|value| signed(format!("{value:.decimals$}")))
 }
 
@@ -159,6 +159,7 @@ mod tests {
         assert_eq!(ends([79.5, 541.3]), ["79.5", "541"]);
         assert_eq!(ends([99.96, 100.02]), ["99.96", "100.02"]);
         assert_eq!(ends([9.997, 10.0]), ["9.997", "10.000"]);
+        assert_eq!(ends([-100.02, -99.96]), ["−100.02", "−99.96"]);
         assert_eq!(ends([101.325, 101.3251]), ["101", "101"]);
     }
 
