@@ -42,7 +42,6 @@ use crate::numerics::dot;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::sync::OnceLock;
 
 /// From a mesh and one with elements half as large.
 pub(super) fn of_two_meshes(coarse: f64, fine: f64) -> Estimate {
@@ -114,19 +113,18 @@ impl Section {
         self.check_held(&meshes[0], waves)?;
         let [coarse, fine] = &meshes;
         let loads = [coarse, fine].map(|mesh| contact_load(self, mesh, band));
-        let fine_system = OnceLock::new();
-        let (base, factor) = rayon::join(
+        let (base, finer) = rayon::join(
             || Reduced::new(&System::new(self, coarse)?, &loads[0], &samples(first, last), cancel),
             || {
-                let assembled = System::new(self, fine)?;
+                let system = System::new(self, fine)?;
                 cancelled(cancel)?;
-                let system = fine_system.get_or_init(|| assembled);
-                Ok((system, system.factor((first * last).sqrt(), 0.0)?))
+                let factor = system.factor((first * last).sqrt(), 0.0)?;
+                Ok((system, factor))
             },
         );
-        let (base, (system, factor)) = (base?, factor?);
+        let (base, (system, factor)) = (base?, finer?);
         let halved = Halved::new(coarse, fine);
-        let finer = Finer { system, factor: &factor, load: &loads[1], halved: &halved };
+        let finer = Finer { system: &system, factor: &factor, load: &loads[1], halved: &halved };
         let refined = base.refined(&finer, &corrected(first, last), cancel)?;
         let (coarse, fine) = (&base.equations, &refined);
         let mut harmonics = Vec::with_capacity(count);
@@ -239,7 +237,7 @@ struct Reduced {
 struct Finer<'a> {
     system: &'a System,
     /// Of one order between the first and the last.
-    factor: &'a Factor<'a>,
+    factor: &'a Factor,
     load: &'a [f64],
     halved: &'a Halved,
 }

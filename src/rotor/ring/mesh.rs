@@ -5,8 +5,14 @@
 //! at a corner. All sizes are scaled by one factor, so that the mesh has about as many elements as were asked for. A
 //! finer mesh halves every element, and contains the displacements of the coarser one: its compliance can only be
 //! greater.
+//!
+//! Nodes are numbered in the order in which their displacements are eliminated, so that the factor of the matrix has few entries, and the
+//! matrix is factorised as it is assembled: by approximate minimum degree (P. R. Amestoy and others, SIAM J. Matrix Anal. Appl. 17 (1996) 886).
 
 use super::section::{Band, Part, RingError, Section, common, mm, same};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -109,7 +115,7 @@ impl Section {
     /// # Errors
     /// [`RingError`] if the band is not within the lowest face or the mesh would be too large.
     pub fn mesh(&self, band: Band) -> Result<Mesh, RingError> {
-        self.meshes(Some(band)).map(|[_, fine]| fine)
+        Mesh::new(self, Some(band), COARSE, 2)
     }
 
     /// How many elements the finer mesh has, with a contact band or without.
@@ -122,7 +128,8 @@ impl Section {
 
     /// A mesh and that with every element halved both ways.
     pub(super) fn meshes(&self, band: Option<Band>) -> Result<[Mesh; 2], RingError> {
-        let [coarse, fine] = [1, 2].map(|halves| Mesh::new(self, band, COARSE, halves));
+        let of = |halves| Mesh::new(self, band, COARSE, halves);
+        let (coarse, fine) = rayon::join(|| of(1), || of(2));
         Ok([coarse?, fine?])
     }
 
@@ -233,7 +240,7 @@ impl Mesh {
         if least > elements.max(MOST) {
             return Err(RingError::Elements { elements: least, most: MOST });
         }
-        Ok(grid.mesh(section, pattern, few, halves))
+        grid.mesh(section, pattern, few, halves)
     }
 
     /// Inner and outer radius, bottom and top of `element`.
@@ -241,6 +248,42 @@ impl Mesh {
         let ([inner, bottom], [outer, top]) = (self.nodes[element.nodes[0]], self.nodes[element.nodes[8]]);
         [inner, outer, bottom, top]
     }
+}
+
+/// For each of `count` nodes itself and, ascending, those of a greater number that it shares an element with: where those of each node
+/// begin, and all of them.
+pub(super) fn neighbours(count: usize, elements: &[Element]) -> (Vec<usize>, Vec<usize>) {
+    // On a tensor grid a node has four elements at most.
+    let mut touching = vec![(0, [0; 4]); count];
+    for (k, element) in elements.iter().enumerate() {
+        for node in element.nodes {
+            let (known, all) = &mut touching[node];
+            all[*known] = k;
+            *known += 1;
+        }
+    }
+    let (mut first, mut others, mut of_one) = (vec![0], Vec::new(), Vec::new());
+    for (node, (known, all)) in touching.iter().enumerate() {
+        of_one.clear();
+        of_one.extend(all[..*known].iter().flat_map(|k| elements[*k].nodes).filter(|other| *other >= node));
+        of_one.sort_unstable();
+        of_one.dedup();
+        others.extend_from_slice(&of_one);
+        first.push(others.len());
+    }
+    (first, others)
+}
+
+/// Which of `count` nodes is eliminated when, and when each is.
+fn elimination(count: usize, elements: &[Element]) -> Result<[Vec<usize>; 2], RingError> {
+    let (first, others) = neighbours(count, elements);
+    let (mut order, mut number) = (vec![0; count], vec![0; count]);
+    let scratch = amd::order_scratch::<usize>(count, others.len());
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| RingError::Memory)?;
+    let graph = SymbolicSparseColMatRef::new_checked(count, count, &first, None, &others);
+    amd::order(&mut order, &mut number, graph, Default::default(), MemStack::new(&mut memory))
+        .map_err(|_| RingError::Memory)?;
+    Ok([order, number])
 }
 
 impl Section {
@@ -330,7 +373,7 @@ impl Grid {
     }
 
     /// Elements as in `pattern`, which is like this grid or this grid itself, moved with the lines.
-    fn mesh(&self, section: &Section, pattern: &Self, scale: f64, halves: usize) -> Mesh {
+    fn mesh(&self, section: &Section, pattern: &Self, scale: f64, halves: usize) -> Result<Mesh, RingError> {
         let (radii, along) = pattern.along.divided(scale, halves);
         let (heights, up) = pattern.up.divided(scale, halves);
         let radii = moved(radii, &along, &pattern.along.at, &self.along.at);
@@ -348,16 +391,20 @@ impl Grid {
         // Places of the grid without an element have no node.
         let mut number = vec![usize::MAX; columns * (2 * up.len() + 1)];
         elements.iter().flat_map(|element| element.nodes).for_each(|place| number[place] = 0);
+        let places: Vec<usize> = (0..number.len()).filter(|place| number[*place] == 0).collect();
+        places.iter().enumerate().for_each(|(node, place)| number[*place] = node);
+        let renumber = |elements: &mut [Element], number: &[usize]| {
+            elements.iter_mut().for_each(|element| element.nodes = element.nodes.map(|node| number[node]));
+        };
+        renumber(&mut elements, &number);
+        let [order, number] = elimination(places.len(), &elements)?;
+        renumber(&mut elements, &number);
+        let places = order.iter().map(|node| [places[*node] % columns, places[*node] / columns]);
+        let places: Vec<[usize; 2]> = places.collect();
         let middle = |edges: &[f64], i: usize| 0.5 * (edges[i / 2] + edges[i.div_ceil(2)]);
-        let (mut nodes, mut places) = (Vec::new(), Vec::new());
-        for (place, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == 0) {
-            *number = nodes.len();
-            places.push([place % columns, place / columns]);
-            nodes.push([middle(&radii, place % columns), middle(&heights, place / columns)]);
-        }
-        elements.iter_mut().for_each(|element| element.nodes = element.nodes.map(|place| number[place]));
+        let nodes: Vec<[f64; 2]> = places.iter().map(|[i, j]| [middle(&radii, *i), middle(&heights, *j)]).collect();
         let held = nodes.iter().map(|node| section.held(*node)).collect();
-        Mesh { nodes, elements, held, places }
+        Ok(Mesh { nodes, elements, held, places })
     }
 }
 

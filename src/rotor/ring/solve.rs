@@ -2,58 +2,41 @@
 //!
 //! Unknown 3 i + d is the displacement of node i in the direction d = 0 (r), 1 (θ) or 2 (z). What a support holds is
 //! left without coupling, so that it stays 0 and the pattern of the matrix is that of the mesh alone: one symbolic
-//! factorisation serves all orders.
+//! factorisation serves all orders. Unknowns are eliminated in the order of their numbers.
 
 use super::element::{self, DIRECTIONS, Integrals, Pair};
-use super::mesh::Mesh;
+use super::mesh::{Mesh, neighbours};
 use super::section::{Band, RingError, SAME, Section, same};
 use crate::control::Cancel;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 use std::collections::HashMap;
+use std::sync::Arc;
 
-/// Stiffness and mass of a mesh: for each node, what it has to do with those before it and with itself.
+/// Stiffness and mass of a mesh: for each node, what it has to do with itself and with those after it.
 pub(super) struct System {
     /// Unknowns.
     pub(super) size: usize,
     /// Where the pairs of each node begin.
     first: Vec<usize>,
-    /// The first node of each pair, ascending for each second one, which is the last of them itself.
-    before: Vec<usize>,
+    /// The first node of each pair, ascending for each second one, which is the first of them itself.
+    others: Vec<usize>,
     pairs: Vec<Pair>,
-    /// The upper triangle of the matrix, column by column: where each begins, and the rows.
+    /// The lower triangle of the matrix, column by column: where each begins, and the rows.
     starts: Vec<u32>,
     rows: Vec<u32>,
-    symbolic: SymbolicCholesky<u32>,
+    symbolic: Arc<SymbolicCholesky<u32>>,
 }
 
 /// A factorised matrix.
-pub(super) struct Factor<'a> {
-    symbolic: &'a SymbolicCholesky<u32>,
+pub(super) struct Factor {
+    symbolic: Arc<SymbolicCholesky<u32>>,
     values: Vec<f64>,
-}
-
-/// Which unknown is eliminated when, so that the factor has few entries, and the place of each: by approximate
-/// minimum degree (P. R. Amestoy and others, SIAM J. Matrix Anal. Appl. 17 (1996) 886), the three of a node together.
-fn elimination_order(first: &[usize], before: &[usize]) -> Result<[Vec<u32>; 2], RingError> {
-    let count = first.len() - 1;
-    let (mut order, mut place) = (vec![0_usize; count], vec![0_usize; count]);
-    let mut memory =
-        MemBuffer::try_new(amd::order_scratch::<usize>(count, before.len())).map_err(|_| RingError::Memory)?;
-    let nodes = SymbolicSparseColMatRef::new_checked(count, count, first, None, before);
-    amd::order(&mut order, &mut place, nodes, Default::default(), MemStack::new(&mut memory))
-        .map_err(|_| RingError::Memory)?;
-    let unknowns = |nodes: Vec<usize>| {
-        nodes.into_iter().flat_map(|node| DIRECTIONS * node..DIRECTIONS * (node + 1)).map(|k| k as u32).collect()
-    };
-    Ok([order, place].map(unknowns))
 }
 
 /// Whether to go on.
@@ -70,26 +53,18 @@ impl System {
     /// Assembles the equations of a mesh of `section`.
     pub(super) fn new(section: &Section, mesh: &Mesh) -> Result<Self, RingError> {
         let count = mesh.nodes.len();
-        let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); count];
-        for element in &mesh.elements {
-            for b in element.nodes {
-                neighbours[b].extend(element.nodes.iter().filter(|a| **a <= b));
-            }
-        }
-        let (mut first, mut before) = (vec![0], Vec::new());
-        let (mut starts, mut rows) = (vec![0_u32], Vec::new());
-        for (b, neighbours) in neighbours.iter_mut().enumerate() {
-            neighbours.sort_unstable();
-            neighbours.dedup();
-            before.extend_from_slice(neighbours);
-            first.push(before.len());
+        let (first, others) = neighbours(count, &mesh.elements);
+        let (mut starts, mut rows) = (vec![0_u32], Vec::with_capacity(DIRECTIONS * DIRECTIONS * others.len()));
+        for node in 0..count {
             for q in 0..DIRECTIONS {
-                let coupled = neighbours.iter().flat_map(|a| DIRECTIONS * a..DIRECTIONS * (a + 1));
-                rows.extend(coupled.take_while(|row| *row <= DIRECTIONS * b + q).map(|row| row as u32));
+                for a in &others[first[node]..first[node + 1]] {
+                    let of_node: [u32; DIRECTIONS] = std::array::from_fn(|p| (DIRECTIONS * a + p) as u32);
+                    rows.extend_from_slice(&of_node[if *a == node { q } else { 0 }..]);
+                }
                 starts.push(rows.len() as u32);
             }
         }
-        let mut pairs = vec![Pair::default(); before.len()];
+        let mut pairs = vec![Pair::default(); others.len()];
         let mut integrals: [HashMap<[u64; 2], Integrals>; 2] = [HashMap::new(), HashMap::new()];
         for element in &mesh.elements {
             let [inner, outer, bottom, top] = mesh.corners(element);
@@ -98,8 +73,8 @@ impl System {
             let up = up.entry([bottom, top].map(f64::to_bits)).or_insert_with(|| Integrals::new(bottom, top));
             let material = &section.parts()[element.part].material;
             for (j, b) in element.nodes.into_iter().enumerate() {
-                let known = &before[first[b]..first[b + 1]];
-                for (i, a) in element.nodes.into_iter().enumerate().filter(|(_, a)| *a <= b) {
+                let known = &others[first[b]..first[b + 1]];
+                for (i, a) in element.nodes.into_iter().enumerate().filter(|(_, a)| *a >= b) {
                     pairs[first[b] + known.partition_point(|node| *node < a)]
                         .add(&element::pair(material, along, up, i, j));
                 }
@@ -107,34 +82,34 @@ impl System {
         }
         for (b, held) in mesh.held.iter().enumerate() {
             for k in first[b]..first[b + 1] {
-                pairs[k].hold(mesh.held[before[k]], *held, before[k] == b);
+                pairs[k].hold(mesh.held[others[k]], *held, others[k] == b);
             }
         }
         let size = DIRECTIONS * count;
-        let pattern = SymbolicSparseColMatRef::new_checked(size, size, &starts, None, &rows);
-        let [order, place] = elimination_order(&first, &before)?;
-        let order = SymmetricOrdering::Custom(PermRef::new_checked(&order, &place, size));
+        // Its rows, of which the symbolic factorisation reads the transposed matrix as columns.
+        let lower = SymbolicSparseColMatRef::new_checked(size, size, &starts, None, &rows).to_row_major();
+        let upper = lower.as_ref().map_err(|_| RingError::Memory)?.transpose();
         // In blocks also where faer would not: half the time on the coarser mesh of 500 elements.
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let symbolic =
-            factorize_symbolic_cholesky(pattern, Side::Upper, order, params).map_err(|_| RingError::Memory)?;
-        Ok(Self { size, first, before, pairs, starts, rows, symbolic })
+        let symbolic = factorize_symbolic_cholesky(upper, Side::Upper, SymmetricOrdering::Identity, params)
+            .map_err(|_| RingError::Memory)?;
+        Ok(Self { size, first, others, pairs, starts, rows, symbolic: Arc::new(symbolic) })
     }
 
     /// Factorises the stiffness of order `order` plus `shift` times the mass.
-    pub(super) fn factor(&self, order: f64, shift: f64) -> Result<Factor<'_>, RingError> {
+    pub(super) fn factor(&self, order: f64, shift: f64) -> Result<Factor, RingError> {
         let mut matrix = Vec::with_capacity(self.rows.len());
         for b in 0..self.size / DIRECTIONS {
             let pairs = self.first[b]..self.first[b + 1];
             for q in 0..DIRECTIONS {
-                for (pair, a) in self.pairs[pairs.clone()].iter().zip(&self.before[pairs.clone()]) {
-                    for p in 0..if *a == b { q + 1 } else { DIRECTIONS } {
-                        let itself = if p == q { order * order * pair.square[p] + shift * pair.mass[p] } else { 0.0 };
-                        matrix.push(pair.base[p][q] * if mixed(p, q) { order } else { 1.0 } + itself);
-                    }
+                for (pair, a) in self.pairs[pairs.clone()].iter().zip(&self.others[pairs.clone()]) {
+                    let mut of_node: [f64; DIRECTIONS] =
+                        std::array::from_fn(|p| pair.base[p][q] * if mixed(p, q) { order } else { 1.0 });
+                    of_node[q] += order * order * pair.square[q] + shift * pair.mass[q];
+                    matrix.extend_from_slice(&of_node[if *a == b { q } else { 0 }..]);
                 }
             }
         }
@@ -146,14 +121,14 @@ impl System {
             .factorize_numeric_llt(
                 &mut values,
                 SparseColMatRef::new(pattern, &matrix),
-                Side::Upper,
+                Side::Lower,
                 Default::default(),
                 Par::Seq,
                 MemStack::new(&mut memory),
                 Default::default(),
             )
             .map_err(|_| RingError::Singular { order: order.round() as u32 })?;
-        Ok(Factor { symbolic: &self.symbolic, values })
+        Ok(Factor { symbolic: self.symbolic.clone(), values })
     }
 
     /// The products of each of the `vectors` with the three parts of the stiffness, K = K₀ + m K₁ + m² K₂. The parts, larger than a processor's
@@ -216,20 +191,20 @@ impl System {
         out.into_flattened()
     }
 
-    /// The nodes up to `b` that have to do with it, and what.
+    /// The nodes from `b` on that have to do with it, and what.
     fn coupled(&self, b: usize) -> impl Iterator<Item = (usize, &Pair)> {
         let pairs = self.first[b]..self.first[b + 1];
-        self.before[pairs.clone()].iter().copied().zip(&self.pairs[pairs])
+        self.others[pairs.clone()].iter().copied().zip(&self.pairs[pairs])
     }
 }
 
-impl Factor<'_> {
+impl Factor {
     /// Solves for `columns` right-hand sides, one after the other in `vectors`, in place.
     pub(super) fn solve(&self, vectors: &mut [f64], columns: usize) -> Result<(), RingError> {
         let size = self.symbolic.nrows();
         let scratch = self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq);
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| RingError::Memory)?;
-        LltRef::new(self.symbolic, &self.values).solve_in_place_with_conj(
+        LltRef::new(&*self.symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
             MatMut::from_column_major_slice_mut(vectors, size, columns),
             Par::Seq,
