@@ -218,6 +218,10 @@ fn predict(window: &mut Window, step: &Step) {
             click(window, button);
             assert!(!work(window).committed && work(window).wrong == 1 && shows(window, "Once more"), "{}", step.title);
             assert!(!shows(window, &why), "{}: told after the first try", step.title);
+            // The same number again is no second try.
+            window.key_press(Key::Enter);
+            window.run_steps(3);
+            assert!(!work(window).committed && work(window).wrong == 1, "{}", step.title);
             calculate(window, *value);
         }
     }

@@ -147,6 +147,16 @@ mod tests {
         );
         assert_eq!(unmet("alpha about 0.5", &[], 0.51), None);
         assert_ne!(unmet("alpha about 0.5", &[], 0.53), None);
+        assert_eq!(unmet("alpha about 0.5 within 0.1", &[], 0.53), None);
+        assert_eq!(
+            unmet("alpha about 0.5 within 0.02", &[], 0.53),
+            Some("Film share of the load α is 0.53, and should be about 0.5 to 2 %".to_owned())
+        );
+        // As many digits as tell them apart.
+        assert_eq!(
+            unmet("alpha < 0.5", &[], 0.500_04),
+            Some("Film share of the load α is 0.50004, and should be below 0.5".to_owned())
+        );
         assert_eq!(unmet("abs(alpha - 1) < 0.1 and -(alpha) < 0", &[], 1.05), None);
         assert_ne!(unmet("film_load_n > 1", &[], 0.5), None, "what is not there holds nothing");
         assert_ne!(unmet("alpha / (motor.waves - 7) > 0", &[], 0.5), None);

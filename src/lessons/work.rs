@@ -55,6 +55,9 @@ pub struct StepWork {
     /// Whether the newest run goes beyond what the task is about.
     #[serde(skip)]
     pub too_far: bool,
+    /// Whether the answer is one that was found wrong already.
+    #[serde(skip)]
+    pub refused: bool,
 }
 
 /// When something was done in a step \[s since 1970, UTC\], as far as it was.
@@ -120,15 +123,17 @@ impl StepWork {
     /// Gives the answer, for now.
     pub fn predict(&mut self, prediction: Prediction) {
         if !self.committed {
+            self.refused &= self.prediction == Some(prediction);
             self.prediction = Some(prediction);
         }
     }
 
-    /// Keeps to the answer. A calculation that is wrong has another try.
+    /// Keeps to the answer. A calculation that is wrong has another try, with another number.
     pub fn commit(&mut self, question: &Question) {
-        let Some(given) = self.prediction.filter(|_| !self.committed) else { return };
+        let Some(given) = self.prediction.filter(|_| !self.committed && !self.refused) else { return };
         let wrong = question.kind == Kind::Calculate && !question.answer.is_right(given);
         self.wrong += usize::from(wrong);
+        self.refused = wrong;
         self.committed = !wrong || self.wrong >= TRIES;
     }
 

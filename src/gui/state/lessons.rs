@@ -293,6 +293,7 @@ impl LessonState {
             start: StartingPoint::of(scene),
             newest: None,
             tabs: OffTabs::default(),
+            done: None,
             reveal: 0,
             enter: false,
         });
@@ -344,6 +345,7 @@ impl LessonState {
             document.change(step.scene.clone(), document.target());
         }
         running.start = StartingPoint::of(document.scene().clone());
+        running.done = None;
         running.tabs = OffTabs::default();
         changed
     }

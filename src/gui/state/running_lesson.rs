@@ -53,6 +53,8 @@ pub struct RunningLesson {
     pub newest: Option<Numbers>,
     /// What is read off the tabs.
     pub tabs: OffTabs,
+    /// The run that fulfilled the task of the present step.
+    pub(super) done: Option<Arc<SolvedScene>>,
     pub(super) reveal: u8,
     /// Whether the marked parameter takes the keyboard.
     pub(super) enter: bool,
@@ -78,6 +80,10 @@ impl RunningLesson {
         self.tabs.now = Readings::default();
         let scene = document.scene();
         let Some(run) = seen.run.filter(|run| run.scene == *scene && run.solution.status == Status::Converged) else {
+            // What was said of another scene says nothing about this one.
+            if let Some(work) = self.work.get_mut(self.step) {
+                (work.unmet, work.too_far) = (None, false);
+            }
             return;
         };
         let numbers = Numbers::of(&run.problem, &run.solution);
@@ -98,22 +104,32 @@ impl RunningLesson {
         let Some(work) = self.work.get_mut(self.step) else { return };
         // A draft is good enough to look at, not to judge by; and a value counts when the pointer has let go of it.
         let ready = run.fidelity >= document.target().min(Fidelity::Standard) && !document.is_dragging();
-        if !ready || work.stage(step) != Stage::Task {
+        let (tabs, start) = (&self.tabs, &self.start);
+        let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
+        let before = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
+        let quoted = || readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?)));
+        let by_hand = |live: &Live| live.is_done_by_hand();
+        if work.stage(step) != Stage::Task {
+            // What the text quotes becomes as exact as what is on screen. (A plate in the hand has moved on.)
+            let refines = |done: &Arc<SolvedScene>| done.scene == run.scene && done.fidelity < run.fidelity;
+            if !task.check.live().any(|live| by_hand(&live)) && self.done.as_ref().is_some_and(refines) {
+                work.readings = quoted().collect();
+                self.done = Some(Arc::clone(run));
+            }
             return;
         }
-        let (tabs, start) = (&self.tabs, &self.start);
+        if !ready {
+            return;
+        }
         work.tried = run.scene != start.scene
-            || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
-        let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
-        let start = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
-        work.unmet = task.check.unmet(now, start);
-        let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, start).is_none());
+            || task.check.live().any(|live| by_hand(&live) && tabs.now.get(live) != tabs.start.get(live));
+        work.unmet = task.check.unmet(now, before);
+        let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, before).is_none());
         work.too_far = work.unmet.is_none() && beyond;
         if work.unmet.is_none() && !beyond {
             work.fulfilled = true;
-            let quoted =
-                readings(step.told()).filter_map(|reading| Some((reading.source.clone(), reading.value(now, start)?)));
-            work.readings = quoted.collect();
+            work.readings = quoted().collect();
+            self.done = Some(Arc::clone(run));
         }
     }
 }

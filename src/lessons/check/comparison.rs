@@ -5,18 +5,21 @@ use crate::digits::{capitalised, short};
 use crate::lessons::live::Live;
 use crate::scene::Value;
 
-/// How near `about` is, relative.
+/// How near `about` is, relative, unless the check says.
 pub const ABOUT: f64 = 0.05;
 /// How near `=` is for numbers, relative: what a person typed.
 const SAME: f64 = 1e-9;
-/// Digits in a hint.
+/// Digits in a hint, and the most where fewer would not tell what is from what should be.
 const DIGITS: usize = 3;
+const MOST_DIGITS: usize = 9;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Comparison {
     pub(super) left: Expression,
     pub(super) operator: Operator,
     pub(super) right: Expression,
+    /// How near `about` is, relative.
+    pub(super) within: f64,
     /// The left side as written.
     pub(super) words: String,
 }
@@ -67,7 +70,7 @@ impl Comparison {
             Expression::Name { name, .. } => format!(" {}", name.unit(now.scene)).trim_end().to_owned(),
             _ => String::new(),
         };
-        let shown = |value: f64| short(value, DIGITS).replace('-', "−");
+        let shown = |value: f64, digits: usize| short(value, digits).replace('-', "−");
         let words = match self.operator {
             Operator::Less => "below",
             Operator::AtMost => "at most",
@@ -77,22 +80,27 @@ impl Comparison {
             Operator::About => "about",
         };
         let space = if words.is_empty() { "" } else { " " };
-        let (is, wanted) = (shown(left), shown(right));
-        (!self.operator.holds(left, right))
-            .then(|| format!("{subject} is {is}{unit}, and should be {words}{space}{wanted}{unit}"))
+        let to = match self.operator {
+            Operator::About if self.within != ABOUT => format!(" to {} %", short(100.0 * self.within, DIGITS)),
+            _ => String::new(),
+        };
+        let apart = (DIGITS..MOST_DIGITS).find(|digits| shown(left, *digits) != shown(right, *digits));
+        let [is, wanted] = [left, right].map(|value| shown(value, apart.unwrap_or(MOST_DIGITS)));
+        (!self.holds(left, right))
+            .then(|| format!("{subject} is {is}{unit}, and should be {words}{space}{wanted}{unit}{to}"))
     }
 }
 
-impl Operator {
-    fn holds(self, left: f64, right: f64) -> bool {
+impl Comparison {
+    fn holds(&self, left: f64, right: f64) -> bool {
         let off = (left - right).abs();
-        match self {
-            Self::Less => left < right,
-            Self::AtMost => left <= right * (1.0 + SAME.copysign(right)),
-            Self::More => left > right,
-            Self::AtLeast => left >= right * (1.0 - SAME.copysign(right)),
-            Self::Equal => off <= SAME * right.abs().max(f64::MIN_POSITIVE),
-            Self::About => off <= ABOUT * right.abs(),
+        match self.operator {
+            Operator::Less => left < right,
+            Operator::AtMost => left <= right * (1.0 + SAME.copysign(right)),
+            Operator::More => left > right,
+            Operator::AtLeast => left >= right * (1.0 - SAME.copysign(right)),
+            Operator::Equal => off <= SAME * right.abs().max(f64::MIN_POSITIVE),
+            Operator::About => off <= self.within * right.abs(),
         }
     }
 }

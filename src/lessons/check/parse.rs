@@ -1,6 +1,6 @@
 //! From the words of a check to its comparisons.
 
-use super::comparison::{Comparison, Expression, Operator};
+use super::comparison::{ABOUT, Comparison, Expression, Operator};
 use super::name::{Name, UnknownName, name};
 use crate::scene::{Parameter, ParameterKind, Scene};
 
@@ -188,7 +188,15 @@ impl Reader<'_> {
         };
         self.at += 1;
         let right = self.sum()?;
-        let comparison = Comparison { left, operator: *operator, right, words: words.join(" ") };
+        let mut within = ABOUT;
+        if *operator == Operator::About && self.takes(&Token::Name("within".to_owned())) {
+            let Some(Token::Number(share, _)) = self.tokens.get(self.at) else {
+                return Err(self.unexpected("expected a relative tolerance, as 0.02"));
+            };
+            self.at += 1;
+            within = *share;
+        }
+        let comparison = Comparison { left, operator: *operator, right, within, words: words.join(" ") };
         self.types(&comparison)?;
         Ok(comparison)
     }

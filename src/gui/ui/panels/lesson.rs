@@ -105,10 +105,13 @@ fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &S
     let stage = work.stage(step);
     // What keeps to an answer is always in sight, however long the text is.
     if let (Some(question), Stage::Question) = (&step.question, stage) {
-        let ready = work.prediction.is_some();
+        let ready = work.prediction.is_some() && !work.refused;
         let commit =
             ui.add_enabled_ui(ready, |ui| button::next(ui, lesson_parts::commit_label(question.kind), ready, cx)).inner;
-        let commit = commit.on_hover_text("Enter").on_disabled_hover_text("Answer first: guessing is welcome");
+        let commit = commit.on_hover_text("Enter").on_disabled_hover_text(match work.refused {
+            true => "Another number first",
+            false => "Answer first: guessing is welcome",
+        });
         if commit.clicked() {
             cx.push(LessonCommand::Commit);
         }
@@ -191,7 +194,10 @@ fn recap(ui: &mut Ui, lesson: &Lesson, work: &[StepWork], cx: &DrawContext<'_>) 
         let (mark, colour): (&str, Color32) =
             if work.is_skipped(step) { ("○", cx.colours.contact) } else { ("✔", cx.colours.good) };
         ui.add(egui::Label::new(RichText::new(format!("{mark}  {}", step.title)).color(colour)).wrap());
-        if let (Some(question), true) = (&step.question, work.stage(step) == Stage::Told) {
+        if let (Some(question), true) =
+            (step.question.as_ref().or(step.observe.as_ref()), work.stage(step) == Stage::Told)
+        {
+            lesson_parts::blocks(ui, &question.ask, Look::usual(ui).coloured(cx.colours.quiet), true, cx);
             ui.add(egui::Label::new(RichText::new(answer_words(question)).size(look.size)).wrap());
         }
     }

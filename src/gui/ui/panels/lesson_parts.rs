@@ -6,6 +6,7 @@ use crate::gui::ui::rich::{self, Look};
 use crate::lessons::text::{self, Block, Inline, filled};
 use crate::lessons::work::{Stage, StepWork, answer_words};
 use crate::lessons::{Answer, Choice, Kind, Prediction, Question, Step, Task};
+use crate::scene::quantity_text;
 use eframe::egui::{self, Color32, RichText, Ui, vec2};
 
 /// What the box of a question is called.
@@ -47,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, work: &StepWork, cx: &DrawContext<'
     }
     if let (Some(observe), Stage::Observation | Stage::Told) = (&step.observe, stage) {
         ui.add_space(gap);
-        look_at(ui, observe, work, stage == Stage::Observation, cx);
+        look_at(ui, observe, work, step.look.is_empty(), stage == Stage::Observation, cx);
     }
     if stage != Stage::Told {
         return;
@@ -101,8 +102,9 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                         _ => 0.0,
                     };
                     let name = ui.label("Your number");
-                    let field =
-                        ui.add_enabled(!work.committed, egui::DragValue::new(&mut number).speed(0.01).max_decimals(6));
+                    let field = egui::DragValue::new(&mut number).speed(0.01).max_decimals(6);
+                    let field = field.custom_parser(|text| quantity_text::number(unit, text));
+                    let field = ui.add_enabled(!work.committed, field);
                     if field.labelled_by(name.id).changed() {
                         cx.push(LessonCommand::Predict(Prediction::Number(number)));
                     }
@@ -112,11 +114,20 @@ fn ask(ui: &mut Ui, question: &Question, task: bool, work: &StepWork, cx: &DrawC
                 });
             }
         }
-        if work.committed && question.kind == Kind::Predict {
-            cx.note(ui, if task { "Prediction made: now see what happens" } else { "Prediction made" });
+        match (work.committed, question.kind) {
+            (true, Kind::Predict) => {
+                cx.note(ui, if task { "Prediction made: now see what happens" } else { "Prediction made" });
+            }
+            (true, Kind::Calculate) if task => {
+                match work.prediction.is_some_and(|given| question.answer.is_right(given)) {
+                    true => cx.say(ui, "✔ Right", cx.colours.good),
+                    false => cx.say(ui, format!("The answer is {}", answer_words(question)), cx.colours.contact),
+                }
+            }
+            _ => {}
         }
         if work.wrong > 0 && !work.committed {
-            cx.say(ui, "Not quite. Once more:", cx.colours.contact);
+            cx.say(ui, "Not yet. Once more:", cx.colours.contact);
             let quiet = Look::usual(ui);
             if question.hint.is_empty() {
                 ui.label("Check the units and the powers of ten.");
@@ -177,6 +188,9 @@ fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {
             return;
         }
         ui.add_space(2.0);
+        if let Some(why) = &cx.state.activity.failure {
+            cx.say(ui, why, cx.colours.alarm);
+        }
         match (&work.unmet, &task.too_far, cx.state.awaits_result()) {
             (_, _, true) => cx.note(ui, "Solving…"),
             (Some(unmet), ..) if work.tried => cx.say(ui, format!("Not yet. {unmet}."), cx.colours.contact),
@@ -208,7 +222,7 @@ fn do_it(ui: &mut Ui, task: &Task, work: &StepWork, cx: &DrawContext<'_>) {
 }
 
 /// Asks what was seen.
-fn look_at(ui: &mut Ui, observe: &Question, work: &StepWork, open: bool, cx: &DrawContext<'_>) {
+fn look_at(ui: &mut Ui, observe: &Question, work: &StepWork, unmarked: bool, open: bool, cx: &DrawContext<'_>) {
     let look = Look::reading(ui);
     let Answer::Choice { choices: all, .. } = &observe.answer else { return };
     boxed(ui, cx.colours.film, title(observe.kind), |ui| {
@@ -217,7 +231,8 @@ fn look_at(ui: &mut Ui, observe: &Question, work: &StepWork, open: bool, cx: &Dr
             cx.push(LessonCommand::Observe(choice));
         }
         if let (true, Some(choice)) = (open, work.observed) {
-            let text = "That is not what your run shows. Look again at the marked view, and at the numbers below.";
+            let where_to = if unmarked { "" } else { " at the marked view, and" };
+            let text = format!("That is not what your run shows. Look again{where_to} at the numbers below.");
             cx.say(ui, text, cx.colours.contact);
             blocks(ui, observe.answer.reply(Prediction::Choice(choice)), Look::usual(ui), true, cx);
         }
@@ -231,7 +246,7 @@ fn explain(ui: &mut Ui, question: &Question, then: &[Block], work: &StepWork, cx
     let (colour, title) = match (right, question.kind) {
         (true, Kind::Calculate) => (cx.colours.good, "✔ Right"),
         (true, _) => (cx.colours.good, "✔ As you expected"),
-        (false, Kind::Calculate) => (cx.colours.contact, "The result is another one"),
+        (false, Kind::Calculate) => (cx.colours.contact, "The answer is"),
         (false, _) => (cx.colours.contact, "Not what you predicted"),
     };
     let look = Look::reading(ui);

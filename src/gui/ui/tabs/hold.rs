@@ -8,6 +8,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::views;
+use crate::scene::quantity_text;
 use eframe::egui::{self, Slider, TextStyle};
 
 /// What a motor is changed for.
@@ -54,6 +55,8 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         let label = ui.label("Gap");
         let label = glossary::here(ui, label, "Gap");
         let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(GAP_DECIMALS).smart_aim(false);
+        // The plate follows a whole number, not each of its digits.
+        let slider = slider.update_while_editing(false).custom_parser(|text| quantity_text::number("µm", text));
         if ui.add(slider).labelled_by(label.id).hint("Or drag the plate, or press ↑ and ↓").changed() {
             cx.push(HoldCommand::To(gap * 1e-6));
         }

@@ -8,6 +8,7 @@ use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::views;
+use crate::scene;
 use crate::solution::Status;
 use crate::startup::Settings;
 use eframe::egui::{self, RichText, TextStyle};
@@ -74,11 +75,18 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 
 fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.add_space(8.0);
+    let rest = match cx.state.document.scene().kind() {
+        scene::Kind::Motor => {
+            "the wave stands still, pressed against the rotor. Then it moves. Every tooth is followed, with nothing accelerated, until"
+        }
+        scene::Kind::Plate => "the plate rests at its mean gap. Then it moves, away from the wall at first, until",
+    };
     for text in [
         "How does the film come to carry load, from the moment at which the vibration begins?",
-        "At first the gas is at ambient pressure everywhere: the wave stands still, pressed against the rotor (a plate rests at its \
-         mean gap, and begins by moving away from the wall). Then it moves. Every tooth is followed, with nothing accelerated, until \
-         the cycle repeats; each cycle is shown as soon as it is computed. Nothing is computed before you ask.",
+        &format!(
+            "At first the gas is at ambient pressure everywhere, and {rest} the cycle repeats. Each cycle is shown as soon as it is \
+             computed. Nothing is computed before you ask."
+        ),
     ] {
         cx.note(ui, text);
         ui.add_space(4.0);
