@@ -469,7 +469,7 @@ fn lessons_tour_and_glossary_look_as_they_did() {
         }
         solved(&mut window);
         if name != "lesson-lecture" {
-            click(&mut window, &["A little more than double", "This is my prediction"]);
+            click(&mut window, &["More than double", "This is my prediction"]);
         }
         if name == "lesson-small-light" {
             click(&mut window, &["Give me a hint", "One more hint", "Show me"]);

@@ -205,7 +205,7 @@ await page.keyboard.type("0.5");
 await page.keyboard.press("Enter");
 await until("the task is done, and what was seen is asked", says(/What did you see/));
 await page.waitForTimeout(500);
-await page.keyboard.press("3");
+await page.keyboard.press("2");
 await until("the step is done", ({ nodes }) => nodes.some(({ label }) => label === "Next"));
 await picture("lesson-done");
 await click("Next", "Button");

@@ -238,7 +238,7 @@ mod tests {
             ..StepWork::default()
         };
         if !skipped {
-            work[0].observed = Some(2);
+            work[0].observed = Some(1);
         }
         work[0].note_times(1_795_383_744);
         // The first time counts.
