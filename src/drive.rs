@@ -191,9 +191,12 @@ impl Drive {
     }
 }
 
-/// Output over what the stator gives, at a speed ratio and its (s₀, s₁); `None` where the rotor is not driven.
+/// Output over what the stator gives, at a speed ratio and its (s₀, s₁); `None` where the rotor is not driven. At the speed without load, where s₀
+/// is nothing but rounding, it is 0.
 fn efficiency(v: f64, (s0, s1): (f64, f64), loss: f64) -> Option<f64> {
-    (v * s0 > 0.0).then(|| v * s0 / (s1 + loss))
+    const ROUNDING: f64 = 1e-9;
+    let idle = v > 0.0 && s0.abs() < ROUNDING;
+    (v * s0 > 0.0 || idle).then(|| if idle { 0.0 } else { v * s0 / (s1 + loss) })
 }
 
 impl Line {

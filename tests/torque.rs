@@ -92,6 +92,9 @@ fn the_figures_are_those_of_the_curve() {
             let v = found.no_load_speed.unwrap().value;
             let there = found.curve.iter().find(|point| point.speed == v).unwrap();
             assert!(there.torque.value.abs() < 1e-9 && v > 0.0 && v < merit.surface_speed);
+            // The efficiency falls to nothing there, and is not heard of beyond.
+            assert_eq!(there.efficiency, Some(0.0));
+            assert!(found.curve.iter().filter(|point| point.speed > v).all(|point| point.efficiency.is_none()));
             assert!(found.curve.windows(2).all(|pair| pair[1].torque.value <= pair[0].torque.value + 1e-12));
             let most = found.curve.iter().map(|point| point.output).fold(0.0, f64::max);
             assert!(most <= found.max_power.value * (1.0 + 1e-9) && most > 0.999 * found.max_power.value);

@@ -101,7 +101,7 @@ numbers! {
     MaxTorque "max_torque_nm" "maximum operating torque (bound)" "N·m" Motor;
     MaxTorqueError "max_torque_error_nm" "error of the bound of the torque" "N·m" Motor;
     TeethInContact "teeth_in_contact" "teeth in contact" "" Motor;
-    MeanGap "mean_gap_um" "mean gap of the floating plate" "µm" Plate;
+    MeanGap "mean_gap_um" "floating mean gap" "µm" Plate;
     MeanGapError "mean_gap_error_um" "error of the mean gap" "µm" Plate;
     NaturalFrequency "natural_frequency_hz" "natural frequency" "Hz" Plate;
     LoadRatio "mean_load_ratio" "mean load ratio" "" Plate;

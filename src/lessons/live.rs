@@ -22,7 +22,7 @@ numbers! {
     StartLoadRatio "startup.mean_load_ratio" "mean load ratio" "" Plate "Start-up";
     Stall "torque.stall_nm" "stall torque" "N·m" Motor "Torque";
     DryStall "torque.dry_stall_nm" "stall torque, no film" "N·m" Motor "Torque";
-    PresentTorque "torque.present_nm" "torque at the rotor's speed" "N·m" Motor "Torque";
+    PresentTorque "torque.present_nm" "torque at this speed" "N·m" Motor "Torque";
     NoLoad "torque.no_load_rpm" "no-load speed" "rpm" Motor "Torque";
     Output "torque.output_w" "greatest power" "W" Motor "Torque";
     DryOutput "torque.dry_output_w" "greatest power, no film" "W" Motor "Torque";

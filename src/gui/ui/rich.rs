@@ -83,8 +83,10 @@ struct Atom {
     width: f32,
     ascent: f32,
     descent: f32,
-    /// Room before it, if it does not begin a line; none glues it to what comes before.
+    /// Room before it, if it does not begin a line; none if nothing is between it and what comes before.
     space: Option<f32>,
+    /// Whether it is not parted from what comes before: a unit from its number, thousands from the rest.
+    glued: bool,
     drawn: Drawn,
 }
 
@@ -103,12 +105,13 @@ pub(in crate::gui) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Re
     let mut units: Vec<Vec<Atom>> = Vec::new();
     for atom in atoms {
         match units.last_mut() {
-            Some(unit) if atom.space.is_none() => unit.push(atom),
+            Some(unit) if atom.space.is_none() || atom.glued => unit.push(atom),
             _ => units.push(vec![atom]),
         }
     }
     for unit in units {
-        let width: f32 = unit.iter().map(|atom| atom.width).sum();
+        let inside: f32 = unit.iter().skip(1).filter_map(|atom| atom.space).sum();
+        let width = inside + unit.iter().map(|atom| atom.width).sum::<f32>();
         let space = unit.first().and_then(|atom| atom.space).unwrap_or_default();
         if at > 0.0 && at + space + width > room {
             lines.push(Vec::new());
@@ -181,8 +184,8 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
         .max(0.25 * look.size);
     let (ascent, descent) = (MATHEMATICS.ascent * look.size, MATHEMATICS.descent * look.size);
     let mut atoms = Vec::new();
-    // Whether white space came before.
-    let mut apart = true;
+    // Whether white space came before, and before that a number.
+    let (mut apart, mut number) = (true, false);
     for part in parts {
         match part {
             // Numbers are filled in by whoever knows the run.
@@ -192,8 +195,8 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                 let set = Typeset::of(painter, &formula.nodes, style);
                 let (width, ascent, descent) = (set.width, set.ascent, set.descent);
                 let space = apart.then_some(space);
-                atoms.push(Atom { width, ascent, descent, space, drawn: Drawn::Math(set) });
-                apart = false;
+                atoms.push(Atom { width, ascent, descent, space, glued: false, drawn: Drawn::Math(set) });
+                (apart, number) = (false, false);
             }
             Inline::Text { text, style } => {
                 let mut rest = text.as_str();
@@ -214,13 +217,21 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
                     let (galley, baseline) = galley(painter, word, look.size, colour, *style == Style::Slanted);
                     let width = galley.size().x;
                     let drawn = Drawn::Words(galley, baseline, colour, ground);
-                    atoms.push(Atom { width, ascent, descent, space: apart.then_some(space), drawn });
-                    apart = false;
+                    let glued = number && (word.starts_with(|c: char| c.is_ascii_digit()) || is_unit(word));
+                    atoms.push(Atom { width, ascent, descent, space: apart.then_some(space), glued, drawn });
+                    (apart, number) = (false, word.ends_with(|c: char| c.is_ascii_digit()));
                 }
             }
         }
     }
     atoms
+}
+
+/// Whether a word, without the marks behind it, is a unit.
+fn is_unit(word: &str) -> bool {
+    const UNITS: &str = "nm µm mm cm m mm/s g kg N N/m N·m N·s/m mN·s/m Pa kPa W Hz kHz µs ms s rpm %";
+    let word = word.trim_end_matches(['.', ',', ':', ';', '?', ')']);
+    UNITS.split(' ').any(|unit| unit == word)
 }
 
 /// The fonts have one weight: what is strong has a colour.

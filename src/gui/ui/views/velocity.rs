@@ -17,6 +17,8 @@ use egui_plot::LineStyle;
 const POINTS: usize = 24;
 /// Instants of the cycle over which the axis is the same.
 const INSTANTS: usize = 48;
+/// Gas that is slower stands still \[m/s\]: the axis does not show the last digits of nothing.
+const STILL: f64 = 1e-6;
 /// Room above and below the film, over the greatest thickness.
 const MARGIN: f64 = 0.12;
 
@@ -49,7 +51,8 @@ impl Place<'_> {
         let frames = self.recording.frames.max(1) as f64;
         let instants = (0..INSTANTS).filter_map(|i| self.at(frames * i as f64 / INSTANTS as f64));
         let of = |velocity: Velocity| curve(&velocity).into_iter().map(|[u, _]| u).chain(velocity.walls);
-        span(instants.flat_map(of).chain([0.0]))
+        let [low, high] = span(instants.flat_map(of).chain([0.0]));
+        if high - low < STILL { [-STILL, STILL] } else { [low, high] }
     }
 
     /// Draws the profile at an instant, in frames, into `rect`; `x`: what is written for the place \[m\].
@@ -57,7 +60,7 @@ impl Place<'_> {
         let key = (self.run, self.tooth, self.xi.to_bits());
         let [low, high] = *once(ui, "velocity", key, || self.range());
         let (unit, size) = if high.max(-low) < 0.1 { ("mm/s", 1e-3) } else { ("m/s", 1.0) };
-        let margin = 0.08 * (high - low).max(1e-9);
+        let margin = 0.08 * (high - low);
         let across = [low - margin, high + margin].map(|u| u / size);
         let up = [-MARGIN, 1.0 + MARGIN].map(|part| part * self.thickest * 1e6);
         let place = number(x * 1e3);
