@@ -191,8 +191,12 @@ fn recap(ui: &mut Ui, lesson: &Lesson, work: &[StepWork], cx: &DrawContext<'_>) 
     }
     for (step, work) in lesson.steps.iter().zip(work) {
         ui.add_space(0.5 * look.size);
-        let (mark, colour): (&str, Color32) =
-            if work.is_skipped(step) { ("○", cx.colours.contact) } else { ("✔", cx.colours.good) };
+        let (mark, colour): (&str, Color32) = match (work.left, work.is_skipped(step)) {
+            (true, true) => ("○", cx.colours.contact),
+            (true, false) => ("✔", cx.colours.good),
+            // Never opened.
+            (false, _) => ("○", cx.colours.quiet),
+        };
         ui.add(egui::Label::new(RichText::new(format!("{mark}  {}", step.title)).color(colour)).wrap());
         if let (Some(question), true) =
             (step.question.as_ref().or(step.observe.as_ref()), work.stage(step) == Stage::Told)
