@@ -7,6 +7,7 @@ mod window;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
+use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::command::Command;
@@ -17,6 +18,7 @@ use squeezefilm::gui::state::link::Link;
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::job::SolvedScene;
 use squeezefilm::lessons::work::{Score, Stage, StepWork};
 use squeezefilm::lessons::{self, Act, Doing, Kind, Prediction, Question, Step, WindowNames, text};
 use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
@@ -896,18 +898,57 @@ fn the_example_of_the_documentation_is_a_lesson_that_works() {
     let page = include_str!("../docs/lessons.md");
     let example = page.split("````markdown\n").nth(1).unwrap().split("````").next().unwrap();
     assert_eq!(example, GOOD);
-    let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), "my-lesson", GOOD);
     let mut window = window("fundamental");
-    window.state_mut().load_lessons(folder.path());
-    window.run_steps(2);
-    open(&mut window, "A lesson of my own");
+    open_own(&mut window, GOOD, "A lesson of my own");
     let (_, step) = step(&window);
     solved(&mut window);
     predict(&mut window, &step);
     show_me(&mut window);
     solved(&mut window);
     assert!(work(&window).fulfilled);
+}
+
+/// Opens the lesson that `text` is.
+fn open_own(window: &mut Window, text: &str, title: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "my-lesson", text);
+    window.state_mut().load_lessons(folder.path());
+    window.run_steps(2);
+    open(window, title);
+}
+
+#[test]
+fn what_is_told_after_a_task_is_as_exact_as_the_run_on_screen() {
+    let mut window = window("fundamental");
+    open_own(&mut window, GOOD, "A lesson of my own");
+    let (_, step) = step(&window);
+    solved(&mut window);
+    predict(&mut window, &step);
+    show_me(&mut window);
+    until(&mut window, "the finest run", |app| {
+        let done = |run: &SolvedScene| run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine;
+        app.state().run.as_deref().is_some_and(done)
+    });
+    let run = window.state().state().run.clone().unwrap();
+    let finest = Numbers::of(&run.problem, &run.solution).get(Quantity::LoadRatio).unwrap();
+    assert_eq!(work(&window).readings["mean_load_ratio:2"], finest);
+}
+
+#[test]
+fn why_there_is_no_result_is_told_where_the_task_is() {
+    let mut window = window("fundamental");
+    let text = "# Heavy\n\nA disc.\n\n## Load it\n\n```setup\npreset = \"floating-disc\"\nlight = [\"plate.mass_g\"]\n```\n\nIt floats.\n\n\
+        ```task\nask = \"Load it.\"\nhints = [\"More.\"]\ncheck = \"plate.mass_g > 2500 and min_gap_nm >= 200\"\n```\n";
+    open_own(&mut window, text, "Heavy");
+    solved(&mut window);
+    change(&mut window, "plate.mass_g", "300");
+    solved(&mut window);
+    assert!(shows(&window, "Not yet. Mass is 300 g"));
+    change(&mut window, "plate.mass_g", "4000");
+    until(&mut window, "it does not float", |app| app.state().activity.failure.is_some());
+    // In the line of the window and in the box of the task, where nothing is left of the run before.
+    assert_eq!(window.query_all_by_label_contains("does not float").count(), 2);
+    assert!(!shows(&window, "Not yet."));
 }
 
 #[test]

@@ -108,11 +108,10 @@ impl RunningLesson {
         let now = Ran { scene: &run.scene, numbers: &numbers, live: &tabs.now };
         let before = Ran { scene: &start.scene, numbers: &start.numbers, live: &tabs.start };
         let quoted = || readings(step.told()).filter_map(|of| Some((of.source.clone(), of.value(now, before)?)));
-        let by_hand = |live: &Live| live.is_done_by_hand();
         if work.stage(step) != Stage::Task {
             // What the text quotes becomes as exact as what is on screen. (A plate in the hand has moved on.)
             let refines = |done: &Arc<SolvedScene>| done.scene == run.scene && done.fidelity < run.fidelity;
-            if !task.check.live().any(|live| by_hand(&live)) && self.done.as_ref().is_some_and(refines) {
+            if !task.check.live().any(Live::is_done_by_hand) && self.done.as_ref().is_some_and(refines) {
                 work.readings = quoted().collect();
                 self.done = Some(Arc::clone(run));
             }
@@ -122,7 +121,7 @@ impl RunningLesson {
             return;
         }
         work.tried = run.scene != start.scene
-            || task.check.live().any(|live| by_hand(&live) && tabs.now.get(live) != tabs.start.get(live));
+            || task.check.live().any(|live| live.is_done_by_hand() && tabs.now.get(live) != tabs.start.get(live));
         work.unmet = task.check.unmet(now, before);
         let beyond = task.too_far.as_ref().is_some_and(|(limit, _)| limit.unmet(now, before).is_none());
         work.too_far = work.unmet.is_none() && beyond;

@@ -123,7 +123,8 @@ impl Section {
     /// # Errors
     /// As [`Self::mesh`].
     pub fn elements(&self, band: Option<Band>) -> Result<usize, RingError> {
-        Ok(4 * Mesh::new(self, band, COARSE, 1)?.elements.len())
+        let Divided { grid, pattern, scale } = Divided::new(self, band, COARSE)?;
+        Ok(4 * pattern.as_ref().unwrap_or(&grid).elements(scale))
     }
 
     /// A mesh and that with every element halved both ways.
@@ -226,21 +227,8 @@ impl Mesh {
         elements: usize,
         halves: usize,
     ) -> Result<Self, RingError> {
-        let grid = Grid::of(section, band)?;
-        let pattern = section.pattern().map(|(other, of)| Grid::of(other, band.and(Some(of)))).transpose()?;
-        let pattern = pattern.filter(|pattern| pattern.is_like(&grid));
-        let pattern = pattern.as_ref().unwrap_or(&grid);
-        // The smallest elements of which there are no more than asked for, within a hundredth.
-        let (mut many, mut few) = (1e-2_f64, 1e4_f64);
-        while few / many > 1.01 {
-            let scale = (many * few).sqrt();
-            if pattern.elements(scale) > elements { many = scale } else { few = scale }
-        }
-        let least = pattern.elements(few);
-        if least > elements.max(MOST) {
-            return Err(RingError::Elements { elements: least, most: MOST });
-        }
-        grid.mesh(section, pattern, few, halves)
+        let Divided { grid, pattern, scale } = Divided::new(section, band, elements)?;
+        grid.mesh(section, pattern.as_ref().unwrap_or(&grid), scale, halves)
     }
 
     /// Inner and outer radius, bottom and top of `element`.
@@ -302,6 +290,36 @@ impl Section {
         let touching =
             self.parts().iter().filter(|part| same(part.bottom, height) && common(part.radii(), band.radii()) > 0.0);
         touching.map(|part| part.top - part.bottom).fold(band.width, f64::min)
+    }
+}
+
+/// A section with its lines, before any element is made.
+struct Divided {
+    grid: Grid,
+    /// The lines whose elements are moved to those of `grid`, if not its own.
+    pattern: Option<Grid>,
+    /// Of the sizes of elements.
+    scale: f64,
+}
+
+impl Divided {
+    /// For about `elements` elements.
+    fn new(section: &Section, band: Option<Band>, elements: usize) -> Result<Self, RingError> {
+        let grid = Grid::of(section, band)?;
+        let pattern = section.pattern().map(|(other, of)| Grid::of(other, band.and(Some(of)))).transpose()?;
+        let pattern = pattern.filter(|pattern| pattern.is_like(&grid));
+        let lines = pattern.as_ref().unwrap_or(&grid);
+        // The smallest elements of which there are no more than asked for, within a hundredth.
+        let (mut many, mut few) = (1e-2_f64, 1e4_f64);
+        while few / many > 1.01 {
+            let scale = (many * few).sqrt();
+            if lines.elements(scale) > elements { many = scale } else { few = scale }
+        }
+        let least = lines.elements(few);
+        if least > elements.max(MOST) {
+            return Err(RingError::Elements { elements: least, most: MOST });
+        }
+        Ok(Self { grid, pattern, scale: few })
     }
 }
 
