@@ -1,23 +1,22 @@
-//! Is the stated error of α honest? Random motors, each solved at every fidelity; the true error of the others is taken to
-//! be the distance to reference. Measured numbers are in `docs/validation.md`.
+//! Is the stated error of α, or of a plate's mean load ratio, honest? Random motors or plates, each solved at every fidelity; the true
+//! error of the others is taken to be the distance to reference. Measured numbers are in `docs/validation.md`.
 //!
 //! ```text
-//! cargo run --release --example error_coverage [mild|wide] [COUNT]
+//! cargo run --release --example error_coverage [mild|wide|plates] [COUNT]
 //! ```
 //!
 //! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
-//! way. Every draw is the same on every run. Motors whose error is
-//! not covered, or that do not converge, are printed with the keys to repeat them.
+//! way; `plates` draws strips, rectangles and discs at squeeze numbers from 0.01 to 10⁵ and any amplitude below the gap. Every draw is the same
+//! on every run. Scenes whose error is not covered, or that do not converge, are printed with the keys to repeat them.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
-use squeezefilm::motor::{self, MotorError, Periodic};
-use squeezefilm::plan::Plan;
 use squeezefilm::problem::{Problem, Scenario};
 use squeezefilm::scene::presets;
-use squeezefilm::solution::Status;
+use squeezefilm::solution::{Outcome, Status};
+use squeezefilm::solve::{Settings, SolveError, solve};
 use std::error::Error;
 use std::fmt::Write;
 
@@ -31,6 +30,15 @@ const DRAWN: [(&str, f64, f64, f64, f64); 8] = [
     ("film.ambient_pressure_kpa", 101.0, 0.3, 0.01, 1e3),
     ("rotor.point_compliance_um_per_n", 0.64, 0.4, 1e-3, 100.0),
     ("rotor.decay_length_mm", 4.0, 0.2, 0.1, 100.0),
+];
+/// The same of plates, but for shape and amplitude, which is a part of the gap.
+const DRAWN_PLATES: [(&str, f64, f64, f64, f64); 6] = [
+    ("plate.mean_gap_um", 3.0, 0.8, 1e-3, 1e3),
+    ("plate.frequency_khz", 20.0, 1.0, 1e-3, 1e4),
+    ("film.ambient_pressure_kpa", 101.0, 0.5, 0.01, 1e3),
+    ("film.viscosity_upa_s", 18.0, 0.3, 1.0, 1e3),
+    ("film.mean_free_path_nm", 64.0, 0.5, 1.0, 1e4),
+    ("plate.length_mm", 1.0, 0.6, 0.01, 1e3),
 ];
 /// An error of α that no one will mind.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -47,10 +55,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The table, and the motors whose error is not covered or that do not converge, with the keys to repeat them.
 pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn Error>> {
-    let wide = match arguments.first().map(String::as_str) {
-        None | Some("mild") => false,
-        Some("wide") => true,
-        Some(other) => return Err(format!("{other}: expected mild or wide").into()),
+    let drawn = match arguments.first().map(String::as_str) {
+        None | Some("mild") => |random: &mut Random| draw(random, 1.0),
+        Some("wide") => |random: &mut Random| draw(random, WIDER),
+        Some("plates") => draw_plate,
+        Some(other) => return Err(format!("{other}: expected mild, wide or plates").into()),
     };
     let count: u32 = arguments.get(1).map_or(Ok(200), |text| text.parse())?;
 
@@ -59,10 +68,11 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
     let mut tallies = judged.map(|fidelity| Tally::new(fidelity.name()));
     let mut uncovered = String::new();
     for _ in 0..count {
-        let changes = draw(&mut random, wide);
+        let (preset, changes) = drawn(&mut random);
         let words: Vec<String> = changes.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
         let words = words.join(" ");
-        let solve = |fidelity| solve(&changes, fidelity);
+        let words = format!("{preset} {words}");
+        let solve = |fidelity| found(preset, &changes, fidelity);
         let reference = match solve(Fidelity::Reference)? {
             Ok(reference) => reference,
             Err(error) => {
@@ -79,11 +89,8 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
                         let mark = if all_converged { "" } else { ", not converged" };
                         writeln!(
                             uncovered,
-                            "{fidelity}{mark}: α = {:.5} ± {:.1e}, reference {:.5} ± {:.1e}: {words}",
-                            found.result.alpha,
-                            found.result.alpha_error,
-                            reference.result.alpha,
-                            reference.result.alpha_error,
+                            "{fidelity}{mark}: {:.5} ± {:.1e}, reference {:.5} ± {:.1e}: {words}",
+                            found.value, found.error, reference.value, reference.error,
                         )?;
                     }
                 }
@@ -92,7 +99,7 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
         }
     }
     let mut table =
-        "| | motors | not converged | covered | with reference's own | missed by more than 1e-6 | median true \
+        "| | scenes | not converged | covered | with reference's own | missed by more than 1e-6 | median true \
                      | 90 % | worst | median stated/true |\n\
                      | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n"
             .to_owned();
@@ -102,29 +109,78 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
     Ok((table, uncovered))
 }
 
-/// A motor with a random set of values.
-fn draw(random: &mut Random, wide: bool) -> Vec<(&'static str, String)> {
-    let teeth = if wide { 1 + random.below(30) } else { 5 + random.below(12) };
+/// A preset and its changes.
+type Drawn = (&'static str, Vec<(&'static str, String)>);
+
+/// A motor with a random set of values, over so many times the decades of the mild sample.
+fn draw(random: &mut Random, wider: f64) -> Drawn {
+    let teeth = if wider > 1.0 { 1 + random.below(30) } else { 5 + random.below(12) };
     // The pitch of the fundamental case's ring.
     let pitch = std::f64::consts::TAU * 29.0 / 7.0 / f64::from(teeth);
     let mut changes = vec![
         ("stator.teeth_per_wave", teeth.to_string()),
         ("stator.tooth_width_mm", (pitch * (0.15 + 0.84 * random.unit())).to_string()),
     ];
-    for (key, middle, decades, least, greatest) in DRAWN {
-        let decades = if wide { WIDER * decades } else { decades };
-        let value = middle * 10f64.powf(decades * (2.0 * random.unit() - 1.0));
-        changes.push((key, value.clamp(least, greatest).to_string()));
-    }
-    changes
+    changes.extend(values(random, &DRAWN, wider).map(|(key, value)| (key, value.to_string())));
+    ("fundamental", changes)
 }
 
-fn solve(changes: &[(&str, String)], fidelity: Fidelity) -> Result<Result<Periodic, MotorError>, Box<dyn Error>> {
-    let mut scene = presets::find("fundamental")?;
+/// A strip, a rectangle or a disc.
+fn draw_plate(random: &mut Random) -> Drawn {
+    let shape = random.below(3);
+    let excursion = random.unit();
+    let drawn: Vec<(&str, f64)> = values(random, &DRAWN_PLATES, 1.0).collect();
+    let mut changes: Vec<(&'static str, String)> = drawn.iter().map(|(key, value)| (*key, value.to_string())).collect();
+    let of = |key: &str| drawn.iter().find(|(found, _)| *found == key).map_or(1.0, |(_, value)| *value);
+    changes.push(("plate.amplitude_um", (0.99 * excursion * of("plate.mean_gap_um")).to_string()));
+    let length = of("plate.length_mm");
+    match shape {
+        0 => {}
+        1 => changes.push(("plate.width_mm", (length * (0.2 + 0.8 * random.unit())).to_string())),
+        _ => changes.extend([("plate.shape", "disc".to_owned()), ("plate.radius_mm", (0.5 * length).to_string())]),
+    }
+    ("plate-crossover", changes)
+}
+
+/// A value for each key.
+fn values<'a>(
+    random: &'a mut Random,
+    drawn: &'a [(&'static str, f64, f64, f64, f64)],
+    wider: f64,
+) -> impl Iterator<Item = (&'static str, f64)> + 'a {
+    drawn.iter().map(move |(key, middle, decades, least, greatest)| {
+        let value = middle * 10f64.powf(wider * decades * (2.0 * random.unit() - 1.0));
+        (*key, value.clamp(*least, *greatest))
+    })
+}
+
+/// What a solve says of α, or of the mean load ratio of a plate.
+struct Found {
+    value: f64,
+    error: f64,
+    status: Status,
+}
+
+fn found(
+    preset: &str,
+    changes: &[(&str, String)],
+    fidelity: Fidelity,
+) -> Result<Result<Found, SolveError>, Box<dyn Error>> {
+    let mut scene = presets::find(preset)?;
     scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str())))?;
     let problem = Problem::new(&scene)?;
-    let Scenario::Motor(motor) = &problem.scenario else { return Err("the fundamental case is a motor".into()) };
-    Ok(motor::periodic(motor, &Plan::motor(motor, fidelity, &problem.numerics)?, &mut (), &Cancel::new()))
+    let settings = Settings { fidelity, ..Settings::default() };
+    Ok(solve(&problem, &settings, &mut (), &Cancel::new()).map(|solution| {
+        let (value, error) = match (&solution.outcome, &problem.scenario) {
+            (Outcome::Plate(plate), Scenario::Plate(of)) => {
+                let whole = of.gas.ambient_pressure * of.area();
+                (plate.film_load / whole, plate.film_load_error / whole)
+            }
+            (Outcome::Motor(motor), _) => (motor.alpha, motor.alpha_error),
+            (Outcome::Plate(plate), _) => (plate.film_load, plate.film_load_error),
+        };
+        Found { value, error, status: solution.status }
+    }))
 }
 
 /// Stated and true errors of one fidelity.
@@ -153,12 +209,12 @@ impl Tally {
     }
 
     /// Whether the stated error covers the true one.
-    fn add(&mut self, found: &Periodic, reference: &Periodic) -> bool {
-        let error = (found.result.alpha - reference.result.alpha).abs();
-        let stated = found.result.alpha_error;
+    fn add(&mut self, found: &Found, reference: &Found) -> bool {
+        let error = (found.value - reference.value).abs();
+        let stated = found.error;
         self.not_converged += usize::from(found.status != Status::Converged);
         self.covered += usize::from(error <= stated);
-        self.covered_with_reference += usize::from(error <= stated + reference.result.alpha_error);
+        self.covered_with_reference += usize::from(error <= stated + reference.error);
         self.missed += usize::from(error > stated && error > NEGLIGIBLE);
         self.true_errors.push(error);
         if error > NEGLIGIBLE {
@@ -168,23 +224,23 @@ impl Tally {
     }
 
     fn print(&mut self, table: &mut String) -> std::fmt::Result {
-        let motors = self.true_errors.len();
-        if motors == 0 {
+        let scenes = self.true_errors.len();
+        if scenes == 0 {
             return Ok(());
         }
         self.true_errors.sort_by(f64::total_cmp);
         self.ratios.sort_by(f64::total_cmp);
         writeln!(
             table,
-            "| {} | {motors} | {} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.1} |",
+            "| {} | {scenes} | {} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.1} |",
             self.name,
             self.not_converged,
             self.covered,
             self.covered_with_reference,
             self.missed,
-            self.true_errors[motors / 2],
-            self.true_errors[motors * 9 / 10],
-            self.true_errors[motors - 1],
+            self.true_errors[scenes / 2],
+            self.true_errors[scenes * 9 / 10],
+            self.true_errors[scenes - 1],
             self.ratios.get(self.ratios.len() / 2).copied().unwrap_or(f64::NAN),
         )
     }

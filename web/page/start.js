@@ -1,7 +1,7 @@
 // Loads the program, shows how far that is, and opens the window. Says in words what a browser lacks.
 import init, { open, told } from "./squeezefilm.js";
 import { mirror } from "./mirror.js";
-import unpacker, { unpack } from "./unpack.js";
+import unpacker, { Unpacker } from "./unpack.js";
 
 const size = "PROGRAM_BYTES"; // a number once it is built
 const message = document.getElementById("message");
@@ -12,23 +12,26 @@ function stop(why) {
   message.textContent = why;
 }
 
-// The program: loaded, unpacked and compiled.
+// The program: unpacked and compiled while it is loaded.
 async function program() {
   const ready = unpacker();
   const answer = await fetch("./squeezefilm.bin");
   if (!answer.ok) throw new Error(`the program cannot be loaded: ${answer.status} ${answer.statusText}`);
-  const packed = new Uint8Array(size);
-  let loaded = 0;
-  for (const reader = answer.body.getReader(); ;) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    packed.set(value, loaded);
-    loaded += value.length;
-    progress.value = loaded / size;
-  }
   await ready;
-  message.textContent = "Starting…";
-  return WebAssembly.compile(unpack(packed));
+  const packed = new Unpacker();
+  let loaded = 0;
+  const unpacked = new TransformStream({
+    transform(piece, to) {
+      loaded += piece.length;
+      progress.value = loaded / size;
+      to.enqueue(packed.push(piece));
+    },
+    flush() {
+      if (!packed.is_finished()) throw new Error("the program was not loaded to its end");
+      message.textContent = "Starting…";
+    },
+  });
+  return WebAssembly.compileStreaming(new Response(answer.body.pipeThrough(unpacked), { headers: { "Content-Type": "application/wasm" } }));
 }
 
 function webgl() {

@@ -12,10 +12,14 @@ use crate::lessons::check::Reading;
 use crate::lessons::record::{self, Record};
 use crate::lessons::work::{Progress, Stage, StepWork};
 use crate::lessons::{self, Act, Lesson, LessonError, Step, WindowNames};
+use crate::platform::Instant;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
+/// How long Enter does not lead on after a key has answered what was seen.
+const UNREAD: Duration = Duration::from_secs(1);
 /// Frames in which a highlighted parameter is scrolled to: a group takes some to open.
 const REVEALED: u8 = 16;
 /// Parts of the window that lessons can highlight.
@@ -244,6 +248,19 @@ impl LessonState {
         start.run.as_ref().filter(|_| step.task.is_some() && start.scene != *scene)
     }
 
+    /// Notes that a key answered what was seen, `now`.
+    pub fn answer_by_key(&mut self, now: Instant) {
+        if let Some(running) = &mut self.running {
+            running.answered = Some(now);
+        }
+    }
+
+    /// Whether a key answered what was seen so shortly before `now` that nobody can have read what is told then.
+    pub fn has_just_answered(&self, now: Instant) -> bool {
+        let answered = self.running.as_ref().and_then(|running| running.answered);
+        answered.is_some_and(|answered| now.saturating_duration_since(answered) < UNREAD)
+    }
+
     /// Lets the marked parameter take the keyboard.
     pub fn enter_marked(&mut self) {
         if let Some(running) = &mut self.running {
@@ -296,6 +313,7 @@ impl LessonState {
             done: None,
             reveal: 0,
             enter: false,
+            answered: None,
         });
         self.set_up(document, view, true);
         true

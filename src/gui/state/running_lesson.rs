@@ -11,6 +11,7 @@ use crate::lessons::check::{Ran, Reading};
 use crate::lessons::live::{Live, Readings};
 use crate::lessons::text::readings;
 use crate::lessons::work::{Stage, StepWork};
+use crate::platform::Instant;
 use crate::scene::Scene;
 use crate::solution::Status;
 use std::sync::Arc;
@@ -58,6 +59,8 @@ pub struct RunningLesson {
     pub(super) reveal: u8,
     /// Whether the marked parameter takes the keyboard.
     pub(super) enter: bool,
+    /// When a key last answered what was seen: what is told then has to be read before Enter leads on.
+    pub answered: Option<Instant>,
 }
 
 impl RunningLesson {

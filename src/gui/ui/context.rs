@@ -1,7 +1,7 @@
 //! What every drawing function is given.
 
 use super::highlight;
-use super::theme::{Palette, palette};
+use super::theme::{HIGHLIGHT, Palette, palette};
 use crate::gui::command::Command;
 use crate::gui::state::window::State;
 use crate::job::SolvedScene;
@@ -76,5 +76,10 @@ impl<'a> DrawContext<'a> {
         if self.state.lessons.highlights.has(name) {
             highlight::ring(ui, rect);
         }
+    }
+
+    /// The same of a plot, whose ring stays within it, clear of the title above.
+    pub fn mark_plot(&self, ui: &Ui, name: &str, plot: Rect) {
+        self.mark(ui, name, plot.shrink(HIGHLIGHT.gap + 0.5 * HIGHLIGHT.glow));
     }
 }

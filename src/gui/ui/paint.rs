@@ -86,6 +86,11 @@ impl PlotStyle {
         painter.layout_no_wrap(text.to_owned(), self.font.clone(), self.text).size().x
     }
 
+    /// The entry of a legend for the run that a lesson's step began with, if that is drawn.
+    pub(in crate::gui::ui) fn at_first<T>(&self, first: Option<T>) -> Option<(&'static str, Color32)> {
+        first.map(|_| ("at first", self.palette.quiet))
+    }
+
     /// A title above `plot`, and a legend at its right end: the first of `titles`, long to short, beside which the legend
     /// fits; else the first that fits alone. `word`: what the glossary explains it under; the legend is terms itself.
     pub(in crate::gui::ui) fn title(

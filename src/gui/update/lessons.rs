@@ -100,7 +100,10 @@ impl Updater {
     fn choose(&mut self, choice: usize) {
         match self.state.lessons.stage() {
             Some(Stage::Question) => self.teach(LessonCommand::Predict(Prediction::Choice(choice))),
-            Some(Stage::Observation) => self.teach(LessonCommand::Observe(choice)),
+            Some(Stage::Observation) => {
+                self.state.lessons.answer_by_key(self.now());
+                self.teach(LessonCommand::Observe(choice));
+            }
             _ => {}
         }
     }
@@ -118,6 +121,8 @@ impl Updater {
             Some(Stage::Question) => self.teach(LessonCommand::Commit),
             Some(Stage::Task) => self.state.lessons.enter_marked(),
             Some(Stage::Observation) => {}
+            // An answer is followed by Enter out of habit.
+            Some(Stage::Told) if self.state.lessons.has_just_answered(self.now()) => {}
             Some(Stage::Told) => self.teach(LessonCommand::Next),
             None => {
                 if let Some(next) = self.state.lessons.following() {

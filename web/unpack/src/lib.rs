@@ -1,15 +1,44 @@
-//! Unpacks the program of the page: LZMA makes it a third smaller than what browsers unpack themselves.
+//! Unpacks the program of the page while it is loaded: LZMA makes it a third smaller than what browsers unpack themselves.
 #![cfg(target_arch = "wasm32")]
 
-use lzma_rust2::LzmaReader;
-use std::io::Read;
+use lzma_rust2::{Action, LzmaStream, Status};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The bytes that were packed by `squeezefilm-bindgen`.
+/// What is set aside for a piece that is unpacked \[bytes\].
+const PIECE: usize = 1 << 18;
+
+/// Unpacks what `squeezefilm-bindgen` packed, piece by piece.
 #[wasm_bindgen]
-pub fn unpack(packed: &[u8]) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    let mut reader = LzmaReader::new_mem_limit(packed, u32::MAX, None).map_err(|error| error.to_string())?;
-    reader.read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-    Ok(bytes)
+pub struct Unpacker(LzmaStream);
+
+#[wasm_bindgen]
+impl Unpacker {
+    /// Before the first piece.
+    #[wasm_bindgen(constructor)]
+    #[allow(clippy::new_without_default)]
+    pub fn new() -> Self {
+        Self(LzmaStream::new_mem_limit(u32::MAX, None))
+    }
+
+    /// The bytes that the next piece of a packed file leads to.
+    pub fn push(&mut self, mut packed: &[u8]) -> Result<Vec<u8>, String> {
+        let mut unpacked = Vec::new();
+        loop {
+            let start = unpacked.len();
+            unpacked.resize(start + PIECE, 0);
+            let done =
+                self.0.process(packed, &mut unpacked[start..], Action::Run).map_err(|error| error.to_string())?;
+            unpacked.truncate(start + done.bytes_produced);
+            packed = &packed[done.bytes_consumed..];
+            let stuck = done.bytes_consumed == 0 && done.bytes_produced == 0;
+            if done.status == Status::StreamEnd || stuck {
+                return Ok(unpacked);
+            }
+        }
+    }
+
+    /// Whether all of the file has been unpacked.
+    pub fn is_finished(&self) -> bool {
+        self.0.is_finished()
+    }
 }

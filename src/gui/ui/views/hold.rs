@@ -96,7 +96,7 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let boyle_chart = place(middle + 0.5 * style.row, right, top, bottom);
     boyle(&painter, &style, boyle_chart, &shown);
     for (name, rect) in [("held plate", drawing), ("boyle", boyle_chart)] {
-        cx.mark(ui, name, rect.shrink(2.0));
+        cx.mark_plot(ui, name, rect);
     }
     grab(ui, &axes, hold, cx);
     style.explain(ui);

@@ -20,7 +20,9 @@ pub(super) fn draw(
     let kilo = 1e-3 / shown.motor.contact_width;
     let (contact, film) = (style.palette.contact, style.palette.film);
     let title = ["Pressure on the teeth, kPa gauge", "Pressure, kPa gauge"];
-    style.title(ui.painter(), rect, "Gauge pressure", &title, &[("contact", contact), ("film", film)]);
+    let mut legend = vec![("contact", contact), ("film", film)];
+    legend.extend(style.at_first(shown.first.as_ref()));
+    style.title(ui.painter(), rect, "Gauge pressure", &title, &legend);
     let [low, high] = shown.scales.loads.map(|load| load * kilo);
     let margin = 0.06 * (high - low).max(1e-3);
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin]];

@@ -103,7 +103,7 @@ pub(super) fn show(
     if let Some(rect) = layout.tooth {
         let charts = tooth::draw(ui, &style, (rect, layout.gutter), &shown, cx);
         for (chart, place) in charts.into_iter().zip(["least gap", "loads"]) {
-            cx.mark(ui, place, chart);
+            cx.mark_plot(ui, place, chart);
         }
         cx.mark(ui, "tooth", rect);
     }
@@ -126,7 +126,7 @@ pub(super) fn show(
         }
     }
     for (name, rect) in [("wave", layout.wave), ("pressure", layout.loads), ("map", layout.map)] {
-        cx.mark(ui, name, rect.shrink(2.0));
+        cx.mark_plot(ui, name, rect);
     }
     style.explain(ui);
 }

@@ -515,5 +515,5 @@ fn draw_loops(ui: &mut Ui, style: &PlotStyle, place: (Rect, f32), runs: &[PlateN
         Some((run.of.colour, Box::new(at) as _))
     });
     let kept: Vec<Loop<'_>> = kept.collect();
-    show_loops(ui, style, place, ("gap/mean", [gaps, loads.map(|load| load * 1e-3)]), &kept, phase);
+    show_loops(ui, style, place, ("gap/mean", [gaps, loads.map(|load| load * 1e-3)]), (&kept, &[]), phase);
 }

@@ -128,10 +128,10 @@ pub(super) fn show(
         cx.point_at(x);
     }
     for (name, rect) in [("gap", wall), ("pressure", profile), ("loads", plots[0]), ("loop", plots[1])] {
-        cx.mark(ui, name, rect.shrink(2.0));
+        cx.mark_plot(ui, name, rect);
     }
     if with_map {
-        cx.mark(ui, "map", last.shrink(2.0));
+        cx.mark_plot(ui, "map", last);
     }
     style.explain(ui);
 }
@@ -181,7 +181,9 @@ fn draw_profile(
     let bounds = [shown.x_range().map(|x| x * 1e3), [low - margin, high + margin].map(|pressure| pressure * 1e-3)];
     let title = if shown.plate.width.is_some() { "Pressure at y = 0, kPa absolute" } else { "Pressure, kPa absolute" };
     let (film, quiet) = (style.palette.film, style.palette.quiet);
-    style.title(ui.painter(), rect, "Film pressure", &[title], &[("film", film), ("ambient", quiet)]);
+    // Both are grey; what the plate began with is the one to be told apart.
+    let behind = style.at_first(shown.first).unwrap_or(("ambient", quiet));
+    style.title(ui.painter(), rect, "Film pressure", &[title], &[("film", film), behind]);
     let name = "Pressure along the plate: point to read values";
     Inset { name, rect, gutter, bounds, below: None }.show(ui, style, |plot| {
         plot.hline(level(ambient * 1e-3, quiet, 1.0));
@@ -219,13 +221,13 @@ fn draw_load(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
     let (curve, lag) = shown.scales.tooth(0).map_or((&none, 0.0), |(curves, lag)| (&curves.film, lag));
     let first = shown.first.and_then(|first| first.scales.tooth(0));
     let first = first.map(|(curves, lag)| Trace { curve: &curves.film, lag, offset: 0.0, colour: style.palette.quiet });
-    let legend = [("at first", style.palette.quiet)];
+    let legend = style.at_first(first.as_ref());
     let present = Trace { curve, lag, offset: 0.0, colour: style.palette.film };
     let series = Series {
         name: "Load over the cycle",
         titles: &[&format!("Film load, {name}")],
         word: "Film load",
-        legend: if first.is_some() { &legend } else { &[] },
+        legend: legend.as_slice(),
         traces: &first.into_iter().chain([present]).collect::<Vec<_>>(),
         range: [low, high],
         unit,
@@ -261,15 +263,17 @@ fn draw_loop(ui: &mut egui::Ui, style: &PlotStyle, place: (Rect, f32), shown: &P
     let at = |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
     let ranges = [shown.scales.thickness.map(|gap| gap * 1e6), shown.scales.tooth_load.map(|load| load / area * 1e-3)];
     let mut loops: Vec<Loop<'_>> = Vec::new();
+    let mut legend = None;
     if let Some((Scenario::Plate(plate), (curves, _))) =
         shown.first.and_then(|first| Some((first.scenario, first.scales.tooth(0)?)))
     {
         let area = plate.area();
         let at = move |phase: f64| [curves.thickness.at(phase) * 1e6, curves.film.at(phase) / area * 1e-3];
         loops.push((style.palette.quiet, Box::new(at)));
+        legend = style.at_first(shown.first);
     }
     loops.push((style.palette.film, Box::new(at)));
-    show_loops(ui, style, place, ("gap, µm", ranges), &loops, shown.phase);
+    show_loops(ui, style, place, ("gap, µm", ranges), (&loops, legend.as_slice()), shown.phase);
 }
 
 /// A curve over the phase, and its colour.
@@ -282,12 +286,12 @@ pub(super) fn show_loops(
     style: &PlotStyle,
     (rect, gutter): (Rect, f32),
     (along, ranges): (&str, [[f64; 2]; 2]),
-    loops: &[Loop<'_>],
+    (loops, legend): (&[Loop<'_>], &[(&str, Color32)]),
     phase: f64,
 ) {
     let bounds = ranges.map(|[low, high]| [low - 0.08 * (high - low), high + 0.08 * (high - low)]);
     let titles = ["Mean pressure against the gap, kPa gauge", "Mean pressure, kPa gauge", "Mean p, kPa"];
-    style.title(ui.painter(), rect, "Loop", &titles, &[]);
+    style.title(ui.painter(), rect, "Loop", &titles, legend);
     let name = "Mean pressure against the gap";
     Inset { name, rect, gutter, bounds, below: Some(along) }.show(ui, style, |plot| {
         plot.hline(level(0.0, style.palette.quiet, 1.0));

@@ -48,6 +48,7 @@ pub(super) fn draw(
     // The same tooth of the run that this one is compared with, behind it.
     let quiet = style.palette.quiet;
     let first = shown.first.as_ref().and_then(|first| Some((first, first.scales.tooth(shown.tooth)?)));
+    let behind = style.at_first(first);
     let before = first.map(|(first, (curves, lag))| Trace {
         curve: &curves.thickness,
         lag,
@@ -64,7 +65,7 @@ pub(super) fn draw(
         name: "Least gap over the cycle",
         titles: &[&format!("Least gap of tooth {}, µm", shown.tooth), "Least gap, µm", "Gap, µm"],
         word: "Least gap",
-        legend: &[],
+        legend: behind.as_slice(),
         traces: &spacing,
         range: [low.min(0.0), high.max(0.0)],
         unit: 1e-6,
@@ -77,6 +78,8 @@ pub(super) fn draw(
     let present = [(&curves.contact, style.palette.contact), (&curves.film, style.palette.film)];
     let present = present.map(|(curve, colour)| trace(curve, lag, colour));
     let loads: Vec<Trace<'_>> = before.into_iter().flatten().chain(present).collect();
+    let mut legend = vec![("contact", style.palette.contact), ("film", style.palette.film)];
+    legend.extend(behind);
     let unit = if shown.scales.tooth_load[1] > 2.0 { ("N", 1.0) } else { ("mN", 1e-3) };
     let series = Series {
         name: "Loads over the cycle",
@@ -85,7 +88,7 @@ pub(super) fn draw(
             &format!("Tooth {}, {}", shown.tooth, unit.0),
         ],
         word: "Loads",
-        legend: &[("contact", style.palette.contact), ("film", style.palette.film)],
+        legend: &legend,
         traces: &loads,
         range: shown.scales.tooth_load,
         unit: unit.1,

@@ -34,7 +34,7 @@ pub(super) fn draw(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &Mot
     let title = format!("Rotor on the travelling wave, vertical {}", times(axes.exaggeration()));
     let mut legend =
         vec![("rotor", style.palette.rotor), ("stator", style.palette.stator), ("contact", style.palette.contact)];
-    legend.extend(shown.first.as_ref().map(|_| ("at first", style.palette.quiet)));
+    legend.extend(style.at_first(shown.first.as_ref()));
     let short = format!("Wave, vertical {}", times(axes.exaggeration()));
     style.title(painter, rect, "Travelling wave", &[&title, &short], &legend);
 
