@@ -34,6 +34,9 @@ impl Side {
     }
 }
 
+/// A window of this width is crowded with panels at both sides.
+const CROWDED: f32 = 900.0;
+
 /// Draws the whole window into `ui`.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = cx.state;
@@ -70,7 +73,9 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         });
     }
-    if state.view.parameters {
+    // Where little is left for it, a plate in the hand takes the place of parameters that a lesson does not ask for.
+    let held = state.view.tab == Tab::Hold && state.lessons.step().is_some_and(|(_, step)| step.light.is_empty());
+    if state.view.parameters && !(held && width < CROWDED) {
         PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).frame(side).show(ui, |ui| {
             cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
             parameters::show(ui, cx);

@@ -136,9 +136,17 @@ pub(in crate::gui::ui) fn area(ui: &mut Ui, recording: &Recording) -> Option<Rec
         ui.label("This run has no fields to show.");
         return None;
     }
+    room(ui)
+}
+
+/// Takes the whole of `ui`; `None`, with a word about it, if that is too little to draw in.
+pub(in crate::gui::ui) fn room(ui: &mut Ui) -> Option<Rect> {
     let size = ui.available_size();
-    let (rect, _) = ui.allocate_exact_size(size.min(vec2(6000.0, 6000.0)), Sense::hover());
-    (rect.width() > 160.0 && rect.height() > 160.0).then_some(rect)
+    if size.x <= 160.0 || size.y <= 160.0 {
+        ui.label("There is no room for this view. The menu View hides what is at the sides.");
+        return None;
+    }
+    Some(ui.allocate_exact_size(size.min(vec2(6000.0, 6000.0)), Sense::hover()).0)
 }
 
 /// A rectangle on the screen and what its edges mean.

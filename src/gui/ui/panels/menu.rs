@@ -10,21 +10,21 @@ use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
 use crate::scene::presets;
-use eframe::egui::{self, Button};
+use eframe::egui::{self, Button, Response};
 
 /// Shows the menus.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let document = &cx.state.document;
     egui::MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| file(ui, cx));
-        ui.menu_button("Presets", |ui| built_in(ui, cx));
-        ui.menu_button("Edit", |ui| {
+        menu(ui, "File", &mut |ui| file(ui, cx));
+        menu(ui, "Presets", &mut |ui| built_in(ui, cx));
+        menu(ui, "Edit", &mut |ui| {
             item(ui, "Undo", document.can_undo(), Command::Undo, cx);
             item(ui, "Redo", document.can_redo(), Command::Redo, cx);
             ui.separator();
             item(ui, "Copy link", true, Command::CopyLink, cx);
         });
-        ui.menu_button("View", |ui| {
+        menu(ui, "View", &mut |ui| {
             let other = if cx.state.dark { "Light theme" } else { "Dark theme" };
             for &(tab, name) in Tab::ALL {
                 item(ui, name, true, Command::Show(tab), cx);
@@ -38,9 +38,9 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             ui.separator();
             item(ui, "Picture of the window…", true, Command::Screenshot, cx);
         });
-        let menu = ui.menu_button("Lessons", |ui| lessons(ui, cx));
-        cx.mark(ui, "lessons", menu.response.rect);
-        ui.menu_button("Help", |ui| {
+        let lessons = menu(ui, "Lessons", &mut |ui| lessons(ui, cx));
+        cx.mark(ui, "lessons", lessons.rect);
+        menu(ui, "Help", &mut |ui| {
             item(ui, "Glossary", true, Command::Glossary(true), cx);
             item(ui, "Take the tour", true, Command::Tour(Some(0)), cx);
             ui.separator();
@@ -63,6 +63,11 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         );
         title.hint(if document.is_dirty() { format!("{place} (changes not saved)") } else { place });
     });
+}
+
+/// A menu. Its entries are no type of their own, so that egui's menus are compiled once.
+pub fn menu(ui: &mut egui::Ui, name: &str, entries: &mut dyn FnMut(&mut egui::Ui)) -> Response {
+    ui.menu_button(name, |ui| entries(ui)).response
 }
 
 fn item(ui: &mut egui::Ui, text: &str, enabled: bool, command: Command, cx: &DrawContext<'_>) {
@@ -104,12 +109,12 @@ pub const FIT: &[(&str, Export)] = &[("Fit, into a folder…", Export::Fit)];
 
 /// A button with a menu of exports.
 pub fn export_button(ui: &mut egui::Ui, group: &[(&str, Export)], cx: &DrawContext<'_>) {
-    let menu = ui.menu_button("Export ▾", |ui| {
+    let button = menu(ui, "Export ▾", &mut |ui| {
         for (text, export) in group {
             export_item(ui, text, *export, true, cx);
         }
     });
-    menu.response.hint("Writes this to files, as the command line does");
+    button.hint("Writes this to files, as the command line does");
 }
 
 fn export_item(ui: &mut egui::Ui, text: &str, export: Export, enabled: bool, cx: &DrawContext<'_>) {
@@ -136,7 +141,7 @@ fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     item(ui, "Open…", true, Command::OpenDialog, cx);
     if HAS_FILES {
         item(ui, "Open or save by path…", true, Command::OpenPathPrompt, cx);
-        ui.menu_button("Recent", |ui| {
+        menu(ui, "Recent", &mut |ui| {
             if cx.state.recent.is_empty() {
                 ui.weak("Nothing opened yet");
             }
@@ -149,7 +154,7 @@ fn file(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     item(ui, "Save", true, Command::Save, cx);
     item(ui, "Save as…", true, Command::SaveAs, cx);
     ui.separator();
-    ui.menu_button("Export", |ui| exports(ui, cx));
+    menu(ui, "Export", &mut |ui| exports(ui, cx));
     if HAS_FILES {
         ui.separator();
         item(ui, "Quit", true, Command::Proceed(Next::Quit), cx);

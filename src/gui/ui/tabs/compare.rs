@@ -12,7 +12,7 @@ use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, text_width};
 use crate::gui::ui::keys;
-use crate::gui::ui::panels::menu::{COMPARISON, export_button, presets_menu};
+use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
 use crate::gui::ui::theme::run_colour;
 use crate::gui::ui::views::overlay::{self, Overlaid};
 use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
@@ -93,10 +93,8 @@ fn add_buttons(ui: &mut Ui, cx: &DrawContext<'_>) {
     if button.hint(keys::about(&pin)).clicked() {
         cx.push(pin);
     }
-    let menu = ui.menu_button("Pin a preset ▾", |ui| {
-        presets_menu(ui, |name| PinCommand::Preset(name).into(), cx);
-    });
-    menu.response.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
+    let presets = menu(ui, "Pin a preset ▾", &mut |ui| presets_menu(ui, |name| PinCommand::Preset(name).into(), cx));
+    presets.hint("Solves a built-in preset in the background and pins it; the scene on screen stays");
 }
 
 /// Who is pinned: the legend of all drawings.

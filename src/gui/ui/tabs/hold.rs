@@ -7,6 +7,7 @@ use crate::gui::state::hold::{HoldState, SECONDS};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
+use crate::gui::ui::tabs::labels::LOW;
 use crate::gui::ui::views;
 use crate::scene::quantity_text;
 use eframe::egui::{self, Slider, TextStyle};
@@ -39,7 +40,9 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         return;
     };
     controls(ui, hold, cx);
-    pace(ui, hold, cx);
+    if ui.ctx().content_rect().height() >= LOW {
+        pace(ui, hold, cx);
+    }
     views::hold::show(ui, hold, cx);
 }
 

@@ -8,12 +8,15 @@ use crate::gui::ui::keys;
 use crate::scene::Kind;
 use eframe::egui;
 
+/// Windows that are lower have the height of a telephone that lies on its side.
+pub const LOW: f32 = 480.0;
+
 /// The labels above the middle, and at their right what pins the run.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let state = cx.state;
     let (present, pinned, solved) = (state.view.tab, state.pins.runs().len(), state.run.is_some());
     let plate = state.document.scene().kind() == Kind::Plate;
-    let row = ui.horizontal_wrapped(|ui| {
+    let labels = |ui: &mut egui::Ui| {
         for &(tab, _) in Tab::ALL.iter().filter(|(tab, _)| *tab != Tab::Rotor || !plate) {
             let name = tab.label(plate);
             let text = if tab == Tab::Compare && pinned > 0 { format!("{name} ({pinned})") } else { name.to_owned() };
@@ -36,7 +39,13 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 }
             });
         }
-    });
+    };
+    // On a telephone they stay on one line, which a finger moves.
+    let row = if ui.ctx().content_rect().height() < LOW {
+        egui::ScrollArea::horizontal().id_salt("tabs").show(ui, |ui| ui.horizontal(labels)).inner
+    } else {
+        ui.horizontal_wrapped(labels)
+    };
     cx.mark(ui, "tabs", row.response.rect);
     ui.separator();
 }

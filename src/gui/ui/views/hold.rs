@@ -10,7 +10,7 @@ use crate::gui::derived::format::{number, times, with_known_digits};
 use crate::gui::derived::scales::span;
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, scale_bar, shaded, title_with_bar};
+use crate::gui::ui::paint::{Axes, PlotStyle, band, field_colours, room, scale_bar, shaded, title_with_bar};
 use crate::hold::Reading;
 use crate::recording::{LineLoads, Recording};
 use eframe::egui::epaint::Shape;
@@ -27,6 +27,9 @@ const ARROW: f32 = 0.42;
 const PARTS: [f32; 2] = [0.66, 0.34];
 const PARTS_WITH_MAP: [f32; 3] = [0.52, 0.26, 0.22];
 const CHARTS: f32 = 0.34;
+/// An area so many times as wide as high has the charts beside the plate, which takes this share of the width.
+const WIDE: f32 = 1.8;
+const BESIDE: f32 = 0.55;
 /// Samples of Boyle's hyperbola.
 const SAMPLES: usize = 80;
 
@@ -40,11 +43,7 @@ struct HoldFrame<'a> {
 
 /// Draws into what is left of `ui`.
 pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
-    let size = ui.available_size().min(vec2(6000.0, 6000.0));
-    let (area, _) = ui.allocate_exact_size(size, Sense::hover());
-    if area.width() < 160.0 || area.height() < 160.0 {
-        return;
-    }
+    let Some(area) = room(ui) else { return };
     let style = PlotStyle::new(ui);
     let painter = ui.painter_at(area);
     let plate = hold.plate();
@@ -54,15 +53,19 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let shown = HoldFrame { hold, ambient, half: 0.5 * plate.length, unit };
     let gutter = style.width(&painter, "−0.000") + 6.0;
     let (title, axis) = (style.row + 7.0, style.row + 3.0);
-    let right = area.right() - 0.5 * style.row;
     let with_map = plate.width.is_some();
     let parts: &[f32] = if with_map { &PARTS_WITH_MAP } else { &PARTS };
     let charts = (CHARTS * area.height()).max(6.0 * style.row + title + axis);
-    let body = (area.height() - charts - parts.len() as f32 * title - axis).max(40.0);
-    let mut top = area.top();
+    let (views, charts) = if area.width() > WIDE * area.height() {
+        area.split_left_right_at_fraction(BESIDE)
+    } else {
+        area.split_top_bottom_at_y(area.bottom() - charts)
+    };
+    let body = (views.height() - parts.len() as f32 * title - axis).max(40.0);
+    let mut top = views.top();
     let mut next = |part: f32| {
-        let low = pos2(right, top + title + part * body);
-        let rect = Rect::from_min_max(pos2(area.left() + gutter, top + title), low);
+        let low = pos2(views.right() - 0.5 * style.row, top + title + part * body);
+        let rect = Rect::from_min_max(pos2(views.left() + gutter, top + title), low);
         top = rect.bottom();
         rect
     };
@@ -77,16 +80,16 @@ pub fn show(ui: &mut Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     }
     Axes::new(last, [-shown.half, shown.half], [0.0, 1.0]).x_labels(&painter, &style, 1e-3, "x, mm");
 
-    let top = last.bottom() + axis + title;
-    let bottom = area.bottom() - axis;
-    let middle = area.left() + 0.56 * (right - area.left());
+    let top = charts.top() + title;
+    let (right, bottom) = (charts.right() - 0.5 * style.row, charts.bottom() - axis);
+    let middle = charts.left() + 0.56 * (right - charts.left());
     let place = |left: f32, right: f32, top: f32, bottom: f32| {
         Rect::from_min_max(pos2(left + gutter, top), pos2(right, bottom.max(top + 8.0)))
     };
     let between = 0.5 * (bottom - top - title);
     let left_end = middle - 0.5 * style.row;
-    let gap_chart = place(area.left(), left_end, top, top + between);
-    let force_chart = place(area.left(), left_end, top + between + title, bottom);
+    let gap_chart = place(charts.left(), left_end, top, top + between);
+    let force_chart = place(charts.left(), left_end, top + between + title, bottom);
     chart(&painter, &style, gap_chart, &shown, "Gap, µm", 1e-6, style.palette.rotor, |r| [r.gap, 0.0], None);
     let text = format!("Force, {}", unit.0);
     let force = Some(hold.force_range());
