@@ -32,13 +32,12 @@ const DRAWN: [(&str, f64, f64, f64, f64); 8] = [
     ("rotor.decay_length_mm", 4.0, 0.2, 0.1, 100.0),
 ];
 /// The same of plates, but for shape and amplitude, which is a part of the gap.
-const DRAWN_PLATES: [(&str, f64, f64, f64, f64); 6] = [
+const DRAWN_PLATES: [(&str, f64, f64, f64, f64); 5] = [
     ("plate.mean_gap_um", 3.0, 0.8, 1e-3, 1e3),
     ("plate.frequency_khz", 20.0, 1.0, 1e-3, 1e4),
     ("film.ambient_pressure_kpa", 101.0, 0.5, 0.01, 1e3),
     ("film.viscosity_upa_s", 18.0, 0.3, 1.0, 1e3),
     ("film.mean_free_path_nm", 64.0, 0.5, 1.0, 1e4),
-    ("plate.length_mm", 1.0, 0.6, 0.01, 1e3),
 ];
 /// An error of α that no one will mind.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -131,12 +130,12 @@ fn draw_plate(random: &mut Random) -> Drawn {
     let excursion = random.unit();
     let drawn: Vec<(&str, f64)> = values(random, &DRAWN_PLATES, 1.0).collect();
     let mut changes: Vec<(&'static str, String)> = drawn.iter().map(|(key, value)| (*key, value.to_string())).collect();
-    let of = |key: &str| drawn.iter().find(|(found, _)| *found == key).map_or(1.0, |(_, value)| *value);
-    changes.push(("plate.amplitude_um", (0.99 * excursion * of("plate.mean_gap_um")).to_string()));
-    let length = of("plate.length_mm");
+    changes.push(("plate.amplitude_um", (0.99 * excursion * drawn[0].1).to_string()));
+    let length = 10f64.powf(0.6 * (2.0 * random.unit() - 1.0));
+    let width = length * (0.2 + 0.8 * random.unit());
     match shape {
-        0 => {}
-        1 => changes.push(("plate.width_mm", (length * (0.2 + 0.8 * random.unit())).to_string())),
+        0 => changes.push(("plate.length_mm", length.to_string())),
+        1 => changes.extend([("plate.length_mm", length.to_string()), ("plate.width_mm", width.to_string())]),
         _ => changes.extend([("plate.shape", "disc".to_owned()), ("plate.radius_mm", (0.5 * length).to_string())]),
     }
     ("plate-crossover", changes)

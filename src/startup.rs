@@ -169,12 +169,9 @@ fn plan(problem: &Problem, settings: &Settings, steps: usize, cancel: &Cancel) -
     Ok(plan)
 }
 
-/// The next finer grids: the coarsest is left out, and one of half the spacing added. `None` if the plan allows no further one, or the
-/// memory does not.
+/// The next finer grids; `None` if the plan allows no further one, or the memory does not.
 fn finer(problem: &Problem, plan: &Plan, kept: usize) -> Option<Plan> {
-    let grids: Vec<Grid> = plan.grids.iter().map(|grid| grid.finer(plan.spectral)).collect();
-    let robust = (2 * plan.robust.0, plan.robust.1);
-    let finer = Plan { grids, robust, most_grids: plan.most_grids - 1, ..plan.clone() };
+    let finer = plan.finer();
     let bytes = need(problem, &finer, kept).bytes;
     (plan.most_grids > plan.grids.len() && bytes <= memory::REFINED.min(memory::allowed())).then_some(finer)
 }

@@ -270,10 +270,12 @@ for (const [name, width, height] of [["tablet", 1024, 768], ["phone", 844, 390]]
   check(`${name}: a chart is pinched`, !wide.equals(await page.screenshot({ clip })));
   await picture(`${name}-torque`);
   await fresh.close();
-  fresh = await follow("#plate-crossover&tab=hold", { width, height }, true);
+  fresh = await follow("#lesson=1&step=1", { width, height }, true);
   await until("a plate", ({ run }) => run?.fidelity === "fine");
   await page.waitForTimeout(800);
   await picture(`${name}-hold`);
+  const { box: held } = await place("Held plate: drag it up and down", "Image");
+  check(`${name}: lesson 1 has a plate in a drawing ${(held[3] - held[1]).toFixed(0)} points high`, held[3] - held[1] > 60);
   await fresh.close();
 }
 

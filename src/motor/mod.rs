@@ -112,10 +112,14 @@ pub fn periodic_from(
     let mut search =
         Search { motor, plan, warm_rounds: WARM_ROUNDS, marching: false, observer, cancel, stats: &mut stats };
     let found = climb(&mut search, plan, last.as_ref(), cancel)?;
-    if let Status::NotConverged { .. } = found.status
-        && let Some(settled) = search.march()
-    {
-        return Ok(finish(motor, plan, &settled, stats));
+    if let Status::NotConverged { .. } = found.status {
+        // A cycle may repeat on grids of half the spacing and not on those of the plan.
+        let refined = (plan.most_grids > plan.grids.len()).then(|| plan.finer());
+        for plan in [Some(plan), refined.as_ref()].into_iter().flatten() {
+            if let Some(settled) = search.march(plan) {
+                return Ok(finish(motor, plan, &settled, stats));
+            }
+        }
     }
     let result = finish(motor, plan, &found, stats);
     if found.status == Status::Converged {
@@ -192,10 +196,10 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The state that cycle after cycle of every tooth settles to, if it does, and the work and memory are what a solve may take. Over
+    /// The state that cycle after cycle of every tooth settles to on the grids of `plan`, if it does, and the work and memory are what a solve may take. Over
     /// asperities, whose contact problems cost many times as much, that would be too much.
-    fn march(&mut self) -> Option<Found<Level>> {
-        let plan = Plan { every_tooth: true, trapped: false, most_grids: self.plan.grids.len(), ..self.plan.clone() };
+    fn march(&mut self, plan: &Plan) -> Option<Found<Level>> {
+        let plan = Plan { every_tooth: true, trapped: false, most_grids: plan.grids.len(), ..plan.clone() };
         let work = plan.grids.last()?.work() * self.motor.teeth as f64;
         let rough = self.motor.surface.asperities.is_some();
         if rough || work > MOST_MARCHED || memory::check(memory::motor(self.motor, &plan)).is_err() {

@@ -225,6 +225,13 @@ impl Plan {
         Self { spectral: false, most_grids: grids.len(), grids, clustering_across, ..self.clone() }
     }
 
+    /// The next finer grids: the coarsest is left out, and one of half the spacing added.
+    pub fn finer(&self) -> Self {
+        let grids = self.grids.iter().map(|grid| grid.finer(self.spectral)).collect();
+        let robust = (2 * self.robust.0, self.robust.1);
+        Self { grids, robust, most_grids: self.most_grids.saturating_sub(1), ..self.clone() }
+    }
+
     /// The same plan with the sides of the plate as they are in the scene; of finite volumes.
     pub fn not_turned(&self) -> Self {
         if !self.turned {
