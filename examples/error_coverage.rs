@@ -6,7 +6,7 @@
 //! ```
 //!
 //! `mild` draws parameters within a factor of up to 5 of the fundamental case, `wide` over up to two decades either
-//! way; `plates` draws strips, rectangles and discs at squeeze numbers from 0.01 to 10⁵ and any amplitude below the gap. Every draw is the same
+//! way; `plates` draws strips, rectangles and discs at squeeze numbers from 10⁻³ to 10⁶ and any amplitude below the gap. Every draw is the same
 //! on every run. Scenes whose error is not covered, or that do not converge, are printed with the keys to repeat them.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
