@@ -227,7 +227,8 @@ await until("what is wrong", says(/begins with a built-in preset/));
 check("what is wrong with a link is told", true);
 await fresh.close();
 
-// As slow as a class's network is.
+// As slow as a class's network is, with nothing else to do.
+await context.close();
 fresh = await opened({ viewport: { width: 1280, height: 800 } });
 page = await fresh.newPage();
 watch(page);
