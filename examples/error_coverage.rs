@@ -11,11 +11,13 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+use squeezefilm::analysis::quantity::Numbers;
+use squeezefilm::analysis::quantity::Quantity::{Alpha, AlphaError, LoadRatio, LoadRatioError};
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
-use squeezefilm::problem::{Problem, Scenario};
+use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets;
-use squeezefilm::solution::{Outcome, Status};
+use squeezefilm::solution::Status;
 use squeezefilm::solve::{Settings, SolveError, solve};
 use std::error::Error;
 use std::fmt::Write;
@@ -69,8 +71,7 @@ pub(crate) fn report(arguments: &[String]) -> Result<(String, String), Box<dyn E
     for _ in 0..count {
         let (preset, changes) = drawn(&mut random);
         let words: Vec<String> = changes.iter().map(|(key, value)| format!("--set {key}={value}")).collect();
-        let words = words.join(" ");
-        let words = format!("{preset} {words}");
+        let words = format!("{preset} {}", words.join(" "));
         let solve = |fidelity| found(preset, &changes, fidelity);
         let reference = match solve(Fidelity::Reference)? {
             Ok(reference) => reference,
@@ -170,14 +171,9 @@ fn found(
     let problem = Problem::new(&scene)?;
     let settings = Settings { fidelity, ..Settings::default() };
     Ok(solve(&problem, &settings, &mut (), &Cancel::new()).map(|solution| {
-        let (value, error) = match (&solution.outcome, &problem.scenario) {
-            (Outcome::Plate(plate), Scenario::Plate(of)) => {
-                let whole = of.gas.ambient_pressure * of.area();
-                (plate.film_load / whole, plate.film_load_error / whole)
-            }
-            (Outcome::Motor(motor), _) => (motor.alpha, motor.alpha_error),
-            (Outcome::Plate(plate), _) => (plate.film_load, plate.film_load_error),
-        };
+        let numbers = Numbers::of(&problem, &solution);
+        let of = |motor, plate| numbers.get(motor).or_else(|| numbers.get(plate)).unwrap_or(f64::NAN);
+        let (value, error) = (of(Alpha, LoadRatio), of(AlphaError, LoadRatioError));
         Found { value, error, status: solution.status }
     }))
 }

@@ -196,8 +196,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The state that cycle after cycle of every tooth settles to on the grids of `plan`, if it does, and the work and memory are what a solve may take. Over
-    /// asperities, whose contact problems cost many times as much, that would be too much.
+    /// The state that cycle after cycle of every tooth settles to on the grids of `plan`, if it does, and the work and memory are what a solve
+    /// may take. Over asperities, whose contact problems cost many times as much, that would be too much.
     fn march(&mut self, plan: &Plan) -> Option<Found<Level>> {
         let plan = Plan { every_tooth: true, trapped: false, most_grids: plan.grids.len(), ..plan.clone() };
         let work = plan.grids.last()?.work() * self.motor.teeth as f64;
