@@ -73,6 +73,7 @@ async function click(label, role) {
 // Why it does not open is said, where it cannot.
 for (const [missing, script, words] of [
   ["WebAssembly", () => { delete window.WebAssembly; }, /needs WebAssembly/],
+  ["vector instructions", () => { WebAssembly.validate = () => false; }, /too old/],
   ["WebGL", () => { HTMLCanvasElement.prototype.getContext = () => null; }, /does not draw with WebGL/],
 ]) {
   const without = await opened();

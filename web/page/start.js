@@ -34,6 +34,12 @@ async function program() {
   return WebAssembly.compileStreaming(new Response(answer.body.pipeThrough(unpacked), { headers: { "Content-Type": "application/wasm" } }));
 }
 
+// Whether the browser knows vector instructions: a program of one function that makes a vector.
+function vectors() {
+  const code = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11];
+  return WebAssembly.validate(new Uint8Array(code));
+}
+
 function webgl() {
   const canvas = document.createElement("canvas");
   return canvas.getContext("webgl2") || canvas.getContext("webgl");
@@ -42,6 +48,9 @@ function webgl() {
 async function start() {
   if (typeof WebAssembly !== "object") {
     return stop("This browser cannot run the program: it needs WebAssembly, which every current browser has unless it was switched off.");
+  }
+  if (!vectors()) {
+    return stop("This browser is too old for the program. Chrome and Edge from version 91, Firefox from 89 and Safari from 16.4 run it.");
   }
   if (!webgl()) {
     return stop("This browser does not draw with WebGL. Switch hardware acceleration on in its settings, or use another browser.");
