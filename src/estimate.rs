@@ -26,6 +26,14 @@ const REST: f64 = 1.3;
 const SLOWEST: f64 = 1.3;
 /// Least share of the change before the last that is taken as error: the last one may be small by chance.
 const BEFORE: f64 = 0.025;
+/// Of a smooth approach: what a third-order term leaves of the spread; share of the spread and of the last correction for the orders
+/// after it, times the spacing; the ratio of changes above which it counts as smooth; least share of the spread where it turns back; and
+/// least share of what the mean on the middle grid gained by its new instants.
+const THIRD_ORDER: f64 = 1.0 / 7.0;
+const HIGHER_ORDERS: f64 = 0.6;
+const NEARLY_SECOND_ORDER: f64 = 3.5;
+const TURNING: f64 = 0.4;
+const SAMPLING: f64 = 0.1;
 
 /// A cycle mean on one grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,28 +63,91 @@ pub fn extrapolate(results: &[f64]) -> Estimate {
 
 /// As [`extrapolate`], of cycle means.
 pub fn extrapolate_means(means: &[Mean]) -> Estimate {
-    match *means {
-        [] => Estimate { value: 0.0, error: f64::INFINITY },
-        [only] => Estimate { value: only.all, error: f64::INFINITY },
-        [coarse, fine] => {
-            let change = fine.shared - coarse.all;
-            Estimate { value: fine.all + change / 3.0, error: change.abs() }
+    let steps = match Changes::of(means) {
+        Ok(steps) => steps,
+        Err(estimate) => return estimate,
+    };
+    let correction = steps.correction().abs();
+    let left = if steps.ratio() >= 4.0 {
+        (SPREAD * steps.spread).min(correction)
+    } else if steps.ratio() > 0.0 {
+        REST * steps.slow_rest()
+    } else {
+        0.5 * steps.change.abs()
+    };
+    let least = (CORRECTION * correction).max(BEFORE * steps.earlier.abs());
+    Estimate { value: steps.value, error: left.max(least) }
+}
+
+/// As [`extrapolate_means`], of a film that nothing touches: its error is a power series of the spacing. What the second order leaves is
+/// a seventh of the spread |e₂₃ − e₁₂|, and more by the orders after it, each of which is smaller by the spacing. For the spacing
+/// stands √(|r₂ − r₁|/unit), since that change is of second order. Where a mean still depends on the instants it is taken over, three
+/// grids may agree by chance: part of that is error, too. `unit`: what errors are relative to.
+pub fn extrapolate_smooth(means: &[Mean], unit: f64) -> Estimate {
+    let steps = match Changes::of(means) {
+        Ok(steps) => steps,
+        Err(estimate) => return estimate,
+    };
+    let spacing = (steps.earlier.abs() / unit).min(1.0).sqrt();
+    let share = THIRD_ORDER + HIGHER_ORDERS * spacing;
+    let left = if steps.ratio() >= NEARLY_SECOND_ORDER {
+        share * steps.spread
+    } else if steps.ratio() > 0.0 {
+        steps.slow_rest()
+    } else {
+        share.max(TURNING) * steps.spread
+    };
+    let least = (HIGHER_ORDERS * spacing * steps.correction().abs()).max(SAMPLING * steps.sampling.abs());
+    Estimate { value: steps.value, error: left.max(least) }
+}
+
+/// How a mean changed over three nested grids, from r₁ to r₂ (`earlier`) and from there to r₃ (`change`).
+struct Changes {
+    earlier: f64,
+    change: f64,
+    /// Extrapolated, and by how much that differs from what the two coarser grids give.
+    value: f64,
+    spread: f64,
+    /// What the second mean gains by the instants that the first grid has not.
+    sampling: f64,
+}
+
+impl Changes {
+    /// Of fewer than three grids, what they give.
+    fn of(means: &[Mean]) -> Result<Self, Estimate> {
+        match *means {
+            [] => Err(Estimate { value: 0.0, error: f64::INFINITY }),
+            [only] => Err(Estimate { value: only.all, error: f64::INFINITY }),
+            [coarse, fine] => {
+                let change = fine.shared - coarse.all;
+                Err(Estimate { value: fine.all + change / 3.0, error: change.abs() })
+            }
+            [.., first, second, third] => {
+                let (earlier, change) = (second.shared - first.all, third.shared - second.all);
+                let (before, value) = (second.all + earlier / 3.0, third.all + change / 3.0);
+                Ok(Self {
+                    earlier,
+                    change,
+                    value,
+                    spread: (value - before).abs(),
+                    sampling: second.all - second.shared,
+                })
+            }
         }
-        [.., first, second, third] => {
-            let (earlier, change) = (second.shared - first.all, third.shared - second.all);
-            let correction = change / 3.0;
-            let (before, value) = (second.all + earlier / 3.0, third.all + correction);
-            let ratio = if change == 0.0 { f64::INFINITY } else { earlier / change };
-            let left = if ratio >= 4.0 {
-                (SPREAD * (value - before).abs()).min(correction.abs())
-            } else if ratio > 0.0 {
-                REST * (change / (ratio.max(SLOWEST) - 1.0) - correction).abs()
-            } else {
-                0.5 * change.abs()
-            };
-            let least = (CORRECTION * correction.abs()).max(BEFORE * earlier.abs());
-            Estimate { value, error: left.max(least) }
-        }
+    }
+
+    fn correction(&self) -> f64 {
+        self.change / 3.0
+    }
+
+    /// 4 where the mean converges at second order.
+    fn ratio(&self) -> f64 {
+        if self.change == 0.0 { f64::INFINITY } else { self.earlier / self.change }
+    }
+
+    /// What an approach of this ratio leaves.
+    fn slow_rest(&self) -> f64 {
+        (self.change / (self.ratio().max(SLOWEST) - 1.0) - self.correction()).abs()
     }
 }
 
@@ -99,6 +170,23 @@ mod tests {
         assert!(error < 0.01 && error < estimate.error && estimate.error < 10.0 * error, "{estimate:?}");
         let exact = extrapolate(&[1.0 + 0.32, 1.0 + 0.08, 1.0 + 0.02]);
         assert!((exact.value - 1.0).abs() < 1e-15 && exact.error > 0.0);
+    }
+
+    #[test]
+    fn a_smooth_remainder_is_bounded_closely() {
+        // r(s) = 1 + 2 s² − 5 s³ + 9 s⁴, whose extrapolation leaves 5 s³/3 and more.
+        let mean = |s: f64| 1.0 + 2.0 * s * s - 5.0 * s * s * s + 9.0 * s.powi(4);
+        let grids = |s: f64| [4.0 * s, 2.0 * s, s].map(mean).map(|all| Mean { all, shared: all });
+        for spacing in [0.1, 0.05, 0.02, 0.01] {
+            let estimate = extrapolate_smooth(&grids(spacing), 1.0);
+            let error = (estimate.value - 1.0).abs();
+            assert!(error < estimate.error && estimate.error < 3.0 * error, "{spacing}: {estimate:?}");
+        }
+        // Three grids that agree by chance, though the mean depends on its instants.
+        let [first, mut second, mut third] = grids(0.01);
+        (second.all, third.all, third.shared) = (first.all + 0.02, first.all + 0.02, first.all + 0.02);
+        second.shared = first.all;
+        assert!(extrapolate_smooth(&[first, second, third], 1.0).error >= 0.002);
     }
 
     #[test]

@@ -11,7 +11,7 @@ pub use level::unit;
 pub use transient::Transient;
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate_means};
+use crate::estimate::{Estimate, Mean, extrapolate_smooth};
 use crate::film::cycle::Interrupted;
 use crate::ladder::{Found, Nested, Scene, climb};
 use crate::plan::{Grid, Plan};
@@ -86,7 +86,7 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
     let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
     let mut recording = level.recording(plate, &coarser, plan.maps || plan.turned);
     let estimate = stated(plate, plan, found);
-    let elsewhere = (estimate.error - extrapolate_means(&found.headlines).error).max(0.0);
+    let elsewhere = (estimate.error - of_grids(found).error).max(0.0);
     recording.judge_series(elsewhere / gas_force(plate, estimate.value));
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
@@ -126,9 +126,14 @@ fn gas_force(plate: &Plate, load: f64) -> f64 {
     plate.gas.ambient_pressure * plate.area() + load.abs()
 }
 
+/// Mean load \[N\] with the error of its grids alone.
+fn of_grids(found: &Found<Level>) -> Estimate {
+    extrapolate_smooth(&found.headlines, found.levels.last().map_or(0.0, Level::unit))
+}
+
 /// Mean load with its error \[N\].
 fn stated(plate: &Plate, plan: &Plan, found: &Found<Level>) -> Estimate {
-    let estimate = extrapolate_means(&found.headlines);
+    let estimate = of_grids(found);
     let Some(level) = found.levels.last() else { return estimate };
     let astray = if let Status::NotConverged { residual, .. } = found.status { residual.min(1.0) } else { 0.0 };
     let rounding = if plate.amplitude > 0.0 { ROUNDING } else { 0.0 };
@@ -204,7 +209,7 @@ impl Scene for Search<'_> {
     fn settled(&self, found: &Found<Level>) -> bool {
         let whole = stated(self.plate, self.plan, found);
         let unit = found.levels.last().map_or(0.0, Level::unit);
-        whole.error <= self.plan.accuracy * unit || extrapolate_means(&found.headlines).error < 0.3 * whole.error
+        whole.error <= self.plan.accuracy * unit || of_grids(found).error < 0.3 * whole.error
     }
 }
 
