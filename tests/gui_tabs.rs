@@ -219,19 +219,20 @@ fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one(
     ctrl(&mut window, Key::Num3);
     assert_eq!(window.state().state().view.tab, Tab::Sweep);
     assert!(window.state().state().sweep.swept().is_none(), "nothing is solved before it is asked for");
-    type_into(&mut window, "Values along x", "40");
+    // So many that the sweep is still at work when it is cancelled, whatever else the machine does.
+    type_into(&mut window, "Values along x", "1000");
     click(&mut window, "Start the sweep");
     until(&mut window, "some points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.rows().is_empty()));
     window.get_by_label("Cancel the sweep").click();
     until(&mut window, "the end", |app| !swept(app).running());
     let part = swept(window.state()).rows().len();
-    assert!(part > 0 && part < 40, "{part}");
+    assert!(part > 0 && part < 1000, "{part}");
     window.get_by_label_contains("Cancelled");
     click(&mut window, "Continue");
     until(&mut window, "all points", |app| swept(app).complete() && !swept(app).running());
 
     let sweep = swept(window.state()).sweep();
-    let vary = ["film.min_spacing_nm=50:800:40:log".parse().unwrap()];
+    let vary = ["film.min_spacing_nm=50:800:1000:log".parse().unwrap()];
     let unbroken = Sweep::new(&presets::find("fundamental").unwrap(), &vary, sweep.settings()).unwrap();
     assert_eq!(sweep.fingerprint(), unbroken.fingerprint(), "the range asked for by default");
     assert_eq!(swept(window.state()).rows(), unbroken.run(&[], &Cancel::new(), &|_| ()));
