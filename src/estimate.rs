@@ -2,8 +2,8 @@
 //!
 //! The schemes are of second order in space and time. From results r₁, r₂, r₃ on grids of spacing 4s, 2s, s,
 //! Richardson's extrapolations are e₁₂ = r₂ + (r₂ − r₁)/3 and e₂₃ = r₃ + (r₃ − r₂)/3; e₂₃ is returned. Contact edges and
-//! instants of first touch make the next error term irregular, so that the spread |e₂₃ − e₁₂| is taken as it is (a
-//! third-order remainder would be a seventh of it), but never less than a fraction of the correction itself. Where nothing touches, the
+//! instants of first touch make the next error term irregular, so that a quarter of the spread |e₂₃ − e₁₂| is
+//! taken (a third-order remainder would be a seventh of it), but never less than a fraction of the correction itself. Where nothing touches, the
 //! next term is regular, and less is taken ([`extrapolate_smooth`]).
 
 use serde::{Deserialize, Serialize};
