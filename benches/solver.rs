@@ -20,7 +20,9 @@ fn main() {
 }
 
 fn problem(preset: &str) -> Problem {
-    presets::find(preset).and_then(|scene| Problem::new(&scene)).unwrap_or_else(|fault| panic!("{preset}: {fault}"))
+    presets::find(preset)
+        .and_then(|scene| Problem::try_from(&scene))
+        .unwrap_or_else(|fault| panic!("{preset}: {fault}"))
 }
 
 fn fundamental() -> (Motor, Plan) {

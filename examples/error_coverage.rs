@@ -168,7 +168,7 @@ fn found(
 ) -> Result<Result<Found, SolveError>, Box<dyn Error>> {
     let mut scene = presets::find(preset)?;
     scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str())))?;
-    let problem = Problem::new(&scene)?;
+    let problem = Problem::try_from(&scene)?;
     let settings = Settings { fidelity, ..Settings::default() };
     Ok(solve(&problem, &settings, &mut (), &Cancel::new()).map(|solution| {
         let numbers = Numbers::of(&problem, &solution);

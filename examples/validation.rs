@@ -42,7 +42,7 @@ fn run(changes: &[(&str, &str)], method: Method, fidelity: Fidelity) -> Result<M
     let mut scene = presets::find("fundamental")?;
     scene.set_all(changes.iter().copied())?;
     let settings = Settings { fidelity, method, ..Settings::default() };
-    let solution = solve(&Problem::new(&scene)?, &settings, &mut (), &Cancel::new())?;
+    let solution = solve(&Problem::try_from(&scene)?, &settings, &mut (), &Cancel::new())?;
     match (solution.outcome, solution.status) {
         (Outcome::Motor(result), Status::Converged) => Ok(result),
         (_, status) => Err(format!("{changes:?}: {status:?}").into()),
@@ -54,7 +54,7 @@ fn grids() -> Result<String, Box<dyn Error>> {
     let mut text = "| fidelity | film nodes along × across half the width, steps | α on the grid | result |\n\
                     | --- | --- | ---: | ---: |\n"
         .to_owned();
-    let problem = Problem::new(&presets::find("fundamental")?)?;
+    let problem = Problem::try_from(&presets::find("fundamental")?)?;
     let Scenario::Motor(motor) = &problem.scenario else { return Err("the fundamental case is a motor".into()) };
     let mut sentence = String::new();
     for fidelity in Fidelity::ALL {

@@ -69,8 +69,12 @@ pub fn read_stream(source: impl Read, limit: u64) -> Result<String, ReadError> {
     text(bytes_of(source, limit)?)
 }
 
-/// UTF-8, or UTF-16 behind its byte order mark, as `>` of PowerShell 5 writes it.
-fn text(bytes: Vec<u8>) -> Result<String, ReadError> {
+/// The text of a file: UTF-8, or UTF-16 behind its byte order mark, as `>` of PowerShell 5 writes it.
+///
+/// # Errors
+///
+/// [`ReadError::NotText`].
+pub fn text(bytes: Vec<u8>) -> Result<String, ReadError> {
     let unit = match bytes.get(..2) {
         Some([0xff, 0xfe]) => u16::from_le_bytes,
         Some([0xfe, 0xff]) => u16::from_be_bytes,

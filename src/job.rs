@@ -7,6 +7,7 @@
 
 pub mod drop;
 pub mod export;
+pub mod face;
 pub mod fit;
 pub mod hold;
 #[cfg(target_arch = "wasm32")]

@@ -1,4 +1,5 @@
-//! The order of the code map in ARCHITECTURE.md, kept: which file refers to which is read from the text of `src/`.
+//! The order of the code map in ARCHITECTURE.md, kept: which file refers to which is read from the text of `solver/src/` and `src/`,
+//! which has all modules of the solver under the same names.
 //!
 //! A reference is a path: `crate::…`, `super::…`, `self::…` or that of a child module, in a `use` or in the middle of code.
 //! One to a name that a module re-exports is one to the file that the name comes from. Tests inside of files do not count.
@@ -17,9 +18,9 @@ const STRANGERS: &[(&str, &str)] = &[("gui/ui/", "gui/update/"), ("gui/update/",
 /// What `gui/derived/` and `gui/state/` do not name: they are plain data.
 const PLAIN: &[(&str, &str)] = &[("gui/derived/", "egui"), ("gui/state/", "egui"), ("gui/command.rs", "egui")];
 
-/// A file of `src/`: its text without comments, texts and tests.
+/// A file of the program: its text without comments, texts and tests.
 struct Source {
-    /// Path below `src/`.
+    /// Path below `solver/src/` or `src/`.
     name: String,
     /// Names of the modules from the root to it.
     module: Vec<String>,
@@ -42,22 +43,23 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 fn sources() -> Vec<Source> {
-    let base = root().join("src");
+    ["solver/src", "src"].iter().flat_map(|folder| sources_of(&root().join(folder))).collect()
+}
+
+fn sources_of(base: &Path) -> Vec<Source> {
     let mut paths = Vec::new();
-    files(&base, &mut paths);
+    files(base, &mut paths);
     paths.sort();
     let read = |path: PathBuf| {
-        let name = path.strip_prefix(&base).unwrap().to_str().unwrap().replace('\\', "/");
+        let name = path.strip_prefix(base).unwrap().to_str().unwrap().replace('\\', "/");
         let stem = name.trim_end_matches(".rs").trim_end_matches("/mod");
         let module = if stem == "lib" { Vec::new() } else { stem.split('/').map(str::to_owned).collect() };
         let code = without_tests(&without_texts(&std::fs::read_to_string(&path).unwrap()));
         Source { name, module, code }
     };
-    paths
-        .into_iter()
-        .filter(|path| !path.ends_with("src/main.rs") && !path.starts_with(base.join("bin")))
-        .map(read)
-        .collect()
+    // What only puts the others together.
+    let apart = |path: &PathBuf| path.ends_with("solver/src/lib.rs") || path.ends_with("src/main.rs");
+    paths.into_iter().filter(|path| !apart(path) && !path.starts_with(base.join("bin"))).map(read).collect()
 }
 
 /// The code without comments and without the contents of texts.
@@ -304,7 +306,7 @@ fn the_code_map_holds_every_file() {
     assert!(missing.is_empty(), "not in the code map of ARCHITECTURE.md: {missing:?}");
     for (name, _) in &map {
         let there = sources.iter().any(|source| source.name == *name || source.name.starts_with(name.as_str()));
-        assert!(there, "{name} is in the code map of ARCHITECTURE.md, but not in src/");
+        assert!(there, "{name} is in the code map of ARCHITECTURE.md, but there is no such file");
     }
 }
 

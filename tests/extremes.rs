@@ -38,7 +38,7 @@ fn motor_of(problem: &Problem) -> &Motor {
 fn alpha(fidelity: Fidelity, changes: &[(&str, f64)], choices: &[(&str, &str)]) -> Periodic {
     let mut scene = scene_with("fundamental", changes);
     scene.set_all(choices.iter().copied()).unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let plan = Plan::motor(motor_of(&problem), fidelity, &problem.numerics).unwrap();
     let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
     assert_eq!(found.status, Status::Converged, "{changes:?} {choices:?}");
@@ -253,7 +253,7 @@ fn resolved(status: Status) -> bool {
 
 /// Solves a scene and checks what came out; whether its cycle repeats.
 fn survives(scene: &Scene, fidelity: Fidelity) -> Result<bool, String> {
-    let problem = Problem::new(scene).map_err(|error| error.to_string())?;
+    let problem = Problem::try_from(scene).map_err(|error| error.to_string())?;
     match &problem.scenario {
         Scenario::Motor(motor) => {
             let plan = Plan::motor(motor, fidelity, &problem.numerics).unwrap();
@@ -438,7 +438,7 @@ fn on_prescribed_grids_too_a_march_has_to_repeat() {
         ("film.mean_free_path_nm", 149_311.443),
         ("numerics.film_nodes_along", 45.0),
     ];
-    let problem = Problem::new(&scene_with("fundamental", &motor)).unwrap();
+    let problem = Problem::try_from(&scene_with("fundamental", &motor)).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let found = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     assert!(matches!(found.status, Status::NotConverged { .. }), "{:?}", found.status);
@@ -785,7 +785,7 @@ fn a_tooth_may_be_as_wide_as_the_pitch() {
             let mut scene = scene_with("fundamental", &[("stator.teeth_per_wave", teeth)]);
             let pitch = scene.range("stator.tooth_width_mm").unwrap().max;
             scene.set_value("stator.tooth_width_mm", Value::Number(share * pitch)).unwrap();
-            let problem = Problem::new(&scene).unwrap();
+            let problem = Problem::try_from(&scene).unwrap();
             let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics).unwrap();
             let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
             check(motor_of(&problem), &plan, &found).unwrap();
@@ -803,7 +803,7 @@ fn a_tooth_may_be_as_wide_as_the_pitch() {
 fn a_load_that_presses_the_wave_flat_leaves_no_film() {
     // q = L/λ + A cos kx/C(k₁), which is nowhere negative: every tooth touches at all times, the gap is H_m everywhere.
     let scene = scene_with("fundamental", &[("motor.load_per_wave_n", 100.0)]);
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let motor = motor_of(&problem);
     let RotorCompliance::Beam { .. } = motor.rotor else { panic!("a beam") };
     let flat = 1e6 * motor.load * motor.compliances(1, &Cancel::new()).unwrap().harmonic(1) / motor.wavelength();
@@ -838,7 +838,7 @@ fn results_are_the_same_to_the_last_bit_for_any_number_of_threads() {
         ("film.min_spacing_nm", [5.0, 60.0, 1000.0]),
         ("motor.load_per_wave_n", [0.05, 2.0, 80.0]),
     ] {
-        problems.extend(values.map(|value| Problem::new(&scene_with("fundamental", &[(key, value)])).unwrap()));
+        problems.extend(values.map(|value| Problem::try_from(&scene_with("fundamental", &[(key, value)])).unwrap()));
     }
     let run = |threads: usize| -> Vec<Vec<u64>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -874,7 +874,7 @@ fn the_cost_of_a_solve_is_flat() {
                 // On the plan's own grids: how many more the accuracy asks for is another matter.
                 let mut scene = scene_with("fundamental", &changes(*spacing));
                 scene.set("numerics.time", "march").unwrap();
-                let problem = Problem::new(&scene).unwrap();
+                let problem = Problem::try_from(&scene).unwrap();
                 let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics).unwrap();
                 let plan = Plan { most_grids: plan.grids.len(), ..plan };
                 let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
@@ -896,7 +896,8 @@ fn where_a_rotor_may_float_or_not_both_states_are_stated() {
     let both = |pressure: f64| {
         let scene =
             scene_with("fundamental", &[("film.ambient_pressure_kpa", pressure), ("rotor.contact_width_mm", 10.0)]);
-        let solution = solve(&Problem::new(&scene).unwrap(), &Settings::default(), &mut (), &Cancel::new()).unwrap();
+        let solution =
+            solve(&Problem::try_from(&scene).unwrap(), &Settings::default(), &mut (), &Cancel::new()).unwrap();
         let Outcome::Motor(result) = solution.outcome else { panic!("a motor") };
         (result, solution.status, solution.warnings.iter().any(|words| words.starts_with("bistable")))
     };

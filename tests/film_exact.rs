@@ -256,7 +256,7 @@ fn the_plate_of_two_other_codes() {
 fn the_published_stiffness_and_damping_of_a_plate() {
     // The benchmark of a commercial code prints 28.65e3 N/m and 15.29e-3 N s/m. One unit of the last digit is allowed, as
     // the last digit of the damping is cut, not rounded: the linear film, which the benchmark is about, has 15.298e-3.
-    let problem = Problem::new(&presets::find("plate-mems").unwrap()).unwrap();
+    let problem = Problem::try_from(&presets::find("plate-mems").unwrap()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
     let found = solve(plate, Fidelity::Reference);
     let film_load = Estimate { value: found.result.film_load, error: found.result.film_load_error };

@@ -29,7 +29,7 @@ fn scene(preset: &str, changes: &[(&str, &str)]) -> Scene {
 }
 
 fn table(scene: &Scene, text: &str) -> Measured {
-    Measured::from_csv(text, "table.csv", &Problem::new(scene).unwrap()).unwrap()
+    Measured::from_csv(text, "table.csv", &Problem::try_from(scene).unwrap()).unwrap()
 }
 
 fn fitted(scene: &Scene, vary: &[&str], measured: &Measured, settings: &Settings, starts: usize) -> Fitted {
@@ -41,7 +41,7 @@ fn fitted(scene: &Scene, vary: &[&str], measured: &Measured, settings: &Settings
 fn load(scene: &Scene, changes: &[(&str, String)]) -> f64 {
     let mut scene = scene.clone();
     scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str()))).unwrap();
-    match solve(&Problem::new(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
+    match solve(&Problem::try_from(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
         Outcome::Motor(result) => result.film_load,
         Outcome::Plate(result) => result.film_load,
     }
@@ -171,7 +171,7 @@ fn several_starts_find_the_same_minimum() {
 #[test]
 fn rows_of_one_condition_share_a_solve() {
     let motor = scene("fundamental", &[]);
-    let problem = Problem::new(&motor).unwrap();
+    let problem = Problem::try_from(&motor).unwrap();
     let solution = solve(&problem, &Settings { record: Record::Everything, ..DRAFT }, &mut (), &Cancel::new()).unwrap();
     let (Scenario::Motor(of), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) else { panic!() };
     let speeds: Vec<f64> = (0..10).map(|i| 0.1 * f64::from(i) * of.surface_speed()).collect();
@@ -214,7 +214,7 @@ fn a_row_that_cannot_be_solved_is_left_out_and_reported() {
 
 #[test]
 fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
-    let problem = Problem::new(&scene("fundamental", &[])).unwrap();
+    let problem = Problem::try_from(&scene("fundamental", &[])).unwrap();
     for (text, words) in [
         ("film.min_spacing_nm\n100\n", "table.csv:1: no column holds what was measured; allowed: alpha, film_load_n"),
         (

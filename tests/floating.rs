@@ -24,7 +24,7 @@ fn scene(preset: &str, set: &[&[(&str, &str)]]) -> Scene {
 }
 
 fn solved(scene: &Scene, fidelity: Fidelity) -> (Problem, Result<Solution, SolveError>) {
-    let problem = Problem::new(scene).unwrap();
+    let problem = Problem::try_from(scene).unwrap();
     let settings = Settings { fidelity, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new());
     let problem = solution.as_ref().map_or_else(|_| problem.clone(), |s| settled(&problem, &s.outcome).into_owned());
@@ -254,7 +254,7 @@ fn two_of_gap_load_and_mass_are_refused_and_one_drops_the_others() {
         assert!(scene.get(key).is_some() && others.iter().all(|other| scene.get(other).is_none()), "{key}");
     }
     // The weight is the mass's.
-    let Scenario::Plate(plate) = Problem::new(&scene).unwrap().scenario else { panic!("a plate") };
+    let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
     assert!((plate.load.unwrap() - 3e-3 * GRAVITY).abs() < 1e-15);
     // An amplitude above the default gap is no fault then, and the roughness is heeded.
     scene.set_all([("plate.amplitude_um", "30"), ("film.min_spacing_nm", "500")]).unwrap();
@@ -275,7 +275,7 @@ fn a_sweep_of_the_amplitude_follows_the_law() {
     for row in &rows {
         let (gap, error) =
             (row.numbers.get(Quantity::MeanGap).unwrap(), row.numbers.get(Quantity::MeanGapError).unwrap());
-        let Scenario::Plate(plate) = Problem::new(&sweep.scene_at(row.point).unwrap()).unwrap().scenario else {
+        let Scenario::Plate(plate) = Problem::try_from(&sweep.scene_at(row.point).unwrap()).unwrap().scenario else {
             panic!("a plate")
         };
         let law = plate.trapped_gap(plate.load.unwrap()) * 1e6;

@@ -425,7 +425,7 @@ fn nothing_is_cut_in_a_narrow_panel_with_large_text() {
 
 fn run(preset: &str) -> SolvedScene {
     let scene = presets::find(preset).unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let mut history = Vec::new();
     let mut listen = |progress: &squeezefilm::control::Progress| history.push(*progress);

@@ -16,7 +16,7 @@ use squeezefilm::solve::{Settings, solve};
 fn plate(set: &[(&str, &str)]) -> Plate {
     let mut scene = presets::find("plate-crossover").unwrap();
     scene.set_all(set.iter().copied()).unwrap();
-    let Scenario::Plate(plate) = Problem::new(&scene).unwrap().scenario else { panic!("a plate") };
+    let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
     plate
 }
 
@@ -198,7 +198,7 @@ fn a_gap_that_is_no_number_is_the_mean_gap_and_reset_is_rest() {
 fn floating(set: &[(&str, &str)]) -> (Plate, f64) {
     let mut scene = presets::find("floating-disc").unwrap();
     scene.set_all(set.iter().copied()).unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     let Scenario::Plate(plate) = settled(&problem, &solution.outcome).into_owned().scenario else { panic!("a plate") };
@@ -241,7 +241,7 @@ fn dropped_it_settles_where_the_periodic_solve_floats_and_sinks_when_the_vibrati
 fn pushed_away_it_creeps_back_as_fast_as_reynolds_damps_it() {
     let (plate, gap) = floating(&[]);
     let scene = presets::find("floating-disc").unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
     let Outcome::Plate(PlateResult { floating: Some(found), .. }) = solution.outcome else { panic!("it floats") };
     let damping = slow_damping(&plate);

@@ -76,7 +76,7 @@ const CLAIMS: &[Claim] = &[
 fn numbers(preset: &str, set: &[&str]) -> Numbers {
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(set.iter().map(|change| change.split_once('=').unwrap())).unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
     Numbers::of(&problem, &solution)
@@ -162,7 +162,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let problem = |preset: &str, set: &[&str]| {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().map(|change| change.split_once('=').unwrap())).unwrap();
-        Problem::new(&scene).unwrap()
+        Problem::try_from(&scene).unwrap()
     };
     let plate = |set: &[&str]| match problem("plate-crossover", set).scenario {
         Scenario::Plate(plate) => plate,
@@ -245,7 +245,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
 fn sensor(set: &[&str]) -> [f64; 3] {
     let mut scene = Scene::from_toml(BUILT_IN[9].presets[0].1, "accelerometer").unwrap();
     scene.set_all(["plate.mean_gap_um=4.73"].iter().chain(set).map(|change| change.split_once('=').unwrap())).unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let solution = solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
     let found = exact_of_runs::solved(plate, &solution.recording).unwrap();
@@ -272,7 +272,7 @@ fn what_lesson_9_says_of_a_plate_that_floats_is_right() {
     let floats = |preset: &str, change: (&str, &str)| {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all([change]).unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         solve(&problem, &Settings::default(), &mut |_: &Progress| (), &Cancel::new()).is_ok()
     };
     assert!(!floats("floating-disc", ("plate.mass_g", "3300")));

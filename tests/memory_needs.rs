@@ -25,7 +25,7 @@ const ALLOWED: std::ops::RangeInclusive<f64> = 0.9..=2.0;
 fn problem(preset: &str, set: &[(&str, &str)]) -> Problem {
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(set.iter().copied()).unwrap();
-    Problem::new(&scene).unwrap()
+    Problem::try_from(&scene).unwrap()
 }
 
 /// Estimate, which `run` returns, over what it allocates.

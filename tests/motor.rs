@@ -26,7 +26,7 @@ fn motor_with(changes: &[(&str, &str)]) -> Motor {
 }
 
 fn motor_of(scene: &Scene) -> Motor {
-    match Problem::new(scene).unwrap().scenario {
+    match Problem::try_from(scene).unwrap().scenario {
         Scenario::Motor(motor) => motor,
         Scenario::Plate(_) => panic!("a motor"),
     }
@@ -327,7 +327,7 @@ proptest! {
 
 #[test]
 fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_known() {
-    let problem = Problem::new(&presets::find("ring-rotor").unwrap()).unwrap();
+    let problem = Problem::try_from(&presets::find("ring-rotor").unwrap()).unwrap();
     let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
     let solved = |problem: &Problem| solve_problem(problem, &settings, &mut (), &Cancel::new());
     let Outcome::Motor(ring) = solved(&problem).unwrap().outcome else { panic!("a motor") };

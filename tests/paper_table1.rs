@@ -1,4 +1,4 @@
-//! Table I of the paper by the paper's own method (`src/paper`), on the paper's own meshes.
+//! Table I of the paper by the paper's own method (`solver/src/paper`), on the paper's own meshes.
 use rayon::prelude::*;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::paper;
@@ -60,7 +60,7 @@ fn rows_of_table_1() {
     let results: Vec<_> = table1::published()
         .into_par_iter()
         .map(|row| {
-            let problem = Problem::new(&presets::find(&row.preset).unwrap()).unwrap();
+            let problem = Problem::try_from(&presets::find(&row.preset).unwrap()).unwrap();
             let Scenario::Motor(motor) = &problem.scenario else { panic!("{} is a motor", row.row) };
             let (solution, result) = solve(motor, &problem.numerics);
             (row, solution, result)

@@ -17,7 +17,7 @@ type Changes = &'static [(&'static str, &'static str)];
 fn motor_with(preset: &str, changes: &[(&str, &str)]) -> Motor {
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(changes.iter().copied()).unwrap();
-    match Problem::new(&scene).unwrap().scenario {
+    match Problem::try_from(&scene).unwrap().scenario {
         Scenario::Motor(motor) => motor,
         Scenario::Plate(_) => panic!("a motor"),
     }
@@ -671,7 +671,7 @@ fn a_switch_overrules_the_plan_and_is_marked() {
 #[test]
 fn an_error_of_the_rotor_changes_alpha_by_no_more_than_is_stated() {
     for preset in ["fundamental", "min-spacing-100nm", "tooth-radius-3m", "frequency-100khz"] {
-        let Scenario::Motor(motor) = Problem::new(&presets::find(preset).unwrap()).unwrap().scenario else {
+        let Scenario::Motor(motor) = Problem::try_from(&presets::find(preset).unwrap()).unwrap().scenario else {
             panic!("a motor")
         };
         let (rotor, first) =

@@ -4,8 +4,9 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
+use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::input::ReadError;
-use squeezefilm::problem::{Gas, Problem, RotorCompliance, Scenario};
+use squeezefilm::problem::{Gas, Motor, Problem, RotorCompliance, Scenario};
 use squeezefilm::scene::{PARAMETERS, ParameterKind, Range, Scene, SceneError, Value, What, heights, presets, table1};
 use squeezefilm::surface::texture::{Pair, measured};
 use std::path::Path;
@@ -315,7 +316,7 @@ fn a_key_at_fault_hides_the_rules_about_it() {
 // ---- the gas
 
 fn gas(scene: &Scene) -> Gas {
-    match Problem::new(scene).unwrap().scenario {
+    match Problem::try_from(scene).unwrap().scenario {
         Scenario::Motor(motor) => motor.gas,
         Scenario::Plate(plate) => plate.gas,
     }
@@ -467,7 +468,7 @@ fn what_is_not_given_follows_from_measured_heights() {
 #[test]
 fn a_compliance_table_is_read_inline_and_from_csv() {
     let inline = read("schema = 1\n[rotor]\nmodel = \"table\"\ncompliance = [[241.5, 2e-9],\n[483, 1e-9]]\n").unwrap();
-    let Scenario::Motor(motor) = Problem::new(&inline).unwrap().scenario else { panic!("a motor") };
+    let Scenario::Motor(motor) = Problem::try_from(&inline).unwrap().scenario else { panic!("a motor") };
     assert_eq!(motor.rotor, RotorCompliance::Table(vec![(241.5, 2e-9), (483.0, 1e-9)]));
 
     let folder = tempfile::tempdir().unwrap();
@@ -476,7 +477,7 @@ fn a_compliance_table_is_read_inline_and_from_csv() {
     let text = "schema = 1\n[rotor]\ncompliance_csv = \"r.csv\"\nmodel = \"table\"\n[motor]\nwaves = 6\n";
     std::fs::write(&preset, text).unwrap();
     let scene = Scene::load(&preset).unwrap();
-    let Scenario::Motor(motor) = Problem::new(&scene).unwrap().scenario else { panic!("a motor") };
+    let Scenario::Motor(motor) = Problem::try_from(&scene).unwrap().scenario else { panic!("a motor") };
     let RotorCompliance::Table(rows) = &motor.rotor else { panic!("a table") };
     assert_eq!(rows.len(), 2);
     assert!((rows[1].0 * motor.wavelength() / std::f64::consts::TAU - 2.0).abs() < 1e-14);
@@ -537,7 +538,7 @@ fn a_section_is_read_in_either_notation_and_saved() {
          r_outer_mm = 30\nz_bottom_mm = 0\nz_top_mm = 2\nfixed = \"axial-radial\"\n[film]\nmin_spacing_nm = 100\n"
     );
     let scene = read(&text).unwrap();
-    let Scenario::Motor(motor) = Problem::new(&scene).unwrap().scenario else { panic!("a motor") };
+    let Scenario::Motor(motor) = Problem::try_from(&scene).unwrap().scenario else { panic!("a motor") };
     let RotorCompliance::Ring(section) = &motor.rotor else { panic!("a ring") };
     let (part, support) = (&section.parts()[0], &section.supports()[0]);
     assert_eq!((part.name.as_str(), part.material.name), ("web", "brass"));
@@ -678,7 +679,7 @@ fn every_preset_is_a_problem_and_saves_equal() {
     for built_in in presets::BUILT_IN {
         let scene = built_in.scene().unwrap();
         assert!(!scene.about.is_empty(), "{}", built_in.name);
-        Problem::new(&scene).unwrap();
+        Problem::try_from(&scene).unwrap();
         let path = folder.path().join(built_in.name);
         scene.save(&path).unwrap();
         assert_eq!(presets::find(path.to_str().unwrap()).unwrap(), scene);
@@ -740,7 +741,7 @@ fn an_unknown_preset_suggests_the_nearest() {
 fn the_fundamental_case_in_si() {
     let mut scene = presets::find("fundamental").unwrap();
     scene.set("motor.rotor_speed_rpm", "60").unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
     assert_eq!(problem.name, "Fundamental case");
     assert_eq!((motor.waves, motor.teeth, motor.tooth_radius), (7, 9, None));
@@ -775,7 +776,7 @@ fn the_fundamental_case_in_si() {
 fn a_scene_that_breaks_a_rule_between_keys_is_no_problem_and_is_not_saved() {
     let mut scene = Scene::plate();
     scene.set("plate.amplitude_um", "1").unwrap();
-    assert!(Problem::new(&scene).unwrap_err().to_string().starts_with("plate.amplitude_um = 1 is out of range"));
+    assert!(Problem::try_from(&scene).unwrap_err().to_string().starts_with("plate.amplitude_um = 1 is out of range"));
     let folder = tempfile::tempdir().unwrap();
     assert!(scene.save(&folder.path().join("p.toml")).is_err());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -789,7 +790,7 @@ fn a_point_of_a_sweep_costs_few_allocations() {
         let counted = allocation_counter::measure(|| {
             let mut point = scene.clone();
             point.set_value("film.viscosity_upa_s", Value::Number(20.0)).unwrap();
-            std::hint::black_box(Problem::new(&point).unwrap());
+            std::hint::black_box(Problem::try_from(&point).unwrap());
         });
         assert!(counted.count_total <= most, "{preset}: {counted:?}");
     }
@@ -942,7 +943,7 @@ proptest! {
         for parameter in scene.parameters() {
             prop_assert_eq!(loaded.get(parameter.key).map(bits), scene.get(parameter.key).map(bits));
         }
-        Problem::new(&loaded).unwrap();
+        Problem::try_from(&loaded).unwrap();
     }
 
     #[test]
@@ -997,4 +998,74 @@ fn the_wedge_cannot_be_asked_for_and_ruled_out() {
     assert!(scene.set_all([("film.shear", "false"), ("numerics.wedge", "on")]).is_err());
     assert_eq!(scene, Scene::motor());
     scene.set_all([("film.shear", "false"), ("numerics.wedge", "off")]).unwrap();
+}
+
+// ---- the numbers of a scene that tell its regime
+
+fn close(a: f64, b: f64) -> bool {
+    (a / b - 1.0).abs() < 1e-12
+}
+
+#[test]
+fn fundamental_case_by_hand() {
+    let numbers = Dimensionless::of(&Problem::try_from(&Scene::motor()).unwrap());
+    let omega = std::f64::consts::TAU * 30e3;
+    let sigma = 12.0 * 18.1e-6 * omega * 1.7353e-3 * 1.7353e-3 / (101_325.0 * 200e-9 * 200e-9);
+    assert!(close(numbers.squeeze_number, sigma));
+    assert!((numbers.squeeze_number - 30_418.0).abs() < 1.0, "{}", numbers.squeeze_number);
+    let lambda = 6.0 * 18.1e-6 * (omega * 1e-6) * 1.7353e-3 / (101_325.0 * 200e-9 * 200e-9);
+    assert!(close(numbers.bearing_number, lambda));
+    assert!(close(numbers.bearing_to_squeeze, lambda / sigma));
+    assert!(close(numbers.knudsen_number, 0.32));
+    // D = (h² p + 6 λ p h)/(12 μ); about 24 µm, one cell of the paper's grid.
+    let d = (200e-9 * 200e-9 * 101_325.0 + 6.0 * 64e-9 * 101_325.0 * 200e-9) / (12.0 * 18.1e-6);
+    assert!(close(numbers.boundary_layer, (2.0 * d / omega).sqrt()));
+}
+
+#[test]
+fn the_rotor_adds_to_the_sliding_speed_whichever_way_it_turns() {
+    let of = |rpm: &str| {
+        let mut scene = Scene::motor();
+        scene.set("motor.rotor_speed_rpm", rpm).unwrap();
+        Dimensionless::of(&Problem::try_from(&scene).unwrap()).bearing_number
+    };
+    assert!(of("300") > 2.0 * of("0"));
+    assert_eq!(of("300"), of("-300"));
+}
+
+#[test]
+fn slip_thickens_the_layer() {
+    let of = |slip: &str| {
+        let mut scene = Scene::plate();
+        scene.set("film.slip", slip).unwrap();
+        Dimensionless::of(&Problem::try_from(&scene).unwrap()).boundary_layer
+    };
+    assert!(close((of("first-order") / of("none")).powi(2), 1.384));
+    assert!(of("second-order") > of("first-order"));
+}
+
+#[test]
+fn plate_presets_span_the_regimes() {
+    let of = |name: &str| Dimensionless::of(&Problem::try_from(&presets::find(name).unwrap()).unwrap());
+    assert!((0.25..0.35).contains(&of("plate-viscous").squeeze_number));
+    assert!((10.0..20.0).contains(&of("plate-crossover").squeeze_number));
+    assert!(of("plate-trapped").squeeze_number > 3000.0);
+    assert_eq!(of("plate-trapped").bearing_number, 0.0);
+}
+
+#[test]
+fn a_table_says_what_it_does_not_cover() {
+    let problem = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap();
+    let Scenario::Motor(motor) = problem.scenario else { panic!("a motor") };
+    let told = |rows: &[(f64, f64)]| {
+        Motor { rotor: RotorCompliance::Table(rows.to_vec()), ..motor.clone() }.compliance_not_covered()
+    };
+    assert_eq!(motor.compliance_not_covered(), None);
+    assert_eq!(told(&[(241.4, 2e-9), (4000.0, 1e-10)]), None);
+    let below = told(&[(300.0, 2e-9), (4000.0, 1e-10)]).unwrap();
+    assert!(below.contains("300 to 4000 1/m: the wave itself, 241.4") && !below.contains("tooth"), "{below}");
+    let above = told(&[(200.0, 2e-9), (900.0, 1e-10)]).unwrap();
+    assert!(above.contains("a tooth, 3621") && !above.contains("the wave itself"), "{above}");
+    let neither = told(&[(100.0, 2e-9)]).unwrap();
+    assert!(neither.contains("100 1/m only") && neither.contains("of the last row; waves"), "{neither}");
 }

@@ -39,7 +39,7 @@ fn independent(preset: &str, key: &str, share: f64) -> [f64; 3] {
     let solved = |factor: f64| {
         let mut scene = scene.clone();
         scene.set(key, &(factor * number(&scene, key)).to_string()).unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         let settings = Settings { record: Record::Numbers, ..at(Fidelity::Reference) };
         let numbers = Numbers::of(&problem, &solve(&problem, &settings, &mut (), &Cancel::new()).unwrap());
         MOTOR_QUANTITIES.map(|quantity| numbers.get(quantity).unwrap())

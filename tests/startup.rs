@@ -13,7 +13,7 @@ use squeezefilm::startup::{Cycle, Settings, Startup, startup};
 fn problem(preset: &str, changes: &[(&str, &str)]) -> Problem {
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(changes.iter().copied()).unwrap();
-    Problem::new(&scene).unwrap()
+    Problem::try_from(&scene).unwrap()
 }
 
 fn run(problem: &Problem, settings: &Settings) -> (Vec<Cycle>, Startup) {

@@ -255,7 +255,7 @@ fn solved(preset: &str, changes: &[(&str, &str)]) -> (Scene, Solution, MotorResu
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(changes.iter().copied()).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
-    let solution = solve(&Problem::new(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
+    let solution = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
     assert_eq!(solution.status, Status::Converged, "{changes:?}");
     match solution.outcome {
         Outcome::Motor(result) => (scene, solution, result),
@@ -307,7 +307,7 @@ fn under_a_light_load_the_rotor_floats_over_the_asperities() {
 /// A motor on summits so stiff and so far apart that they all carry at one height has the film share of the hard stop there.
 #[test]
 fn a_motor_on_stiff_asperities_is_the_one_with_the_hard_stop() {
-    let Scenario::Motor(hard) = Problem::new(&presets::find("fundamental").unwrap()).unwrap().scenario else {
+    let Scenario::Motor(hard) = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap().scenario else {
         panic!()
     };
     let alpha = |motor: &Motor| {
@@ -354,11 +354,11 @@ fn what_a_surface_rules_out_is_refused_by_name() {
     let message = presets::find("fundamental").unwrap().set("surface.rms_nm", "100").unwrap_err().to_string();
     assert!(message.contains("surface.model") && message.contains("asperities"), "{message}");
     let paper = Settings { method: Method::Paper, ..Settings::default() };
-    let refused = solve(&Problem::new(&scene).unwrap(), &paper, &mut (), &Cancel::new()).unwrap_err();
+    let refused = solve(&Problem::try_from(&scene).unwrap(), &paper, &mut (), &Cancel::new()).unwrap_err();
     assert!(matches!(refused, SolveError::PaperSurface) && refused.is_bad_input());
     let mut scene = presets::find("rough-flow").unwrap();
     scene.set("numerics.time", "trapped").unwrap();
-    let message = Problem::new(&scene).unwrap_err().to_string();
+    let message = Problem::try_from(&scene).unwrap_err().to_string();
     assert!(message.contains("surface.flow_factors"), "{message}");
     // Back to the hard stop: what belongs to asperities is gone, and the roughness of the flow stays.
     scene.set("surface.model", "minimum-spacing").unwrap();

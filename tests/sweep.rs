@@ -62,7 +62,7 @@ fn each_row_is_the_single_solve_of_its_scene_with_any_number_of_threads() {
         let rows = with_threads(1, sweep);
         assert_eq!(rows.len(), sweep.len());
         for (point, row) in rows.iter().enumerate() {
-            let problem = Problem::new(&sweep.scene_at(point).unwrap()).unwrap();
+            let problem = Problem::try_from(&sweep.scene_at(point).unwrap()).unwrap();
             let alone = solve(&problem, &DRAFT, &mut (), &Cancel::new()).unwrap();
             assert_eq!((row.point, &row.status), (point, &RunStatus::Converged));
             assert_eq!(row.outside, names(&outside(&problem, Some(&alone))), "point {point}");

@@ -24,7 +24,7 @@ struct Solved {
 fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Method) -> Solved {
     let mut scene = presets::find(preset).unwrap();
     scene.set_all(set.iter().copied()).unwrap();
-    let problem = Problem::new(&scene).unwrap();
+    let problem = Problem::try_from(&scene).unwrap();
     let settings = Settings { fidelity, method, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     let (Scenario::Motor(motor), Outcome::Motor(result)) = (problem.scenario, solution.outcome) else {
@@ -146,7 +146,7 @@ fn a_solve_has_the_numbers_of_the_curve_also_where_it_keeps_no_fields() {
     for (preset, set) in [("fundamental", &[][..]), ("fundamental", &HEAVY[..]), ("levitating", &[][..])] {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         let settings = Settings { fidelity: Fidelity::Draft, record: Record::Numbers, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         assert!(solution.recording.contact.is_empty());

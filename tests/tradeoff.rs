@@ -81,7 +81,7 @@ fn every_setting_is_the_solve_that_its_options_ask_for_to_the_last_bit() {
     ] {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(changes.iter().copied()).unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         let mut all = candidates(&problem);
         // What takes seconds each is one of its family.
         let slow = ["reference", "accuracy 0.05%", "paper", "paper, twice its mesh", "fine, 65 × 33 × 180"];

@@ -81,7 +81,7 @@ impl Scene {
             None => None,
         };
         let scene = self.0.clone();
-        let problem = Problem::new(&scene).map_err(scene_error)?;
+        let problem = Problem::try_from(&scene).map_err(scene_error)?;
         let (history, solution, wall_s) = here(py, |cancel| -> PyResult<_> {
             let started = Instant::now();
             let cancel = match budget {
@@ -115,7 +115,7 @@ pub(crate) fn keys() -> Vec<(&'static str, &'static str, String)> {
 
 /// Sweeps and the like: the scene, as the library has it.
 pub(crate) fn checked(scene: &Scene) -> PyResult<Problem> {
-    Problem::new(&scene.0).map_err(scene_error)
+    Problem::try_from(&scene.0).map_err(scene_error)
 }
 
 /// The error of a solve that was cancelled without Ctrl-C.

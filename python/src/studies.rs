@@ -86,7 +86,7 @@ pub(crate) fn fit(
     let (scene, bounds) = (scene.0.clone(), parsed::<Bounds>(&vary)?);
     let (errors, skip, starts) = (parsed::<ErrorSize>(&lists.0)?, lists.1, starts_of(starts)?);
     let measured = match data {
-        (name, Some(text)) => Measured::from_csv(&text, &name, &Problem::new(&scene).map_err(scene_error)?),
+        (name, Some(text)) => Measured::from_csv(&text, &name, &Problem::try_from(&scene).map_err(scene_error)?),
         (name, None) => Measured::find(&name, &scene, settings.method),
     };
     let measured = measured.and_then(|measured| measured.without(&skip)?.with_errors(&errors)).map_err(fit_error)?;

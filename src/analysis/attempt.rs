@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn a_panic_is_told_in_words() {
-        let mut broken = Problem::new(&Scene::motor()).unwrap();
+        let mut broken = Problem::try_from(&Scene::motor()).unwrap();
         // No scene can make this problem: the solver divides by the number of teeth.
         if let Scenario::Motor(motor) = &mut broken.scenario {
             motor.teeth = 0;

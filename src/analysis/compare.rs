@@ -75,7 +75,7 @@ pub fn runs(
     cancel: &Cancel,
     finished: &(dyn Fn(&ComparedRun) + Sync),
 ) -> Result<Vec<ComparedRun>, CompareError> {
-    let problems = scenes.iter().map(Problem::new).collect::<Result<Vec<_>, _>>()?;
+    let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     problems.iter().try_for_each(|problem| check(problem, settings))?;
     let prepared: Vec<_> = labels(scenes).into_iter().zip(scenes).zip(problems).collect();
     let solved = prepared.into_par_iter().map(|((label, scene), problem)| {
@@ -225,7 +225,7 @@ mod tests {
         let scenes = ["fundamental", "min-spacing-100nm", "plate-crossover"].map(|name| presets::find(name).unwrap());
         let runs = runs(&scenes, &draft(), &Cancel::new(), &|_| ()).unwrap();
         for (scene, run) in scenes.iter().zip(&runs) {
-            let problem = Problem::new(scene).unwrap();
+            let problem = Problem::try_from(scene).unwrap();
             let alone = solve(&problem, &draft(), &mut (), &Cancel::new()).unwrap();
             let solution = run.solved.as_ref().unwrap();
             assert_eq!(run.numbers(), Numbers::of(&problem, &alone));

@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn every_decision_is_a_sentence_that_follows_the_plan() {
-        let problem = Problem::new(&presets::find("fundamental").unwrap()).unwrap();
+        let problem = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap();
         let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
         let of = |numerics: Numerics| Plan::motor(motor, Fidelity::Standard, &numerics).unwrap().decisions;
         let wedge = |numerics: Numerics| words(of(numerics).iter().find(|d| term(d) == "wedge term").unwrap());

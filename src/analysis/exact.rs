@@ -227,7 +227,7 @@ mod tests {
     fn compared(preset: &str, set: &[(&str, &str)]) -> (Plate, Recording, Comparison) {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {

@@ -87,7 +87,7 @@ mod tests {
         let mut scene = Scene::motor();
         scene.set_all(changes.iter().copied()).unwrap();
         let result = MotorResult { alpha, alpha_error, ..MotorResult::default() };
-        weight(&Problem::new(&scene).unwrap(), &Outcome::Motor(result))
+        weight(&Problem::try_from(&scene).unwrap(), &Outcome::Motor(result))
     }
 
     #[test]
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn a_plate_is_measured_by_ambient_pressure() {
-        let problem = Problem::new(&Scene::plate()).unwrap();
+        let problem = Problem::try_from(&Scene::plate()).unwrap();
         // p_a × 1 mm = 101.325 N/m.
         let of = |film_load: f64| {
             let result = PlateResult { film_load, film_load_error: 1e-6, ..PlateResult::default() };

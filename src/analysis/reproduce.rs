@@ -139,9 +139,9 @@ pub fn reproduce(
     for scene in &mut scenes {
         let shown = FIELDS.iter().any(|(_, preset, _)| presets::find(preset).as_ref() == Ok(&*scene));
         let record = if shown { Record::Everything } else { Record::Numbers };
-        work.push(Work { problem: Problem::new(scene)?, settings: Settings { record, ..paper } });
+        work.push(Work { problem: Problem::try_from(&*scene)?, settings: Settings { record, ..paper } });
         scene.set_numerics(&Numerics::default())?;
-        work.push(Work { problem: Problem::new(scene)?, settings: Settings { record, ..ours } });
+        work.push(Work { problem: Problem::try_from(&*scene)?, settings: Settings { record, ..ours } });
     }
     let mut frequencies = Vec::new();
     let (from, to, count) = FREQUENCIES;
@@ -150,7 +150,7 @@ pub fn reproduce(
         let mut scene = fundamental.clone();
         scene.set("stator.frequency_khz", &format!("{frequency}"))?;
         frequencies.push(frequency);
-        work.push(Work { problem: Problem::new(&scene)?, settings: Settings { record: Record::Numbers, ..ours } });
+        work.push(Work { problem: Problem::try_from(&scene)?, settings: Settings { record: Record::Numbers, ..ours } });
     }
 
     // The longest first, one by one to whoever is free: the pool is busy to the end.
@@ -172,7 +172,7 @@ pub fn reproduce(
     let mut scenes = scenes.into_iter();
     let mut pair = |scene: Scene| -> Result<Both, SceneError> {
         let (paper, ours) = (next(), next());
-        Ok(Both { problem: Problem::new(&scene)?, scene, paper, ours })
+        Ok(Both { problem: Problem::try_from(&scene)?, scene, paper, ours })
     };
     let rows = published()
         .into_iter()

@@ -111,7 +111,7 @@ impl RotorCurves {
 fn reference(model: &str) -> Option<RotorCompliance> {
     let mut scene = Scene::motor();
     scene.set("rotor.model", model).ok()?;
-    match Problem::new(&scene).ok()?.scenario {
+    match Problem::try_from(&scene).ok()?.scenario {
         Scenario::Motor(motor) => Some(motor.rotor),
         Scenario::Plate(_) => None,
     }
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_greens_function_is_the_beams() {
-        let Scenario::Motor(motor) = Problem::new(&Scene::motor()).unwrap().scenario else { panic!("a motor") };
+        let Scenario::Motor(motor) = Problem::try_from(&Scene::motor()).unwrap().scenario else { panic!("a motor") };
         let found = RotorCurves::of(&motor, &Cancel::new()).unwrap().unwrap();
         // Beside itself the beam is not shown again.
         assert!(found.curves.iter().all(|curve| !curve.name.starts_with("beam")) && found.bent.is_none());

@@ -171,7 +171,7 @@ impl Sensitivity {
         cancel: &Cancel,
         solved: &(dyn Fn(usize) + Sync),
     ) -> Result<Option<Self>, SensitivityError> {
-        let problem = Problem::new(scene)?;
+        let problem = Problem::try_from(scene)?;
         let variation = if keys.is_empty() { Variation::all(scene) } else { Variation::new(scene, keys)? };
         let centre = Centre::new(&problem, settings, None, cancel)?;
         let Some(Jacobian { numbers, columns }) =
@@ -364,7 +364,7 @@ impl<'de> Deserialize<'de> for Sensitivity {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let (variation, settings, status, warnings, values, columns, coarse) = Carried::deserialize(from)?;
         let variation = variation.into_owned();
-        let problem = Problem::new(variation.scene()).map_err(D::Error::custom)?;
+        let problem = Problem::try_from(variation.scene()).map_err(D::Error::custom)?;
         Ok(Self {
             variation,
             settings,

@@ -313,7 +313,7 @@ pub fn survey(
     cancel: &Cancel,
     finished: &(dyn Fn(&Cell) + Sync),
 ) -> Result<Vec<Cell>, SceneError> {
-    Problem::new(scene)?;
+    Problem::try_from(scene)?;
     let cells = places(scene, maps, methods, count);
     // One at a time: some cells take a thousand times as long as others.
     let solved = cells.into_par_iter().with_max_len(1).map(|cell| {
@@ -395,7 +395,7 @@ fn changed(scene: &Scene, changes: &[(&str, f64)]) -> Result<Problem, SceneError
     for (key, value) in changes {
         scene.set_value(key, Value::Number(*value))?;
     }
-    Problem::new(&scene)
+    Problem::try_from(&scene)
 }
 
 fn most_cycles(problem: &Problem) -> usize {
@@ -413,7 +413,7 @@ mod tests {
     use crate::solution::{Model, MotorResult, Stats};
 
     fn motor() -> Motor {
-        let Scenario::Motor(motor) = Problem::new(&Scene::motor()).unwrap().scenario else { unreachable!() };
+        let Scenario::Motor(motor) = Problem::try_from(&Scene::motor()).unwrap().scenario else { unreachable!() };
         motor
     }
 

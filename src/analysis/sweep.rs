@@ -308,7 +308,7 @@ fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
 
 /// The problem at these values, checked.
 fn solvable(scene: &Scene, axes: &[Axis], values: &[f64], settings: &Settings) -> Result<Problem, SweepError> {
-    let problem = Problem::new(&varied(scene, axes, values)?)?;
+    let problem = Problem::try_from(&varied(scene, axes, values)?)?;
     check(&problem, &Settings { record: Record::Numbers, ..*settings })?;
     Ok(problem)
 }

@@ -72,7 +72,7 @@ pub fn rows(
                 scene.set_numerics(&Numerics::default())?;
             }
             scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))?;
-            Ok((row, Problem::new(&scene)?))
+            Ok((row, Problem::try_from(&scene)?))
         })
         .collect::<Result<Vec<_>, SceneError>>()?;
     let solved = problems.into_par_iter().map(|(published, problem)| {

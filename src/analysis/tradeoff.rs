@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn runs_are_interleaved_and_counted_by_the_callers_clock() {
-        let problem = Problem::new(&presets::find("plate-crossover").unwrap()).unwrap();
+        let problem = Problem::try_from(&presets::find("plate-crossover").unwrap()).unwrap();
         let named = |candidate: &Candidate| ["draft", "standard"].contains(&candidate.name.as_str());
         let two: Vec<Candidate> = candidates(&problem).into_iter().filter(named).collect();
         // A clock that goes on by a second whenever it is looked at, and each run looks at it in every round.

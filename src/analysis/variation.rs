@@ -212,7 +212,7 @@ impl Variation {
     /// # Errors
     /// As [`Self::scene_at`].
     pub fn problem(&self, values: &[f64]) -> Result<Problem, SceneError> {
-        Problem::new(&self.scene_at(values)?)
+        Problem::try_from(&self.scene_at(values)?)
     }
 
     /// The derivatives, at `values`, of the numbers that `numbers` reads from a problem and its solution, which has no pressure maps.
@@ -394,7 +394,7 @@ mod tests {
     fn jacobian(scene: &Scene, keys: &[&str]) -> Jacobian {
         let variation = Variation::new(scene, keys).unwrap();
         let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
-        let centre = Centre::new(&Problem::new(scene).unwrap(), &settings, None, &Cancel::new()).unwrap();
+        let centre = Centre::new(&Problem::try_from(scene).unwrap(), &settings, None, &Cancel::new()).unwrap();
         variation.jacobian(&variation.values(), &centre, &headline, &Cancel::new(), &|_| ()).unwrap()
     }
 

@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     // A wrong extension is told before the work, not after it.
     let format = Format::of(&arguments.out)?;
     let scene = arguments.scene.scene(&arguments.preset)?;
-    let problem = Problem::new(&scene)?;
+    let problem = Problem::try_from(&scene)?;
     let (settings, cancel) = arguments.solve.begin()?;
 
     let mut bar = Bar::solve(force_unit(&problem));

@@ -148,7 +148,7 @@ impl Call<'_> {
         fitted.warnings.iter().for_each(|warning| terminal::warning(warning));
         terminal::note(&format!("{} solves in {}", fitted.solves, duration(wall_s)));
         if let Some(folder) = self.folder {
-            let problem = Problem::new(&fitted.scene)?;
+            let problem = Problem::try_from(&fitted.scene)?;
             let (formats, of) = (self.arguments.common.figures.formats(), (self.scene.name.as_str(), &problem));
             let paths = files::fitted(folder, of, (&fitted, measured), self.command, &formats)?;
             terminal::note(&written(folder, &paths));
@@ -165,7 +165,7 @@ impl Call<'_> {
         let wall_s = started.elapsed().as_secs_f64();
         drop(bar);
         let Some(found) = found else { return Ok(cancelled()) };
-        let problem = Problem::new(&found.scene)?;
+        let problem = Problem::try_from(&found.scene)?;
         let object = OptimumObject::new(&self.scene.name, &found);
         let json = self.arguments.common.output.json;
         terminal::result(json, || json::document(&object, self.command), || optimum_text(self.scene, &problem, &found));

@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
             "--budget: solves that are compared are equally exact; allowed here: --fidelity or --accuracy",
         ));
     }
-    check(&Problem::new(&scene)?, &settings)?;
+    check(&Problem::try_from(&scene)?, &settings)?;
     let draws = arguments.monte_carlo.unwrap_or(0) as usize;
 
     let started = Instant::now();

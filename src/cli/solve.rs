@@ -68,7 +68,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         .iter()
         .map(|preset| arguments.common.scene.scene(preset))
         .collect::<Result<Vec<Scene>, _>>()?;
-    let problems = scenes.iter().map(Problem::new).collect::<Result<Vec<_>, _>>()?;
+    let problems = scenes.iter().map(Problem::try_from).collect::<Result<Vec<_>, _>>()?;
     let (folder, settings, cancel) = arguments.common.begin()?;
     problems.iter().try_for_each(|problem| check(problem, &settings))?;
 

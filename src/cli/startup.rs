@@ -70,7 +70,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
-    let problem = Problem::new(&scene)?;
+    let problem = Problem::try_from(&scene)?;
     let (folder, chosen, cancel) = arguments.common.begin()?;
     if chosen.method == Method::Paper {
         return Err(CliError::Usage("--method paper: a start-up is computed by our own method; allowed here: auto"));

@@ -365,7 +365,7 @@ mod tests {
     #[test]
     fn what_did_not_converge_is_marked_and_still_reported() {
         let scene = presets::find("plate-viscous").unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         let mut solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
         solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
         let summary = Summary::new(&problem, &solution, 0.0123, &[]);

@@ -66,7 +66,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.scene.scene(&arguments.preset)?;
-    let problem = Problem::new(&scene)?;
+    let problem = Problem::try_from(&scene)?;
     arguments.memory.apply();
     check(&problem, &Settings::default())?;
     let folder = arguments.output.folder()?;

@@ -3,7 +3,7 @@
 
 use super::animation::{AnimationError, Movie, Options, cycle, frames, video_frames, write_video};
 use super::compare::{self, all_figures, movies, report};
-use super::figure::{Figure, FigureError, Format, to_bytes};
+use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
 use super::json::{self, Summary};
 use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
 use crate::analysis::compare::ComparedRun;
@@ -20,6 +20,7 @@ use crate::solve::Settings;
 use rayon::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Results that were not written.
 #[derive(Debug, thiserror::Error)]
@@ -289,6 +290,14 @@ pub fn html(
     let page = report(runs, settings, runs.len() < 2, &movies, &[]);
     control.check()?;
     write_file(path, |out| out.write_all(page.as_bytes()))?;
+    Ok(vec![path.to_owned()])
+}
+
+/// A picture of the window of this size \[pixels\]: red, green and blue, row by row from the top.
+pub fn picture(path: &Path, size: [u32; 2], rgb: &Arc<Vec<u8>>) -> Result<Vec<PathBuf>, ExportError> {
+    let pixels = Pixels { width: size[0], height: size[1], rgb: rgb.to_vec() };
+    let bytes = png_bytes(&pixels, None, &[]).map_err(|error| FigureError::Draw(error.to_string()))?;
+    write_file(path, |out| out.write_all(&bytes))?;
     Ok(vec![path.to_owned()])
 }
 

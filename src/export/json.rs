@@ -393,7 +393,7 @@ mod tests {
     use crate::solve::{Settings, solve};
 
     fn solved(preset: &str) -> (Problem, Solution) {
-        let problem = Problem::new(&presets::find(preset).unwrap()).unwrap();
+        let problem = Problem::try_from(&presets::find(preset).unwrap()).unwrap();
         let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         (problem, solution)

@@ -1,6 +1,6 @@
 //! Everything that a panel or a key asks for. `ui` pushes commands; `update` alone carries them out.
 
-use super::state::dialogs::{Export, Picture, Purpose};
+use super::state::dialogs::{Export, Purpose};
 use super::state::document::Next;
 use super::state::fit::Sought;
 use super::state::pins::Page;
@@ -9,6 +9,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
 use crate::fidelity::Fidelity;
 use crate::gui::derived::ring::Orbit;
+use crate::job::export::Picture;
 use crate::lessons::Prediction;
 use crate::problem::Numerics;
 use crate::scene::Value;

@@ -1,20 +1,30 @@
 //! Files of runs, made in the background: the same code and the same names as those of the command line.
 
+use super::fit;
 use super::pin::Found;
 use super::task::Task;
-use super::work::{Posed, Work};
+use super::work::{Posed, Work, shared};
 use crate::analysis::compare::ComparedRun;
+use crate::analysis::quantity::Quantity;
+use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
+use crate::analysis::sweep::{Row, Sweep};
 use crate::analysis::torque::TorqueCurves;
+use crate::analysis::tradeoff::Tradeoff;
+use crate::atomic::write_file;
 use crate::control::{Cancel, Progress};
 use crate::export::animation::Options;
-use crate::export::figure::Format;
+use crate::export::figure::{self, Format};
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::Summary;
+use crate::export::sweep::{figure_of, write_csv};
+use crate::export::{csv, sensitivity, tradeoff};
 use crate::fidelity::Fidelity;
+use crate::lessons::record::{self, Record};
 use crate::solution::{Solution, settled};
 use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Formats of the figures beside data, as without `--figures`.
 pub const BESIDE_DATA: &[Format] = if cfg!(feature = "render") { &[Format::Svg, Format::Png] } else { Format::WRITTEN };
@@ -59,20 +69,71 @@ pub enum OfRuns {
     },
 }
 
-/// Files to be made, as they are carried to where that is done.
-#[derive(Debug, Serialize, Deserialize)]
-pub enum Files {
-    /// Of one run.
-    Run(OfRun, PathBuf, Box<Ran>),
-    /// Of several.
-    Runs(OfRuns, PathBuf, Vec<Found>),
+/// Which files of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum OfSweep {
+    /// All, in a folder.
+    Data,
+    /// Its table.
+    Table,
+    /// A figure of this number.
+    Figure(Quantity),
 }
 
-impl Files {
-    /// Files of several runs.
-    pub fn of(files: OfRuns, path: PathBuf, runs: &[ComparedRun]) -> Self {
-        Self::Runs(files, path, runs.iter().map(Found::of).collect())
+/// Which file of the measurement of error against time.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum OfTradeoff {
+    /// The table.
+    Table,
+    /// The figure, with these settings marked.
+    Figure(Vec<usize>),
+}
+
+/// A picture of the window.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Picture {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Red, green and blue of each pixel, row by row from the top.
+    #[serde(with = "shared")]
+    pub rgb: Arc<Vec<u8>>,
+}
+
+/// What files are made of.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Content {
+    /// One run.
+    Run(OfRun, Box<Ran>),
+    /// Several runs.
+    Runs(OfRuns, Vec<Found>),
+    /// A sweep, and its rows.
+    Sweep(OfSweep, #[serde(with = "shared")] Arc<Sweep>, Vec<Row>),
+    /// Sensitivities at a fidelity, how uncertain keys are, and random scenes.
+    Sensitivity(#[serde(with = "shared")] Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>, Fidelity),
+    /// A fit, or an optimum, of the scene of this name; and the scene that was found.
+    Fit(String, Box<Posed>, #[serde(with = "shared")] Arc<fit::Found>),
+    /// Error against time of the scene of this name.
+    Tradeoff(OfTradeoff, String, Tradeoff),
+    /// What a student did.
+    Answers(Vec<Record>),
+    /// The window.
+    Picture(Picture),
+}
+
+impl Content {
+    /// Several runs.
+    pub fn of_runs(files: OfRuns, runs: &[ComparedRun]) -> Self {
+        Self::Runs(files, runs.iter().map(Found::of).collect())
     }
+}
+
+/// Files to be made, as they are carried to where that is done.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Files {
+    /// The file, or the folder.
+    pub path: PathBuf,
+    /// What is in them.
+    pub content: Content,
 }
 
 /// The work of an export: it tells how many pictures are drawn, of how many, and returns what was written, or why nothing
@@ -86,19 +147,10 @@ impl Work for Files {
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, usize)) + Sync)) -> Self::Found {
         let control = Control { cancel, drawn: &|drawn, all| tell((drawn, all)) };
-        let written = match self {
-            Self::Run(what, path, run) => of_run(what, &path, &run, &control),
-            Self::Runs(what, path, runs) => {
-                let runs: Vec<ComparedRun> = runs.into_iter().map(Found::into_run).collect();
-                match what {
-                    OfRuns::Report => files::html(&path, &runs, &coarsest(&runs), &control),
-                    OfRuns::Comparison { all } => {
-                        files::comparison(&path, &runs, (&coarsest(&runs), all, &[]), BESIDE_DATA, &control)
-                    }
-                }
-            }
-        };
-        written.map_err(reason)
+        write(&self.path, self.content, &control).map_err(|error| match error {
+            ExportError::Cancelled => None,
+            error => Some(error.to_string()),
+        })
     }
 
     fn ended() -> Self::Found {
@@ -106,15 +158,60 @@ impl Work for Files {
     }
 }
 
-/// Why nothing was written; nothing if it was cancelled.
-pub fn reason(error: ExportError) -> Option<String> {
-    match error {
-        ExportError::Cancelled => None,
-        error => Some(error.to_string()),
-    }
+fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
+    Ok(match content {
+        Content::Run(what, run) => of_run(what, path, &run, control)?,
+        Content::Runs(what, runs) => {
+            let runs: Vec<ComparedRun> = runs.into_iter().map(Found::into_run).collect();
+            match what {
+                OfRuns::Report => files::html(path, &runs, &coarsest(&runs), control)?,
+                OfRuns::Comparison { all } => {
+                    files::comparison(path, &runs, (&coarsest(&runs), all, &[]), BESIDE_DATA, control)?
+                }
+            }
+        }
+        Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(path, &sweep, &rows, &[], BESIDE_DATA)?,
+        Content::Sweep(OfSweep::Table, sweep, rows) => {
+            write_file(path, |out| write_csv(&sweep, &rows, out))?;
+            vec![path.to_owned()]
+        }
+        Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => {
+            figure::write(&figure_of(&sweep, &rows, quantity), path)?;
+            vec![path.to_owned()]
+        }
+        Content::Sensitivity(sensitivity, uncertainties, carlo, fidelity) => {
+            let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
+            let found = sensitivity::Found { sensitivity: &sensitivity, uncertainties, carlo };
+            files::sensitivity(path, &found, &fidelity.to_string(), &[], BESIDE_DATA)?
+        }
+        Content::Fit(name, posed, found) => {
+            let of = (name.as_str(), &posed.problem);
+            match &*found {
+                fit::Found::Fit(measured, fitted) => files::fitted(path, of, (fitted, measured), &[], BESIDE_DATA)?,
+                fit::Found::Optimum(optimum) => files::optimum(path, of, optimum, &[], BESIDE_DATA)?,
+            }
+        }
+        Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
+            write_file(path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?;
+            vec![path.to_owned()]
+        }
+        Content::Tradeoff(OfTradeoff::Figure(chosen), name, tradeoff) => {
+            figure::write(&tradeoff::figure(&name, &tradeoff, &chosen), path)?;
+            vec![path.to_owned()]
+        }
+        Content::Answers(records) => {
+            let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
+            write_file(path, |out| match lines {
+                true => out.write_all(record::statements(&record::student(path), &records).as_bytes()),
+                false => csv::rows(&records, out),
+            })?;
+            vec![path.to_owned()]
+        }
+        Content::Picture(Picture { size, rgb }) => files::picture(path, size, &rgb)?,
+    })
 }
 
-fn of_run(what: OfRun, path: &std::path::Path, run: &Ran, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
+fn of_run(what: OfRun, path: &Path, run: &Ran, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
     let Ran { posed, fidelity, solution, wall_s, history } = run;
     let problem = &*settled(&posed.problem, &solution.outcome);
     let solved = Solved { scene: &posed.scene, problem, solution, history, torque: None };
@@ -158,7 +255,7 @@ mod tests {
     #[test]
     fn files_that_are_made_elsewhere_are_the_same() {
         let scene = presets::find("floating-disc").unwrap();
-        let posed = Posed { problem: Problem::new(&scene).unwrap(), scene };
+        let posed = Posed { problem: Problem::try_from(&scene).unwrap(), scene };
         let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
         let solution = solve(&posed.problem, &settings, &mut (), &Cancel::new()).unwrap();
         // As the window has it.
@@ -168,8 +265,10 @@ mod tests {
         let here = tempfile::tempdir().unwrap();
         let [one, other] = ["one", "other"].map(|name| here.path().join(name));
         let write = |files: Files| files.run(&Cancel::new(), &|_| ()).unwrap();
-        write(Files::Run(OfRun::Data, one.clone(), Box::new(ran.clone())));
-        let files = Files::Run(OfRun::Data, other.clone(), Box::new(ran));
+        let files =
+            |path: &Path| Files { path: path.to_owned(), content: Content::Run(OfRun::Data, Box::new(ran.clone())) };
+        write(files(&one));
+        let files = files(&other);
         write(postcard::from_bytes(&postcard::to_stdvec(&files).unwrap()).unwrap());
         let (one, other) = (read(&one), read(&other));
         assert!(one.len() > 8, "{:?}", one.keys());

@@ -81,6 +81,6 @@ pub fn start(
     fidelity: Fidelity,
     wake: impl Fn(bool) + Send + Sync + 'static,
 ) -> std::io::Result<PinTask> {
-    let problem = Problem::new(&scene).map_err(std::io::Error::other)?;
+    let problem = Problem::try_from(&scene).map_err(std::io::Error::other)?;
     Task::of(Compared::new(Posed { scene, problem }, fidelity), wake)
 }

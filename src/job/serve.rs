@@ -2,6 +2,7 @@
 
 use super::drop::Dropping;
 use super::export::Files;
+use super::face::Heights;
 use super::fit::Asked;
 use super::line::{end, message};
 use super::page::Step;
@@ -45,6 +46,7 @@ const WORKS: &[(&str, Run)] = &[
     (Derivatives::NAME, run::<Derivatives>),
     (Draws::NAME, run::<Draws>),
     (Files::NAME, run::<Files>),
+    (Heights::NAME, run::<Heights>),
 ];
 
 fn run<W: Work>(bytes: &[u8]) {

@@ -58,7 +58,7 @@ mod tests {
 
     fn problem(preset: &str) -> Posed {
         let scene = presets::find(preset).unwrap();
-        Posed { problem: Problem::new(&scene).unwrap(), scene }
+        Posed { problem: Problem::try_from(&scene).unwrap(), scene }
     }
 
     fn draft(problem: Posed, cycles: usize) -> Task<Cycle, Result<Startup, String>> {

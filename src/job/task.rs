@@ -1,5 +1,5 @@
 //! Work in the background: what it tells on the way, and what comes of it in the end. In a process it is done on a thread of its own
-//! (`thread`), on a page in a worker, or on the page itself where it cannot be carried there (`page`).
+//! (`thread`), on a page in a worker (`page`).
 
 #[cfg(target_arch = "wasm32")]
 mod page;

@@ -191,7 +191,7 @@ mod tests {
 
     fn request(preset: &str, fidelities: &[Fidelity]) -> Request {
         let scene = presets::find(preset).unwrap();
-        Request { problem: Problem::new(&scene).unwrap(), scene, fidelities: fidelities.to_vec() }
+        Request { problem: Problem::try_from(&scene).unwrap(), scene, fidelities: fidelities.to_vec() }
     }
 
     fn until_done(solver: &Solver, number: u64) -> Vec<Event> {

@@ -69,7 +69,7 @@ mod tests {
 
     fn start(fidelity: Fidelity, repeats: usize, now: fn() -> Instant) -> Task<Progress, Vec<Run>> {
         let scene = presets::find("fundamental").unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         let mut all = candidates(&problem);
         all.retain(|candidate| candidate.name == fidelity.name());
         let effort = Effort { repeats: Some(repeats), ..Effort::default() };

@@ -42,7 +42,7 @@ impl Serialize for Posed {
 impl<'de> Deserialize<'de> for Posed {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let scene = Scene::deserialize(from)?;
-        let problem = Problem::new(&scene).map_err(Error::custom)?;
+        let problem = Problem::try_from(&scene).map_err(Error::custom)?;
         Ok(Self { scene, problem })
     }
 }
@@ -87,7 +87,7 @@ mod tests {
 
     fn posed(preset: &str) -> Posed {
         let scene = presets::find(preset).unwrap();
-        Posed { problem: Problem::new(&scene).unwrap(), scene }
+        Posed { problem: Problem::try_from(&scene).unwrap(), scene }
     }
 
     /// Not a number equals nothing, itself included: what is printed is compared.

@@ -155,7 +155,7 @@ struct Run {
 
 impl Run {
     fn of(scene: &Scene, wanted: &[Live], cancel: &Cancel) -> Result<Self, String> {
-        let problem = Problem::new(scene).map_err(|error| error.to_string())?;
+        let problem = Problem::try_from(scene).map_err(|error| error.to_string())?;
         let settings = Settings { fidelity: FIDELITY, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), cancel).map_err(|error| error.to_string())?;
         if solution.status != Status::Converged {

@@ -1,7 +1,8 @@
 //! A process of an operating system.
 
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
 pub const HAS_FILES: bool = true;
@@ -10,9 +11,24 @@ pub const HAS_FILES: bool = true;
 pub const SOLVED_HERE: &str = "";
 
 /// The font of figures: Liberation Sans 2.1.5, with the widths of Arial and Helvetica, so that an SVG looks alike where only those are.
-pub const LIBERATION: &[u8] = include_bytes!("../../assets/fonts/LiberationSans-Regular.ttf");
-/// DejaVu Sans, for the glyphs that other fonts lack.
-pub const DEJAVU: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
+pub fn liberation() -> &'static [u8] {
+    static FONT: LazyLock<Vec<u8>> =
+        LazyLock::new(|| unpacked(include_bytes!("../../assets/fonts/LiberationSans-Regular.ttf.gz")));
+    &FONT
+}
+
+/// DejaVu Sans, for the glyphs that other fonts lack, whatever people type.
+pub fn dejavu() -> &'static [u8] {
+    static FONT: LazyLock<Vec<u8>> = LazyLock::new(|| unpacked(include_bytes!("../../assets/fonts/DejaVuSans.ttf.gz")));
+    &FONT
+}
+
+fn unpacked(packed: &[u8]) -> Vec<u8> {
+    let mut font = Vec::new();
+    // What is built in can be unpacked: a test does.
+    let _ = flate2::read::GzDecoder::new(packed).read_to_end(&mut font);
+    font
+}
 
 /// Calls `handler` at every Ctrl-C, and whenever the program is asked to end.
 pub fn on_interrupt(handler: impl FnMut() + Send + 'static) {
@@ -43,17 +59,40 @@ pub fn hand_out(_: &Path, _: Vec<(PathBuf, Vec<u8>)>) -> io::Result<()> {
 pub mod window {
     use super::super::{Asked, FileDialog};
     use eframe::egui;
+    use std::cell::Cell;
     use std::path::PathBuf;
+    use std::rc::Rc;
 
     /// Opens the window and returns when it is closed. `storage`: the file in which it keeps what the next one begins with.
+    ///
+    /// It is drawn by OpenGL; where that cannot be had, by what else there is, if the feature `wgpu` was built in.
     ///
     /// # Errors
     /// If there is no display, or no way to draw on it.
     pub fn run(storage: Option<PathBuf>, start: eframe::AppCreator<'static>) -> Result<(), eframe::Error> {
         keep_freed_memory();
+        let start = Rc::new(Cell::new(Some(start)));
+        let open = |renderer| {
+            let start = Rc::clone(&start);
+            let once = move |context: &eframe::CreationContext<'_>| {
+                start.take().ok_or("the window was opened already")?(context)
+            };
+            eframe::run_native("squeezefilm", options(storage.clone(), renderer), Box::new(once))
+        };
+        let opened = open(eframe::Renderer::Glow);
+        #[cfg(feature = "wgpu")]
+        if let (Err(no_opengl), Some(unused)) = (&opened, start.take()) {
+            start.set(Some(unused));
+            // Of two reasons the first is the one that a user can do something about.
+            return open(eframe::Renderer::Wgpu).map_err(|_| eframe::Error::AppCreation(no_opengl.to_string().into()));
+        }
+        opened
+    }
+
+    fn options(storage: Option<PathBuf>, renderer: eframe::Renderer) -> eframe::NativeOptions {
         let icon = eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default();
-        let options = eframe::NativeOptions {
-            renderer: eframe::Renderer::Glow,
+        eframe::NativeOptions {
+            renderer,
             // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.
             dithering: false,
             viewport: egui::ViewportBuilder::default()
@@ -72,8 +111,7 @@ pub mod window {
                 builder.with_default_menu(false);
             })),
             ..Default::default()
-        };
-        eframe::run_native("squeezefilm", options, start)
+        }
     }
 
     /// Has glibc keep what a redraw frees for the next one. It gives the end of the heap back to the system whenever 128 kB of it are free,
@@ -81,11 +119,6 @@ pub mod window {
     /// freed raises that limit to twice its size (`mallopt`, dynamic threshold); the largest that does is 32 MiB. None of it is ever touched.
     fn keep_freed_memory() {
         drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
-    }
-
-    /// The fonts to begin with: egui's own.
-    pub fn fonts() -> egui::FontDefinitions {
-        egui::FontDefinitions::default()
     }
 
     /// Whether the system asks for dark colours, if what that is is asked at all: a window begins dark, and stays as it was left.

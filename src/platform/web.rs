@@ -18,10 +18,15 @@ pub const HAS_FILES: bool = false;
 /// Where it is solved, as the window says it.
 pub const SOLVED_HERE: &str = " in this browser";
 
-/// The font of figures, with the glyphs that texts of the program use: `assets/fonts/page/subset` makes this font and the others.
-pub const LIBERATION: &[u8] = include_bytes!("../../assets/fonts/page/LiberationSans-Regular.ttf");
-/// DejaVu Sans, for the glyphs that other fonts lack.
-pub const DEJAVU: &[u8] = include_bytes!("../../assets/fonts/page/DejaVuSans.ttf");
+/// The font of figures, with the glyphs that texts of the program use.
+pub fn liberation() -> &'static [u8] {
+    include_bytes!("../../assets/fonts/reduced/LiberationSans-Regular.ttf")
+}
+
+/// DejaVu Sans, for the glyphs that other fonts lack: those that texts of the program use, since a browser has to load them.
+pub fn dejavu() -> &'static [u8] {
+    include_bytes!("../../assets/fonts/reduced/DejaVuSans.ttf")
+}
 
 thread_local! {
     /// Files that the user has opened or dropped, under their names.
@@ -243,23 +248,6 @@ pub mod window {
             say("squeezefilm", why.as_deref().unwrap_or_default());
         });
         Ok(())
-    }
-
-    /// The fonts to begin with: those of egui that text is written with, with fewer glyphs.
-    pub fn fonts() -> egui::FontDefinitions {
-        use egui::FontFamily::{Monospace, Proportional};
-        const UBUNTU: &[u8] = include_bytes!("../../assets/fonts/page/Ubuntu-Light.ttf");
-        const HACK: &[u8] = include_bytes!("../../assets/fonts/page/Hack-Regular.ttf");
-        let mut fonts = egui::FontDefinitions::empty();
-        for (name, font) in [("Hack", HACK), ("Ubuntu-Light", UBUNTU), ("egui-icons", epaint_default_fonts::EGUI_ICONS)]
-        {
-            fonts.font_data.insert(name.to_owned(), egui::FontData::from_static(font).into());
-            let families = if name == "Hack" { &[Monospace][..] } else { &[Proportional, Monospace] };
-            for family in families {
-                fonts.families.entry(family.clone()).or_default().push(name.to_owned());
-            }
-        }
-        fonts
     }
 
     fn say(name: &str, detail: &str) {

@@ -14,41 +14,45 @@ use crate::surface::{Asperities, Summits, Surface};
 use serde::Deserialize;
 use serde::de::value::{Error, StrDeserializer};
 
-impl Problem {
+impl TryFrom<&Scene> for Problem {
+    type Error = SceneError;
+
     /// The checked, SI form of a scene.
     ///
     /// # Errors
     ///
     /// The faults of [`Scene::check`].
-    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+    fn try_from(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
-        Ok(Self::of(scene)?)
+        Ok(scene.unchecked()?)
     }
+}
 
+impl Scene {
     /// The SI form of a scene whose keys may break the rules between them. A key that the table of keys does not have, or
     /// has with another type, is an error: that is a fault of the program, which any test finds.
-    pub(super) fn of(scene: &Scene) -> Result<Self, What> {
+    pub(super) fn unchecked(&self) -> Result<Problem, What> {
         let optional = |key| {
-            let parameter = scene.parameter(key)?;
-            Ok::<_, What>(scene.optional_number(parameter).map(|number| parameter.si(number)))
+            let parameter = self.parameter(key)?;
+            Ok::<_, What>(self.optional_number(parameter).map(|number| parameter.si(number)))
         };
-        let si = |key| optional(key)?.ok_or_else(|| scene.unknown_key(key));
+        let si = |key| optional(key)?.ok_or_else(|| self.unknown_key(key));
         let gas = Gas {
             ambient_pressure: si("film.ambient_pressure_kpa")?,
             viscosity: si("film.viscosity_upa_s")?,
             mean_free_path: si("film.mean_free_path_nm")?,
-            slip: choice(scene, "film.slip")?,
+            slip: choice(self, "film.slip")?,
             accommodation: si("film.accommodation")?,
-            ideal: match scene.species()? {
+            ideal: match self.species()? {
                 Some(species) => species.at(si("film.temperature_c")?),
                 None => IdealGas::UNNAMED,
             },
         };
-        let surface = match scene.kind() {
-            Kind::Motor => scene.surface()?,
+        let surface = match self.kind() {
+            Kind::Motor => self.surface()?,
             Kind::Plate => Surface::default(),
         };
-        let scenario = match scene.kind() {
+        let scenario = match self.kind() {
             Kind::Motor => Scenario::Motor(Motor {
                 contact_radius: si("motor.contact_radius_mm")?,
                 waves: si("motor.waves")? as u32,
@@ -62,18 +66,18 @@ impl Problem {
                 tooth_width: si("stator.tooth_width_mm")?,
                 tooth_radius: optional("stator.tooth_radius_m")?,
                 contact_width: si("rotor.contact_width_mm")?,
-                rotor: match scene.text("rotor.model")? {
+                rotor: match self.text("rotor.model")? {
                     "beam" | "section" => RotorCompliance::Beam {
                         decay_length: si("rotor.decay_length_mm")?,
                         point_compliance: si("rotor.point_compliance_um_per_n")?,
                         local_compliance: si("rotor.local_compliance_m2_per_n")?,
                     },
-                    "table" => RotorCompliance::Table(scene.rows("rotor.compliance").to_vec()),
+                    "table" => RotorCompliance::Table(self.rows("rotor.compliance").to_vec()),
                     "green" => RotorCompliance::Green(
-                        scene.rows("rotor.green").iter().map(|(x, g)| (GREEN[0].si(*x), GREEN[1].si(*g))).collect(),
+                        self.rows("rotor.green").iter().map(|(x, g)| (GREEN[0].si(*x), GREEN[1].si(*g))).collect(),
                     ),
-                    "ring" => RotorCompliance::Ring(scene.section()?),
-                    _ => return Err(scene.unknown_key("rotor.model")),
+                    "ring" => RotorCompliance::Ring(self.section()?),
+                    _ => return Err(self.unknown_key("rotor.model")),
                 },
                 min_spacing: match surface.asperities {
                     Some(asperities) => {
@@ -85,12 +89,12 @@ impl Problem {
                 },
                 surface,
                 gas,
-                shear: scene.flag("film.shear")?,
+                shear: self.flag("film.shear")?,
             }),
             Kind::Plate => {
                 let weight = optional("plate.mass_g")?.map(|mass| mass * GRAVITY);
                 let load = weight.or(optional("plate.load_n")?);
-                let (length, width, hole) = match scene.text("plate.shape")? {
+                let (length, width, hole) = match self.text("plate.shape")? {
                     "disc" => (2.0 * si("plate.radius_mm")?, None, Some(0.0)),
                     "ring" => (2.0 * si("plate.radius_mm")?, None, Some(si("plate.inner_radius_mm")?)),
                     _ => (si("plate.length_mm")?, optional("plate.width_mm")?, None),
@@ -110,11 +114,9 @@ impl Problem {
                 Scenario::Plate(Plate { mean_gap, ..plate })
             }
         };
-        Ok(Self { name: scene.name.clone(), scenario, numerics: scene.numerics() })
+        Ok(Problem { name: self.name.clone(), scenario, numerics: self.numerics() })
     }
-}
 
-impl Scene {
     /// How the faces of a motor meet.
     fn surface(&self) -> Result<Surface, What> {
         let asperities = match self.text("surface.model")? {
@@ -175,14 +177,6 @@ impl Scene {
             let key = if matches!(fault, RingError::Support { .. }) { "rotor.support" } else { "rotor.part" };
             What::Rule { key, message: format!("{key}: {fault}") }
         })
-    }
-}
-
-impl TryFrom<&Scene> for Problem {
-    type Error = SceneError;
-
-    fn try_from(scene: &Scene) -> Result<Self, SceneError> {
-        Self::new(scene)
     }
 }
 

@@ -3,7 +3,7 @@
 //! A [`Scene`] holds the values of its keys; [`PARAMETERS`] says everything about each key: its unit, range, default,
 //! meaning, and the scenes and models that have it. Reading, setting, resetting, checking and writing go through that
 //! table and know no key by name. A scene becomes a checked, SI [`crate::problem::Problem`] by
-//! [`crate::problem::Problem::new`] (`convert.rs`), the only place where keys get types of their own. Errors
+//! [`crate::problem::Problem::try_from`] (`convert.rs`), the only place where keys get types of their own. Errors
 //! ([`SceneError`]) name file, line, key, value and what is allowed, and list the first ten faults at once.
 //!
 //! A file starts with `schema = 1`, which is required, as the meaning of the rest depends on it. Everything else may be
@@ -15,7 +15,7 @@
 //!
 //! let mut scene = presets::find("fundamental")?;
 //! scene.set("film.min_spacing_nm", "100")?;
-//! let problem = Problem::new(&scene)?;
+//! let problem = Problem::try_from(&scene)?;
 //! assert_eq!(scene.set("film.min_spacing_nm", "3").unwrap_err().to_string(),
 //!     "film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm");
 //! # Ok::<(), squeezefilm::scene::SceneError>(())

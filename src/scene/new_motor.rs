@@ -324,7 +324,7 @@ mod tests {
     #[test]
     fn three_answers_are_enough_and_the_rest_is_said() {
         let motor = NewMotor::of(&answers(&NEEDED)).unwrap();
-        let Scenario::Motor(found) = Problem::new(&motor.scene).unwrap().scenario else { panic!("a motor") };
+        let Scenario::Motor(found) = Problem::try_from(&motor.scene).unwrap().scenario else { panic!("a motor") };
         assert!((found.load * 9.0 / 150.0 - 1.0).abs() < 1e-9 && found.frequency == 40e3 && found.teeth == 8);
         // Whatever is assumed is in the scene, and all that the scene has beside the answers is assumed.
         for Assumption { key, value, why } in &motor.assumed {

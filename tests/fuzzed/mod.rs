@@ -53,7 +53,7 @@ fn try_on(scene: Result<Scene, SceneError>, solved: bool) -> bool {
             return false;
         }
     };
-    let problem = match Problem::new(&scene) {
+    let problem = match Problem::try_from(&scene) {
         Ok(problem) => problem,
         Err(error) => {
             assert!(!error.to_string().is_empty());

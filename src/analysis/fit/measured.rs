@@ -157,7 +157,7 @@ impl Measured {
         }
         let path = Path::new(name_or_path);
         let text = read_text(path, LARGEST_TABLE).map_err(|source| FitError::File { path: path.to_owned(), source })?;
-        Self::from_csv(&text, &show_text(name_or_path), &Problem::new(scene)?)
+        Self::from_csv(&text, &show_text(name_or_path), &Problem::try_from(scene)?)
     }
 
     /// The published film loads of Table I, each under the changes of its row. How exact they are is not known: the errors are taken

@@ -60,7 +60,7 @@ impl<'a> Model<'a> {
                 });
             }
         }
-        check(&Problem::new(scene)?, &Settings { record: Record::Numbers, ..*settings })?;
+        check(&Problem::try_from(scene)?, &Settings { record: Record::Numbers, ..*settings })?;
         Ok(Self {
             scene,
             settings: *settings,
@@ -139,7 +139,7 @@ impl<'a> Model<'a> {
         for ((unknown, x), _) in self.unknowns.iter().zip(x).zip(&condition.chosen).filter(|(_, chosen)| **chosen) {
             unknown.set(&mut scene, *x).map_err(|error| error.to_string())?;
         }
-        Problem::new(&scene).map_err(|error| error.to_string())
+        Problem::try_from(&scene).map_err(|error| error.to_string())
     }
 
     /// The scene itself with the values at `x`, named as one that was fitted.

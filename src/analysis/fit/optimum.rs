@@ -93,7 +93,7 @@ impl Goal {
     /// # Errors
     /// A name that the scene's results do not have.
     pub fn new(scene: &Scene, name: &str, greatest: bool, limits: &[Limit]) -> Result<Self, FitError> {
-        let problem = Problem::new(scene)?;
+        let problem = Problem::try_from(scene)?;
         let find = |option: &'static str, name: &str| {
             named(&problem, name).ok_or_else(|| FitError::Number {
                 option,
@@ -422,7 +422,7 @@ fn describe(
     }
     let scene = model.fitted(&x, "optimised")?;
     // What is said of it wherever it is solved.
-    if let Ok(solution) = attempt(&Problem::new(&scene)?, model.settings(), &mut (), cancel) {
+    if let Ok(solution) = attempt(&Problem::try_from(&scene)?, model.settings(), &mut (), cancel) {
         warnings.extend(solution.warnings);
     }
     Ok(Some(Optimum {

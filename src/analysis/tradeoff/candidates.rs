@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn plates_have_no_paper_and_a_grid_of_the_scene_is_measured_beside_others() {
-        let problem = |preset: &str| Problem::new(&presets::find(preset).unwrap()).unwrap();
+        let problem = |preset: &str| Problem::try_from(&presets::find(preset).unwrap()).unwrap();
         assert!(candidates(&problem("plate-viscous")).iter().all(|candidate| candidate.family != Family::Paper));
         let own = candidates(&problem("doubled-mesh"));
         let options = |name: &str| own.iter().find(|candidate| candidate.name == name).unwrap().options.as_str();
@@ -145,7 +145,7 @@ mod tests {
     fn every_candidate_keeps_the_switches_of_the_model() {
         let mut scene = presets::find("fundamental").unwrap();
         scene.set_all([("numerics.flow", "along"), ("numerics.steps_per_cycle", "72")]).unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         assert!(candidates(&problem).iter().all(|candidate| candidate.numerics.flow == problem.numerics.flow));
         assert!(candidates(&problem).iter().all(|candidate| !candidate.options.contains("flow")));
     }

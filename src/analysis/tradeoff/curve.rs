@@ -4,9 +4,10 @@ use super::measure::Run;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::solve::Method;
+use serde::{Deserialize, Serialize};
 
 /// A setting on the curve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// What was measured.
     pub run: Run,
@@ -35,7 +36,7 @@ pub enum Target {
 }
 
 /// Error against time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tradeoff {
     /// All settings, in the order they were measured.
     pub points: Vec<Point>,

@@ -14,7 +14,7 @@ use crate::solve::{Settings, solve};
 
 fn of(mut scene: Scene, changes: &[(&str, &str)]) -> Vec<Excess> {
     scene.set_all(changes.iter().copied()).unwrap();
-    outside(&Problem::new(&scene).unwrap(), None)
+    outside(&Problem::try_from(&scene).unwrap(), None)
 }
 
 /// 1 mm long, 1 µm ± 0.5 µm, 30 kHz, unless changed.
@@ -43,7 +43,7 @@ fn solve_draft(problem: &Problem) -> Solution {
 
 /// Of a motor whose film is `min_gap` thin, without contact.
 fn solution(min_gap: f64) -> Solution {
-    let mut solution = solve_draft(&Problem::new(&Scene::plate()).unwrap());
+    let mut solution = solve_draft(&Problem::try_from(&Scene::plate()).unwrap());
     solution.outcome = Outcome::Motor(MotorResult { min_gap, ..MotorResult::default() });
     solution.recording = Recording::default();
     solution
@@ -67,7 +67,7 @@ fn density_heat_and_sound_are_those_of_the_gas() {
     let motor = |gas| {
         let mut scene = Scene::motor();
         scene.set_all(fast.into_iter().chain([("film.gas", gas)])).unwrap();
-        match Problem::new(&scene).unwrap().scenario {
+        match Problem::try_from(&scene).unwrap().scenario {
             Scenario::Motor(motor) => super::mach(&motor),
             Scenario::Plate(_) => f64::NAN,
         }
@@ -196,7 +196,7 @@ fn sliding_faster_than_sound() {
 
 #[test]
 fn contact_against_yield() {
-    let problem = Problem::new(&Scene::motor()).unwrap();
+    let problem = Problem::try_from(&Scene::motor()).unwrap();
     // On 0.3 mm 82.8 kN/m are 276 MPa.
     let with = |contact: f64| {
         let mut solution = solution(2e-7);
@@ -235,7 +235,7 @@ fn an_amplitude_near_the_gap() {
 
 #[test]
 fn a_floating_rotor_is_judged_where_it_floats() {
-    let problem = Problem::new(&Scene::motor()).unwrap();
+    let problem = Problem::try_from(&Scene::motor()).unwrap();
     assert_eq!(names(&outside(&problem, Some(&solution(2e-7)))), ["slip-law"]);
     assert_eq!(names(&outside(&problem, Some(&solution(2e-6)))), Vec::<&str>::new());
     // Re = 1.2041 · 188 496 · (21.3 µm)²/2.172e-4.
@@ -248,7 +248,7 @@ fn a_floating_rotor_is_judged_where_it_floats() {
 #[test]
 fn built_in_presets_show_what_they_should() {
     for preset in presets::BUILT_IN {
-        let (name, problem) = (preset.name, Problem::new(&preset.scene().unwrap()).unwrap());
+        let (name, problem) = (preset.name, Problem::try_from(&preset.scene().unwrap()).unwrap());
         // The published plate is one without slip, at Kn = 0.013; the law of Fukui and Kaneko holds at every spacing of a motor.
         let paper = |motor: &crate::problem::Motor| motor.gas.slip == Slip::FirstOrder;
         let slips = matches!(&problem.scenario, Scenario::Motor(motor) if paper(motor)) || name == "plate-mems";
@@ -263,7 +263,7 @@ fn built_in_presets_show_what_they_should() {
 
 #[test]
 fn rotor_resonance() {
-    let problem = Problem::new(&Scene::motor()).unwrap();
+    let problem = Problem::try_from(&Scene::motor()).unwrap();
     let Scenario::Motor(motor) = &problem.scenario else { panic!("a motor") };
     // 30, 60 and 90 kHz.
     assert_eq!(resonance(motor, &[101e3, 250e3, 500e3]), None);

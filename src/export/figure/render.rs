@@ -4,7 +4,7 @@ use super::drawing::Drawing;
 use super::error::{FigureError, Pixels};
 use super::svg::{Picture, Rect};
 use super::text::FAMILIES;
-use crate::platform::{DEJAVU, LIBERATION};
+use crate::platform::{dejavu, liberation};
 
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Ref, TextStr};
 use resvg::tiny_skia::{Pixmap, PixmapPaint, Transform};
@@ -60,8 +60,8 @@ fn stamp(pixmap: &mut Pixmap, picture: &Picture, scale: f64) {
 fn options() -> usvg::Options<'static> {
     static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
         let mut fonts = fontdb::Database::new();
-        fonts.load_font_data(LIBERATION.to_vec());
-        fonts.load_font_data(DEJAVU.to_vec());
+        fonts.load_font_data(liberation().to_vec());
+        fonts.load_font_data(dejavu().to_vec());
         fonts.set_sans_serif_family("Liberation Sans");
         Arc::new(fonts)
     });

@@ -1,6 +1,6 @@
 //! Words of a figure: how wide they are in the bundled font, and raised and lowered parts.
 
-use crate::platform::{DEJAVU, LIBERATION};
+use crate::platform::{dejavu, liberation};
 use std::sync::LazyLock;
 use ttf_parser::Face;
 
@@ -75,7 +75,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 /// Width of a character, in its size.
 fn advance(c: char) -> f64 {
     static FACES: LazyLock<Vec<Face<'static>>> =
-        LazyLock::new(|| [LIBERATION, DEJAVU].iter().filter_map(|data| Face::parse(data, 0).ok()).collect());
+        LazyLock::new(|| [liberation(), dejavu()].into_iter().filter_map(|data| Face::parse(data, 0).ok()).collect());
     let found = FACES.iter().find_map(|face| {
         let glyph = face.glyph_index(c)?;
         Some(f64::from(face.glyph_hor_advance(glyph)?) / f64::from(face.units_per_em()))

@@ -363,7 +363,8 @@ mod tests {
 
     /// A ring with a sine of height and pressure on it, and a rotor 1 µm above the crests.
     fn with_ring<T>(waves: u32, teeth: usize, look: impl FnOnce(&Ring<'_>) -> T) -> T {
-        let Scenario::Motor(mut motor) = Problem::new(&presets::find("fundamental").unwrap()).unwrap().scenario else {
+        let Scenario::Motor(mut motor) = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap().scenario
+        else {
             panic!("a motor");
         };
         (motor.waves, motor.teeth) = (waves, teeth);

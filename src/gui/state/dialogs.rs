@@ -1,8 +1,8 @@
 //! What file dialogs are for, what came of one, and what can be exported.
 
 use super::document::Next;
+use crate::job::export::Picture;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// What can be written to a file, or into a folder, of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,26 +161,15 @@ fn complete(path: PathBuf, kind: &str, extensions: &[&str]) -> Result<PathBuf, S
     ))
 }
 
-/// A picture of the window.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// Pixels across and down.
-    pub size: [usize; 2],
-    /// Red, green, blue and opacity of each pixel, row by row from the top.
-    pub rgba: Arc<[u8]>,
-}
+/// What a picture of the window is called at first.
+pub const PICTURE: &str = "squeezefilm.png";
 
-impl Picture {
-    /// What it is called at first.
-    pub const FILE_NAME: &str = "squeezefilm.png";
-
-    /// `path` with the extension of a PNG.
-    ///
-    /// # Errors
-    /// As [`Export::complete`].
-    pub fn complete(path: &Path) -> Result<PathBuf, String> {
-        complete(path.to_owned(), "picture of the window", &["png"])
-    }
+/// `path` of a picture of the window, with the extension of a PNG.
+///
+/// # Errors
+/// As [`Export::complete`].
+pub fn complete_picture(path: &Path) -> Result<PathBuf, String> {
+    complete(path.to_owned(), "picture of the window", &["png"])
 }
 
 /// What a dialog is for, with all that its answer needs.

@@ -1,9 +1,9 @@
 //! A measured face as the window has it: read and judged in the background, and shown below the rotor.
 
-use crate::export::surface::Object;
+use crate::export::surface::{self, Object};
 use crate::job::task::Task;
 use crate::surface::height_map::HeightMap;
-use crate::surface::texture::Pair;
+use crate::surface::texture::{Pair, Texture};
 use std::sync::Arc;
 
 /// Measured heights, level, and what they come to.
@@ -19,28 +19,37 @@ pub struct Face {
     pub told: Object,
 }
 
-/// Reads a face: what it is, or why it is none.
-pub type FaceTask = Task<(), Result<Face, String>>;
+impl Face {
+    fn new(name: String, map: HeightMap, texture: &Texture) -> Self {
+        let pair = Pair::of(texture, texture);
+        let told = Object::new(vec![surface::Face::of(&name, &map, texture)], &pair);
+        Self { name, map, pair, told }
+    }
+}
+
+/// Reads a face: its heights and what they come to, or why it is none.
+pub type FaceTask = Task<(), Result<(HeightMap, Texture), String>>;
 
 /// The face that was opened last, and the one that is being read.
 #[derive(Debug, Default)]
 pub struct FaceState {
-    task: Option<FaceTask>,
+    /// Name of the file, and what reads it.
+    task: Option<(String, FaceTask)>,
     found: Option<Arc<Face>>,
 }
 
 impl FaceState {
-    /// `task` reads one.
-    pub fn begin(&mut self, task: FaceTask) {
-        self.task = Some(task);
+    /// `task` reads the file of this name.
+    pub fn begin(&mut self, name: String, task: FaceTask) {
+        self.task = Some((name, task));
     }
 
     /// Takes what was read since the last time; why it was not is to be shown.
     pub fn drain(&mut self) -> Option<String> {
-        let end = self.task.as_ref()?.drain().end?;
-        self.task = None;
+        let end = self.task.as_ref()?.1.drain().end?;
+        let (name, _) = self.task.take()?;
         match end {
-            Ok(Ok(face)) => self.found = Some(Arc::new(face)),
+            Ok(Ok((map, texture))) => self.found = Some(Arc::new(Face::new(name, map, &texture))),
             Ok(Err(why)) => return Some(why),
             Err(panic) => return Some(format!("The heights cannot be read: {panic}")),
         }

@@ -264,7 +264,7 @@ impl FitState {
 
 /// Numbers whose optimum can be sought: name, and words with the unit.
 pub fn quantities(scene: &Scene) -> Vec<(&'static str, String)> {
-    let Ok(problem) = Problem::new(scene) else { return Vec::new() };
+    let Ok(problem) = Problem::try_from(scene) else { return Vec::new() };
     measurable(&problem).into_iter().map(|quantity| (quantity.name(), quantity.label(&problem))).collect()
 }
 

@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn what_is_kept_is_bounded_and_holds_first_newest_and_the_early_way() {
-        let problem = Problem::new(&Scene::plate()).unwrap();
+        let problem = Problem::try_from(&Scene::plate()).unwrap();
         let run = |values: usize| {
             let recording = Recording { pressure: vec![0.0; values], ..Recording::default() };
             let outcome = Outcome::Plate(Default::default());

@@ -100,7 +100,7 @@ impl AxisForm {
 fn allowed(scene: &Scene, key: &str, present: f64, end: f64, whole: bool, range: Range) -> f64 {
     let fits = |value: f64| {
         let mut next = scene.clone();
-        range.contains(value) && next.set_value(key, Value::Number(value)).is_ok() && Problem::new(&next).is_ok()
+        range.contains(value) && next.set_value(key, Value::Number(value)).is_ok() && Problem::try_from(&next).is_ok()
     };
     for step in 0..STEPS {
         let value = end + (present - end) * f64::from(step) / f64::from(STEPS);
@@ -329,7 +329,7 @@ impl SweepState {
             *form = Form { second: form.second, fidelity: form.fidelity, ..Form::of(scene) };
         }
         let faults = form.axes().map(|axis| axis.vary(scene).err()).collect();
-        self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults, problem: Problem::new(scene).ok() }));
+        self.checked = Some(Arc::new(Checked { scene: scene.clone(), faults, problem: Problem::try_from(scene).ok() }));
     }
 
     /// Draws this from now on.

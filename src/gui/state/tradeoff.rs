@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn the_present_setting_is_always_measured() {
-        let problem = Problem::new(&Scene::motor()).unwrap();
+        let problem = Problem::try_from(&Scene::motor()).unwrap();
         let mut all = candidates(&problem);
         let count = all.len();
         with_present(&mut all, Fidelity::Fine, Numerics::default());

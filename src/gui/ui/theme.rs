@@ -1,7 +1,6 @@
 //! Colours and sizes: the only place that has any.
 
 use eframe::egui::{self, Color32, FontData, FontFamily};
-use std::sync::Arc;
 
 /// Colours with a meaning, for one of the two themes. Distinguishable with the common colour deficiencies (Okabe–Ito).
 #[derive(Clone, Copy, Debug)]
@@ -127,13 +126,22 @@ fn dress(visuals: &mut egui::Visuals, dark: bool) {
     widgets.inactive.fg_stroke.color = grey([0xd2, 0xd7, 0xdf], [0x2e, 0x33, 0x3b]);
 }
 
-/// Installs the fonts: egui's own, or some of them, and DejaVu Sans for the glyphs that they lack.
+/// Installs the fonts: those of egui that text is written with, with fewer glyphs, its icons, and DejaVu Sans for the glyphs that they lack.
 pub fn install_fonts(ctx: &egui::Context) {
-    let mut fonts = crate::platform::window::fonts();
-    let dejavu = FontData::from_static(crate::platform::DEJAVU);
-    fonts.font_data.insert("dejavu".to_owned(), Arc::new(dejavu));
-    for family in [FontFamily::Proportional, FontFamily::Monospace] {
-        fonts.families.entry(family).or_default().insert(1, "dejavu".to_owned());
+    use FontFamily::{Monospace, Proportional};
+    const UBUNTU: &[u8] = include_bytes!("../../../assets/fonts/reduced/Ubuntu-Light.ttf");
+    const HACK: &[u8] = include_bytes!("../../../assets/fonts/reduced/Hack-Regular.ttf");
+    let mut fonts = egui::FontDefinitions::empty();
+    for (name, font, families) in [
+        ("Hack", HACK, &[Monospace][..]),
+        ("Ubuntu-Light", UBUNTU, &[Proportional]),
+        ("dejavu", crate::platform::dejavu(), &[Proportional, Monospace]),
+        ("egui-icons", epaint_default_fonts::EGUI_ICONS, &[Proportional, Monospace]),
+    ] {
+        fonts.font_data.insert(name.to_owned(), FontData::from_static(font).into());
+        for family in families {
+            fonts.families.entry(family.clone()).or_default().push(name.to_owned());
+        }
     }
     ctx.set_fonts(fonts);
 }

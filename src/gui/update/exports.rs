@@ -1,29 +1,21 @@
-//! Exports: the same code and the same names as those of the command line, on a thread of their own.
+//! Exports: the same code and the same names as those of the command line, in the background.
 
 use super::updater::Updater;
 use crate::analysis::compare::ComparedRun;
+use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
-use crate::atomic::write_file;
-use crate::export::figure;
-use crate::export::files::{self, ExportError};
-use crate::export::sweep::{figure_of, write_csv};
-use crate::export::{csv, sensitivity, tradeoff};
 use crate::gui::state::dialogs::Export;
-use crate::gui::state::fit::Found;
 use crate::job::SolvedScene;
-use crate::job::export::{BESIDE_DATA, Files, OfRun, OfRuns, Ran, reason};
+use crate::job::export::{Content, Files, OfRun, OfRuns, OfSweep, OfTradeoff, Ran};
 use crate::job::task::Task;
 use crate::job::work::Posed;
-use crate::lessons::record;
 use crate::problem::Problem;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// Progress is drawn at most this often.
 const REDRAW: Duration = Duration::from_millis(100);
-/// What is left to do once everything that it needs is at hand.
-type Work = Box<dyn FnOnce() -> Result<Vec<PathBuf>, ExportError> + Send>;
 
 impl Updater {
     pub(super) fn export(&mut self, export: Export, path: &Path) {
@@ -35,13 +27,8 @@ impl Updater {
             Ok(path) => path,
             Err(reason) => return self.state.fail(reason),
         };
-        let task = match self.files(export, &path) {
-            Some(files) => Task::of(files, self.wake(REDRAW)),
-            None => {
-                let Some(work) = self.export_work(export, path) else { return };
-                Task::start("export", self.wake(REDRAW), move |_, _| work().map_err(reason))
-            }
-        };
+        let Some(content) = self.content(export) else { return };
+        let task = Task::of(Files { path, content }, self.wake(REDRAW));
         match task {
             Ok(task) => self.state.exports.begin(export, task, self.now()),
             Err(error) => self.state.fail(format!("The export cannot be started: {error}")),
@@ -59,10 +46,18 @@ impl Updater {
         Some(Ran { posed, fidelity: *fidelity, solution, wall_s: *wall_s, history })
     }
 
-    /// Files of runs, which a page has made elsewhere.
-    fn files(&self, export: Export, path: &Path) -> Option<Files> {
-        let of_run = |what| Some(Files::Run(what, path.to_owned(), Box::new(self.named()?)));
-        let of_runs = |what, runs: &[ComparedRun]| Some(Files::of(what, path.to_owned(), runs));
+    /// What is exported, with its own share of all that it needs.
+    fn content(&self, export: Export) -> Option<Content> {
+        let of_run = |what| Some(Content::Run(what, Box::new(self.named()?)));
+        let of_sweep = |what: fn(Quantity) -> OfSweep| {
+            let swept = self.state.sweep.swept()?;
+            let quantity = self.state.sweep.quantity(&swept.sweep().quantities());
+            Some(Content::Sweep(what(quantity), Arc::clone(swept.sweep()), swept.rows().to_vec()))
+        };
+        let of_tradeoff = |what| {
+            let measured = self.state.tradeoff.as_ref()?;
+            Some(Content::Tradeoff(what, measured.name().to_owned(), measured.tradeoff().clone()))
+        };
         match export {
             Export::Data => of_run(OfRun::Data),
             Export::Figures => of_run(OfRun::Figures),
@@ -71,93 +66,36 @@ impl Updater {
             Export::Report => {
                 let Ran { posed: Posed { scene, problem }, solution, .. } = self.named()?;
                 let run = ComparedRun { label: scene.name.clone(), scene, problem, solved: Ok(Arc::new(solution)) };
-                of_runs(OfRuns::Report, &[run])
+                Some(Content::of_runs(OfRuns::Report, &[run]))
             }
-            Export::ComparisonReport => of_runs(OfRuns::Report, self.state.pins.runs()),
+            Export::ComparisonReport => Some(Content::of_runs(OfRuns::Report, self.state.pins.runs())),
             Export::Comparison => {
-                of_runs(OfRuns::Comparison { all: self.state.pins.all_parameters }, self.state.pins.runs())
+                let all = self.state.pins.all_parameters;
+                Some(Content::of_runs(OfRuns::Comparison { all }, self.state.pins.runs()))
             }
-            _ => None,
-        }
-    }
-
-    /// What else there is to be done, with its own share of all that it needs. It takes a page less than a few redraws.
-    fn export_work(&self, export: Export, path: PathBuf) -> Option<Work> {
-        Some(match export {
-            Export::Data
-            | Export::Figures
-            | Export::Fields
-            | Export::Animation
-            | Export::Report
-            | Export::Comparison
-            | Export::ComparisonReport => return None,
-            Export::SweepTable | Export::SweepFigure | Export::Sweep => {
-                let swept = self.state.sweep.swept()?;
-                let (sweep, rows) = (Arc::clone(swept.sweep()), swept.rows().to_vec());
-                let quantity = self.state.sweep.quantity(&sweep.quantities());
-                Box::new(move || match export {
-                    Export::SweepTable => {
-                        write_file(&path, |out| write_csv(&sweep, &rows, out))?;
-                        Ok(vec![path])
-                    }
-                    Export::SweepFigure => {
-                        figure::write(&figure_of(&sweep, &rows, quantity), &path)?;
-                        Ok(vec![path])
-                    }
-                    _ => Ok(files::swept(&path, &sweep, &rows, &[], BESIDE_DATA)?),
-                })
-            }
+            Export::Sweep => of_sweep(|_| OfSweep::Data),
+            Export::SweepTable => of_sweep(|_| OfSweep::Table),
+            Export::SweepFigure => of_sweep(OfSweep::Figure),
             Export::Sensitivity => {
                 let state = &self.state.sensitivity;
                 let (found, uncertainties) = (Arc::clone(state.found()?), state.uncertainties()?.clone());
-                let (carlo, fidelity) = (state.carlo().cloned(), state.fidelity().to_string());
-                Box::new(move || {
-                    let found = sensitivity::Found {
-                        sensitivity: &found,
-                        uncertainties: &uncertainties,
-                        carlo: carlo.as_ref(),
-                    };
-                    Ok(files::sensitivity(&path, &found, &fidelity, &[], BESIDE_DATA)?)
-                })
+                Some(Content::Sensitivity(found, uncertainties, state.carlo().cloned(), state.fidelity()))
             }
             Export::Fit => {
                 let (scene, found) = self.state.fit.found()?;
-                let (name, found) = (scene.name.clone(), Arc::clone(found));
-                let problem = Problem::new(found.scene()).ok()?;
-                Box::new(move || {
-                    let of = (name.as_str(), &problem);
-                    Ok(match &*found {
-                        Found::Fit(measured, fitted) => files::fitted(&path, of, (fitted, measured), &[], BESIDE_DATA)?,
-                        Found::Optimum(optimum) => files::optimum(&path, of, optimum, &[], BESIDE_DATA)?,
-                    })
-                })
+                let problem = Problem::try_from(found.scene()).ok()?;
+                let posed = Posed { scene: found.scene().clone(), problem };
+                Some(Content::Fit(scene.name.clone(), Box::new(posed), Arc::clone(found)))
             }
-            Export::Answers => {
-                let records = self.state.lessons.records();
-                Box::new(move || {
-                    let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
-                    write_file(&path, |out| match lines {
-                        true => out.write_all(record::statements(&record::student(&path), &records).as_bytes()),
-                        false => csv::rows(&records, out),
-                    })?;
-                    Ok(vec![path])
-                })
-            }
-            Export::TradeoffTable | Export::TradeoffFigure => {
-                let measured = self.state.tradeoff.as_ref()?;
-                let (name, tradeoff) = (measured.name().to_owned(), measured.tradeoff().clone());
+            Export::Answers => Some(Content::Answers(self.state.lessons.records())),
+            Export::TradeoffTable => of_tradeoff(OfTradeoff::Table),
+            Export::TradeoffFigure => {
+                let tradeoff = self.state.tradeoff.as_ref()?.tradeoff();
                 let targets = [Target::Accuracy(self.state.view.accuracy), Target::Budget(self.state.view.budget)];
-                Box::new(move || {
-                    if export == Export::TradeoffTable {
-                        write_file(&path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?;
-                    } else {
-                        let chosen: Vec<usize> =
-                            targets.into_iter().filter_map(|target| tradeoff.choose(target)).collect();
-                        figure::write(&tradeoff::figure(&name, &tradeoff, &chosen), &path)?;
-                    }
-                    Ok(vec![path])
-                })
+                of_tradeoff(OfTradeoff::Figure(
+                    targets.into_iter().filter_map(|target| tradeoff.choose(target)).collect(),
+                ))
             }
-        })
+        }
     }
 }

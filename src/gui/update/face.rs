@@ -2,17 +2,14 @@
 
 use super::updater::Updater;
 use crate::digits::rounded;
-use crate::export::surface::{self, Object};
 use crate::gui::command::FaceCommand;
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::face::Face;
 use crate::gui::state::view::Tab;
-use crate::input::read_text;
+use crate::job::face::Heights;
 use crate::job::task::Task;
-use crate::scene::heights::{LARGEST, keys_of};
+use crate::scene::heights::keys_of;
 use crate::scene::{Kind, Value};
-use crate::surface::texture::{Pair, measured};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// The key of what roughness leaves of the gap at a hard stop.
@@ -35,8 +32,9 @@ impl Updater {
                 .fail("These are measured heights, and only a motor has rough faces: open a motor first.");
         }
         self.state.view.tab = Tab::Rotor;
-        match Task::start("face", self.wake(Duration::ZERO), move |_, _| read(&path)) {
-            Ok(task) => self.state.face.begin(task),
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        match Task::of(Heights::new(path), self.wake(Duration::ZERO)) {
+            Ok(task) => self.state.face.begin(name, task),
             Err(error) => self.state.fail(format!("The heights cannot be read: {error}")),
         }
     }
@@ -54,14 +52,4 @@ impl Updater {
             Err(error) => self.state.fail(error),
         }
     }
-}
-
-fn read(path: &Path) -> Result<Face, String> {
-    let fault = |reason: String| format!("{}: {reason}", path.display());
-    let text = read_text(path, LARGEST).map_err(|error| fault(error.to_string()))?;
-    let (map, texture) = measured(&text, 1).map_err(|error| fault(error.to_string()))?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let pair = Pair::of(&texture, &texture);
-    let told = Object::new(vec![surface::Face::of(&name, &map, &texture)], &pair);
-    Ok(Face { name, map, pair, told })
 }

@@ -46,7 +46,7 @@ impl Updater {
     pub fn follow_rotor(&mut self) {
         let Tab::Rotor = self.state.view.tab else { return };
         let scene = self.state.document.scene();
-        let Ok(problem) = Problem::new(scene) else { return };
+        let Ok(problem) = Problem::try_from(scene) else { return };
         let Scenario::Motor(motor) = &problem.scenario else { return };
         if self.state.rotor.lacks(motor) {
             let posed = Posed { scene: scene.clone(), problem: problem.clone() };
@@ -64,7 +64,7 @@ impl Updater {
         }
         // A plate that floats has its mean gap from the run, and waits for it.
         let run = state.run.as_ref().filter(|run| run.scene.same_model(scene));
-        let problem = || run.map_or_else(|| Problem::new(scene).ok(), |run| Some(run.problem.clone()));
+        let problem = || run.map_or_else(|| Problem::try_from(scene).ok(), |run| Some(run.problem.clone()));
         let known = run.is_some() || !scene.floats() || !state.awaits_result();
         if state.view.tab == Tab::Hold
             && state.hold.is_none()

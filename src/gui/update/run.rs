@@ -4,7 +4,7 @@ use super::updater::{LECTURE_ZOOM, Updater};
 use crate::analysis::tradeoff::Target;
 use crate::citation;
 use crate::gui::command::Command;
-use crate::gui::state::dialogs::{Answer, Picture, Purpose};
+use crate::gui::state::dialogs::{Answer, PICTURE, Purpose};
 use crate::gui::state::document::Document;
 use crate::gui::state::edits::Change;
 use crate::gui::state::modal::{Modal, PathPrompt};
@@ -194,7 +194,7 @@ impl Updater {
                 let path = match &purpose {
                     Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
                     Purpose::Save(_) => self.state.suggested_name(),
-                    Purpose::Picture(_) => Picture::FILE_NAME.to_owned(),
+                    Purpose::Picture(_) => PICTURE.to_owned(),
                     Purpose::Export(export) => export.file_name().to_owned(),
                 };
                 self.state.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));

@@ -5,7 +5,7 @@ use super::platform::Platform;
 use crate::fidelity::Fidelity;
 use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::window::State;
-use crate::job::task::Task;
+use crate::job::export::ExportTask;
 use crate::job::{Request, Solver};
 use crate::platform::Instant;
 use crate::platform::window::Parent;
@@ -28,7 +28,7 @@ pub struct Updater {
     pub(super) dialogs: Dialogs,
     pub(super) pictures: (Sender<Arc<egui::ColorImage>>, Receiver<Arc<egui::ColorImage>>),
     /// Pictures of the window that are being written.
-    pub(super) writing: Vec<Task<(), Result<(), String>>>,
+    pub(super) writing: Vec<ExportTask>,
 }
 
 impl Updater {
@@ -58,7 +58,7 @@ impl Updater {
 
     /// The scene in SI units; what is wrong with it is said.
     pub(super) fn problem(&mut self) -> Option<Problem> {
-        Problem::new(self.state.document.scene()).map_err(|error| self.state.fail(error)).ok()
+        Problem::try_from(self.state.document.scene()).map_err(|error| self.state.fail(error)).ok()
     }
 
     /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted.
@@ -69,7 +69,7 @@ impl Updater {
     /// Asks for the present scene at these fidelities.
     pub(super) fn solve(&mut self, fidelities: &[Fidelity]) {
         let State { document, activity, .. } = &mut self.state;
-        match Problem::new(document.scene()) {
+        match Problem::try_from(document.scene()) {
             Ok(problem) => {
                 let scene = document.scene().clone();
                 activity.number = self.solver.submit(Request { scene, problem, fidelities: fidelities.to_vec() });

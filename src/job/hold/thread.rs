@@ -133,7 +133,7 @@ mod tests {
     use std::time::Duration;
 
     fn plate() -> Plate {
-        match Problem::new(&Scene::plate()).unwrap().scenario {
+        match Problem::try_from(&Scene::plate()).unwrap().scenario {
             Scenario::Plate(plate) => plate,
             Scenario::Motor(_) => panic!("a plate"),
         }

@@ -1,22 +1,19 @@
-//! Work of a page: in a worker, or, where it cannot be carried there, on the page, which then stands still.
+//! Work of a page: in a worker.
 
 use super::News;
-use crate::control::Cancel;
 use crate::job::line::{Line, Told};
 use crate::job::work::Work;
 use std::cell::RefCell;
 use std::rc::Rc;
-use wasm_bindgen_futures::spawn_local;
 
 /// Work under way, or ended. `M` is what it tells on the way, `R` what it returns. Its worker is ended on drop.
 #[derive(Debug)]
 pub struct Task<M, R> {
-    cancel: Cancel,
     /// None once its worker has nothing to do any more.
     line: Rc<RefCell<Option<Line>>>,
     told: Rc<RefCell<News<M, R>>>,
     /// What comes of it if its worker is ended.
-    ended: Option<fn() -> R>,
+    ended: fn() -> R,
 }
 
 impl<M: 'static, R: 'static> Task<M, R> {
@@ -49,34 +46,7 @@ impl<M: 'static, R: 'static> Task<M, R> {
             wake(ended);
         };
         line.borrow().as_ref().map_or(Ok(()), |line| line.ask(&work, listen))?;
-        Ok(Self { cancel: Cancel::new(), line, told, ended: Some(W::ended) })
-    }
-
-    /// Does `work` on the page, before the next frame.
-    ///
-    /// # Errors
-    /// None.
-    pub fn start(
-        _: &str,
-        wake: impl Fn(bool) + Send + Sync + 'static,
-        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
-    ) -> std::io::Result<Self>
-    where
-        M: Send,
-        R: Send,
-    {
-        let cancel = Cancel::new();
-        let told = Rc::new(RefCell::new(News { messages: Vec::new(), end: None }));
-        let (flag, theirs) = (cancel.clone(), Rc::clone(&told));
-        spawn_local(async move {
-            let messages = std::sync::Mutex::new(Vec::new());
-            let tell = |message| messages.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(message);
-            let found = work(&flag, &tell);
-            let messages = messages.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-            *theirs.borrow_mut() = News { messages, end: Some(Ok(found)) };
-            wake(true);
-        });
-        Ok(Self { cancel, line: Rc::default(), told, ended: None })
+        Ok(Self { line, told, ended: W::ended })
     }
 
     /// What it has told since the last time.
@@ -89,18 +59,16 @@ impl<M: 'static, R: 'static> Task<M, R> {
 impl<M, R> Task<M, R> {
     /// Ends it, and its worker.
     pub fn cancel(&self) {
-        self.cancel.cancel();
         let worker = self.line.borrow_mut().take();
-        if let (Some(worker), Some(ended)) = (worker, self.ended) {
+        if let Some(worker) = worker {
             drop(worker);
-            self.told.borrow_mut().end = Some(Ok(ended()));
+            self.told.borrow_mut().end = Some(Ok((self.ended)()));
         }
     }
 }
 
 impl<M, R> Drop for Task<M, R> {
     fn drop(&mut self) {
-        self.cancel.cancel();
         *self.line.borrow_mut() = None;
     }
 }

@@ -91,7 +91,7 @@ impl Name {
     /// Its unit in this scene.
     pub fn unit(self, scene: &Scene) -> &'static str {
         match self {
-            Self::Quantity(quantity) => Problem::new(scene).map_or("", |problem| quantity.unit(&problem)),
+            Self::Quantity(quantity) => Problem::try_from(scene).map_or("", |problem| quantity.unit(&problem)),
             Self::Live(live) => live.unit(),
             Self::Key(parameter) => parameter.unit,
         }
@@ -99,7 +99,7 @@ impl Name {
 
     /// Whether a scene has it.
     pub fn belongs(self, scene: &Scene) -> bool {
-        let problem = || Problem::new(scene);
+        let problem = || Problem::try_from(scene);
         match self {
             Self::Quantity(quantity) => problem().is_ok_and(|problem| Quantity::of(&problem).any(|q| q == quantity)),
             Self::Live(live) => problem().is_ok_and(|problem| live.belongs(&problem.scenario)),

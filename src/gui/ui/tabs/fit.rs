@@ -283,7 +283,7 @@ fn optimum(ui: &mut Ui, found: &Optimum, height: f32, cx: &DrawContext<'_>) {
     for warning in &found.warnings {
         cx.say(ui, warning, cx.colours.alarm);
     }
-    let Ok(problem) = Problem::new(&found.scene) else { return };
+    let Ok(problem) = Problem::try_from(&found.scene) else { return };
     let strong = ui.visuals().strong_text_color();
     let words = |quantity: Quantity| quantity.label(&problem);
     Grid::new("optimum").num_columns(3).striped(true).spacing([10.0, 4.0]).show(ui, |ui| {

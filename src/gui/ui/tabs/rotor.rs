@@ -37,7 +37,7 @@ const STEP: f64 = 0.01;
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
     let scene = cx.state.document.scene();
-    let Ok(Problem { scenario: Scenario::Motor(motor), .. }) = Problem::new(scene) else {
+    let Ok(Problem { scenario: Scenario::Motor(motor), .. }) = Problem::try_from(scene) else {
         cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
         return;
     };

@@ -52,7 +52,7 @@ mod tests {
     fn run(preset: &str, set: &[(&str, &str)], method: Method) -> SolvedScene {
         let mut scene = presets::find(preset).unwrap();
         scene.set_all(set.iter().copied()).unwrap();
-        let problem = Problem::new(&scene).unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
         let settings = Settings { fidelity: Fidelity::Draft, method, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut |_: &Progress| (), &Cancel::new()).unwrap();
         let (validity, history) = (Vec::new(), Vec::new());

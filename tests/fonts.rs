@@ -1,9 +1,9 @@
-//! The fonts of the page in a browser have every glyph that a text of the program uses and that the fonts of the desktop have.
+//! The fonts with fewer glyphs have every glyph that a text of the program uses and that the whole fonts have.
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use eframe::egui::FontDefinitions;
-use squeezefilm::platform::{DEJAVU, LIBERATION};
+use epaint_default_fonts::{HACK_REGULAR, UBUNTU_LIGHT};
+use squeezefilm::platform::{dejavu, liberation};
 use std::collections::BTreeSet;
 use std::path::Path;
 use ttf_parser::Face;
@@ -21,26 +21,24 @@ fn letters(folder: &Path, found: &mut BTreeSet<char>) {
 }
 
 #[test]
-fn the_fonts_of_the_page_have_what_texts_use() {
+fn reduced_fonts_have_what_texts_use() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut used: BTreeSet<char> = (' '..='~').collect();
-    for folder in ["src", "assets", "presets"] {
+    for folder in ["src", "solver/src", "assets", "presets"] {
         letters(&root.join(folder), &mut used);
     }
     assert!(used.contains(&'∇') && used.len() > 200, "{} letters were found", used.len());
-    let egui = FontDefinitions::default();
-    let egui = |name: &str| egui.font_data[name].bytes().to_vec();
     let fonts = [
-        ("Ubuntu-Light", egui("Ubuntu-Light")),
-        ("Hack-Regular", egui("Hack")),
-        ("DejaVuSans", DEJAVU.to_vec()),
-        ("LiberationSans-Regular", LIBERATION.to_vec()),
+        ("Ubuntu-Light", UBUNTU_LIGHT),
+        ("Hack-Regular", HACK_REGULAR),
+        ("DejaVuSans", dejavu()),
+        ("LiberationSans-Regular", liberation()),
     ];
     for (name, whole) in fonts {
-        let part = std::fs::read(root.join(format!("assets/fonts/page/{name}.ttf"))).unwrap();
-        let (whole, part) = (Face::parse(&whole, 0).unwrap(), Face::parse(&part, 0).unwrap());
+        let part = std::fs::read(root.join(format!("assets/fonts/reduced/{name}.ttf"))).unwrap();
+        let (whole, part) = (Face::parse(whole, 0).unwrap(), Face::parse(&part, 0).unwrap());
         let has = |face: &Face, letter| face.glyph_index(letter).is_some();
         let lost: String = used.iter().filter(|&&letter| has(&whole, letter) && !has(&part, letter)).collect();
-        assert_eq!(lost, "", "assets/fonts/page/{name}.ttf lacks these: run assets/fonts/page/subset");
+        assert_eq!(lost, "", "assets/fonts/reduced/{name}.ttf lacks these: run assets/fonts/reduced/reduce");
     }
 }

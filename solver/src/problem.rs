@@ -1,6 +1,6 @@
 //! The checked, SI form of a scene: the only thing a solver accepts.
 //!
-//! A [`crate::scene::Scene`] is what a person edits, in the units of the field; a [`Problem`] is what it means.
+//! A `Scene` of the crate `squeezefilm` is what a person edits, in the units of the field; a [`Problem`] is what it means.
 //! Every number in here is finite and inside its documented range, so no solver re-checks it.
 //! Symbols follow `docs/theory.md`.
 

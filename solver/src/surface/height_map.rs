@@ -4,8 +4,10 @@
 //! `# height = nm`; then a line of numbers for each y, from x = 0 on. A *profile* has a line `x_um,z_nm` and then a pair on each line.
 //! Units are m, mm, um and nm; numbers are separated by commas, semicolons, tabs or blanks. x is along the wave.
 
+use serde::{Deserialize, Serialize};
+
 /// Heights of a face on an even grid; a profile is a grid of one row.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeightMap {
     /// Points along x.
     pub nx: usize,

@@ -11,11 +11,11 @@
 
 use super::flow::{ROWS_LAY, pressure_factor};
 use super::height_map::{HeightMap, HeightMapError};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// A face's statistics, in SI units.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Texture {
     /// Mean magnitude Sa \[m\].
     pub mean: f64,

@@ -389,7 +389,7 @@ pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Opti
 }
 
 /// The stored lines, tooth by tooth and frame by frame: φ of the tooth's middle, and where the line begins.
-pub(crate) fn lines(loads: &LineLoads) -> impl Iterator<Item = (f64, usize)> {
+pub fn lines(loads: &LineLoads) -> impl Iterator<Item = (f64, usize)> {
     let (frames, nodes) = (loads.frames, loads.x.len());
     let place = loads.pitch / loads.length;
     (0..loads.stored_teeth * frames)
@@ -397,7 +397,7 @@ pub(crate) fn lines(loads: &LineLoads) -> impl Iterator<Item = (f64, usize)> {
 }
 
 /// How often the stored teeth are on the ring.
-pub(crate) fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
+pub fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
     f64::from(motor.waves) * loads.teeth as f64 / loads.stored_teeth.max(1) as f64
 }
 

@@ -1,0 +1,44 @@
+//! A measured face, read and judged in the background.
+
+use super::work::Work;
+use crate::control::Cancel;
+use crate::input::{read_bytes, text};
+use crate::platform::handed_over;
+use crate::scene::heights::LARGEST;
+use crate::surface::height_map::HeightMap;
+use crate::surface::texture::{Texture, measured};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// A file of heights, as it is carried to where it is read; with what is in it, if the user has handed it over.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Heights {
+    path: PathBuf,
+    bytes: Option<Vec<u8>>,
+}
+
+impl Heights {
+    /// Of the file of this path.
+    pub fn new(path: PathBuf) -> Self {
+        Self { bytes: handed_over(&path), path }
+    }
+}
+
+impl Work for Heights {
+    const NAME: &'static str = "face";
+    type Message = ();
+    /// The heights, level, and what they come to; or why they are no face.
+    type Found = Result<(HeightMap, Texture), String>;
+
+    fn run(self, _: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
+        let Self { path, bytes } = self;
+        let bytes = bytes.map_or_else(|| read_bytes(&path, LARGEST), Ok);
+        let found = bytes.and_then(text).map_err(|error| error.to_string());
+        let found = found.and_then(|text| measured(&text, 1).map_err(|error| error.to_string()));
+        found.map_err(|reason| format!("{}: {reason}", path.display()))
+    }
+
+    fn ended() -> Self::Found {
+        Err("It was ended before it was read.".to_owned())
+    }
+}
