@@ -73,8 +73,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
 
 /// The error, with what this system may lack.
 fn no_window(reason: String) -> CliError {
-    let advice = if cfg!(all(windows, not(feature = "wgpu"))) {
-        "\n(the window needs OpenGL 2.0, which remote desktops and virtual machines often lack; built with --features wgpu it does without)"
+    let advice = if cfg!(windows) {
+        "\n(the window needs OpenGL 2.0 or Direct3D 12)"
     } else if Path::new("/etc/debian_version").exists() {
         "\n(on a bare Debian the window also needs: libx11-6 libxcursor1 libxi6 libxrandr2 libx11-xcb1 libxkbcommon-x11-0 libgl1)"
     } else {

@@ -65,7 +65,7 @@ pub mod window {
 
     /// Opens the window and returns when it is closed. `storage`: the file in which it keeps what the next one begins with.
     ///
-    /// It is drawn by OpenGL; where that cannot be had, by what else there is, if the feature `wgpu` was built in.
+    /// It is drawn by OpenGL; where that cannot be had, by what else there is: on Windows, and where the feature `wgpu` is built in.
     ///
     /// # Errors
     /// If there is no display, or no way to draw on it.
@@ -80,12 +80,12 @@ pub mod window {
             eframe::run_native("squeezefilm", options(storage.clone(), renderer), Box::new(once))
         };
         let opened = open(eframe::Renderer::Glow);
-        #[cfg(feature = "wgpu")]
-        if let (Err(no_opengl), Some(unused)) = (&opened, start.take()) {
+        #[cfg(any(windows, feature = "wgpu"))]
+        let opened = opened.or_else(|no_opengl| {
+            let Some(unused) = start.take() else { return Err(no_opengl) };
             start.set(Some(unused));
-            // Of two reasons the first is the one that a user can do something about.
-            return open(eframe::Renderer::Wgpu).map_err(|_| eframe::Error::AppCreation(no_opengl.to_string().into()));
-        }
+            open(eframe::Renderer::Wgpu).map_err(|_| no_opengl)
+        });
         opened
     }
 
