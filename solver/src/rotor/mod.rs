@@ -4,8 +4,8 @@
 //! C(k_n) q_n cos(k_n x). The rigid offset (n = 0) is not part of the compliance: the load balance fixes it.
 //!
 //! Every model is resolved once, before anything is solved, into the [`Compliances`] of the harmonics of the wave. That may fail: a ring
-//! may be free to tilt. It is done as part of a solve and not where a scene is checked ([`crate::problem::Problem::try_from`]), because a ring
-//! takes long and the window checks a scene while a slider is dragged.
+//! may be free to tilt. It is done as part of a solve and not where a scene is checked, because a ring takes
+//! long and the window checks a scene while a slider is dragged.
 
 mod compliances;
 mod green;
