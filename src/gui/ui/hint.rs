@@ -33,6 +33,10 @@ pub fn beside(panel: Rect, response: Response, text: &str) -> Response {
 
 /// As [`beside`], with whatever `add` shows.
 pub fn beside_with(panel: Rect, response: Response, add: impl FnOnce(&mut Ui)) -> Response {
+    // egui keeps one open that a question has come over.
+    if !response.ctx.memory(|memory| memory.allows_interaction(response.layer_id)) {
+        return response;
+    }
     let mut tooltip = Tooltip::for_enabled(&response);
     let row = Rect::from_x_y_ranges(panel.x_range(), response.rect.y_range());
     tooltip.popup = tooltip
