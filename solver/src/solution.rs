@@ -242,7 +242,7 @@ pub struct Model {
     pub shear: bool,
     /// What the paper's method has to say of itself, in sentences.
     pub remarks: Vec<String>,
-    /// The decisions of our own method; `analysis::decision` says them in words.
+    /// The decisions of our own method; `analysis::decision` of the crate `squeezefilm` says them in words.
     pub decisions: Vec<Decision>,
 }
 

@@ -20,7 +20,6 @@ use crate::solve::Settings;
 use rayon::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Results that were not written.
 #[derive(Debug, thiserror::Error)]
@@ -294,11 +293,10 @@ pub fn html(
 }
 
 /// A picture of the window of this size \[pixels\]: red, green and blue, row by row from the top.
-pub fn picture(path: &Path, size: [u32; 2], rgb: &Arc<Vec<u8>>) -> Result<Vec<PathBuf>, ExportError> {
-    let pixels = Pixels { width: size[0], height: size[1], rgb: rgb.to_vec() };
+pub fn picture(path: &Path, [width, height]: [u32; 2], rgb: Vec<u8>) -> Result<(), ExportError> {
+    let pixels = Pixels { width, height, rgb };
     let bytes = png_bytes(&pixels, None, &[]).map_err(|error| FigureError::Draw(error.to_string()))?;
-    write_file(path, |out| out.write_all(&bytes))?;
-    Ok(vec![path.to_owned()])
+    Ok(write_file(path, |out| out.write_all(&bytes))?)
 }
 
 /// What `squeezefilm sweep --out` writes into a folder.

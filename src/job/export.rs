@@ -1,4 +1,4 @@
-//! Files of runs, made in the background: the same code and the same names as those of the command line.
+//! Files, made in the background: the same code and the same names as those of the command line.
 
 use super::fit;
 use super::pin::Found;
@@ -159,6 +159,7 @@ impl Work for Files {
 }
 
 fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
+    let one = || vec![path.to_owned()];
     Ok(match content {
         Content::Run(what, run) => of_run(what, path, &run, control)?,
         Content::Runs(what, runs) => {
@@ -173,11 +174,11 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         Content::Sweep(OfSweep::Data, sweep, rows) => files::swept(path, &sweep, &rows, &[], BESIDE_DATA)?,
         Content::Sweep(OfSweep::Table, sweep, rows) => {
             write_file(path, |out| write_csv(&sweep, &rows, out))?;
-            vec![path.to_owned()]
+            one()
         }
         Content::Sweep(OfSweep::Figure(quantity), sweep, rows) => {
             figure::write(&figure_of(&sweep, &rows, quantity), path)?;
-            vec![path.to_owned()]
+            one()
         }
         Content::Sensitivity(sensitivity, uncertainties, carlo, fidelity) => {
             let (uncertainties, carlo) = (&uncertainties, carlo.as_ref());
@@ -193,11 +194,11 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
         }
         Content::Tradeoff(OfTradeoff::Table, _, tradeoff) => {
             write_file(path, |out| csv::rows(tradeoff::settings(&tradeoff), out))?;
-            vec![path.to_owned()]
+            one()
         }
         Content::Tradeoff(OfTradeoff::Figure(chosen), name, tradeoff) => {
             figure::write(&tradeoff::figure(&name, &tradeoff, &chosen), path)?;
-            vec![path.to_owned()]
+            one()
         }
         Content::Answers(records) => {
             let lines = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"));
@@ -205,9 +206,12 @@ fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<Pat
                 true => out.write_all(record::statements(&record::student(path), &records).as_bytes()),
                 false => csv::rows(&records, out),
             })?;
-            vec![path.to_owned()]
+            one()
         }
-        Content::Picture(Picture { size, rgb }) => files::picture(path, size, &rgb)?,
+        Content::Picture(Picture { size, rgb }) => {
+            files::picture(path, size, Arc::unwrap_or_clone(rgb))?;
+            one()
+        }
     })
 }
 
@@ -242,38 +246,102 @@ fn coarsest(runs: &[ComparedRun]) -> Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::fit::{Goal, optimise};
+    use crate::analysis::tradeoff::{Effort, candidates, measure};
     use crate::problem::Problem;
     use crate::scene::presets;
     use crate::solve::solve;
     use std::collections::BTreeMap;
 
-    fn read(folder: &std::path::Path) -> BTreeMap<std::ffi::OsString, Vec<u8>> {
-        let files = std::fs::read_dir(folder).unwrap().map(Result::unwrap);
-        files.map(|file| (file.file_name(), std::fs::read(file.path()).unwrap())).collect()
+    fn read(path: &Path) -> BTreeMap<std::ffi::OsString, Vec<u8>> {
+        let name = |path: &Path| path.file_name().unwrap().to_owned();
+        if path.is_file() {
+            return [(name(path), std::fs::read(path).unwrap())].into();
+        }
+        let files = std::fs::read_dir(path).unwrap().map(|file| file.unwrap().path());
+        files.map(|file| (name(&file), std::fs::read(&file).unwrap())).collect()
+    }
+
+    /// Makes the files of this name here and elsewhere, and compares them. Returns how many there are.
+    fn made_twice(name: &str, content: &dyn Fn() -> Content) -> usize {
+        let folder = tempfile::tempdir().unwrap();
+        let made = |place: &str, carried: bool| {
+            let path = folder.path().join(place).join(name);
+            std::fs::create_dir(path.parent().unwrap()).unwrap();
+            let files = Files { path: path.clone(), content: content() };
+            let there = || postcard::from_bytes(&postcard::to_stdvec(&files).unwrap()).unwrap();
+            let files: Files = if carried { there() } else { files };
+            files.run(&Cancel::new(), &|_| ()).unwrap();
+            read(&path)
+        };
+        let (here, there) = (made("here", false), made("there", true));
+        for (file, bytes) in &here {
+            assert!(there[file] == *bytes, "{name}: {file:?}");
+        }
+        assert_eq!(here.len(), there.len(), "{name}");
+        here.len()
+    }
+
+    fn draft() -> Settings {
+        Settings { fidelity: Fidelity::Draft, ..Settings::default() }
     }
 
     #[test]
-    fn files_that_are_made_elsewhere_are_the_same() {
+    fn files_of_a_run_that_are_made_elsewhere_are_the_same() {
         let scene = presets::find("floating-disc").unwrap();
         let posed = Posed { problem: Problem::try_from(&scene).unwrap(), scene };
-        let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
-        let solution = solve(&posed.problem, &settings, &mut (), &Cancel::new()).unwrap();
+        let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         // As the window has it.
         let problem = settled(&posed.problem, &solution.outcome).into_owned();
         let posed = Posed { problem, ..posed };
         let ran = Ran { posed, fidelity: Fidelity::Draft, solution, wall_s: 0.5, history: Vec::new() };
-        let here = tempfile::tempdir().unwrap();
-        let [one, other] = ["one", "other"].map(|name| here.path().join(name));
-        let write = |files: Files| files.run(&Cancel::new(), &|_| ()).unwrap();
-        let files =
-            |path: &Path| Files { path: path.to_owned(), content: Content::Run(OfRun::Data, Box::new(ran.clone())) };
-        write(files(&one));
-        let files = files(&other);
-        write(postcard::from_bytes(&postcard::to_stdvec(&files).unwrap()).unwrap());
-        let (one, other) = (read(&one), read(&other));
-        assert!(one.len() > 8, "{:?}", one.keys());
-        for (name, bytes) in &one {
-            assert!(other[name] == *bytes, "{name:?}");
-        }
+        assert!(made_twice("run", &|| Content::Run(OfRun::Data, Box::new(ran.clone()))) > 8);
+    }
+
+    #[test]
+    fn files_of_tabs_that_are_made_elsewhere_are_the_same() {
+        let scene = presets::find("plate-crossover").unwrap();
+        let problem = Problem::try_from(&scene).unwrap();
+        let cancel = Cancel::new();
+
+        let vary = "plate.amplitude_um=0.1:0.5:3".parse().unwrap();
+        let swept = Arc::new(Sweep::new(&scene, &[vary], &draft()).unwrap());
+        let rows = swept.run(&[], &cancel, &|_| ());
+        let sweep = |what: OfSweep| Content::Sweep(what, Arc::clone(&swept), rows.clone());
+        assert!(made_twice("sweep", &|| sweep(OfSweep::Data)) > 3);
+        made_twice("sweep.csv", &|| sweep(OfSweep::Table));
+        made_twice("sweep.svg", &|| sweep(OfSweep::Figure(Quantity::LoadRatio)));
+
+        let key = "plate.amplitude_um";
+        let found = Sensitivity::of(&scene, &[key], &draft(), &cancel, &|_: usize| ()).unwrap().unwrap();
+        let uncertainties = Uncertainties::new(&scene, &[(key, "10%".parse().unwrap())]).unwrap();
+        let carlo = found.monte_carlo(&uncertainties, 5, 1, &cancel, &|| ()).unwrap();
+        let found = Arc::new(found);
+        let content =
+            || Content::Sensitivity(Arc::clone(&found), uncertainties.clone(), Some(carlo.clone()), Fidelity::Draft);
+        assert!(made_twice("sensitivity", &content) > 4);
+
+        let bounds = ["plate.amplitude_um=0.1:0.5".parse().unwrap()];
+        let goal = Goal::new(&scene, "mean_load_ratio", true, &[]).unwrap();
+        let optimum = optimise(&scene, &bounds, &goal, &draft(), (1, &cancel, &|_, _| ())).unwrap().unwrap();
+        let posed = Posed { scene: optimum.scene.clone(), problem: Problem::try_from(&optimum.scene).unwrap() };
+        let found = Arc::new(fit::Found::Optimum(optimum));
+        let content = || Content::Fit(scene.name.clone(), Box::new(posed.clone()), Arc::clone(&found));
+        assert!(made_twice("fit", &content) > 3);
+
+        let candidates = candidates(&problem).into_iter().take(2).collect();
+        let effort = Effort { repeats: Some(1), ..Effort::default() };
+        let tradeoff = Tradeoff::of(&measure(&problem, candidates, &effort, &|| 0.0, &cancel, &mut |_, _| ()));
+        let content = |what: OfTradeoff| Content::Tradeoff(what, scene.name.clone(), tradeoff.clone());
+        made_twice("tradeoff.csv", &|| content(OfTradeoff::Table));
+        made_twice("tradeoff.svg", &|| content(OfTradeoff::Figure(vec![0])));
+
+        let (text, success) = ("a".to_owned(), Some(true));
+        let [lesson, title, kind, verb, response, time] = [(); 6].map(|()| text.clone());
+        let record = Record { lesson, step: 1, title, kind, verb, response, success, tries: 2, time };
+        made_twice("answers.jsonl", &|| Content::Answers(vec![record.clone()]));
+        made_twice("answers.csv", &|| Content::Answers(vec![record.clone()]));
+        let rgb = Arc::new((0..18).collect());
+        made_twice("window.png", &|| Content::Picture(Picture { size: [3, 2], rgb: Arc::clone(&rgb) }));
     }
 }

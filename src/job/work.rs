@@ -70,6 +70,7 @@ mod tests {
     use crate::analysis::sweep::Sweep;
     use crate::analysis::tradeoff::candidates;
     use crate::fidelity::Fidelity;
+    use crate::job::face::Heights;
     use crate::job::pin::Compared;
     use crate::job::sweep::Points;
     use crate::job::torque::Curves;
@@ -125,6 +126,11 @@ mod tests {
         let solution = solve(&posed.problem, &draft(), &mut (), &Cancel::new()).unwrap();
         both(Curves::new(posed.clone(), Fidelity::Draft, solution));
         both(Compared::new(posed.clone(), Fidelity::Draft));
+        let face = tempfile::NamedTempFile::new().unwrap();
+        let row = |y: usize| (0..20).map(|x| format!("{}", (x * y + x * x) % 7)).collect::<Vec<_>>().join(",");
+        let heights = (0..20).map(row).collect::<Vec<_>>().join("\n");
+        std::fs::write(&face, format!("# dx_um = 0.5\n# dy_um = 0.5\n# height = nm\n{heights}\n")).unwrap();
+        both(Heights::new(face.path().to_owned()));
         both(Points::New(posed.scene.clone(), vec!["film.min_spacing_nm=100:300:3".parse().unwrap()], draft()));
     }
 

@@ -17,7 +17,7 @@ pub fn liberation() -> &'static [u8] {
     &FONT
 }
 
-/// DejaVu Sans, for the glyphs that other fonts lack, whatever people type.
+/// DejaVu Sans, for the glyphs that other fonts lack: most alphabets, but no pictures (emoji).
 pub fn dejavu() -> &'static [u8] {
     static FONT: LazyLock<Vec<u8>> = LazyLock::new(|| unpacked(include_bytes!("../../assets/fonts/DejaVuSans.ttf.gz")));
     &FONT
@@ -65,7 +65,7 @@ pub mod window {
 
     /// Opens the window and returns when it is closed. `storage`: the file in which it keeps what the next one begins with.
     ///
-    /// It is drawn by OpenGL; where that cannot be had, by what else there is: on Windows, and where the feature `wgpu` is built in.
+    /// It is drawn by OpenGL; where that is refused, by what else there is: on Windows, and where the feature `wgpu` is built in.
     ///
     /// # Errors
     /// If there is no display, or no way to draw on it.

@@ -16,7 +16,7 @@ use crate::rotor::{Compliances, RESONANCES};
 use grid::nested;
 use serde::{Deserialize, Serialize};
 
-/// What was decided about one part of the model; `analysis::decision` says it, and why, in words.
+/// What was decided about one part of the model; `analysis::decision` of the crate `squeezefilm` says it, and why, in words.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// The part, and how it is solved.

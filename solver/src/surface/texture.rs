@@ -34,7 +34,6 @@ pub struct Texture {
     /// m₀ \[m²\], m₂, m₄ \[1/m²\], mean of both directions.
     pub moments: [f64; 3],
     /// Autocorrelation along x and y: `(lag [m], value)`, up to half the face.
-    #[serde(skip)]
     pub autocorrelation: [Vec<(f64, f64)>; 2],
 }
 

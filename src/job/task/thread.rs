@@ -57,7 +57,7 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
 
     /// Starts `work` on a thread `squeezefilm-name`. It looks at the flag, and sends messages through the function that it
     /// is given. `wake` is called from that thread after every message and at the end, then with `true`.
-    pub fn start(
+    pub(crate) fn start(
         name: &str,
         wake: impl Fn(bool) + Send + Sync + 'static,
         work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,

@@ -59,7 +59,7 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
     cx.note(
         ui,
         format!(
-            "Licence: {LICENCE}. Equations and what they were checked against: docs/theory.md and docs/validation.md."
+            "Licence: {LICENCE}; its fonts have their own, in assets/fonts. Equations and what they were checked against: docs/theory.md and docs/validation.md."
         ),
     );
     ui.add_space(12.0);
