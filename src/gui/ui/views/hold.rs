@@ -110,19 +110,22 @@ fn grab(ui: &Ui, axes: &Axes, hold: &HoldState, cx: &DrawContext<'_>) {
     let name = "Held plate: drag it up and down";
     let response = ui.interact(axes.rect, ui.scope_id().with(name), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Image, true, name));
-    let gap_at =
-        |y: f32| axes.y[0] + f64::from((axes.rect.bottom() - y) / axes.rect.height()) * (axes.y[1] - axes.y[0]);
+    let per_point = (axes.y[1] - axes.y[0]) / f64::from(axes.rect.height());
     let id = response.id.with("in hand");
     if let Some(at) = response.interact_pointer_pos() {
-        if response.drag_started() {
+        let wanted = if response.drag_started() {
             // What the pointer has moved until it counted as a drag is the plate's too.
             let from = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
-            ui.data_mut(|data| data.insert_temp(id, gap_at(from.y) - hold.target()));
-        }
+            Some(hold.target() + per_point * f64::from(from.y - at.y))
+        } else {
+            // From where it was, and not from where the drawing is: that may move under a still hand.
+            ui.data(|data| data.get_temp::<f64>(id)).map(|gap| gap - per_point * f64::from(response.drag_delta().y))
+        };
         if response.dragged()
-            && let Some(offset) = ui.data(|data| data.get_temp::<f64>(id))
+            && let Some(wanted) = wanted
         {
-            cx.push(HoldCommand::To(gap_at(at.y) - offset));
+            ui.data_mut(|data| data.insert_temp(id, wanted));
+            cx.push(HoldCommand::To(wanted));
         }
     }
     response.on_hover_and_drag_cursor(CursorIcon::Grab);
