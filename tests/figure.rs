@@ -80,7 +80,9 @@ fn the_numbers_are_in_the_svg() {
     let mut panel =
         Panel::new("(a) share & gap", Axis::new("frequency", "Hz").log(), Axis::new("α", "").including([0.0]))
             .layer(Line::new("share < 1", points.clone(), Style::nth(0)))
-            .layer(right);
+            .layer(right)
+            .layer(Text::new([1e4, 0.1], "a note"))
+            .layer(Text::new([1e7, 0.1], "beyond the axes"));
     panel.right = Some(Axis::new("gap", "m").log());
     let mut figure = Figure::new("Share \"and\" gap").panel(panel);
     figure.caption = "What it shows".to_owned();
@@ -110,6 +112,10 @@ fn the_numbers_are_in_the_svg() {
     for expected in ["frequency (Hz)", "α", "gap (m)", "My <motor> · squeezefilm 0.1.0", "0.05", "105"] {
         assert!(words.iter().any(|word| word == expected), "{expected}: {words:?}");
     }
+    assert!(
+        words.iter().any(|word| word == "a note") && words.iter().all(|word| word != "beyond the axes"),
+        "{words:?}"
+    );
 }
 
 #[test]

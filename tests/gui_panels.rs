@@ -258,6 +258,22 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
         harness.run();
         assert_eq!(shown(&harness).as_deref(), Some(nanometres));
     }
+    // More digits than anyone reads are there when the cursor is, and stay in the scene when it leaves.
+    type_into(&mut harness, name, "500/3");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(shown(&harness).as_deref(), Some("166.667"));
+    harness.get_by_role_and_label(Role::TextInput, name).click();
+    harness.run();
+    let spacing = harness.state().scene().get("film.min_spacing_nm").unwrap();
+    assert!((spacing.as_number().unwrap() - 500.0 / 3.0).abs() < 1e-6);
+    assert_eq!(shown(&harness), Some(spacing.to_string()));
+    harness.key_press(Key::Tab);
+    harness.run();
+    assert_eq!(
+        (shown(&harness).as_deref(), harness.state().scene().get("film.min_spacing_nm")),
+        (Some("166.667"), Some(spacing))
+    );
 }
 
 #[test]

@@ -6,7 +6,9 @@
 //! `cargo run --release --example NAME …` is called in this process. Quotations that take longer, ```` ```console slow ```` and
 //! `<!-- slow output of: … -->`, are left to `cargo test --test quoted -- --ignored`. Times depend on the machine and are not compared.
 //!
-//! `docs/renew` writes what is printed today into the documents.
+//! So are the figures of the gallery ([`PICTURES`]) what the program draws, to a hundredth of a point.
+//!
+//! `docs/renew` writes what is printed and drawn today into the documents.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on fails")]
 
@@ -25,6 +27,27 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const EXAMPLE: &str = "cargo run --release --example ";
+
+/// Commands that end with a folder, and which of the figures there are which of docs/gallery.
+const PICTURES: [(&str, &[(&str, &str)]); 8] = [
+    (
+        "solve fundamental --fidelity fine",
+        &[("wave", "wave"), ("loads", "loads"), ("map", "map"), ("torque", "torque")],
+    ),
+    ("solve plate-crossover --fidelity fine", &[("loop", "plate-loop"), ("exact", "plate-exact")]),
+    ("sweep fundamental --vary stator.frequency_khz=3:300:25:log", &[("sweep", "sweep")]),
+    (
+        "sweep fundamental --vary stator.frequency_khz=3:300:16:log --vary film.min_spacing_nm=20:500:16:log",
+        &[("sweep", "sweep-map")],
+    ),
+    (
+        "sweep fundamental --set film.gas=air --set film.slip=fukui-kaneko --vary film.ambient_pressure_kpa=0.1:101.325:25:log",
+        &[("sweep", "vacuum")],
+    ),
+    ("sensitivity fundamental --fidelity fine", &[("sensitivity", "sensitivity")]),
+    ("startup frequency-100khz", &[("startup", "startup")]),
+    ("compare fundamental min-spacing-100nm tooth-radius-3m", &[("loads", "compare-loads")]),
+];
 
 /// A command, and the lines of a document that are its output.
 #[derive(Debug, PartialEq)]
@@ -151,6 +174,40 @@ fn what_the_documents_quote_is_what_is_printed() {
 #[ignore = "minutes, most of them for the paper's method"]
 fn what_the_documents_quote_is_what_is_printed_slow() {
     check(true);
+}
+
+/// The words and numbers of a figure, without the pixels of its maps.
+fn drawn(svg: &str) -> Vec<&str> {
+    let apart = |c: char| c.is_whitespace() || matches!(c, ',' | '"' | '<' | '>' | '&' | ';');
+    svg.split(apart).filter(|word| !word.is_empty() && !word.starts_with("data:") && word.len() < 200).collect()
+}
+
+#[test]
+fn figures_of_the_gallery_are_what_is_drawn() {
+    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery");
+    let update = std::env::var_os("UPDATE_QUOTED").is_some();
+    for (command, pictures) in PICTURES {
+        let folder = tempfile::tempdir().unwrap();
+        let words = command.split(' ').chain(["--figures", "svg", "--out"]);
+        let done = Command::new(program()).args(words).arg(folder.path()).output().unwrap();
+        assert!(done.status.success(), "{command}: {}", String::from_utf8_lossy(&done.stderr));
+        for (file, picture) in pictures {
+            let now = fs::read_to_string(folder.path().join(file).with_extension("svg")).unwrap();
+            let path = gallery.join(picture).with_extension("svg");
+            if update {
+                write_file(&path, |out| out.write_all(now.as_bytes())).unwrap();
+                continue;
+            }
+            let stored = fs::read_to_string(path).unwrap();
+            let (now, stored) = (drawn(&now), drawn(&stored));
+            let near = |a: &str, b: &str| match (a.parse::<f64>(), b.parse::<f64>()) {
+                (Ok(a), Ok(b)) => (a - b).abs() <= 0.01 * (1.0 + 1e-3 * a.abs()),
+                _ => a == b,
+            };
+            let other = now.iter().zip(&stored).find(|(now, stored)| !near(now, stored));
+            assert_eq!((other, now.len()), (None, stored.len()), "{picture}.svg; docs/renew pictures draws it anew");
+        }
+    }
 }
 
 #[test]

@@ -4,6 +4,8 @@
 use squeezefilm::analysis::torque::TorqueCurves;
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::{Drive, film_power};
+use squeezefilm::export::figure::Layer;
+use squeezefilm::export::figures;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::without_film;
 use squeezefilm::plan::Plan;
@@ -286,4 +288,26 @@ fn the_shapes_are_those_of_the_recorded_contact() {
     let mean = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
     assert!((drive.load() / mean - 1.0).abs() < 1e-12);
     assert_eq!(film_power(&solved.motor, &solved.recording), solved.merit.film_power);
+}
+
+#[test]
+fn the_figure_has_the_torque_in_the_middle_of_its_error() {
+    let curves = solved("fundamental", &[], Fidelity::Draft).merit;
+    let figure = figures::torque::torque(&curves);
+    let layers = &figure.panels[0].layers;
+    let bands: Vec<_> =
+        layers.iter().filter_map(|l| if let Layer::Band(band) = l { Some(band) } else { None }).collect();
+    let lines: Vec<_> =
+        layers.iter().filter_map(|l| if let Layer::Line(line) = l { Some(line) } else { None }).collect();
+    let line = lines.iter().find(|line| line.name == "with film").unwrap();
+    assert_eq!((bands.len(), bands[0].points.len()), (1, line.points.len()));
+    let greatest = curves.with_film.max_torque.value;
+    for (([x, low, high], [speed, torque]), point) in
+        bands[0].points.iter().zip(&line.points).zip(&curves.with_film.curve)
+    {
+        let scale = torque / point.torque.value;
+        assert_eq!(x, speed);
+        assert!((high + low - 2.0 * torque).abs() < 1e-12 * greatest * scale, "{low} {torque} {high}");
+        assert!((high - low - 2.0 * point.torque.error * scale).abs() < 1e-9 * greatest * scale && high > low);
+    }
 }

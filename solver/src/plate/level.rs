@@ -296,10 +296,9 @@ impl Level {
         (REPEATING_SHARE * plan.accuracy * self.unit() / force).max(LEAST_CHANGE)
     }
 
-    /// Film load at step `m` \[N\]; between two cycles of a transient step 0 is the present.
-    pub(super) fn load_at(&self, m: usize) -> f64 {
-        let nx = self.cycle.grid().x.len();
-        self.load(&self.line[m * nx..(m + 1) * nx], self.gap[m * nx])
+    /// Film load \[N\] at instant 0: the present, between two cycles of a transient.
+    pub(super) fn load_now(&self) -> f64 {
+        self.load(&self.line[..self.cycle.grid().x.len()], self.gap[0])
     }
 
     /// The film of one cycle, lengths are those of the whole plate; and the absolute pressure at every node, if `maps`,

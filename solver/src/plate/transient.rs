@@ -50,7 +50,7 @@ impl Transient {
         let (mut loads, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
-            let start = level.load_at(0);
+            let start = level.load_now();
             let told = |level: &Level| {
                 if number < finest {
                     coarser.push(level.fields(&self.plate, false).0);
@@ -67,7 +67,7 @@ impl Transient {
                 Err(Interrupted::Cancelled) => return Ok(None),
                 Err(failed) => return Err(failed),
             };
-            let end = level.load_at(0);
+            let end = level.load_now();
             loads.push(level.mean().from_to(start, end, level.steps()));
             ends.push(end);
             self.stats.film_nodes = level.cycle.grid().len();

@@ -1,12 +1,16 @@
 //! A field for typed values. What is refused stays in the field, with the reason below, until it is corrected or
 //! Escape brings the value back.
 
+use crate::digits;
 use crate::gui::command::Command;
 use crate::gui::ui::context::DrawContext;
 use crate::scene::Value;
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{self, Id, Key};
+
+/// Significant digits of a number that is not being edited; with the cursor in the field it has all.
+const DIGITS: usize = 6;
 
 /// Text that differs from the scene.
 #[derive(Clone, Debug)]
@@ -50,7 +54,12 @@ impl Field<'_> {
         let id = id_of(self.key);
         let present = self.value.map(plain).unwrap_or_default();
         let edit = self.pending(ui, id);
-        let mut text = edit.as_ref().map_or_else(|| present.clone(), |edit| edit.text.clone());
+        let focused = ui.memory(|memory| memory.has_focus(id));
+        let mut text = match (&edit, self.value) {
+            (Some(edit), _) => edit.text.clone(),
+            (None, Some(Value::Number(number))) if !focused => plain(&Value::Number(digits::rounded(*number, DIGITS))),
+            (None, _) => present.clone(),
+        };
         let alarmed = self.refused.is_some() && edit.is_some();
         let free = self.value.is_none_or(is_text);
         let editor = if self.wrapped {
@@ -58,7 +67,7 @@ impl Field<'_> {
         } else {
             egui::TextEdit::singleline(&mut text)
         };
-        let entered = ui.memory(|memory| memory.has_focus(id)) && ui.input(|input| input.key_pressed(Key::Enter));
+        let entered = focused && ui.input(|input| input.key_pressed(Key::Enter));
         let response = editor
             .id(id)
             .desired_width(self.width)
@@ -73,7 +82,7 @@ impl Field<'_> {
             ui.memory_mut(|memory| memory.surrender_focus(id));
         }
         if response.gained_focus() {
-            select_all(ui, id, &text);
+            select_all(ui, id, edit.as_ref().map_or(&present, |edit| &edit.text));
         }
         let escaped = ui.input(|input| input.key_pressed(Key::Escape));
         let typing = edit.as_ref().is_some_and(|edit| edit.stage == Stage::Typing) || response.changed();
