@@ -15,13 +15,7 @@ impl Frames {
     pub(super) fn new(plate: &Plate, beta: f64, steps: usize, per_step: usize) -> Self {
         let frames = steps * per_step;
         let gap = (0..frames).map(|frame| plate.gap(frame as f64 / frames as f64)).collect();
-        let place = |frame: usize| {
-            let share = 2.0 * frame as f64 / frames as f64 - 1.0;
-            let place = 0.5 * (1.0 + (share * beta.sinh()).asinh() / beta) * steps as f64;
-            let step = (place as usize).min(steps - 1);
-            (step, place - step as f64)
-        };
-        Self { gap, places: if beta == 0.0 { Vec::new() } else { (0..frames).map(place).collect() }, steps }
+        Self { gap, places: if beta == 0.0 { Vec::new() } else { places(frames, steps, beta) }, steps }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -46,6 +40,39 @@ impl Frames {
             let near = [0, 1, 2, 3].map(|ahead| value(at(ahead), k));
             let cubic = near.iter().zip(weights).map(|(value, weight)| value * weight).sum::<f64>();
             *out = cubic.clamp(0.5 * near[1].min(near[2]), 2.0 * near[1].max(near[2]));
+        }
+    }
+}
+
+/// The step before each of `frames`, and how far it is towards the next.
+fn places(frames: usize, steps: usize, beta: f64) -> Vec<(usize, f64)> {
+    let place = |frame: usize| {
+        let share = 2.0 * frame as f64 / frames as f64 - 1.0;
+        let place = 0.5 * (1.0 + (share * beta.sinh()).asinh() / beta) * steps as f64;
+        let step = (place as usize).min(steps - 1);
+        (step, place - step as f64)
+    };
+    (0..frames).map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::grading::map;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_frame_has_what_a_smooth_cycle_has_between_its_steps() {
+        let (count, steps, beta) = (256, 96, 2.5);
+        let frames = Frames { gap: Vec::new(), places: places(count, steps, beta), steps };
+        let cycle = |time: f64| 2.0 + (TAU * (time + 0.1)).cos();
+        // When the step is, as a share of the cycle: `FilmCycle` and `places` stretch it alike.
+        let time = |step: usize| 0.5 * (1.0 + map(-beta, 2.0 * step as f64 / steps as f64 - 1.0));
+        let mut out = [0.0];
+        for frame in 0..count {
+            frames.mix(frame, &mut out, |step, _| cycle(time(step)));
+            let exact = cycle(frame as f64 / count as f64);
+            assert!((out[0] - exact).abs() < 1e-3, "{frame}: {} {exact}", out[0]);
         }
     }
 }
