@@ -131,13 +131,25 @@ fn one_tooth_stands_for_all_and_half_the_width_for_the_whole() {
     let whole = solve_plan(&motor, &Plan { half_width: false, ..coarse.clone() });
     assert!((one.result.alpha - all.result.alpha).abs() < 1e-9, "{} {}", one.result.alpha, all.result.alpha);
     assert!((one.result.alpha - whole.result.alpha).abs() < 1e-9, "{} {}", one.result.alpha, whole.result.alpha);
-    assert_eq!((one.recording.stored_teeth, all.recording.stored_teeth), (1, 9));
-    let nodes = one.recording.x.len();
-    for tooth in 0..9 {
-        for frame in 0..one.recording.frames {
-            let (a, b) = (one.recording.line_offset(tooth, frame), all.recording.line_offset(tooth, frame));
-            for i in 0..nodes {
-                let (x, y) = (one.recording.film_thickness[a + i], all.recording.film_thickness[b + i]);
+    same_on_every_tooth(&one, &all);
+    let trapped = Plan { trapped: true, ..coarse };
+    same_on_every_tooth(
+        &solve_plan(&motor, &trapped),
+        &solve_plan(&motor, &Plan { every_tooth: true, ..trapped.clone() }),
+    );
+}
+
+/// Of nine teeth, of which `one` has been solved or `all`.
+fn same_on_every_tooth(one: &Periodic, all: &Periodic) {
+    let (one, all) = (&one.recording, &all.recording);
+    assert_eq!((one.stored_teeth, all.stored_teeth), (1, 9));
+    for frame in 0..one.frames {
+        let (x, y) = (one.max_pressure[frame], all.max_pressure[frame]);
+        assert!((x / y - 1.0).abs() < 1e-7, "frame {frame}: {x} {y} Pa");
+        for tooth in 0..9 {
+            let (a, b) = (one.line_offset(tooth, frame), all.line_offset(tooth, frame));
+            for i in 0..one.x.len() {
+                let (x, y) = (one.film_thickness[a + i], all.film_thickness[b + i]);
                 assert!((x / y - 1.0).abs() < 1e-7, "tooth {tooth}, frame {frame}, node {i}: {x} {y}");
             }
         }

@@ -158,9 +158,25 @@ pub fn judged(value: f64, before: f64, finest: f64) -> Estimate {
     Estimate { value, error: (SPREAD * (value - before).abs()).max(CORRECTION * (value - finest).abs()) }
 }
 
+/// What is left of an approach whose last two changes had these sizes, if they go on to fall as fast; if they fall more slowly than to a
+/// share of `slowest`, `creep` times the last.
+pub fn left(before: f64, after: f64, slowest: f64, creep: f64) -> f64 {
+    let ratio = after / before;
+    if ratio < slowest { after * ratio / (1.0 - ratio) } else { creep * after }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_left_of_an_approach() {
+        // 1 − 0.4ⁿ: after the changes from n = 1 to 2 to 3, 0.4³.
+        let value = |n: i32| 1.0 - 0.4_f64.powi(n);
+        let changes = [value(2) - value(1), value(3) - value(2)];
+        assert!((left(changes[0], changes[1], 0.5, 1.0) - 0.4_f64.powi(3)).abs() < 1e-15);
+        assert_eq!((left(1e-3, 8e-4, 0.7, 10.0), left(0.0, 8e-4, 0.5, 1.0)), (8e-3, 8e-4));
+    }
 
     #[test]
     fn second_order_errors_vanish_and_the_remainder_is_bounded() {

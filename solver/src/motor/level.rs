@@ -5,7 +5,7 @@ mod startup;
 use super::ending::{MotorError, Stop, unit};
 use crate::contact::{Contact, Instant, Modes, Shape};
 use crate::control::{Cancel, Reporter};
-use crate::estimate::Mean;
+use crate::estimate::{Mean, left};
 use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, Between, FilmGrid, Start};
@@ -368,17 +368,15 @@ impl Level {
     fn trap(&mut self, stats: &mut Stats) -> Result<(), Stop> {
         let Some(trapped_film) = &mut self.trapped_film else { return Ok(()) };
         let (nx, size) = (self.nx, self.steps * self.nx);
-        for tooth in 0..self.stored {
-            let gaps = &self.film_thickness[tooth * size..(tooth + 1) * size];
+        let lines = self.film_thickness.chunks_exact(size).zip(self.line.chunks_exact_mut(size));
+        for ((gaps, lines), (film, state)) in lines.zip(self.films.iter_mut().zip(&mut self.states)) {
             let failed = |source| Stop::Failed(MotorError::Film { step: 0, source });
             let trapped = trapped_film.solve(gaps).map_err(failed)?;
             stats.film_solves += 1;
-            let (film, state) = (&mut self.films[tooth], &mut self.states[tooth]);
             state.trapped.copy_from_slice(trapped);
             state.carried.copy_from_slice(trapped);
             let (columns, rows) = (film.grid().y.unknown().len(), film.grid().x.unknown());
-            let lines = self.line[tooth * size..(tooth + 1) * size].chunks_exact_mut(nx);
-            for (step, (line, gap)) in lines.zip(gaps.chunks_exact(nx)).enumerate() {
+            for (step, (line, gap)) in lines.chunks_exact_mut(nx).zip(gaps.chunks_exact(nx)).enumerate() {
                 film.grid().line_integral(trapped, line);
                 let pressure = film.guess_mut(step);
                 for (k, (p, z)) in pressure.iter_mut().zip(trapped).enumerate() {
@@ -502,9 +500,7 @@ impl Level {
             residual = change.max(imbalance);
             self.residual = residual;
             let change = self.force_of_change(&present, &image);
-            let ratio = change / std::mem::replace(&mut last_change, change);
-            // What is left of a change that falls so fast.
-            self.drift = if ratio < 0.5 { change * ratio / (1.0 - ratio) } else { change };
+            self.drift = left(std::mem::replace(&mut last_change, change), change, 0.5, 1.0);
             report.round(round, residual, self.mean_film_load());
             if residual < plan.tolerance && self.astray() <= self.allowed(plan.accuracy) {
                 return Ok(Status::Converged);

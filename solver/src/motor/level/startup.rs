@@ -8,6 +8,7 @@
 use super::{CONTACT_SHARE, Level, step_tolerance};
 use crate::contact::{Instant, Shape};
 use crate::control::{Cancel, Reporter};
+use crate::estimate::left;
 use crate::film::stepper::FilmState;
 use crate::motor::ending::{MotorError, Stop};
 use crate::numerics::anderson::Anderson;
@@ -117,8 +118,7 @@ impl Level {
             report.round(cycle, change, self.mean_film_load());
             let [.., first, _, _, middle, _, _, last] = loads[..] else { continue };
             let (before, after) = ((middle - first).abs(), (last - middle).abs());
-            let ratio = after / before;
-            self.drift = if ratio < 0.7 { after * ratio / (1.0 - ratio) } else { CREEP * after };
+            self.drift = left(before, after, 0.7, CREEP);
             let allowed = self.allowed(accuracy);
             if self.astray() <= allowed {
                 return Ok(Status::Converged);
