@@ -155,6 +155,14 @@ fn what_is_proportional_has_the_elasticity_one() {
 }
 
 #[test]
+fn what_is_nothing_but_its_error_has_no_elasticity() {
+    let mut found = sensitivity(&presets::find("fundamental").unwrap(), &["motor.load_per_wave_n"], Fidelity::Draft);
+    assert!(found.elasticity(0, 0).is_some());
+    found.values[0].error = found.values[0].value;
+    assert!(found.elasticity(0, 0).is_none() && found.elasticity(1, 0).is_some());
+}
+
+#[test]
 fn small_uncertainties_are_linear() {
     let scene = presets::find("fundamental").unwrap();
     let given = [("film.min_spacing_nm", "1%"), ("motor.load_per_wave_n", "±0.02"), ("motor.dry_friction", "0.005")];

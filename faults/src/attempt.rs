@@ -22,11 +22,12 @@ struct Tests<'a> {
 
 /// Runs the tests without a fault, then with each, the quickest first and up to the first that fails. Those that fail without one are left
 /// out.
-pub fn all(list: &str, tests: &str) -> Result<(), Box<dyn Error>> {
+pub fn all(tree: &str, list: &str, tests: &str) -> Result<(), Box<dyn Error>> {
     let (list, tests) = (fs::read_to_string(list)?, fs::read_to_string(tests)?);
     let mut known = Vec::new();
     for path in tests.lines() {
-        let folder = folder_of(path);
+        // Tests run in the folder of their crate.
+        let folder = if path.contains("squeezefilm_solver") { format!("{tree}/solver") } else { tree.to_owned() };
         let start = Instant::now();
         if fails(path, &folder, "0", Duration::from_secs(600))? {
             eprintln!("left out, since it fails without a fault: {path}");
@@ -60,12 +61,6 @@ pub fn all(list: &str, tests: &str) -> Result<(), Box<dyn Error>> {
     let missed = missed.into_inner();
     println!("{} of {} noticed", faults.len() - missed, faults.len());
     Ok(())
-}
-
-/// Tests run in the folder of their crate, which is above that of what is built.
-fn folder_of(path: &str) -> String {
-    let tree = path.rsplit_once("/target/").map_or(".", |(tree, _)| tree);
-    if path.contains("squeezefilm_solver") { format!("{tree}/solver") } else { tree.to_owned() }
 }
 
 /// Whether the tests fail, or take longer than `limit`.

@@ -3,8 +3,8 @@
 //! for each; here all are built into one program at once, and the variable `FAULT` says which of them is there.
 //!
 //! ```text
-//! faults plant SHARE TREE LEFT_OUT FILE…    plants a random share of all faults in files of TREE, but for the numbers in LEFT_OUT; prints them
-//! faults try LIST TESTS                     runs the tests, one executable a line, with each fault of the list; prints what became of it
+//! faults plant SHARE SEED TREE LEFT_OUT FILE…    plants a random share of all faults in files of TREE, but for the numbers in LEFT_OUT; prints them
+//! faults try TREE LIST TESTS                     runs the tests, one executable a line, with each fault of the list; prints what became of it
 //! ```
 //!
 //! `faults/run` does all of it.
@@ -17,8 +17,10 @@ use std::error::Error;
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["plant", share, tree, left_out, files @ ..] => plant::plant(share.parse()?, tree, left_out, files),
-        ["try", list, tests] => attempt::all(list, tests),
-        _ => Err("usage: faults plant SHARE TREE LEFT_OUT FILE… | faults try LIST TESTS".into()),
+        ["plant", share, seed, tree, left_out, files @ ..] => {
+            plant::plant(share.parse()?, seed.parse()?, tree, left_out, files)
+        }
+        ["try", tree, list, tests] => attempt::all(tree, list, tests),
+        _ => Err("usage: faults plant SHARE SEED TREE LEFT_OUT FILE… | faults try TREE LIST TESTS".into()),
     }
 }

@@ -10,7 +10,7 @@ use syn::visit_mut::{self, VisitMut};
 use syn::{BinOp, Block, Expr, ReturnType, Signature, Type, UnOp};
 
 /// Rewrites `files` of `tree`, and prints a line for each fault: number, place, function, what is changed.
-pub fn plant(share: f64, tree: &str, left_out: &str, files: &[&str]) -> Result<(), Box<dyn Error>> {
+pub fn plant(share: f64, seed: u64, tree: &str, left_out: &str, files: &[&str]) -> Result<(), Box<dyn Error>> {
     let left_out = fs::read_to_string(left_out)?.split_whitespace().map(str::parse).collect::<Result<_, _>>()?;
     let mut planter = Planter {
         file: String::new(),
@@ -19,7 +19,7 @@ pub fn plant(share: f64, tree: &str, left_out: &str, files: &[&str]) -> Result<(
         places: 0,
         share,
         left_out,
-        random: 7,
+        random: seed,
     };
     for file in files {
         let path = format!("{tree}/{file}");
