@@ -79,8 +79,10 @@ pub enum FilmError {
 /// the error left is about the square.
 pub const NEWTON_TOLERANCE: f64 = 1e-7;
 const NEWTON_LIMIT: u32 = 40;
-/// Iterations of the damped method, and the largest relative change of a pressure that it accepts.
+/// Iterations of the damped method, those of them in which the damping is lowered fast, and the largest relative change of a pressure that
+/// it accepts.
 const CAREFUL_LIMIT: u32 = 400;
+const HASTY: u32 = 60;
 /// Change of a pressure that is round-off after so many iterations: gas that slip lets through everywhere is known no better.
 const ROUND_OFF: f64 = 1e-6;
 const LARGEST_CAREFUL_CHANGE: f64 = 0.8;
@@ -579,7 +581,7 @@ impl Film {
         }
         let mut damping = if careful { 1.0 } else { 0.0 };
         let limit = if careful { CAREFUL_LIMIT } else { NEWTON_LIMIT };
-        for _ in 0..limit {
+        for iteration in 0..limit {
             with_columns!(columns, B => vectorised(
                 #[inline(always)]
                 || self.assemble::<L, B>(law, h, speed, dt, damping)
@@ -606,7 +608,9 @@ impl Film {
             if sum.is_nan() {
                 break;
             }
-            damping = if damping < 1e-6 { 0.0 } else { 0.25 * damping };
+            // Lowered fast it may come back to where it was again and again: then it is lowered slowly.
+            let slower = if iteration < HASTY { 0.25 } else { 0.7 };
+            damping = if damping < 1e-6 || settled && damping < 1.0 { 0.0 } else { slower * damping };
         }
         let change = self.largest_change();
         if careful && damping == 0.0 && change < ROUND_OFF {
