@@ -1,4 +1,4 @@
-//! Faults planted in a copy of the source, to see which of them the tests notice. They are those of cargo-mutants: an operator in
+//! Faults planted in a copy of the source, to see which of them the tests notice. They are of the kinds of cargo-mutants: an operator in
 //! place of another, a sign or a negation left out, a function that does nothing but return a constant. cargo-mutants builds the tests anew
 //! for each; here all are built into one program at once, and the variable `FAULT` says which of them is there.
 //!

@@ -608,7 +608,8 @@ impl Film {
             if sum.is_nan() {
                 break;
             }
-            // Lowered fast it may come back to where it was again and again: then it is lowered slowly.
+            // Lowered fast it may come back to where it was again and again: then it is lowered slowly. Where no pressure moves any more it is
+            // taken away, to see whether that is the solution.
             let slower = if iteration < HASTY { 0.25 } else { 0.7 };
             damping = if damping < 1e-6 || settled && damping < 1.0 { 0.0 } else { slower * damping };
         }
