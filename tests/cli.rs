@@ -284,6 +284,33 @@ fn forces_of_a_strip_are_named_per_metre_and_not_compared_with_newtons() {
 }
 
 #[test]
+fn a_plate_that_is_dropped_says_where_it_will_float() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("drop");
+    let drop =
+        ["startup", "floating-disc", "--fidelity=draft", "--cycles=3", "--figures=svg", "--out", to.to_str().unwrap()];
+    let output = run(&drop);
+    let floating = &solved(&["floating-disc"])["floating"];
+    let gap = floating["mean_gap_um"].as_f64().unwrap();
+    let result: Value = serde_json::from_slice(&fs::read(to.join("startup.json")).unwrap()).unwrap();
+    for name in ["mean_gap_um", "mean_gap_error_um"] {
+        assert!((result[name].as_f64().unwrap() / floating[name].as_f64().unwrap() - 1.0).abs() < 1e-6, "{name}");
+    }
+    // From twice the height, at rest.
+    let rows = result["rows"].as_array().unwrap();
+    let number = |row: usize, name: &str| rows[row][name].as_f64().unwrap();
+    assert_eq!((rows.len(), number(0, "speed_mm_per_s")), (4, 0.0));
+    assert!((number(0, "height_um") / gap - 2.0).abs() < 1e-6 && number(3, "height_um") < number(0, "height_um"));
+    assert_eq!((result["converged"].as_bool(), rows[3]["rests"].as_bool()), (Some(false), Some(false)));
+    let text = out(&output);
+    assert!(text.contains("STILL MOVING after 3 cycles"), "{text}");
+    assert!(text.contains(&format!("floats at a mean gap of {}", &gap.to_string()[..4])), "{text}");
+    let table = fs::read_to_string(to.join("startup.csv")).unwrap();
+    assert_eq!(table.lines().count(), 5, "{table}");
+    assert!(fs::read_to_string(to.join("startup.svg")).unwrap().contains("height"));
+}
+
+#[test]
 fn bad_input_is_named_and_exits_with_2() {
     let motor = |change: &'static str| ["solve", "fundamental", "--set", change];
     refused(&motor("film.min_spacing_nm=3"), 2, &["film.min_spacing_nm", "= 3", "5 to 10000 nm"]);

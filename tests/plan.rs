@@ -5,12 +5,17 @@
 
 use rayon::prelude::*;
 use squeezefilm::control::Cancel;
+use squeezefilm::dimensionless::Dimensionless;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor;
 use squeezefilm::plan::{Decision, Plan, ROTOR_EFFECT};
-use squeezefilm::problem::{Flow, Motor, Numerics, Problem, RotorCompliance, Scenario, Teeth, Time, Wedge, Width};
+use squeezefilm::plate;
+use squeezefilm::problem::{
+    Flow, Motor, Numerics, Plate, Problem, RotorCompliance, Scenario, Teeth, Time, Wedge, Width,
+};
 use squeezefilm::scene::presets;
 use squeezefilm::solution::Status;
+use std::f64::consts::TAU;
 
 type Changes = &'static [(&'static str, &'static str)];
 
@@ -36,6 +41,15 @@ const WHOLE: Numerics = Numerics {
     flow: Flow::Plane,
     time: Time::March,
 };
+
+fn plate_with(changes: &[(&str, &str)]) -> Plate {
+    let mut scene = presets::find("plate-crossover").unwrap();
+    scene.set_all(changes.iter().copied()).unwrap();
+    match Problem::try_from(&scene).unwrap().scenario {
+        Scenario::Plate(plate) => plate,
+        Scenario::Motor(_) => panic!("a plate"),
+    }
+}
 
 fn decision<'a>(plan: &'a Plan, key: &str) -> &'a Decision {
     plan.decisions.iter().find(|decision| decision.key() == Some(key)).unwrap()
@@ -632,6 +646,67 @@ fn the_plan_leaves_out_only_what_is_below_its_share() {
             }
         }
     }
+}
+
+#[test]
+fn bounds_are_those_of_their_formulas() {
+    let effect = |motor: &Motor, key: &str, numerics: Numerics| {
+        decision(&Plan::motor(motor, Fidelity::Standard, &numerics).unwrap(), key).effect
+    };
+    let same = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+
+    // Trapped gas: leaks at the ends of a tooth and at its sides, and twice the crown's share of the gap at the ends.
+    let [flat, crowned] =
+        [&[][..], &[("stator.tooth_radius_m", "3")]].map(|changes| motor_with("fundamental", changes));
+    let trapped = |motor| effect(motor, "numerics.time", Numerics { time: Time::Trapped, ..Numerics::default() });
+    let layer = Dimensionless::of_motor(&flat).boundary_layer;
+    let (length, width) = (flat.tooth_width, flat.contact_width);
+    let (amplitude, spacing) = (flat.normal_amplitude, flat.min_spacing);
+    let crown = length * length / (8.0 * 3.0);
+    let active = (8.0 * 3.0 * (amplitude + spacing)).sqrt().min(length);
+    let leaks =
+        |crown: f64, ends: f64| 1.2 * (1.0 + (amplitude + crown) / spacing) * layer * (1.0 / ends + 1.0 / width);
+    let uneven = crown / (crown + amplitude + spacing) * width / length;
+    same(trapped(&crowned) - trapped(&flat), leaks(crown, active) - leaks(0.0, length) + 2.0 * uneven);
+
+    // The wedge term, where the wave opens the gap by less than it is anyway.
+    let open = motor_with("fundamental", &[("film.min_spacing_nm", "4000")]);
+    let numbers = Dimensionless::of_motor(&open);
+    let squeezed = TAU * open.tooth_width / open.wavelength() * (1.0 + open.min_spacing / open.normal_amplitude);
+    let shifted = (0.5 * open.tangential_amplitude / numbers.boundary_layer).powi(2) * width / length;
+    let left_out = effect(&open, "numerics.wedge", Numerics { wedge: Wedge::Off, ..Numerics::default() });
+    assert!(squeezed > 1.0 && open.min_spacing > open.normal_amplitude);
+    same(left_out, 2.0 * (numbers.bearing_to_squeeze * squeezed + shifted));
+}
+
+#[test]
+fn a_plate_has_the_nodes_that_are_asked_for() {
+    let grids = |changes: &[(&str, &str)], turned: bool| -> Vec<[usize; 2]> {
+        let numerics = Numerics { film_nodes_along: Some(56), film_nodes_across: Some(14), ..Numerics::default() };
+        let plan = Plan::plate(&plate_with(changes), Fidelity::Standard, &numerics);
+        assert_eq!(plan.turned, turned, "{changes:?}");
+        plan.grids.iter().map(|grid| [grid.along, grid.across]).collect()
+    };
+    // Half of them, since half the plate is solved. Across a plate whose edges reach far inwards there is a polynomial, the same on all grids.
+    assert_eq!(grids(&[("plate.width_mm", "1")], false), [[7, 7], [14, 7], [28, 7]]);
+    // Of a plate that is wide in comparison, the polynomial goes along it.
+    assert_eq!(grids(&[("plate.width_mm", "30")], true), [[2, 28], [4, 28], [8, 28]]);
+    // Of a large plate neither side has one.
+    let large = [("plate.length_mm", "100"), ("plate.width_mm", "100")];
+    assert_eq!(grids(&large, false), [[7, 2], [14, 4], [28, 8]]);
+    // A grid that nobody chose is that of the accuracy.
+    let spec = Fidelity::Standard.spec();
+    let square = Plan::plate(&plate_with(&[("plate.width_mm", "1")]), Fidelity::Standard, &Numerics::default());
+    assert!(square.grids.iter().all(|grid| grid.across == spec.across));
+}
+
+#[test]
+fn a_plate_that_nearly_touches_is_recorded_between_its_steps() {
+    let plate = plate_with(&[("plate.mean_gap_um", "0.5"), ("plate.amplitude_um", "0.4999")]);
+    let plan = Plan::plate(&plate, Fidelity::Draft, &Numerics::default());
+    assert!(plan.frames_per_step > 1, "{}", plan.frames_per_step);
+    let found = plate::periodic(&plate, &plan, &mut (), &Cancel::new()).unwrap();
+    assert_eq!(found.recording.frames, plan.frames_per_step * found.stats.steps_per_cycle);
 }
 
 #[test]

@@ -202,6 +202,13 @@ impl VisitMut for Planter {
         }
     }
 
+    // Room that is made beforehand changes no result.
+    fn visit_expr_call_mut(&mut self, call: &mut syn::ExprCall) {
+        if !call.func.to_token_stream().to_string().ends_with("with_capacity") {
+            visit_mut::visit_expr_call_mut(self, call);
+        }
+    }
+
     // What has to be known when it is compiled.
     fn visit_item_const_mut(&mut self, _: &mut syn::ItemConst) {}
     fn visit_item_static_mut(&mut self, _: &mut syn::ItemStatic) {}

@@ -183,26 +183,27 @@ fn planes(rgb: &[u8], [across, down]: [usize; 2], [width, height]: [usize; 2]) -
         [rgb[at], rgb[at + 1], rgb[at + 2]].map(f32::from)
     };
     let luma = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    // Not `round`, a call to the C library for each sample on x86-64.
+    let nearest = |positive: f32| (positive + 0.5) as u8;
     let mut planes = [vec![0; width * height], vec![0; width * height / 4], vec![0; width * height / 4]];
-    planes[0].par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, sample) in row.iter_mut().enumerate() {
-            *sample = (16.0 + 219.0 / 255.0 * luma(pixel(x, y))).round() as u8;
-        }
-    });
-    let [_, blue, red] = &mut planes;
-    let rows = blue.par_chunks_mut(width / 2).zip(red.par_chunks_mut(width / 2)).enumerate();
-    rows.for_each(|(y, (blue, red))| {
-        for x in 0..width / 2 {
-            let mut mean = [0.0; 3];
-            for (column, weight) in [((2 * x).saturating_sub(1), 0.125), (2 * x, 0.25), (2 * x + 1, 0.125)] {
-                for row in [2 * y, 2 * y + 1] {
-                    let colour = pixel(column, row);
-                    (0..3).for_each(|k| mean[k] += weight * colour[k]);
-                }
+    let [grey, blue, red] = &mut planes;
+    let chroma = blue.par_chunks_mut(width / 2).zip(red.par_chunks_mut(width / 2));
+    grey.par_chunks_mut(2 * width).zip(chroma).enumerate().for_each(|(pair, (grey, (blue, red)))| {
+        // Of both rows.
+        let mut sums = vec![[0.0; 3]; width];
+        for (row, grey) in grey.chunks_mut(width).enumerate() {
+            for (x, (sample, sum)) in grey.iter_mut().zip(&mut sums).enumerate() {
+                let colour = pixel(x, 2 * pair + row);
+                *sample = nearest(16.0 + 219.0 / 255.0 * luma(colour));
+                (0..3).for_each(|k| sum[k] += colour[k]);
             }
-            let grey = luma(mean);
-            blue[x] = (128.0 + 224.0 / 255.0 * (mean[2] - grey) / 1.8556).round() as u8;
-            red[x] = (128.0 + 224.0 / 255.0 * (mean[0] - grey) / 1.5748).round() as u8;
+        }
+        for (x, (blue, red)) in blue.iter_mut().zip(red).enumerate() {
+            let near = [(2 * x).saturating_sub(1), 2 * x, 2 * x + 1].map(|column| sums[column]);
+            let mean: [f32; 3] = std::array::from_fn(|k| (near[0][k] + 2.0 * near[1][k] + near[2][k]) / 8.0);
+            let luma = luma(mean);
+            *blue = nearest(128.0 + 224.0 / 255.0 * (mean[2] - luma) / 1.8556);
+            *red = nearest(128.0 + 224.0 / 255.0 * (mean[0] - luma) / 1.5748);
         }
     });
     planes

@@ -128,6 +128,17 @@ mod tests {
     }
 
     #[test]
+    fn a_line_less_than_three_times_as_long_as_its_value_has_none() {
+        let need = text::width("12", SIZE) + 4.0;
+        for (times, values) in [(2.9, 0), (3.2, 1)] {
+            let line = vec![[0.0, 10.0], [times * need, 10.0]];
+            let mut svg = Svg::default();
+            draw(&mut svg, &[Isoline::new(line, "12", Pen::solid(Colour::BLACK, 0.7))]);
+            assert_eq!(svg.body.matches(">12<").count(), values, "{times}");
+        }
+    }
+
+    #[test]
     fn there_is_no_value_where_lines_are_close() {
         let mut svg = Svg::default();
         draw(&mut svg, &[level(10.0), level(12.0)]);
