@@ -386,3 +386,18 @@ fn the_command_writes_what_it_prints_and_a_preset_that_solves() {
     let said = String::from_utf8_lossy(&missing.stderr).into_owned();
     assert!(missing.status.code() == Some(2) && said.contains("nowhere.csv: cannot be read"), "{said}");
 }
+
+#[test]
+fn errors_that_are_given_are_those_of_the_measurements() {
+    let measured =
+        table(&scene("fundamental", &[]), "film.min_spacing_nm,alpha,film_load_n\n200,0.25,0.6\n100,-0.5,1.2\n");
+    assert!(!measured.errors_known);
+    // The last that applies counts.
+    let sizes = ["4%", "film_load_n=0.03"].map(|size| size.parse::<ErrorSize>().unwrap());
+    let given = measured.with_errors(&sizes).unwrap();
+    let errors: Vec<f64> = given.measurements.iter().map(|one| one.error).collect();
+    assert!(given.errors_known);
+    for (found, expected) in errors.iter().zip([0.01, 0.03, 0.02, 0.03]) {
+        assert!((found - expected).abs() < 1e-12, "{errors:?}");
+    }
+}

@@ -3,7 +3,7 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use squeezefilm::budget::What;
+use squeezefilm::budget::Purpose;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::export::files::{self, Control, Solved};
 use squeezefilm::export::json::Summary;
@@ -193,7 +193,7 @@ fn what_needs_too_much_is_refused_before_it_is_allocated() {
     assert!(allocated.bytes_max < 1_000_000, "{allocated:?}");
     let Some(SolveError::Memory(excess)) = told else { panic!("{told:?}") };
     assert_eq!(check(&problem, &settings), Err(SolveError::Memory(excess)));
-    let What::Film { along, across, teeth, .. } = excess.need.what else { panic!("{excess:?}") };
+    let Purpose::Film { along, across, teeth, .. } = excess.need.what else { panic!("{excess:?}") };
     assert_eq!((along, across, teeth), (2001, 501, 64));
     assert!(excess.need.bytes > excess.allowed && excess.allowed == memory::allowed(), "{excess:?}");
     let message = excess.to_string();

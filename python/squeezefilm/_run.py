@@ -108,6 +108,8 @@ class Run:
         mean_load_ratio_error: float | None
         load_ratio_min: float | None
         load_ratio_max: float | None
+        load_ratio_min_error: float | None
+        load_ratio_max_error: float | None
         squeeze_number: float | None
         bearing_number: float | None
         knudsen_number: float | None

@@ -22,14 +22,14 @@ const LOOK: Duration = Duration::from_millis(50);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Need {
     /// For what.
-    pub what: What,
+    pub what: Purpose,
     /// Bytes.
     pub bytes: u64,
 }
 
 /// What memory is needed for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
+pub enum Purpose {
     /// The film.
     Film {
         /// Film nodes of the finest grid along a tooth or plate …
@@ -61,7 +61,7 @@ impl fmt::Display for Excess {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (bytes, allowed) = (size(self.need.bytes), size(self.allowed));
         match self.need.what {
-            What::Film { along, across, steps, teeth } => {
+            Purpose::Film { along, across, steps, teeth } => {
                 let teeth = if teeth > 1 { format!(" on {teeth} teeth") } else { String::new() };
                 write!(
                     f,
@@ -69,7 +69,7 @@ impl fmt::Display for Excess {
                      numerics.film_nodes_along, numerics.film_nodes_across or numerics.steps_per_cycle, or allow more with --memory"
                 )
             }
-            What::Ring { elements } => write!(
+            Purpose::Ring { elements } => write!(
                 f,
                 "rotor.model = \"ring\": {elements} elements of its section need {bytes} of memory: allowed {allowed}; allow more with \
                  --memory, or take another rotor.model"
@@ -196,7 +196,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     fn of(bytes: u64) -> Need {
-        Need { what: What::Ring { elements: 3 }, bytes }
+        Need { what: Purpose::Ring { elements: 3 }, bytes }
     }
 
     #[test]

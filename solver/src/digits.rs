@@ -79,7 +79,13 @@ pub fn with_error(value: f64, error: f64) -> String {
         return format!("{value:.3e} ± {error:.1e}");
     }
     let places = decimals(error, 2);
-    format!("{value:.places$} ± {error:.places$}")
+    let value = format!("{value:.places$}");
+    format!("{} ± {error:.places$}", if is_zero(&value) { value.trim_start_matches('-') } else { &value })
+}
+
+/// Whether a number that was written has no digit but zeros.
+fn is_zero(text: &str) -> bool {
+    !text.bytes().any(|digit| matches!(digit, b'1'..=b'9'))
 }
 
 /// What stands for a number that is not one.
@@ -97,7 +103,7 @@ fn decimals(size: f64, digits: usize) -> usize {
 /// With a true minus sign; "-0.00" is a zero.
 pub fn signed(text: String) -> String {
     match text.strip_prefix('-') {
-        Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
+        Some(size) if !is_zero(size) => format!("−{size}"),
         Some(zero) => zero.to_owned(),
         None => text,
     }
@@ -121,6 +127,7 @@ mod tests {
             (33.556824, 3.6e-3, "33.5568 ± 0.0036"),
             (12345.6, 678.0, "12346 ± 678"),
             (0.0, 0.5, "0.00 ± 0.50"),
+            (-1e-13, 1.2e-5, "(0.0 ± 1.2) × 10^-5"),
             (0.5, 0.0, "0.500000"),
             (1.2345e-9, 1.2e-11, "(1.234 ± 0.012) × 10^-9"),
             (0.25, f64::INFINITY, "0.2500 (error not estimated)"),

@@ -3,7 +3,7 @@
 //! An estimate counts the arrays that grow with the grid, family by family, where they are greatest together.
 //! `tests/memory_needs.rs` compares it with what is allocated.
 
-use crate::budget::What;
+use crate::budget::Purpose;
 pub use crate::budget::{Excess, Need, Taken, allow, allowed, check, size, take};
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor, Plate};
@@ -110,7 +110,7 @@ fn level(motor: &Motor, plan: &Plan, grid: &Grid) -> u64 {
 }
 
 fn need(numbers: u64, (along, across, steps, teeth): (usize, usize, usize, usize)) -> Need {
-    Need { what: What::Film { along, across, steps, teeth }, bytes: numbers * size_of::<f64>() as u64 }
+    Need { what: Purpose::Film { along, across, steps, teeth }, bytes: numbers * size_of::<f64>() as u64 }
 }
 
 fn of_motor(motor: &Motor, plan: &Plan, numbers: u64) -> Need {

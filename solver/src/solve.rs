@@ -330,7 +330,7 @@ fn model(plan: &Plan, teeth_solved: usize) -> Model {
 }
 
 /// α of the state in which teeth touch, if the one `found` floats, or nearly, and the motor has both. Looked for where fields are kept,
-/// which a sweep does not, more than a draft is asked for, and no budget of time is set; if `found` is less certain, it is replaced.
+/// which a sweep does not, and no budget of time is set; if `found` is less certain, it is replaced.
 fn touching(
     found: &mut motor::Periodic,
     motor: &Motor,
@@ -339,7 +339,7 @@ fn touching(
     cancel: &Cancel,
 ) -> Option<Estimate> {
     let floats = |alpha: f64| alpha > motor::NEARLY_FLOATS;
-    let asked = plan.maps && plan.target_error < 1e-2 && !cancel.has_budget();
+    let asked = plan.maps && !cancel.has_budget();
     let astray = matches!(found.status, Status::NotConverged { .. });
     if !asked || !astray && !found.alphas.iter().any(|alpha| floats(*alpha)) {
         return None;

@@ -88,7 +88,9 @@ numbers! {
     FilmLoad "film_load_n" "film load" "N" Any;
     FilmLoadError "film_load_error_n" "error of the film load" "N" Any;
     FilmLoadMin "film_load_min_n" "least film load" "N" Any;
+    FilmLoadMinError "film_load_min_error_n" "error of the least film load" "N" Any;
     FilmLoadMax "film_load_max_n" "greatest film load" "N" Any;
+    FilmLoadMaxError "film_load_max_error_n" "error of the greatest film load" "N" Any;
     ContactLoad "contact_load_n" "contact load" "N" Motor;
     StallTorque "stall_torque_nm" "stall torque" "N·m" Motor;
     StallTorqueError "stall_torque_error_nm" "error of the stall torque" "N·m" Motor;
@@ -101,15 +103,20 @@ numbers! {
     MaxTorque "max_torque_nm" "maximum operating torque (bound)" "N·m" Motor;
     MaxTorqueError "max_torque_error_nm" "error of the bound of the torque" "N·m" Motor;
     TeethInContact "teeth_in_contact" "teeth in contact" "" Motor;
+    TeethInContactError "teeth_in_contact_error" "error of the teeth in contact" "" Motor;
     MeanGap "mean_gap_um" "floating mean gap" "µm" Plate;
     MeanGapError "mean_gap_error_um" "error of the mean gap" "µm" Plate;
     NaturalFrequency "natural_frequency_hz" "natural frequency" "Hz" Plate;
     LoadRatio "mean_load_ratio" "mean load ratio" "" Plate;
     LoadRatioError "mean_load_ratio_error" "error of the load ratio" "" Plate;
     LoadRatioMin "load_ratio_min" "least load ratio" "" Plate;
+    LoadRatioMinError "load_ratio_min_error" "error of the least load ratio" "" Plate;
     LoadRatioMax "load_ratio_max" "greatest load ratio" "" Plate;
+    LoadRatioMaxError "load_ratio_max_error" "error of the greatest load ratio" "" Plate;
     MinGap "min_gap_nm" "least film thickness" "nm" Any;
+    MinGapError "min_gap_error_nm" "error of the least film thickness" "nm" Any;
     MaxPressure "max_pressure_kpa" "highest pressure" "kPa" Any;
+    MaxPressureError "max_pressure_error_kpa" "error of the highest pressure" "kPa" Any;
     SqueezeNumber "squeeze_number" "squeeze number σ" "" Any;
     BearingNumber "bearing_number" "bearing number Λ" "" Any;
     KnudsenNumber "knudsen_number" "Knudsen number Kn" "" Any;
@@ -173,6 +180,13 @@ impl Quantity {
             MaxTorque => Some(MaxTorqueError),
             LoadRatio => Some(LoadRatioError),
             MeanGap => Some(MeanGapError),
+            FilmLoadMin => Some(FilmLoadMinError),
+            FilmLoadMax => Some(FilmLoadMaxError),
+            TeethInContact => Some(TeethInContactError),
+            LoadRatioMin => Some(LoadRatioMinError),
+            LoadRatioMax => Some(LoadRatioMaxError),
+            MinGap => Some(MinGapError),
+            MaxPressure => Some(MaxPressureError),
             _ => None,
         }
     }
@@ -236,8 +250,18 @@ impl Numbers {
         self.set(MaxTorque, result.max_torque);
         self.set(MaxTorqueError, result.alpha_error * dry_torque);
         self.set(TeethInContact, result.teeth_in_contact);
+        self.set(TeethInContactError, result.teeth_in_contact_error);
+        self.set(MinGapError, result.min_gap_error * 1e9);
+        self.range(result.film_load_range_error, result.max_pressure_error);
         self.set(MinGap, result.min_gap * 1e9);
         self.set(MaxPressure, result.max_pressure * 1e-3);
+    }
+
+    /// Errors of the least and greatest film load \[N or N/m\] and of the highest pressure \[Pa\].
+    fn range(&mut self, [least, most]: [f64; 2], highest: f64) {
+        self.set(FilmLoadMinError, least);
+        self.set(FilmLoadMaxError, most);
+        self.set(MaxPressureError, highest * 1e-3);
     }
 
     fn performance(&mut self, found: &Performance, rpm: impl Fn(f64) -> f64) {
@@ -264,7 +288,12 @@ impl Numbers {
         self.set(LoadRatioError, ratio(result.film_load_error));
         self.set(LoadRatioMin, ratio(result.film_load_min));
         self.set(LoadRatioMax, ratio(result.film_load_max));
+        self.range(result.film_load_range_error, result.max_pressure_error);
+        self.set(LoadRatioMinError, ratio(result.film_load_range_error[0]));
+        self.set(LoadRatioMaxError, ratio(result.film_load_range_error[1]));
         self.set(MinGap, result.min_gap * 1e9);
+        // A mean gap that is given is exact.
+        self.set(MinGapError, result.floating.map_or(0.0, |floating| floating.mean_gap.error * 1e9));
         self.set(MaxPressure, result.max_pressure * 1e-3);
         if let Some(floating) = result.floating {
             self.set(MeanGap, floating.mean_gap.value * 1e6);

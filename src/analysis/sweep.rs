@@ -49,6 +49,14 @@ pub struct Row {
     pub outside: Vec<&'static str>,
 }
 
+/// The median of a quantity's stated errors over the rows that converged; 0 where it has none.
+pub fn typical_error(rows: &[Row], quantity: Quantity) -> f64 {
+    let sound = rows.iter().filter(|row| row.status == RunStatus::Converged);
+    let mut errors: Vec<f64> = sound.filter_map(|row| row.numbers.get(quantity.error()?)).collect();
+    errors.sort_by(f64::total_cmp);
+    errors.get(errors.len() / 2).copied().unwrap_or(0.0)
+}
+
 /// A sweep, checked: at least one of its points is a scene that can be solved.
 #[derive(Clone, Debug)]
 pub struct Sweep {

@@ -15,7 +15,7 @@ mod measure;
 
 pub use candidates::{Candidate, Family, candidates, without_grid};
 pub use curve::{Point, Target, Tradeoff};
-pub use measure::{Effort, Run, measure};
+pub use measure::{Effort, MeasuredSetting, measure};
 
 #[cfg(test)]
 mod tests {
@@ -28,17 +28,17 @@ mod tests {
     use crate::solve::{Method, Settings};
     use std::cell::Cell;
 
-    fn run(name: &str, method: Method, alpha: f64, stated: f64, times: &[f64]) -> Run {
+    fn run(name: &str, method: Method, alpha: f64, stated: f64, times: &[f64]) -> MeasuredSetting {
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, alpha);
         numbers.set(Quantity::AlphaError, stated);
         let settings = Settings { method, ..Settings::default() };
         let numerics = Numerics::default();
         let candidate = Candidate::new(name.to_owned(), Family::Grid, settings, numerics, &numerics);
-        Run { candidate, status: RunStatus::Converged, numbers, grid: (1, 1), times: times.to_vec() }
+        MeasuredSetting { candidate, status: RunStatus::Converged, numbers, grid: (1, 1), times: times.to_vec() }
     }
 
-    fn synthetic() -> Vec<Run> {
+    fn synthetic() -> Vec<MeasuredSetting> {
         let mut limit = run("limit", Method::Auto, 0.5, 1e-9, &[1e-9]);
         limit.status = RunStatus::NotConverged;
         vec![

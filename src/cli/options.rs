@@ -94,6 +94,8 @@ pub(super) struct SolveOptions {
     pub(super) accuracy: Option<Fidelity>,
 
     /// Time for each solve: 20ms, 1.5s or 2min; then the best so far is the result
+    ///
+    /// Without an accuracy, that of `reference` is aimed at.
     #[arg(long, value_name = "TIME", value_parser = time)]
     pub(super) budget: Option<Duration>,
 
@@ -130,6 +132,7 @@ impl SolveOptions {
         if let (Method::Paper, Some(level)) = (method, chosen) {
             terminal::warning(&format!("{} has no effect: method paper has its own meshes", level.option()));
         }
+        let fidelity = if self.budget.is_some() { Fidelity::Reference } else { fidelity };
         Ok(Settings { fidelity: chosen.unwrap_or(fidelity), method, ..Settings::default() })
     }
 }

@@ -171,7 +171,11 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
     ]);
     columns.row([
         "",
-        &format!("{} … {}", shown(or_nan(summary.load_ratio_min)), shown(or_nan(summary.load_ratio_max))),
+        &format!(
+            "{} … {}",
+            with_error(or_nan(summary.load_ratio_min), or_nan(summary.load_ratio_min_error)),
+            with_error(or_nan(summary.load_ratio_max), or_nan(summary.load_ratio_max_error))
+        ),
         "least and greatest in the cycle",
     ]);
     if let Some(exact) = &summary.exact {

@@ -46,7 +46,8 @@ instead; the same command goes on from there, to the same result. With --part
 /// Solves a preset over values of one key, of two or of three
 ///
 /// All cores are used, and the results do not depend on how many there are. A point that fails, does not converge, or breaks a
-/// rule between keys is marked, and the others go on.
+/// rule between keys is marked, and the others go on. Of a motor with two periodic states, one in which its rotor floats and one in
+/// which teeth touch, a point has the one that is found first; solve looks for both.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{FILES}\n\n{EXAMPLES}"))]
 pub(super) struct Arguments {
@@ -316,7 +317,7 @@ fn number(row: &Row, quantity: Quantity) -> String {
         Some(_) if quantity == Quantity::LoadRatio && row.numbers.get(Quantity::MeanGap).is_some() => {
             significant(value, 4)
         }
-        Some(error) if !matches!(quantity, Quantity::FilmLoad) => {
+        Some(error) if !matches!(quantity, Quantity::FilmLoad) && row.numbers.get(error) != Some(0.0) => {
             with_error(value, row.numbers.get(error).unwrap_or(f64::INFINITY))
         }
         _ if quantity == Quantity::FilmSteps => value.to_string(),

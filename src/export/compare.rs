@@ -5,7 +5,7 @@
 use super::animation::{AnimationError, Movie, Options};
 use super::csv::words as csv_words;
 use super::figure::{Figure, Provenance};
-use super::figures::compare::{self as figures, MotorRun, PlateRun, Run};
+use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
 use super::json::{beside_limit, status_name};
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
@@ -193,10 +193,10 @@ pub fn write_parameters_csv(runs: &[ComparedRun], all: bool, out: &mut dyn Write
 }
 
 /// Runs that have fields and whose scene is a motor, or a plate, as `of` says.
-fn runs_of<'a, S>(runs: &'a [ComparedRun], of: impl Fn(&'a Scenario) -> Option<&'a S>) -> Vec<Run<'a, S>> {
+fn runs_of<'a, S>(runs: &'a [ComparedRun], of: impl Fn(&'a Scenario) -> Option<&'a S>) -> Vec<DrawnRun<'a, S>> {
     let drawn = |(i, run): (usize, &'a ComparedRun)| {
         let recording = &run.solved.as_ref().ok().filter(|solution| solution.recording.frames > 0)?.recording;
-        Some(Run { name: &run.label, scene: of(&run.problem.scenario)?, recording, style: figures::style(i) })
+        Some(DrawnRun { name: &run.label, scene: of(&run.problem.scenario)?, recording, style: figures::style(i) })
     };
     runs.iter().enumerate().filter_map(drawn).collect()
 }
@@ -291,10 +291,10 @@ pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
     let text = match (cell.value, cell.error) {
         (None, _) => return String::new(),
         (Some(value), _) if row.quantity.is_count() => format!("{value}"),
-        (Some(value), Some(error)) => with_error(value, error),
+        (Some(value), Some(error)) if error > 0.0 => with_error(value, error),
         // It has an estimate, but not here: that is told.
         (Some(value), None) if row.quantity.error().is_some() => with_error(value, f64::INFINITY),
-        (Some(value), None) => significant(value, 4),
+        (Some(value), _) => significant(value, 4),
     };
     if row.unit.is_none() { format!("{text} {}", cell.unit) } else { text }
 }

@@ -5,7 +5,7 @@ use super::figure::{
     Axis, Colour, Colours, Figure, Grid, Legend, Line, Map, Mark, Marker, Panel, Points, Provenance, Range, Shading,
     Shape, Style,
 };
-use crate::analysis::fit::{Fitted, Measured, Optimum, What};
+use crate::analysis::fit::{Fitted, Measured, Observable, Optimum};
 use crate::estimate::Estimate;
 use crate::problem::Problem;
 use serde::Serialize;
@@ -119,8 +119,8 @@ pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>
             condition: changes.collect::<Vec<_>>().join(" "),
             quantity: one.what.name(),
             rotor_speed_rpm: match one.what {
-                What::Torque { speed_rpm } => Some(speed_rpm),
-                What::Number(_) => None,
+                Observable::Torque { speed_rpm } => Some(speed_rpm),
+                Observable::Number(_) => None,
             },
             measured: one.value,
             error: row.error,
@@ -243,11 +243,12 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
     let solid = Marker::solid(Shape::Circle);
     let words = first.what.label(problem);
     let (label, unit) = words.split_once(", ").unwrap_or((&words, ""));
-    if let What::Torque { .. } = first.what {
+    if let Observable::Torque { .. } = first.what {
         let mut panel = Panel::new("", Axis::new("speed of the rotor", "rpm"), Axis::new(label, unit).including([0.0]));
         panel.legend = Legend::Above;
         for condition in 0..measured.conditions.len() {
-            let speed = |what: What| if let What::Torque { speed_rpm } = what { speed_rpm } else { f64::NAN };
+            let speed =
+                |what: Observable| if let Observable::Torque { speed_rpm } = what { speed_rpm } else { f64::NAN };
             let mut points: Vec<(f64, f64, f64, f64)> = all()
                 .filter(|(one, ..)| one.condition == condition)
                 .map(|(one, row, computed)| (speed(one.what), one.value, row.error, computed))

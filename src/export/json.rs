@@ -98,6 +98,10 @@ pub struct Summary {
     pub load_ratio_min: Option<f64>,
     /// Its greatest value in the cycle.
     pub load_ratio_max: Option<f64>,
+    /// Estimated numerical errors of the two, absolute.
+    pub load_ratio_min_error: Option<f64>,
+    /// See `load_ratio_min_error`.
+    pub load_ratio_max_error: Option<f64>,
     /// σ.
     pub squeeze_number: Option<f64>,
     /// Λ.
@@ -321,6 +325,8 @@ impl Summary {
         self.mean_load_ratio_error = ratio("mean_load_ratio_error", result.film_load_error);
         self.load_ratio_min = ratio("load_ratio_min", result.film_load_min);
         self.load_ratio_max = ratio("load_ratio_max", result.film_load_max);
+        self.load_ratio_min_error = ratio("load_ratio_min_error", result.film_load_range_error[0]);
+        self.load_ratio_max_error = ratio("load_ratio_max_error", result.film_load_range_error[1]);
     }
 
     fn fill_range(&mut self, [least, most]: [f64; 2], pressure: f64, numbers: &mut Numbers) {

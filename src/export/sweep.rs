@@ -6,7 +6,7 @@
 use super::csv::words;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::{Quantity, force_unit};
-use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep};
+use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Figure, Grid, Layer, Legend, Line, Map, Marker, Panel, Points, Provenance, Range,
@@ -365,7 +365,8 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
     let map = Map { label: quantity.words().to_owned(), grid: grid.clone(), shading: Shading::Cells, ..Map::default() };
     panel = panel.layer(map);
     if x.words.is_empty() && y.words.is_empty() {
-        panel = panel.layer(Contours { grid, labels: true, ..Contours::default() });
+        let error = typical_error(rows, quantity);
+        panel = panel.layer(Contours { grid, error, labels: true, ..Contours::default() });
     }
     if !unsound.is_empty() {
         panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));

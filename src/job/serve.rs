@@ -30,10 +30,10 @@ pub fn start() {
     });
 }
 
-type Run = fn(&[u8]);
+type Serve = fn(&[u8]);
 
 /// All that a worker can do.
-const WORKS: &[(&str, Run)] = &[
+const WORKS: &[(&str, Serve)] = &[
     (Step::NAME, run::<Step>),
     (Compared::NAME, run::<Compared>),
     (Curves::NAME, run::<Curves>),

@@ -2,14 +2,14 @@
 
 use super::task::Task;
 use super::work::{Posed, Work};
-use crate::analysis::tradeoff::{self, Candidate, Effort, Run};
+use crate::analysis::tradeoff::{self, Candidate, Effort, MeasuredSetting};
 use crate::control::Cancel;
 use crate::platform::Instant;
 use serde::{Deserialize, Serialize};
 
 /// How far a measurement is: all settings with what was measured of them so far, and the share of the work that is done,
 /// 0 to 1.
-pub type Progress = (Vec<Run>, f64);
+pub type Progress = (Vec<MeasuredSetting>, f64);
 
 /// A measurement, as it is carried to where it is made.
 #[derive(Debug, Serialize, Deserialize)]
@@ -29,12 +29,12 @@ fn clock() -> fn() -> Instant {
 impl Work for Measurement {
     const NAME: &'static str = "measure";
     type Message = Progress;
-    type Found = Vec<Run>;
+    type Found = Vec<MeasuredSetting>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Self::Found {
         let started = (self.now)();
         let clock = || (self.now)().duration_since(started).as_secs_f64();
-        let mut each = |runs: &[Run], share| tell((runs.to_vec(), share));
+        let mut each = |runs: &[MeasuredSetting], share| tell((runs.to_vec(), share));
         tradeoff::measure(&self.posed.problem, self.candidates, &self.effort, &clock, cancel, &mut each)
     }
 
@@ -53,7 +53,7 @@ pub fn measure(
     effort: Effort,
     now: fn() -> Instant,
     wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<Task<Progress, Vec<Run>>> {
+) -> std::io::Result<Task<Progress, Vec<MeasuredSetting>>> {
     Task::of(Measurement { posed, candidates, effort, now }, wake)
 }
 
@@ -67,7 +67,7 @@ mod tests {
     use crate::problem::Problem;
     use crate::scene::presets;
 
-    fn start(fidelity: Fidelity, repeats: usize, now: fn() -> Instant) -> Task<Progress, Vec<Run>> {
+    fn start(fidelity: Fidelity, repeats: usize, now: fn() -> Instant) -> Task<Progress, Vec<MeasuredSetting>> {
         let scene = presets::find("fundamental").unwrap();
         let problem = Problem::try_from(&scene).unwrap();
         let mut all = candidates(&problem);

@@ -33,12 +33,12 @@ pub struct Finding {
     /// Its title.
     pub title: String,
     /// What it is.
-    pub fault: Fault,
+    pub fault: StepFault,
 }
 
 /// What can be wrong with a step.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Fault {
+pub enum StepFault {
     /// The task is done before anything was done.
     TrueFromStart,
     /// What `try` does is not enough, and why.
@@ -59,14 +59,14 @@ pub enum Fault {
     Unsolved(String),
 }
 
-impl Fault {
+impl StepFault {
     /// Whether the step cannot be done as it is; anything else is advice.
     pub fn is_error(&self) -> bool {
         !matches!(self, Self::NoTry | Self::NoWrong | Self::NoReply(_))
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for StepFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TrueFromStart => f.write_str("the check holds from the start: there is nothing to do"),
@@ -116,7 +116,7 @@ pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
         return Ok(Quoted::default());
     }
     let wanted = wanted(step);
-    let start = Run::of(&step.scene, &wanted, cancel)?;
+    let start = Tried::of(&step.scene, &wanted, cancel)?;
     let (now, mut known) = (start.ran(&start.live), Quoted::default());
     known.before = above.into_iter().filter_map(|of| Some((of.source.clone(), of.value(now, now)?))).collect();
     known.told = match &step.task {
@@ -134,26 +134,26 @@ fn wanted(step: &Step) -> Vec<Live> {
 }
 
 /// Wrong choices without a reply, of the question and of what is to be observed, if that has choices of its own.
-fn replies(step: &Step) -> Vec<Fault> {
+fn replies(step: &Step) -> Vec<StepFault> {
     let observe = step.observe.as_ref().filter(|observe| !observe.ask.is_empty());
     let mut faults = Vec::new();
     for (asked, of) in [(step.question.as_ref(), ""), (observe, " of observe")] {
         let Some(Answer::Choice { choices, right }) = asked.map(|question| &question.answer) else { continue };
         let silent = choices.iter().enumerate().filter(|(i, choice)| i != right && choice.reply.is_empty());
-        faults.extend(silent.map(|(i, _)| Fault::NoReply(format!("choice {}{of}", i + 1))));
+        faults.extend(silent.map(|(i, _)| StepFault::NoReply(format!("choice {}{of}", i + 1))));
     }
     faults
 }
 
 /// A run, and what is read off the tabs beside it.
-struct Run {
+struct Tried {
     scene: Scene,
     problem: Problem,
     numbers: Numbers,
     live: Readings,
 }
 
-impl Run {
+impl Tried {
     fn of(scene: &Scene, wanted: &[Live], cancel: &Cancel) -> Result<Self, String> {
         let problem = Problem::try_from(scene).map_err(|error| error.to_string())?;
         let settings = Settings { fidelity: FIDELITY, ..Settings::default() };
@@ -194,39 +194,39 @@ struct Outcome {
     known: BTreeMap<String, f64>,
 }
 
-fn task_faults(step: &Step, task: &Task, cancel: &Cancel) -> Vec<Fault> {
+fn task_faults(step: &Step, task: &Task, cancel: &Cancel) -> Vec<StepFault> {
     match try_task(step, task, cancel) {
         Ok(faults) => faults,
-        Err(why) => vec![Fault::Unsolved(why)],
+        Err(why) => vec![StepFault::Unsolved(why)],
     }
 }
 
-fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<Fault>, String> {
+fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<StepFault>, String> {
     let wanted = wanted(step);
-    let start = Run::of(&step.scene, &wanted, cancel)?;
+    let start = Tried::of(&step.scene, &wanted, cancel)?;
     let mut faults = Vec::new();
     let by_hand = task.check.live().any(Live::is_done_by_hand);
     if !by_hand && task.check.unmet(start.ran(&start.live), start.ran(&start.live)).is_none() {
-        faults.push(Fault::TrueFromStart);
+        faults.push(StepFault::TrueFromStart);
     }
     if task.example.is_empty() {
-        faults.push(Fault::NoTry);
+        faults.push(StepFault::NoTry);
     } else {
         let done = act(step, task, &task.example, &start, &wanted, cancel)?;
         match done.unmet {
-            Some(unmet) => faults.push(Fault::TryFails(unmet)),
-            None if done.too_far => faults.push(Fault::TryTooFar),
+            Some(unmet) => faults.push(StepFault::TryFails(unmet)),
+            None if done.too_far => faults.push(StepFault::TryTooFar),
             None => {
                 let lacks = |reading: &&Reading| !done.known.contains_key(&reading.source);
                 let unknown = readings(step.told()).filter(lacks).map(|reading| reading.source.clone());
-                faults.extend(unknown.map(Fault::Unknown));
+                faults.extend(unknown.map(StepFault::Unknown));
             }
         }
     }
     if task.wrong.is_empty() {
-        faults.push(Fault::NoWrong);
+        faults.push(StepFault::NoWrong);
     } else if act(step, task, &task.wrong, &start, &wanted, cancel)?.unmet.is_none() {
-        faults.push(Fault::WrongPasses);
+        faults.push(StepFault::WrongPasses);
     }
     Ok(faults)
 }
@@ -236,7 +236,7 @@ fn act(
     step: &Step,
     task: &Task,
     doing: &Doing,
-    start: &Run,
+    start: &Tried,
     wanted: &[Live],
     cancel: &Cancel,
 ) -> Result<Outcome, String> {
@@ -244,7 +244,7 @@ fn act(
     scene
         .set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str())))
         .map_err(|error| error.to_string())?;
-    let run = Run::of(&scene, wanted, cancel)?;
+    let run = Tried::of(&scene, wanted, cancel)?;
     let mut look = Look { task, step, run: &run, start, began: start.live, outcome: None };
     look.at(&run.live);
     for act in &doing.acts {
@@ -260,8 +260,8 @@ fn act(
 struct Look<'a> {
     task: &'a Task,
     step: &'a Step,
-    run: &'a Run,
-    start: &'a Run,
+    run: &'a Tried,
+    start: &'a Tried,
     /// What was read off the tabs at first.
     began: Readings,
     outcome: Option<Outcome>,
@@ -283,7 +283,7 @@ impl Look<'_> {
 }
 
 /// Pushes the plate of a run to `gap` \[m\] and keeps it there.
-fn hold(run: &Run, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), String> {
+fn hold(run: &Tried, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), String> {
     let Scenario::Plate(plate) = &run.problem.scenario else { return Err("a motor is not held".to_owned()) };
     let mut held = Hold::new(plate, &Plan::plate(plate, FIDELITY, &Numerics::default()));
     let leak = leak_time(plate, plate.mean_gap);
@@ -300,7 +300,7 @@ fn hold(run: &Run, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), Stri
 }
 
 /// Starts a run from rest.
-fn start_up(run: &Run, look: &mut Look<'_>, cancel: &Cancel) -> Result<(), String> {
+fn start_up(run: &Tried, look: &mut Look<'_>, cancel: &Cancel) -> Result<(), String> {
     let settings = startup::Settings { fidelity: FIDELITY, ..startup::Settings::default() };
     // A cycle that comes again, on finer grids, replaces the one before.
     let mut cycles = BTreeMap::new();

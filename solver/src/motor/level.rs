@@ -1,5 +1,7 @@
 //! The coupled problem on one grid.
 
+mod finer;
+mod recorded;
 mod startup;
 
 use super::ending::{MotorError, Stop, unit};
@@ -8,13 +10,12 @@ use crate::control::{Cancel, Reporter};
 use crate::estimate::{Mean, left};
 use crate::film::cycle::{FilmCycle, shifted};
 use crate::film::exact::trapped_height;
-use crate::film::grid::{Axis, Between, FilmGrid, Start};
+use crate::film::grid::{Axis, FilmGrid, Start};
 use crate::film::stepper::{FilmState, NEWTON_TOLERANCE};
 use crate::film::trapped::TrappedFilm;
 use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
-use crate::recording::{Balance, LineLoads, Recording, Touching};
 use crate::solution::{Stats, Status};
 
 /// Earlier rounds that the acceleration remembers.
@@ -244,84 +245,6 @@ impl Level {
         self.teeth == motor.teeth
             && self.stored == if plan.every_tooth { motor.teeth } else { 1 }
             && self.trapped_film.is_some() == plan.trapped
-    }
-
-    /// Starts from the state on another grid, interpolated between its nodes and steps.
-    pub(super) fn start_from(&mut self, coarse: &Self) {
-        for (s, shape) in self.shapes.iter_mut().enumerate() {
-            *shape = coarse.shapes[s * coarse.instants() / (self.stator.len() / (self.teeth * self.nx))]
-                .resized(self.contact.modes());
-        }
-        let (nx, ny) = (self.nx, self.grid().y.len());
-        let (cnx, cny) = (coarse.nx, coarse.grid().y.len());
-        let (ux, uy) = (self.grid().x.unknown(), self.grid().y.unknown());
-        let along: Vec<_> = (0..nx).map(|ix| Between::of(ix, nx - 1, cnx - 1)).collect();
-        let (y, there) = (&self.grid().y.nodes, &coarse.grid().y.nodes);
-        let across: Vec<_> = (0..ny).map(|iy| Between::at(y[iy] / y[ny - 1], there)).collect();
-        let widths = coarse.interior_width;
-        for tooth in 0..self.stored {
-            let mut pressure = vec![1.0; cnx * cny];
-            let mut later = vec![1.0; cnx * cny];
-            let mut carried = vec![1.0; cnx * cny];
-            coarse.with_edges(&mut carried, |k| coarse.states[tooth].carried[k] / coarse.states[tooth].trapped[k]);
-            for step in 0..self.steps {
-                let when = Between::of(step, self.steps, coarse.steps);
-                let lines = [when.low, (when.low + 1) % coarse.steps].map(|m| (tooth * coarse.steps + m) * cnx);
-                let sources = [when.low, (when.low + 1) % coarse.steps].map(|m| coarse.films[tooth].pressure(m));
-                coarse.with_edges(&mut pressure, |k| sources[0][k]);
-                coarse.with_edges(&mut later, |k| sources[1][k]);
-                for (p, q) in pressure.iter_mut().zip(&later) {
-                    *p = when.mix(*p, *q);
-                }
-                let gap = |i: usize| when.mix(coarse.film_thickness[lines[0] + i], coarse.film_thickness[lines[1] + i]);
-                // What is trapped changes less in time than gap and pressure do.
-                let trapped = |i: usize| {
-                    let open = i == 0 || i == cnx - 1;
-                    let at = |k: usize| if open { widths * coarse.film_thickness[k] } else { coarse.trapped[k] };
-                    when.mix(at(lines[0] + i), at(lines[1] + i))
-                };
-                let to = (tooth * self.steps + step) * nx;
-                for ix in 0..nx {
-                    let at = &along[ix];
-                    self.film_thickness[to + ix] = at.mix(gap(at.low), gap(at.high()));
-                }
-                for (row, ix) in ux.clone().enumerate() {
-                    let at = &along[ix];
-                    let h = self.film_thickness[to + ix];
-                    self.trapped[to + ix] = self.interior_width / widths * at.curve(cnx, trapped);
-                    for (column, iy) in uy.clone().enumerate() {
-                        let there = &across[iy];
-                        let at_node = |field: &[f64]| {
-                            let row_mix = |i: usize| {
-                                there.mix(field[i * cny + there.low], field[i * cny + there.high().min(cny - 1)])
-                            };
-                            at.curve(cnx, row_mix)
-                        };
-                        let k = row * uy.len() + column;
-                        let p = at_node(&pressure);
-                        self.films[tooth].guess_mut(step)[k] = p;
-                        if step == 0 {
-                            self.states[tooth].trapped[k] = h * p;
-                            let finer = coarse.steps as f64 / self.steps as f64;
-                            self.states[tooth].carried[k] = h * p * (1.0 + finer * (at_node(&carried) - 1.0));
-                        }
-                    }
-                }
-            }
-        }
-        if coarse.is_soft() {
-            self.soften();
-        }
-    }
-
-    /// Writes a field of unknown nodes into one with edges, `[ix][iy]`; edges keep their values.
-    fn with_edges(&self, out: &mut [f64], value: impl Fn(usize) -> f64) {
-        let (ux, uy, ny) = (self.grid().x.unknown(), self.grid().y.unknown(), self.grid().y.len());
-        for (row, ix) in ux.enumerate() {
-            for (column, iy) in uy.clone().enumerate() {
-                out[ix * ny + iy] = value(row * uy.len() + column);
-            }
-        }
     }
 
     /// Solves the contact problems of all instants with the present ζ.
@@ -624,69 +547,6 @@ impl Level {
     /// Cycle mean of the imbalance: by how much α would differ if it were taken from the contact load.
     pub(super) fn mean_imbalance(&self) -> f64 {
         self.imbalances().sum::<f64>().abs() / self.instants() as f64
-    }
-
-    /// Film, contact and gap.
-    pub(super) fn line_loads(&self, motor: &Motor) -> LineLoads {
-        let x = &self.grid().x;
-        let (rows, columns) = (x.unknown(), self.grid().y.unknown().len());
-        let mut peak = vec![self.ambient_pressure; self.line.len()];
-        for (line, peak) in peak.chunks_exact_mut(self.nx).enumerate() {
-            let pressure = self.films[line / self.steps].pressure(line % self.steps);
-            for (peak, across) in peak[rows.clone()].iter_mut().zip(pressure.chunks_exact(columns)) {
-                *peak = self.ambient_pressure * across.iter().fold(1.0, |top: f64, p| top.max(*p));
-            }
-        }
-        LineLoads {
-            radial: false,
-            frames: self.steps,
-            length: motor.wavelength(),
-            teeth: self.teeth,
-            stored_teeth: self.stored,
-            pitch: motor.pitch(),
-            x: x.nodes.clone(),
-            node_length: x.lengths.clone(),
-            touching_from: motor.touching_from(),
-            contact: self.contact_load.clone(),
-            film: (0..self.line.len()).map(|i| self.film_line_load(i)).collect(),
-            film_thickness: self.film_thickness.clone(),
-            peak,
-            ambient: (0..self.nx)
-                .map(|ix| if rows.contains(&ix) { self.ambient_pressure * self.interior_width } else { 0.0 })
-                .collect(),
-        }
-    }
-
-    /// The cycle as it is drawn and exported: the lines of this, the finest grid, extrapolated with those of the `coarser` ones,
-    /// coarse to fine; without them as they are.
-    pub(super) fn recording(&self, motor: &Motor, plan: &Plan, coarser: &[LineLoads], maps: bool) -> Recording {
-        let grid = self.grid();
-        let nx = self.nx;
-        let mut stator = vec![0.0; self.line.len()];
-        for s in 0..self.instants() {
-            for tooth in 0..self.teeth {
-                let (to, from) = (self.line_of(tooth, s), (s * self.teeth + tooth) * nx);
-                stator[to..to + nx].copy_from_slice(&self.stator[from..from + nx]);
-            }
-        }
-        let balance = Balance {
-            load: Some(motor.load),
-            min_spacing: motor.least_thickness(),
-            exclusive: motor.surface.asperities.is_none(),
-        };
-        let mut pressure = self.films.iter().filter(|_| maps).map(|film| film.full_pressure(self.ambient_pressure));
-        let base = Recording {
-            touching: Touching { min_spacing: motor.spacing(), compliance: plan.rotor.beyond(plan.most_harmonics) },
-            rotor: plan.rotor.clone(),
-            period: motor.period(),
-            stator,
-            map_x: grid.x.nodes.clone(),
-            map_y: grid.y.nodes.clone(),
-            half_width: grid.y.start == Start::Mirror,
-            ..Recording::default()
-        };
-        let maps = pressure.by_ref().flatten().collect();
-        base.of_lines(self.line_loads(motor), coarser, &balance, maps, grid.y.unknown())
     }
 }
 

@@ -125,6 +125,7 @@ pub fn float(
     let natural = (stiffness.value.max(0.0) * GRAVITY / load).sqrt() / TAU;
     let natural_frequency = Estimate { value: natural, error: 0.5 * natural * stiffness.error / stiffness.value.abs() };
     result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+    periodic.recording.min_film_thickness_error.fill(mean_gap.error);
     Ok(Floated { periodic, plan })
 }
 

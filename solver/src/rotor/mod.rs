@@ -11,7 +11,7 @@ mod compliances;
 mod green;
 pub mod ring;
 
-use crate::budget::{self, Need, What};
+use crate::budget::{self, Need, Purpose};
 use crate::control::Cancel;
 use crate::problem::{Motor, RotorCompliance};
 use compliances::smooth_share;
@@ -125,7 +125,7 @@ fn bytes(elements: usize) -> u64 {
 /// [`RotorError`] of a ring that has no mesh.
 pub fn need(section: &Section, band: Band) -> Result<Need, RotorError> {
     let elements = section.elements(Some(band))?;
-    Ok(Need { what: What::Ring { elements }, bytes: bytes(elements) })
+    Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) })
 }
 
 /// What it needs while its natural frequencies are, of which each may be on a thread of its own.
@@ -134,7 +134,7 @@ pub fn need(section: &Section, band: Band) -> Result<Need, RotorError> {
 /// As [`need`].
 pub fn need_of_frequencies(section: &Section) -> Result<Need, RotorError> {
     let elements = section.elements(None)?;
-    Ok(Need { what: What::Ring { elements }, bytes: bytes(elements) * RESONANCES as u64 })
+    Ok(Need { what: Purpose::Ring { elements }, bytes: bytes(elements) * RESONANCES as u64 })
 }
 
 static RINGS: Kept<(Section, Wave), Compliances> = Kept::new();

@@ -1,6 +1,6 @@
 //! The values of the unknowns that agree best with what was measured, and how sure they are.
 
-use super::Told;
+use super::Tell;
 use super::error::FitError;
 use super::measured::Measured;
 use super::model::{Computed, Model};
@@ -113,7 +113,7 @@ struct Search<'a> {
     lower: Vec<f64>,
     upper: Vec<f64>,
     cancel: &'a Cancel,
-    told: Told<'a>,
+    told: Tell<'a>,
     /// Points tried, and the least χ² among them.
     tried: &'a Mutex<(usize, f64)>,
 }
@@ -211,7 +211,7 @@ pub fn fit(
     measured: &Measured,
     starts: usize,
     cancel: &Cancel,
-    told: Told<'_>,
+    told: Tell<'_>,
 ) -> Result<Option<Fitted>, FitError> {
     let own = model.start();
     let Some(first) = model.at(std::slice::from_ref(&own), model.settings(), cancel) else { return Ok(None) };

@@ -29,7 +29,7 @@ const LABELS: [&str; 3] = ["row", "name", "note"];
 
 /// A number that was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum What {
+pub enum Observable {
     /// A number of a solve.
     Number(Quantity),
     /// The torque of the whole ring \[N m\] at a speed of its rotor, the pressures being those of the scene's own speed.
@@ -39,7 +39,7 @@ pub enum What {
     },
 }
 
-impl What {
+impl Observable {
     /// Its name in files, with its unit.
     pub fn name(self) -> &'static str {
         match self {
@@ -65,7 +65,7 @@ pub struct Measurement {
     /// Which of the conditions it was measured under.
     pub condition: usize,
     /// What was measured.
-    pub what: What,
+    pub what: Observable,
     /// The value, in the unit of its name.
     pub value: f64,
     /// Its standard error; if [`Measured::errors_known`] is false, only the ratios of errors count.
@@ -178,7 +178,7 @@ impl Measured {
                 .changed(&fundamental)
                 .filter_map(|parameter| Some((parameter.key.to_owned(), scene.get(parameter.key)?.to_string())));
             let condition = measured.condition(changed.collect());
-            let what = What::Number(Quantity::FilmLoad);
+            let what = Observable::Number(Quantity::FilmLoad);
             let value = row.published_load_n;
             measured.measurements.push(Measurement { label: row.row, condition, what, value, error: value });
         }
@@ -280,9 +280,9 @@ impl Measured {
             for i in &values {
                 let Some(value) = number(*i)? else { continue };
                 let what = match (columns[*i], speed) {
-                    (Column::Value(Some(quantity)), _) => What::Number(quantity),
+                    (Column::Value(Some(quantity)), _) => Observable::Number(quantity),
                     (_, Some(speed)) => match number(speed)? {
-                        Some(speed_rpm) => What::Torque { speed_rpm },
+                        Some(speed_rpm) => Observable::Torque { speed_rpm },
                         None => return Err(fault(line, format!("column {SPEED}: empty, where there is a {TORQUE}"))),
                     },
                     _ => continue,

@@ -25,7 +25,7 @@ mod unknown;
 
 pub use error::FitError;
 pub use least_squares::{Fitted, FittedRow, FittedUnknown, Minimum, fit};
-pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, TABLE1, What, measurable};
+pub use measured::{ErrorSize, LARGEST_TABLE, Measured, Measurement, Observable, TABLE1, measurable};
 pub use model::{Computed, Model};
 pub use optimum::{FLAT, Goal, Limit, Optimum, Scan, optimise};
 pub use starts::MOST_STARTS;
@@ -33,4 +33,4 @@ pub use unknown::{Bound, Bounds, MOST_UNKNOWNS, Unknown};
 
 /// Tells how far a fit or an optimisation is: how many points have been tried, and the best so far (of a fit χ², of an optimum the
 /// number that is sought; not a number before there is one).
-pub type Told<'a> = &'a (dyn Fn(usize, f64) + Sync);
+pub type Tell<'a> = &'a (dyn Fn(usize, f64) + Sync);

@@ -1,7 +1,7 @@
 //! A scene with its unknowns, solved under every condition of a table.
 
 use super::error::FitError;
-use super::measured::{Measured, What};
+use super::measured::{Measured, Observable};
 use super::unknown::{Bounds, MOST_UNKNOWNS, Unknown};
 use crate::analysis::attempt::{RunStatus, attempt_from, caught};
 use crate::analysis::quantity::Numbers;
@@ -29,7 +29,7 @@ pub struct Model<'a> {
     unknowns: Vec<Unknown>,
     conditions: Vec<Condition>,
     /// Of each condition, what is asked of it.
-    asked: Vec<Vec<What>>,
+    asked: Vec<Vec<Observable>>,
     solves: AtomicUsize,
 }
 
@@ -103,7 +103,7 @@ impl<'a> Model<'a> {
     }
 
     /// Asked for these numbers of the scene itself.
-    pub(super) fn asking(mut self, numbers: Vec<What>) -> Self {
+    pub(super) fn asking(mut self, numbers: Vec<Observable>) -> Self {
         self.asked = vec![numbers];
         self
     }
@@ -172,7 +172,7 @@ impl<'a> Model<'a> {
 
     fn solve(&self, condition: usize, x: &[f64], settings: &Settings, cancel: &Cancel) -> Vec<Computed> {
         let asked = &self.asked[condition];
-        let fields = asked.iter().any(|what| matches!(what, What::Torque { .. }));
+        let fields = asked.iter().any(|what| matches!(what, Observable::Torque { .. }));
         let record = if fields { Record::Everything } else { Record::Numbers };
         let settings = Settings { record, ..*settings };
         self.solves.fetch_add(1, Ordering::Relaxed);
@@ -249,7 +249,7 @@ impl<'a> Model<'a> {
 }
 
 /// What is asked of a solution.
-fn read(problem: &Problem, solution: &Solution, asked: &[What]) -> Vec<Computed> {
+fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Computed> {
     let numbers = Numbers::of(problem, solution);
     let motor = match (&problem.scenario, &solution.outcome) {
         (Scenario::Motor(motor), Outcome::Motor(result)) => Some((motor, result)),
@@ -269,18 +269,18 @@ fn read(problem: &Problem, solution: &Solution, asked: &[What]) -> Vec<Computed>
     asked
         .iter()
         .map(|what| match what {
-            What::Number(quantity) => {
+            Observable::Number(quantity) => {
                 let error = quantity.error().and_then(|error| numbers.get(error)).unwrap_or(f64::NAN);
                 numbers.get(*quantity).map(|value| Estimate { value, error }).ok_or_else(none)
             }
-            What::Torque { .. } => curve.next().map(|point| point.torque).ok_or_else(none),
+            Observable::Torque { .. } => curve.next().map(|point| point.torque).ok_or_else(none),
         })
         .collect()
 }
 
-fn speed(what: What) -> Option<f64> {
+fn speed(what: Observable) -> Option<f64> {
     match what {
-        What::Torque { speed_rpm } => Some(speed_rpm),
-        What::Number(_) => None,
+        Observable::Torque { speed_rpm } => Some(speed_rpm),
+        Observable::Number(_) => None,
     }
 }

@@ -1,8 +1,8 @@
 //! The values of the unknowns at which one number is greatest or least, within limits on others.
 
-use super::Told;
+use super::Tell;
 use super::error::FitError;
-use super::measured::{What, named, names};
+use super::measured::{Observable, named, names};
 use super::model::{Computed, Model};
 use super::starts::spread;
 use super::unknown::{Bound, Bounds, Unknown};
@@ -107,10 +107,10 @@ impl Goal {
     }
 
     /// What it and its limits are read from.
-    fn asked(&self) -> Vec<What> {
+    fn asked(&self) -> Vec<Observable> {
         std::iter::once(self.quantity)
             .chain(self.limits.iter().map(|(_, quantity)| *quantity))
-            .map(What::Number)
+            .map(Observable::Number)
             .collect()
     }
 
@@ -173,7 +173,7 @@ struct Search<'a> {
     lower: Vec<f64>,
     upper: Vec<f64>,
     cancel: &'a Cancel,
-    told: Told<'a>,
+    told: Tell<'a>,
     /// Points tried, and the best number so far.
     tried: &'a Mutex<(usize, f64)>,
     /// The last point, and what came of it: the library asks for the number and for its limits one after the other.
@@ -255,7 +255,7 @@ pub fn optimise(
     bounds: &[Bounds],
     goal: &Goal,
     settings: &Settings,
-    (starts, cancel, told): (usize, &Cancel, Told<'_>),
+    (starts, cancel, told): (usize, &Cancel, Tell<'_>),
 ) -> Result<Option<Optimum>, FitError> {
     let model = Model::new(scene, bounds, settings)?.asking(goal.asked());
     let own = model.start();

@@ -1,5 +1,6 @@
 //! What is varied in a sweep: keys, their ranges and the values between, and what is wrong with them.
 
+use crate::digits::as_given;
 use crate::scene::{Parameter, ParameterKind, Scale, Scene, SceneError, Value};
 use crate::solve::SolveError;
 use serde::{Deserialize, Serialize};
@@ -274,13 +275,9 @@ pub fn spaced(from: f64, to: f64, count: usize, scale: Scale) -> Vec<f64> {
         match (i, scale) {
             (0, _) => from,
             (i, _) if i == last => to,
-            (_, Scale::Linear) => short(from * (1.0 - share) + to * share),
-            (_, Scale::Log) => short((from.ln() * (1.0 - share) + to.ln() * share).exp()),
+            (_, Scale::Linear) => as_given(from * (1.0 - share) + to * share),
+            (_, Scale::Log) => as_given((from.ln() * (1.0 - share) + to.ln() * share).exp()),
         }
     };
     (0..count).map(value).collect()
-}
-
-fn short(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
 }

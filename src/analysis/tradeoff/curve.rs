@@ -1,6 +1,6 @@
 //! The curve of error against time that runs make, and which of them serves a target.
 
-use super::measure::Run;
+use super::measure::MeasuredSetting;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::solve::Method;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// What was measured.
-    pub run: Run,
+    pub run: MeasuredSetting,
     /// Median time \[s\]; NaN before the first run.
     pub median: f64,
     /// Lower and upper quartile of the time \[s\].
@@ -48,15 +48,16 @@ pub struct Tradeoff {
 
 impl Tradeoff {
     /// The curve of these runs, finished or not.
-    pub fn of(runs: &[Run]) -> Self {
+    pub fn of(runs: &[MeasuredSetting]) -> Self {
         let known = |quantity| runs.iter().any(|run| run.numbers.get(quantity).is_some());
         let judged = match () {
             () if known(Quantity::MeanGap) => Quantity::MeanGap,
             () if known(Quantity::LoadRatio) => Quantity::FilmLoad,
             () => Quantity::Alpha,
         };
-        let value = |run: &Run| (run.status == RunStatus::Converged).then(|| run.numbers.get(judged)).flatten();
-        let stated = |run: &Run| run.numbers.get(judged.error()?);
+        let value =
+            |run: &MeasuredSetting| (run.status == RunStatus::Converged).then(|| run.numbers.get(judged)).flatten();
+        let stated = |run: &MeasuredSetting| run.numbers.get(judged.error()?);
         let reference = runs
             .iter()
             .enumerate()

@@ -29,7 +29,7 @@ impl Default for Effort {
 
 /// One setting and what was measured of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Run {
+pub struct MeasuredSetting {
     /// The setting.
     pub candidate: Candidate,
     /// How its runs ended, which are all alike but for the time they took.
@@ -51,17 +51,17 @@ pub fn measure(
     effort: &Effort,
     clock: &dyn Fn() -> f64,
     cancel: &Cancel,
-    told: &mut dyn FnMut(&[Run], f64),
-) -> Vec<Run> {
+    told: &mut dyn FnMut(&[MeasuredSetting], f64),
+) -> Vec<MeasuredSetting> {
     let count = candidates.len();
-    let blank = |candidate| Run {
+    let blank = |candidate| MeasuredSetting {
         candidate,
         status: RunStatus::Waiting,
         numbers: Numbers::default(),
         grid: (0, 0),
         times: Vec::new(),
     };
-    let mut runs: Vec<Run> = candidates.into_iter().map(blank).collect();
+    let mut runs: Vec<MeasuredSetting> = candidates.into_iter().map(blank).collect();
     let mut round = 0;
     loop {
         let mut idle = true;
@@ -84,7 +84,7 @@ pub fn measure(
 }
 
 /// How often a setting is to be run.
-fn wanted(run: &Run, effort: &Effort, count: usize) -> usize {
+fn wanted(run: &MeasuredSetting, effort: &Effort, count: usize) -> usize {
     let Some(first) = run.times.first() else { return 1 };
     if matches!(run.status, RunStatus::Failed(_) | RunStatus::GivenUp) {
         return 1;
@@ -94,7 +94,7 @@ fn wanted(run: &Run, effort: &Effort, count: usize) -> usize {
 }
 
 /// The share of the work that is done: in time, with the first runs to come taken to cost as much as those there are.
-fn done(runs: &[Run], effort: &Effort) -> f64 {
+fn done(runs: &[MeasuredSetting], effort: &Effort) -> f64 {
     let (mut spent, mut left, mut waiting) = (0.0, 0.0, 0.0);
     for run in runs {
         match run.times.first() {
@@ -110,7 +110,13 @@ fn done(runs: &[Run], effort: &Effort) -> f64 {
 }
 
 /// One run; false if it was cancelled.
-fn run_once(problem: &Problem, run: &mut Run, effort: &Effort, clock: &dyn Fn() -> f64, cancel: &Cancel) -> bool {
+fn run_once(
+    problem: &Problem,
+    run: &mut MeasuredSetting,
+    effort: &Effort,
+    clock: &dyn Fn() -> f64,
+    cancel: &Cancel,
+) -> bool {
     let problem = Problem { numerics: run.candidate.numerics, ..problem.clone() };
     let stop = cancel.child();
     let started = clock();

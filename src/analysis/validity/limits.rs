@@ -1,5 +1,6 @@
 //! Each limit of the model: its number, how great that may be, and what it means in a sentence.
 
+use crate::digits;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
 use crate::problem::{Gas, Motor, Named, Plate, Slip};
 use crate::surface::flow::LEAST_RATIO;
@@ -276,7 +277,6 @@ fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: 
     (value > limit).then_some(Excess { name, value, limit, unit, text })
 }
 
-/// To three digits.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+    digits::rounded(value, 3)
 }

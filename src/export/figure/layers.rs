@@ -197,6 +197,8 @@ pub struct Contours {
     pub grid: Grid,
     /// The values of the lines; empty for up to ten round ones.
     pub levels: Vec<f64>,
+    /// What the values are told apart by: a typical error. Where round values would be nearer to each other there are no lines.
+    pub error: f64,
     /// Whether each line carries its value.
     pub labels: bool,
     /// Colour; without one, black or white as the map below asks.

@@ -417,10 +417,14 @@ fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
     let values = finite(&contours.grid.values);
     let scale = map.map_or(Scale::Linear, |map| map.scale);
     let range = Scaled::new(&Range::Auto, scale, values.into_iter(), false);
+    let step = round_step(range.to - range.from, 10).0;
+    if step <= contours.error {
+        return (Vec::new(), step);
+    }
     let ticks = Ticks::new(&range, 10, false).ticks;
     let labelled = ticks.into_iter().filter(|tick| tick.label.is_some()).map(|tick| tick.at);
     let labelled = labelled.filter(|at| is_contour(range.fraction(*at))).collect();
-    (labelled, round_step(range.to - range.from, 10).0)
+    (labelled, step)
 }
 
 /// Black or white, whichever shows on the map's colour of a value.
@@ -449,6 +453,10 @@ mod tests {
         let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values };
         let (values, _) = levels(&Contours { grid, ..Contours::default() }, None);
         assert!(values.len() >= 4 && values.iter().all(|value| *value > 0.05), "{values:?}");
+        // One that nowhere carries anything.
+        let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values: vec![-6.7e-9, 2.2e-9, 1e-9, -3e-9] };
+        let noise = Contours { grid, error: 1.25e-5, ..Contours::default() };
+        assert!(levels(&noise, None).0.is_empty() && levels(&Contours { error: 0.0, ..noise }, None).0.len() >= 4);
     }
 
     #[test]

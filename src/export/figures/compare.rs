@@ -12,7 +12,7 @@ use crate::recording::sample::Lines;
 
 /// One run: of a motor, or of a plate.
 #[derive(Clone, Copy, Debug)]
-pub struct Run<'a, S> {
+pub struct DrawnRun<'a, S> {
     /// Its name in the legend.
     pub name: &'a str,
     /// The motor, or the plate.
@@ -24,9 +24,9 @@ pub struct Run<'a, S> {
 }
 
 /// A motor's run.
-pub type MotorRun<'a> = Run<'a, Motor>;
+pub type MotorRun<'a> = DrawnRun<'a, Motor>;
 /// A plate's run.
-pub type PlateRun<'a> = Run<'a, Plate>;
+pub type PlateRun<'a> = DrawnRun<'a, Plate>;
 
 /// The style of run `index` of several: without markers, as curves have many points.
 pub fn style(index: usize) -> Style {

@@ -74,10 +74,10 @@ pub fn power_of_ten(exponent: f64) -> String {
 /// A value with its error, an exponent raised. What is far below its error is 0.
 pub fn uncertain(value: f64, error: f64) -> String {
     let value = if value.abs() < NOTHING * error { 0.0 } else { value };
-    let text = with_minus(&with_error(value, error));
+    let text = with_error(value, error);
     match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
-        Some((before, Ok(exponent))) => format!("{before}{}", power_of_ten(exponent)),
-        _ => text,
+        Some((before, Ok(exponent))) => format!("{}{}", before.replace('-', "−"), power_of_ten(exponent)),
+        _ => text.replace('-', "−"),
     }
 }
 
@@ -93,11 +93,6 @@ pub fn trimmed(number: &str) -> &str {
     } else {
         number
     }
-}
-
-/// With a true minus sign.
-pub fn with_minus(text: &str) -> String {
-    text.strip_prefix('-').map_or_else(|| text.to_owned(), |size| format!("−{size}"))
 }
 
 /// A time in the unit that suits it.

@@ -1,7 +1,7 @@
 //! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit or the search for an optimum found.
 
 use super::sweep::AxisForm;
-use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Unknown, What, measurable};
+use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
 pub use crate::job::fit::{FitTask, Found};
 use crate::job::task::News;
@@ -79,12 +79,14 @@ impl FitState {
         let Some(measured) = &self.measured else { return (Vec::new(), 0) };
         let mut others = 0;
         let torques = measured.measurements.iter().filter_map(|one| match one.what {
-            What::Torque { speed_rpm } if measured.conditions[one.condition].is_empty() => Some([speed_rpm, one.value]),
-            What::Torque { .. } => {
+            Observable::Torque { speed_rpm } if measured.conditions[one.condition].is_empty() => {
+                Some([speed_rpm, one.value])
+            }
+            Observable::Torque { .. } => {
                 others += 1;
                 None
             }
-            What::Number(_) => None,
+            Observable::Number(_) => None,
         });
         (torques.collect(), others)
     }

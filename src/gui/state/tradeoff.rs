@@ -1,6 +1,6 @@
 //! Error against time as the window has it: of which scene, how far, and what was found.
 
-use crate::analysis::tradeoff::{Candidate, Family, Run, Tradeoff, without_grid};
+use crate::analysis::tradeoff::{Candidate, Family, MeasuredSetting, Tradeoff, without_grid};
 use crate::fidelity::Fidelity;
 use crate::job::task::{News, Task};
 use crate::job::tradeoff::Progress;
@@ -13,7 +13,7 @@ use crate::solve::{Method, Settings};
 const PRESENT: &str = "present setting";
 
 /// The work of a measurement.
-pub type MeasurementTask = Task<Progress, Vec<Run>>;
+pub type MeasurementTask = Task<Progress, Vec<MeasuredSetting>>;
 
 /// A measurement, under way or ended.
 #[derive(Debug)]

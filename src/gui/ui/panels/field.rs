@@ -11,6 +11,8 @@ use eframe::egui::{self, Id, Key};
 
 /// Significant digits of a number that is not being edited; with the cursor in the field it has all.
 const DIGITS: usize = 6;
+/// Bytes of a text beyond which it stays on one line, so that it does not fill the panel.
+const LONGEST_WRAPPED: usize = 300;
 
 /// Text that differs from the scene.
 #[derive(Clone, Debug)]
@@ -62,7 +64,7 @@ impl Field<'_> {
         };
         let alarmed = self.refused.is_some() && edit.is_some();
         let free = self.value.is_none_or(is_text);
-        let editor = if self.wrapped {
+        let editor = if self.wrapped && text.len() <= LONGEST_WRAPPED {
             egui::TextEdit::multiline(&mut text).desired_rows(1).return_key(None)
         } else {
             egui::TextEdit::singleline(&mut text)

@@ -9,7 +9,7 @@ use crate::gui::ui::hint::{Hint, beside};
 use crate::gui::ui::keys;
 use crate::lessons::text::plain_blocks;
 use crate::platform::HAS_FILES;
-use crate::scene::presets;
+use crate::scene::{presets, show_text};
 use eframe::egui::{self, Button, Response};
 
 /// Shows the menus.
@@ -49,7 +49,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         });
         ui.separator();
         let mark = if document.is_dirty() { " •" } else { "" };
-        let name = document.scene().title(document.saved());
+        let name = show_text(&document.scene().title(document.saved()));
         let title = ui.add(egui::Label::new(egui::RichText::new(format!("{name}{mark}")).strong()).truncate());
         let place = document.path().map_or_else(
             || {

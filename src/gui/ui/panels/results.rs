@@ -7,8 +7,9 @@ use crate::analysis::regime;
 use crate::analysis::validity::Excess;
 use crate::digits::{capitalised, significant};
 use crate::dimensionless::Dimensionless;
+use crate::estimate::Estimate;
 use crate::export::json::{beside_limit, force_unit};
-use crate::gui::derived::format::{uncertain, with_minus};
+use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
@@ -89,9 +90,16 @@ fn motor_numbers(
     let force_error = result.alpha_error * motor.load;
     let torque_error = result.alpha_error * motor.friction_torque(motor.load);
     number(ui, cx, "Film load", &uncertain(result.film_load, force_error), "N");
-    number(ui, cx, "Over the cycle", &span(result.film_load_min, result.film_load_max), "N");
+    number(
+        ui,
+        cx,
+        "Over the cycle",
+        &between(film_loads(result.film_load_min, result.film_load_max, result.film_load_range_error)),
+        "N",
+    );
     number(ui, cx, "Contact load", &uncertain(result.contact_load, force_error), "N");
-    number(ui, cx, "Teeth in contact, mean", &format!("{} of {}", shown(result.teeth_in_contact), motor.teeth), "");
+    let teeth = exact_or(result.teeth_in_contact, result.teeth_in_contact_error);
+    number(ui, cx, "Teeth in contact, mean", &format!("{teeth} of {}", motor.teeth), "");
     section(ui, "Torque of the ring");
     if let Some(Performance { stall_torque, .. }) = performance {
         number(ui, cx, "Stall torque", &uncertain(stall_torque.value, stall_torque.error), "N·m");
@@ -99,7 +107,9 @@ fn motor_numbers(
     number(ui, cx, "Maximum operating torque", &uncertain(result.max_torque, torque_error), "N·m");
     number(ui, cx, "The same without air", &shown(motor.friction_torque(motor.load)), "N·m");
     section(ui, "Extremes");
-    extremes(ui, cx, result.min_gap, result.max_pressure, motor.gas.ambient_pressure);
+    let gap = Estimate { value: result.min_gap, error: result.min_gap_error };
+    let pressure = Estimate { value: result.max_pressure, error: result.max_pressure_error };
+    extremes(ui, cx, gap, pressure, motor.gas.ambient_pressure);
 }
 
 fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
@@ -122,19 +132,37 @@ fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &P
         cx.note(ui, "mean load of the film over the cycle");
         ui.add_space(4.0);
     }
-    number(ui, cx, "Over the cycle", &span(result.film_load_min, result.film_load_max), unit);
+    let range = film_loads(result.film_load_min, result.film_load_max, result.film_load_range_error);
+    number(ui, cx, "Over the cycle", &between(range), unit);
     let area = if plate.is_strip() { "Load / (p_a · length)" } else { "Load / (p_a · area)" };
     section(ui, area);
     number(ui, cx, "Mean", &uncertain(ratio(result.film_load), ratio(result.film_load_error)), "");
-    number(ui, cx, "Over the cycle", &span(ratio(result.film_load_min), ratio(result.film_load_max)), "");
+    let range = range.map(|load| Estimate { value: ratio(load.value), error: ratio(load.error) });
+    number(ui, cx, "Over the cycle", &between(range), "");
     section(ui, "Extremes");
-    extremes(ui, cx, result.min_gap, result.max_pressure, plate.gas.ambient_pressure);
+    let gap =
+        Estimate { value: result.min_gap, error: result.floating.map_or(0.0, |floating| floating.mean_gap.error) };
+    let pressure = Estimate { value: result.max_pressure, error: result.max_pressure_error };
+    extremes(ui, cx, gap, pressure, plate.gas.ambient_pressure);
 }
 
-fn extremes(ui: &mut egui::Ui, cx: &DrawContext<'_>, gap: f64, pressure: f64, ambient: f64) {
-    number(ui, cx, "Least film thickness", &shown(gap * 1e9), "nm");
-    number(ui, cx, "Highest pressure", &shown(pressure * 1e-3), "kPa");
-    number(ui, cx, "Relative to ambient", &format!("{} ×", significant(pressure / ambient, 3)), "");
+fn extremes(ui: &mut egui::Ui, cx: &DrawContext<'_>, gap: Estimate, pressure: Estimate, ambient: f64) {
+    number(ui, cx, "Least film thickness", &exact_or(gap.value * 1e9, gap.error * 1e9), "nm");
+    number(ui, cx, "Highest pressure", &exact_or(pressure.value * 1e-3, pressure.error * 1e-3), "kPa");
+    number(ui, cx, "Relative to ambient", &format!("{} ×", significant(pressure.value / ambient, 3)), "");
+}
+
+fn film_loads(least: f64, most: f64, errors: [f64; 2]) -> [Estimate; 2] {
+    [Estimate { value: least, error: errors[0] }, Estimate { value: most, error: errors[1] }]
+}
+
+/// A value with its error, if it has one.
+fn exact_or(value: f64, error: f64) -> String {
+    if error == 0.0 { shown(value) } else { uncertain(value, error) }
+}
+
+fn between(range: [Estimate; 2]) -> String {
+    range.map(|end| exact_or(end.value, end.error)).join(" … ")
 }
 
 /// Where the model is out of its depth; nothing if it is not.
@@ -348,7 +376,7 @@ fn text_height(ui: &egui::Ui) -> f32 {
 }
 
 pub(super) fn shown(value: f64) -> String {
-    with_minus(&significant(value, DIGITS))
+    digits(value, DIGITS)
 }
 
 /// An error, to two digits.

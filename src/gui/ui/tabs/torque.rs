@@ -2,7 +2,7 @@
 //! reads off them.
 
 use crate::analysis::torque::TorqueCurves;
-use crate::digits::significant;
+use crate::digits::{as_given, significant};
 use crate::estimate::Estimate;
 use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::ui::chart::{SOLID, axes, chart, dots, framed, legend, line, place, title};
@@ -196,7 +196,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
         let rpm = |found: Estimate| Estimate { value: merit.rpm(found.value), error: merit.rpm(found.error) };
         stated(found.map(rpm), 1.0, "rpm")
     };
-    let present = format!("Torque at {} rpm", trimmed(merit.rpm(motor.rotor_speed)));
+    let present = format!("Torque at {} rpm", as_given(merit.rpm(motor.rotor_speed)));
     type Cell<'a> = Box<dyn Fn(&Performance) -> String + 'a>;
     // What it is called here, its value, and what the glossary explains it under.
     let rows: Vec<(&str, Cell<'_>, &str)> = vec![
@@ -253,7 +253,7 @@ fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
     let text = format!(
         "A model without film needs the friction coefficient {} for the same maximum operating torque, instead of {}.",
         dry.trim_end(),
-        trimmed(motor.dry_friction)
+        as_given(motor.dry_friction)
     );
     cx.note(ui, &text);
     let text = format!(
@@ -273,10 +273,4 @@ fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
             format!("{text} {unit}")
         },
     )
-}
-
-/// A number of the scene as it was given: conversions leave a last bit that nobody wrote.
-fn trimmed(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    format!("{rounded}")
 }

@@ -4,7 +4,7 @@
 use super::pointer::named;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::sweep::{Axis, Row, Sweep};
+use crate::analysis::sweep::{Axis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
 use crate::digits::capitalised;
 use crate::digits::{significant, with_error};
@@ -426,7 +426,12 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     }
     inner.add(Shape::Mesh(Arc::new(mesh)));
     let lines = once(ui, "contours", (plotted.number, plotted.rows.len(), plotted.quantity), || {
-        let levels = levels(Ticks::new(range, LEVELS), range, log);
+        let ticks = Ticks::new(range, LEVELS);
+        // Where lines would be nearer to each other than values are told apart there are none.
+        if !log && ticks.step() <= typical_error(plotted.rows, plotted.quantity) {
+            return Vec::new();
+        }
+        let levels = levels(ticks, range, log);
         levels.map(|level| (level, contour(&xs, &ys, &values, level))).collect::<Vec<Contour>>()
     });
     contours(&inner, style, &axes, &lines, (range, log));
