@@ -364,3 +364,19 @@ fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_kn
     let error = solved(&beside).unwrap_err();
     assert!(error.is_bad_input() && error.to_string().contains("rotor.model = \"ring\": the contact"), "{error}");
 }
+
+#[test]
+fn rounds_of_another_state_are_not_told() {
+    // Where the rotor floats a solve looks for a state in which teeth touch, under other loads first.
+    let problem = Problem::try_from(&presets::find("levitating").unwrap()).unwrap();
+    for fidelity in [Fidelity::Draft, Fidelity::Standard] {
+        let mut told = Vec::new();
+        let mut listen = |progress: &Progress| told.push((progress.level, progress.iteration));
+        let settings = Settings { fidelity, ..Settings::default() };
+        let solution = solve_problem(&problem, &settings, &mut listen, &Cancel::new()).unwrap();
+        assert!(
+            told.is_sorted_by_key(|(level, _)| *level) && (told.len() as u64) < solution.stats.coupling_iterations,
+            "{fidelity}: {told:?}"
+        );
+    }
+}

@@ -344,6 +344,9 @@ fn touching(
     if !asked || !astray && !found.alphas.iter().any(|alpha| floats(*alpha)) {
         return None;
     }
+    // Its rounds are those of this solve only if its result is.
+    let mut nobody = ();
+    let observer: &mut dyn Observer = if astray { observer } else { &mut nobody };
     let other = motor::touching(motor, plan, found.stats, observer, cancel)?;
     let [here, there] =
         [&found.result, &other.result].map(|result| Estimate { value: result.alpha, error: result.alpha_error });

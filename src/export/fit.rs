@@ -8,6 +8,7 @@ use super::figure::{
 use crate::analysis::fit::{Fitted, Measured, Observable, Optimum};
 use crate::estimate::Estimate;
 use crate::problem::Problem;
+use crate::scene::show_text;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -112,7 +113,8 @@ fn matrix(rows: &[Vec<f64>]) -> Vec<Vec<Option<f64>>> {
 /// The rows of a fit.
 pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>> {
     let row = |(one, row): (&'a crate::analysis::fit::Measurement, &'a crate::analysis::fit::FittedRow)| {
-        let changes = measured.conditions[one.condition].iter().map(|(key, value)| format!("{key}={value}"));
+        let changes =
+            measured.conditions[one.condition].iter().map(|(key, value)| format!("{key}={}", show_text(value)));
         let computed = row.computed.as_ref().ok();
         RowObject {
             row: &one.label,
