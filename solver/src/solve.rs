@@ -347,7 +347,7 @@ fn touching(
     // Its rounds are those of this solve only if its result is.
     let mut nobody = ();
     let observer: &mut dyn Observer = if astray { observer } else { &mut nobody };
-    let other = motor::touching(motor, plan, found.stats, observer, cancel)?;
+    let other = motor::touching(motor, plan, &mut found.stats, observer, cancel)?;
     let [here, there] =
         [&found.result, &other.result].map(|result| Estimate { value: result.alpha, error: result.alpha_error });
     if found.status == Status::Converged && floats(here.value) {

@@ -150,11 +150,11 @@ pub fn periodic_near(
 }
 
 /// The state in which teeth touch of a motor that may float as well, followed from heavier loads under which it cannot; `None` if
-/// there is none, or it was not found. `stats`: what it has cost so far.
+/// there is none, or it was not found. `stats`: what it has cost so far, to which this is added.
 pub fn touching(
     motor: &Motor,
     plan: &Plan,
-    mut stats: Stats,
+    stats: &mut Stats,
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Option<Periodic> {
@@ -170,7 +170,7 @@ pub fn touching(
             marching: false,
             observer: &mut *observer,
             cancel,
-            stats: &mut stats,
+            stats: &mut *stats,
         };
         let found = climb_once(&mut search, plan, last.as_ref(), cancel).ok()?;
         let floats = |level: &Level| level.alpha(&motor) > NEARLY_FLOATS;
@@ -179,7 +179,7 @@ pub fn touching(
         }
         last = Some(found);
     }
-    last.map(|found| finish(motor, plan, &found, stats))
+    last.map(|found| finish(motor, plan, &found, *stats))
 }
 
 /// One solve of a motor by a plan.
