@@ -1,6 +1,6 @@
 //! The text of lessons and of the glossary: a part of Markdown. Paragraphs, lists, **strong**, *slanted*, `code`, formulas
-//! `$…$` in a line and `$$…$$` on their own, and `{…}`, a number of the run. With pulldown-cmark it would be no shorter: what it reads for us
-//! is the strong, the slanted and the list, and formulas, numbers and what is refused stay ours.
+//! `$…$` in a line and `$$…$$` on their own, and `{…}`, a number of the run. pulldown-cmark would read the
+//! strong, the slanted and the lists for us; formulas, numbers and what is refused would stay ours.
 
 use super::check::{CheckError, Reading};
 use super::formula::{Formula, FormulaError};
