@@ -209,7 +209,8 @@ fn figures_of_the_gallery_are_what_is_drawn() {
         let words = command.split(' ').chain(["--figures", "svg", "--out"]);
         let done = Command::new(program()).args(words).arg(folder.path()).output().unwrap();
         // A start-up that is still moving ends with 3.
-        assert!(matches!(done.status.code(), Some(0 | 3)), "{command}: {}", String::from_utf8_lossy(&done.stderr));
+        let well = done.status.success() || command.starts_with("startup") && done.status.code() == Some(3);
+        assert!(well, "{command}: {}", String::from_utf8_lossy(&done.stderr));
         for (file, picture) in pictures {
             let now = fs::read_to_string(folder.path().join(file).with_extension("svg")).unwrap();
             let path = gallery.join(picture).with_extension("svg");
