@@ -72,12 +72,19 @@ fn what_the_stator_gives_is_what_the_rotor_and_the_heat_take() {
     let greatest = heat_node_by_node(&solved, 0.0);
     for point in &merit.with_film.curve {
         let heat = heat_node_by_node(&solved, point.speed);
-        assert!((point.friction * scale - heat).abs() < 1e-3 * greatest, "{}: {} {heat}", point.speed, point.friction);
-        assert!((point.output - point.torque.value * point.speed / 29e-3).abs() < 1e-12);
-        assert!(point.friction > 0.0 && point.torque.value.abs() <= merit.with_film.max_torque.value * (1.0 + 1e-12));
+        assert!(
+            (point.friction.value * scale - heat).abs() < 1e-3 * greatest,
+            "{}: {} {heat}",
+            point.speed,
+            point.friction.value
+        );
+        assert!((point.output.value - point.torque.value * point.speed / 29e-3).abs() < 1e-12);
+        assert!(
+            point.friction.value > 0.0 && point.torque.value.abs() <= merit.with_film.max_torque.value * (1.0 + 1e-12)
+        );
         if let Some(efficiency) = point.efficiency {
-            let all = point.output + point.friction + merit.film_power.value;
-            assert!((efficiency - point.output / all).abs() < 1e-9 && efficiency < 1.0);
+            let all = point.output.value + point.friction.value + merit.film_power.value;
+            assert!((efficiency.value - point.output.value / all).abs() < 1e-9 && efficiency.value < 1.0);
         }
     }
 }
@@ -95,12 +102,12 @@ fn the_figures_are_those_of_the_curve() {
             let there = found.curve.iter().find(|point| point.speed == v).unwrap();
             assert!(there.torque.value.abs() < 1e-9 && v > 0.0 && v < merit.surface_speed);
             // The efficiency falls to nothing there, and is not heard of beyond.
-            assert_eq!(there.efficiency, Some(0.0));
+            assert_eq!(there.efficiency.map(|share| share.value), Some(0.0));
             assert!(found.curve.iter().filter(|point| point.speed > v).all(|point| point.efficiency.is_none()));
             assert!(found.curve.windows(2).all(|pair| pair[1].torque.value <= pair[0].torque.value + 1e-12));
-            let most = found.curve.iter().map(|point| point.output).fold(0.0, f64::max);
+            let most = found.curve.iter().map(|point| point.output.value).fold(0.0, f64::max);
             assert!(most <= found.max_power.value * (1.0 + 1e-9) && most > 0.999 * found.max_power.value);
-            let best = found.curve.iter().filter_map(|point| point.efficiency).fold(0.0, f64::max);
+            let best = found.curve.iter().filter_map(|point| Some(point.efficiency?.value)).fold(0.0, f64::max);
             let stated = found.max_efficiency.unwrap().value;
             assert!(best <= stated * (1.0 + 1e-9) && best > 0.999 * stated);
             assert_eq!(found.present.speed, solved.motor.rotor_speed);
@@ -178,7 +185,15 @@ fn a_rotor_that_floats_is_not_driven() {
     assert_eq!((found.max_torque.value, found.no_load_speed, found.max_efficiency), (0.0, None, None));
     // The contact that was missed might drive.
     assert_eq!((found.stall_torque.value, found.stall_torque.error), (0.0, found.max_torque.error));
-    assert!(found.curve.iter().all(|point| point.torque.value == 0.0 && point.friction == 0.0));
+    let (unit, radius) = (found.max_torque.error, solved.motor.contact_radius);
+    for point in &found.curve {
+        assert_eq!([point.torque, point.output, point.friction].map(|found| found.value), [0.0; 3]);
+        assert_eq!(point.torque.error, unit);
+        let most = unit / radius * (solved.motor.surface_speed() + point.speed.abs());
+        let [output, friction] = [point.output.error, point.friction.error];
+        assert!((output + unit / radius * solved.motor.surface_speed() - most).abs() < 1e-9 * most && friction > 0.0);
+        assert!((friction - most).abs() < 1e-9 * most, "{point:?} {most}");
+    }
     // The same motor in a vacuum does drive.
     assert!(solved.merit.without_film.stall_torque.value > 0.0);
 }
@@ -230,11 +245,33 @@ fn stated_errors_hold_against_the_reference() {
                     (found.no_load_speed.unwrap(), exact.no_load_speed.unwrap()),
                     (found.max_power, exact.max_power),
                     (found.max_efficiency.unwrap(), exact.max_efficiency.unwrap()),
+                    (found.max_power_speed.unwrap(), exact.max_power_speed.unwrap()),
+                    (found.max_efficiency_speed.unwrap(), exact.max_efficiency_speed.unwrap()),
                 ];
                 for (i, (found, exact)) in pairs.into_iter().enumerate() {
                     let off = (found.value - exact.value).abs();
                     assert!(off <= found.error + exact.error, "{preset} {fidelity} {i}: {found:?} {exact:?}");
                 }
+                // At every speed that both curves have.
+                let same = found.curve.iter().filter_map(|point| {
+                    exact.curve.iter().find(|other| other.speed == point.speed).map(|other| (point, other))
+                });
+                let mut points = 0;
+                for (point, other) in same {
+                    points += 1;
+                    let efficiencies = point.efficiency.zip(other.efficiency);
+                    let pairs =
+                        [(point.torque, other.torque), (point.output, other.output), (point.friction, other.friction)];
+                    for (i, (found, exact)) in pairs.into_iter().chain(efficiencies).enumerate() {
+                        let off = (found.value - exact.value).abs();
+                        let speed = point.speed;
+                        assert!(
+                            off <= found.error + exact.error,
+                            "{preset} {fidelity} {speed} {i}: {found:?} {exact:?}"
+                        );
+                    }
+                }
+                assert!(points > 100, "{points}");
             }
         }
     }
@@ -269,7 +306,7 @@ fn a_still_stator_drives_nothing() {
         let solved = self::solved("fundamental", &turned, Fidelity::Draft);
         let present = solved.merit.with_film.present;
         assert!((present.torque.value - sign * solved.merit.with_film.max_torque.value).abs() < 1e-12, "{present:?}");
-        assert!((present.friction - solved.merit.with_film.max_torque.value * 10.0 * TAU / 60.0).abs() < 1e-9);
+        assert!((present.friction.value - solved.merit.with_film.max_torque.value * 10.0 * TAU / 60.0).abs() < 1e-9);
     }
 }
 

@@ -32,6 +32,10 @@ use std::f64::consts::TAU;
 const SPEEDS: usize = 21;
 /// Steps of the golden section that follows; each narrows the place by 0.62.
 const NARROWED: usize = 19;
+/// Speed ratios on either side at which the error of a point is looked at too.
+const NEAR: f64 = 0.02;
+/// Over such a difference of speed ratios the error of a curve changes by its own size.
+const VARIES: f64 = 0.05;
 
 /// Where in the wave the contact load is: its integrals up to any phase, on one grid.
 #[derive(Clone, Debug, Default)]
@@ -251,37 +255,46 @@ impl Step {
 #[derive(Debug)]
 pub struct Scaled<'a> {
     motor: &'a Motor,
-    drive: Drive,
-    others: Vec<Drive>,
+    drive: Lossy,
+    /// What it is judged by.
+    others: Vec<Lossy>,
     /// A number of the contact with its error, from the same of the others.
     judge: fn(f64, &[f64]) -> Estimate,
     /// N \[N\].
     load: Estimate,
-    /// Power that the stator of the whole ring spends on the film \[W\].
-    film_power: f64,
 }
+
+/// A contact, and the film's share of the stator's power, in μ_d N V₀.
+type Lossy = (Drive, f64);
+
+/// A speed ratio, and there (s₀, s₁) and the film's share, first of the contact itself.
+type Place = (f64, Vec<((f64, f64), f64)>);
+
+/// A share, from a speed ratio, (s₀, s₁) there, and the film's share of the power.
+type Share<'a> = &'a dyn Fn(f64, (f64, f64), f64) -> f64;
 
 impl<'a> Scaled<'a> {
     /// With the film, from a solve.
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
-        let loads = &recording.lines;
+        let load =
+            Estimate { value: (1.0 - result.alpha).max(0.0) * motor.load, error: result.alpha_error * motor.load };
+        let spent = motor.friction_torque(load.value) * motor.surface_speed() / motor.contact_radius;
+        let lossy = |loads: &LineLoads| {
+            (Drive::new(loads), if spent > 0.0 { given(motor, loads).max(0.0) / spent } else { 0.0 })
+        };
         Self {
             motor,
-            drive: Drive::new(loads),
-            others: recording.yardsticks.iter().map(Drive::new).collect(),
+            drive: lossy(&recording.lines),
+            others: recording.yardsticks.iter().map(lossy).collect(),
             judge: judged,
-            load: Estimate {
-                value: (1.0 - result.alpha).max(0.0) * motor.load,
-                error: result.alpha_error * motor.load,
-            },
-            film_power: given(motor, loads),
+            load,
         }
     }
 
     /// In a vacuum, from the contact without film on nested grids, coarse to fine: that of the finest, whose error is the
     /// difference to the next coarser one, three times what an error of second order would be.
     pub fn without_film(motor: &'a Motor, dry: &[LineLoads]) -> Self {
-        let mut grids = dry.iter().rev().take(2).map(Drive::new);
+        let mut grids = dry.iter().rev().take(2).map(|loads| (Drive::new(loads), 0.0));
         Self {
             motor,
             drive: grids.next().unwrap_or_default(),
@@ -291,13 +304,12 @@ impl<'a> Scaled<'a> {
                 error: others.first().map_or(f64::INFINITY, |coarse| (found - coarse).abs()),
             },
             load: Estimate { value: motor.load, error: 0.0 },
-            film_power: 0.0,
         }
     }
 
     /// Speed at which the torque vanishes \[m/s\].
     pub fn no_load_speed(&self) -> Option<f64> {
-        Some(self.drive.no_load()? * self.motor.surface_speed())
+        Some(self.drive.0.no_load()? * self.motor.surface_speed())
     }
 
     /// μ_d waves N r \[N m\].
@@ -306,58 +318,86 @@ impl<'a> Scaled<'a> {
         Estimate { value, error }
     }
 
-    /// The film's share of the stator's power, in μ_d N V₀.
-    fn loss(&self) -> f64 {
-        let spent = self.torque().value * self.motor.surface_speed() / self.motor.contact_radius;
-        if spent > 0.0 { self.film_power.max(0.0) / spent } else { 0.0 }
+    /// What efficiencies are shares of: the film's loss is a share of N, whose error moves them by at most its own relative size.
+    fn loss_scale(&self) -> Estimate {
+        Estimate { value: 1.0, error: if self.drive.1 > 0.0 { self.load.error / self.load.value } else { 0.0 } }
     }
 
-    /// A share of `unit` with its error. All shares of this module have theirs from here.
-    fn scaled(&self, unit: Estimate, found: f64, others: &[f64]) -> Estimate {
-        let share = (self.judge)(found, others);
+    /// A share of `unit` that is at most `most`. Where nothing touches, as much may be missing as contact may have been missed.
+    fn scaled(&self, unit: Estimate, share: Estimate, most: f64) -> Estimate {
         let shape = if unit.value == 0.0 { 0.0 } else { unit.value.abs() * share.error };
-        Estimate { value: unit.value * share.value, error: shape + share.value.abs() * unit.error }
+        let of_unit = if self.drive.0.load > 0.0 { share.value.abs() } else { most };
+        Estimate { value: unit.value * share.value, error: shape + of_unit * unit.error }
     }
 
-    fn point(&self, speed: f64, loss: f64) -> Point {
+    /// The contact at a speed ratio and beside it. Where the differences to what it is judged by change their sign, they say nothing: those
+    /// nearby count as well.
+    fn near(&self, v: f64) -> [Place; 3] {
+        let all = || std::iter::once(&self.drive).chain(&self.others);
+        [v - NEAR, v, v + NEAR].map(|v| (v, all().map(|(drive, loss)| (drive.at(v), *loss)).collect()))
+    }
+
+    /// A share at three places, each with its error.
+    fn shares(&self, near: &[Place; 3], share: Share<'_>) -> [Estimate; 3] {
+        near.each_ref().map(|(v, all)| {
+            let shares: Vec<f64> = all.iter().map(|(at, loss)| share(*v, *at, *loss)).collect();
+            (self.judge)(shares[0], &shares[1..])
+        })
+    }
+
+    fn point(&self, speed: f64) -> Point {
         let v0 = self.motor.surface_speed();
         if v0 == 0.0 && speed == 0.0 {
             // Nothing slides.
             return Point::default();
         }
         // A stator that does not move along the ring holds the rotor, whichever way it turns.
-        let v = if v0 > 0.0 { speed / v0 } else { speed.signum() * 2.0 };
-        let unit = self.torque();
-        let at = self.drive.at(v);
-        let others: Vec<f64> = self.others.iter().map(|other| other.at(v).0).collect();
-        let force = unit.value / self.motor.contact_radius;
-        let output = force * at.0 * speed;
+        let (v, per_ratio) = if v0 > 0.0 { (speed / v0, v0) } else { (speed.signum() * 2.0, 0.5 * speed.abs()) };
+        let near = self.near(v);
+        let scaled = |unit: Estimate, most: f64, share: Share<'_>| {
+            let shares = self.shares(&near, share);
+            self.scaled(unit, Estimate { value: shares[1].value, error: greatest_error(&shares) }, most)
+        };
+        let (unit, per_radius) = (self.torque(), 1.0 / self.motor.contact_radius);
+        let force = Estimate { value: unit.value * per_radius, error: unit.error * per_radius };
+        let (at, loss) = near[1].1[0];
+        let driven = unit.value > 0.0 && efficiency(v, at, loss).is_some();
         Point {
             speed,
-            torque: self.scaled(unit, at.0, &others),
-            output,
-            friction: force * at.1 * v0 - output,
-            efficiency: efficiency(v, at, loss).filter(|_| self.load.value > 0.0),
+            torque: scaled(unit, 1.0, &|_, (s0, _), _| s0),
+            output: scaled(force, speed.abs(), &|v, (s0, _), _| v * s0 * per_ratio),
+            friction: scaled(force, v0 + speed.abs(), &|v, (s0, s1), _| s1 * v0 - v * s0 * per_ratio),
+            efficiency: driven
+                .then(|| scaled(self.loss_scale(), 1.0, &|v, at, loss| efficiency(v, at, loss).unwrap_or(0.0))),
         }
     }
 
     /// All of it, with a curve at these speeds \[m/s\].
     pub fn performance(&self, speeds: &[f64]) -> Performance {
         let exactly = |value: f64| Estimate { value, error: 0.0 };
-        let (speed, loss) = (self.motor.surface_speed(), self.loss());
+        let speed = self.motor.surface_speed();
         let (unit, v0) = (self.torque(), exactly(speed));
         let per_radius = speed / self.motor.contact_radius;
         let power = Estimate { value: unit.value * per_radius, error: unit.error * per_radius };
-        // The film's loss is a share of N, whose error moves the efficiency by at most its own relative size.
-        let relative = Estimate { value: 1.0, error: if loss > 0.0 { self.load.error / self.load.value } else { 0.0 } };
-        let driven = self.load.value > 0.0 && self.drive.load > 0.0 && speed > 0.0;
+        let driven = unit.value > 0.0 && self.drive.0.load > 0.0 && speed > 0.0;
         let marks = driven.then(|| {
-            let others: Vec<Marks> = self.others.iter().map(|other| other.marks(loss)).collect();
-            (self.drive.marks(loss), others)
+            let marks = |(drive, loss): &Lossy| drive.marks(*loss);
+            (marks(&self.drive), self.others.iter().map(marks).collect::<Vec<_>>())
         });
-        let marked = |unit: Estimate, mark: fn(&Marks) -> f64| {
+        let judged = |mark: fn(&Marks) -> f64| {
             let (found, others) = marks.as_ref()?;
-            Some(self.scaled(unit, mark(found), &others.iter().map(mark).collect::<Vec<_>>()))
+            Some((self.judge)(mark(found), &others.iter().map(mark).collect::<Vec<_>>()))
+        };
+        let marked = |unit: Estimate, mark: fn(&Marks) -> f64| Some(self.scaled(unit, judged(mark)?, 1.0));
+        // Where a curve is greatest is as uncertain as its slope, and the more so the flatter it is.
+        let place = |mark: fn(&Marks) -> f64, share: Share<'_>| {
+            let v = judged(mark)?;
+            let curve = self.shares(&self.near(v.value), share);
+            let bent = (curve[0].value - 2.0 * curve[1].value + curve[2].value).abs() / (NEAR * NEAR);
+            let slope = greatest_error(&curve) / VARIES;
+            let known = v.error.is_finite() && slope.is_finite();
+            let error = if known { v.error.max(slope / bent.max(f64::MIN_POSITIVE)).min(1.0) } else { f64::INFINITY };
+            Some(Estimate { value: v.value * speed, error: error * speed })
         };
         // What is not driven may be, by as little as the contact that was missed.
         let nothing = |unit: Estimate| Estimate { value: 0.0, error: if speed > 0.0 { unit.error } else { 0.0 } };
@@ -366,13 +406,19 @@ impl<'a> Scaled<'a> {
             stall_torque: marked(unit, |marks| marks.stall).unwrap_or_else(|| nothing(unit)),
             no_load_speed: marked(v0, |marks| marks.no_load),
             max_power: marked(power, |marks| marks.output.1).unwrap_or_else(|| nothing(power)),
-            max_power_speed: marked(v0, |marks| marks.output.0),
-            max_efficiency: marked(relative, |marks| marks.efficiency.1),
-            max_efficiency_speed: marked(v0, |marks| marks.efficiency.0),
-            present: self.point(self.motor.rotor_speed, loss),
-            curve: speeds.iter().map(|speed| self.point(*speed, loss)).collect(),
+            max_power_speed: place(|marks| marks.output.0, &|v, (s0, _), _| v * s0),
+            max_efficiency: marked(self.loss_scale(), |marks| marks.efficiency.1),
+            max_efficiency_speed: place(|marks| marks.efficiency.0, &|v, at, loss| {
+                efficiency(v, at, loss).unwrap_or(0.0)
+            }),
+            present: self.point(self.motor.rotor_speed),
+            curve: speeds.iter().map(|speed| self.point(*speed)).collect(),
         }
     }
+}
+
+fn greatest_error(shares: &[Estimate]) -> f64 {
+    shares.iter().map(|share| share.error).fold(0.0, f64::max)
 }
 
 /// The warning of a motor whose teeth touch all round the wave, so that it gives less than the bound.
@@ -396,7 +442,7 @@ pub fn lines(loads: &LineLoads) -> impl Iterator<Item = (f64, usize)> {
         .map(move |line| ((line % frames) as f64 / frames as f64 + (line / frames) as f64 * place, line * nodes))
 }
 
-/// How often the stored teeth are on the ring.
+/// Number of teeth on the whole ring that each stored tooth stands for.
 pub fn ring(motor: &Motor, loads: &LineLoads) -> f64 {
     f64::from(motor.waves) * loads.teeth as f64 / loads.stored_teeth.max(1) as f64
 }

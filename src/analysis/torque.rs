@@ -24,7 +24,7 @@ pub struct TorqueCurves {
     pub with_film: Performance,
     /// The same motor in a vacuum: contact solved without gas.
     pub without_film: Performance,
-    /// Contact radius \[m\]: what turns surface speeds into rotations.
+    /// Contact radius \[m\], to convert surface speeds to rpm.
     pub radius: f64,
     /// Greatest tangential speed of the stator's surface V₀ = 2πf B_S \[m/s\].
     pub surface_speed: f64,
@@ -107,7 +107,7 @@ impl TorqueCurves {
         }
     }
 
-    /// A surface speed \[m/s\] as rotations in a minute.
+    /// Converts a surface speed \[m/s\] to revolutions per minute.
     pub fn rpm(&self, speed: f64) -> f64 {
         rpm(speed, self.radius)
     }

@@ -1,5 +1,5 @@
-//! Torque, power and efficiency as the `merit` object of `solve --json`, and its curves as CSV. Speeds in rotations a
-//! minute, for the whole ring.
+//! Torque, power and efficiency as the `merit` object of `solve --json`, and its curves as CSV. Speeds in rpm, for the
+//! whole ring.
 
 use super::estimates;
 use crate::analysis::torque::TorqueCurves;
@@ -59,9 +59,9 @@ impl Serialize for Present<'_> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("speed_rpm", &curves.rpm(point.speed))?;
         estimates::add(&mut map, "torque", "_nm", Some(point.torque))?;
-        map.serialize_entry("output_w", &point.output)?;
-        map.serialize_entry("friction_w", &point.friction)?;
-        map.serialize_entry("efficiency", &point.efficiency)?;
+        estimates::add(&mut map, "output", "_w", Some(point.output))?;
+        estimates::add(&mut map, "friction", "_w", Some(point.friction))?;
+        estimates::add(&mut map, "efficiency", "", point.efficiency)?;
         map.end()
     }
 }
@@ -69,17 +69,18 @@ impl Serialize for Present<'_> {
 /// Writes both curves, one row for each speed. Where a value is not known, or the rotor is not driven, a field is empty.
 pub fn write_csv(curves: &TorqueCurves, out: &mut dyn Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    let columns = ["torque_nm", "torque_error_nm", "output_w", "friction_w", "efficiency"];
+    let columns = [("torque", "_nm"), ("output", "_w"), ("friction", "_w"), ("efficiency", "")];
     let mut header = vec!["speed_rpm".to_owned()];
     for side in ["", "dry_"] {
-        header.extend(columns.iter().map(|column| format!("{side}{column}")));
+        header
+            .extend(columns.iter().flat_map(|(name, unit)| ["", "_error"].map(|of| format!("{side}{name}{of}{unit}"))));
     }
     table.write_record(&header)?;
     for (wet, dry) in curves.with_film.curve.iter().zip(&curves.without_film.curve) {
         let mut row = vec![text(Some(curves.rpm(wet.speed)))];
         for point in [wet, dry] {
-            let numbers = [point.torque.value, point.torque.error, point.output, point.friction].map(Some);
-            row.extend(numbers.into_iter().chain([point.efficiency]).map(text));
+            let numbers = [Some(point.torque), Some(point.output), Some(point.friction), point.efficiency];
+            row.extend(numbers.iter().flat_map(|number| [number.map(|n| n.value), number.map(|n| n.error)]).map(text));
         }
         table.write_record(&row)?;
     }

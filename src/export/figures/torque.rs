@@ -14,7 +14,7 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
     };
     let greatest = wet.max_torque.value.max(dry.max_torque.value);
     let (torque_unit, torques) = prefixed(greatest, "N·m");
-    let (power_unit, powers) = prefixed(most(|point| point.output.max(point.friction)), "W");
+    let (power_unit, powers) = prefixed(most(|point| point.output.value.max(point.friction.value)), "W");
     let fastest = curves.rpm(curves.surface_speed).max(f64::MIN_POSITIVE);
     let x = || Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
     // What brakes the rotor is below the axes.
@@ -33,16 +33,16 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
             .layer(Band::new("", errors, Colour::FILM))
             .layer(Line::new("without film", curve(dry, &|point| point.torque.value * torques), dry_style))
             .layer(Line::new("with film", curve(wet, &|point| point.torque.value * torques), wet_style));
-    let highest = most(|point| point.output.max(point.friction)) * powers;
+    let highest = most(|point| point.output.value.max(point.friction.value)) * powers;
     let mut second = Panel::new("(b) power", x(), Axis::new("power", &power_unit).fixed(0.0, top(highest)))
-        .layer(Line::new("output, without film", curve(dry, &|point| point.output * powers), dry_style))
-        .layer(Line::new("output", curve(wet, &|point| point.output * powers), wet_style))
+        .layer(Line::new("output, without film", curve(dry, &|point| point.output.value * powers), dry_style))
+        .layer(Line::new("output", curve(wet, &|point| point.output.value * powers), wet_style))
         .layer(Line::new(
             "friction heat",
-            curve(wet, &|point| point.friction * powers),
+            curve(wet, &|point| point.friction.value * powers),
             Style::solid(Colour::STATOR).dash(Dash::DashDot),
         ));
-    let percent = |point: &Point| point.efficiency.map_or(f64::NAN, |share| 100.0 * share);
+    let percent = |point: &Point| point.efficiency.map_or(f64::NAN, |share| 100.0 * share.value);
     let mut third = Panel::new("(c) efficiency", x(), Axis::new("efficiency", "%").fixed(0.0, 100.0))
         .layer(Line::new("without film", curve(dry, &percent), dry_style))
         .layer(Line::new("with film", curve(wet, &percent), wet_style));

@@ -79,9 +79,9 @@ fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx
     let (with, without) = (&merit.with_film, &merit.without_film);
     type Value<'a> = &'a dyn Fn(&Point) -> Option<f64>;
     let torque: Value<'_> = &|point| Some(point.torque.value);
-    let output: Value<'_> = &|point| Some(point.output);
-    let friction: Value<'_> = &|point| Some(point.friction);
-    let efficiency: Value<'_> = &|point| point.efficiency.map(|share| 100.0 * share);
+    let output: Value<'_> = &|point| Some(point.output.value);
+    let friction: Value<'_> = &|point| Some(point.friction.value);
+    let efficiency: Value<'_> = &|point| point.efficiency.map(|share| 100.0 * share.value);
     let dash = LineStyle::dashed_loose();
     let charts = [
         (CHARTS[0], vec![(curve(without, torque), dry, dash), (curve(with, torque), film, SOLID)]),
@@ -179,9 +179,9 @@ fn readout(ui: &mut egui::Ui, merit: &TorqueCurves, pointed: Option<f64>, cx: &D
         let [low, high] = [a, b].map(|point| merit.rpm(point.speed));
         let part = if high > low { (speed - low) / (high - low) } else { 0.0 };
         let mix = |a: f64, b: f64| a + part * (b - a);
-        let percent = a.efficiency.zip(b.efficiency).map(|(a, b)| 100.0 * mix(a, b));
+        let percent = a.efficiency.zip(b.efficiency).map(|(a, b)| 100.0 * mix(a.value, b.value));
         let percent = percent.map_or_else(String::new, |share| format!(", {} %", digits(share, DIGITS)));
-        let (torque, output) = (mix(a.torque.value, b.torque.value), mix(a.output, b.output));
+        let (torque, output) = (mix(a.torque.value, b.torque.value), mix(a.output.value, b.output.value));
         Some(format!("{} N·m, {} W{percent}", digits(torque, DIGITS), digits(output, DIGITS)))
     };
     let (Some(with), Some(without)) = (at(&merit.with_film), at(&merit.without_film)) else { return };
@@ -212,7 +212,7 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
         ("Greatest efficiency", Box::new(|of| stated(of.max_efficiency, 100.0, "%")), "Efficiency"),
         ("    at", Box::new(move |of| speed(of.max_efficiency_speed)), "Efficiency"),
         (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
-        ("Friction heat there", Box::new(|of| format!("{} W", digits(of.present.friction, DIGITS))), "Friction heat"),
+        ("Friction heat there", Box::new(|of| stated(Some(of.present.friction), 1.0, "W")), "Friction heat"),
     ];
     let grid = egui::Grid::new("figures of merit").num_columns(3).striped(true).spacing([10.0, 4.0]);
     // Wider than the tab only in a small window with large text.
