@@ -347,6 +347,46 @@ fn flow_factors_matter_where_gas_has_time_to_leave_and_vanish_with_the_roughness
 }
 
 #[test]
+fn the_film_is_as_thin_as_is_said_to_within_its_error() {
+    let motor = |fidelity| {
+        let problem = Problem::try_from(&presets::find("asperities").unwrap()).unwrap();
+        solve(&problem, &Settings { fidelity, ..Settings::default() }, &mut (), &Cancel::new()).unwrap().recording
+    };
+    let exact = motor(Fidelity::Reference);
+    for fidelity in [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine] {
+        let found = motor(fidelity);
+        let every = exact.frames / found.frames;
+        for (frame, thickness) in found.min_film_thickness.iter().enumerate() {
+            let (error, off) =
+                (found.min_film_thickness_error[frame], (thickness - exact.min_film_thickness[frame * every]).abs());
+            assert!(off <= error && error < 1e-9, "{fidelity} {frame}: {off:e} {error:e}");
+        }
+    }
+}
+
+#[test]
+fn teeth_that_seem_to_float_may_touch_within_the_error() {
+    // Loads at which a coarse grid just misses the contact, on asperities and on a hard stop.
+    for (preset, load, fidelity) in [
+        ("asperities", "0.2072705", Fidelity::Draft),
+        ("asperities", "0.2071045", Fidelity::Standard),
+        ("fundamental", "0.489", Fidelity::Draft),
+    ] {
+        let motor = |fidelity| {
+            let mut scene = presets::find(preset).unwrap();
+            scene.set_all([("motor.load_per_wave_n", load)]).unwrap();
+            let problem = Problem::try_from(&scene).unwrap();
+            let solution = solve(&problem, &Settings { fidelity, ..Settings::default() }, &mut (), &Cancel::new());
+            let Outcome::Motor(result) = solution.unwrap().outcome else { panic!("{preset} is a motor") };
+            result
+        };
+        let (found, exact) = (motor(fidelity), motor(Fidelity::Reference));
+        let off = (found.teeth_in_contact - exact.teeth_in_contact).abs();
+        assert!(off <= found.teeth_in_contact_error, "{preset} {load}: {found:?} {exact:?}");
+    }
+}
+
+#[test]
 fn what_a_surface_rules_out_is_refused_by_name() {
     let mut scene = presets::find("asperities").unwrap();
     let message = scene.set("film.min_spacing_nm", "100").unwrap_err().to_string();

@@ -119,9 +119,9 @@ pub struct Motor {
     pub rotor_speed: f64,
     /// Frequency f \[Hz\].
     pub frequency: f64,
-    /// Normal amplitude of the stator A_S \[m\].
+    /// Normal amplitude of the stator A_S, zero to peak \[m\].
     pub normal_amplitude: f64,
-    /// Tangential amplitude of the stator B_S \[m\].
+    /// Tangential amplitude of the stator B_S, zero to peak \[m\].
     pub tangential_amplitude: f64,
     /// Teeth in one wavelength n_t.
     pub teeth: usize,
@@ -176,10 +176,17 @@ impl Motor {
         self.surface.asperities.map_or(self.min_spacing, |asperities| asperities.least_gap())
     }
 
-    /// Contact load on one metre of a tooth from which on it counts as touching \[N/m\]: none with a hard stop. Asperities always carry
-    /// something; what is less than a thousandth of the load spread evenly over the tooth tops does not count.
+    /// Contact line load above which a node counts as touching \[N/m\]: 0 with a hard stop. Asperities always carry something, so there
+    /// it is a thousandth of the load spread evenly over the tooth tops.
     pub fn touching_from(&self) -> f64 {
         if self.surface.asperities.is_some() { 1e-3 * self.load / (self.teeth as f64 * self.tooth_width) } else { 0.0 }
+    }
+
+    /// Film thickness at which a node begins to touch \[m\].
+    pub fn touching_thickness(&self) -> f64 {
+        self.surface.asperities.map_or(self.min_spacing, |asperities| {
+            asperities.mean_gap(asperities.separation_under(self.touching_from() / self.contact_width)).0
+        })
     }
 
     /// Greatest tangential speed of the stator's surface V₀ = 2πf B_S \[m/s\].
@@ -202,7 +209,7 @@ impl Motor {
     }
 }
 
-/// A surface speed \[m/s\] at `radius` \[m\] as rotations in a minute.
+/// Converts a surface speed \[m/s\] at `radius` \[m\] to revolutions per minute.
 pub fn rpm(speed: f64, radius: f64) -> f64 {
     60.0 * speed / (std::f64::consts::TAU * radius)
 }
@@ -247,7 +254,7 @@ pub struct Plate {
     pub load: Option<f64>,
     /// Least gap that the roughness leaves \[m\]: a plate under a load that would come closer rests on it. Unused without a load.
     pub min_spacing: f64,
-    /// Amplitude \[m\], smaller than the mean gap.
+    /// Amplitude of the vibration, zero to peak \[m\], smaller than the mean gap.
     pub amplitude: f64,
     /// Frequency f \[Hz\].
     pub frequency: f64,

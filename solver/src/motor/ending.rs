@@ -5,7 +5,7 @@ use crate::film::cycle::Interrupted;
 use crate::film::stepper::FilmError;
 use crate::rotor::RotorError;
 
-/// Why a motor could not be solved. Of the steps and instants no input is known to lead here.
+/// Why a motor could not be solved. No input is known that makes a film step or a contact problem fail.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MotorError {
     /// A film step failed.

@@ -42,6 +42,8 @@ pub const NEARLY_FLOATS: f64 = 0.95;
 /// Loads, over its own, through which the state of a motor whose teeth touch is followed.
 const HEAVIER: [f64; 7] = [4.0, 2.8, 2.0, 1.5, 1.25, 1.1, 1.0];
 
+/// What rounding may have changed of α.
+const ROUNDING: f64 = 1e-12;
 /// A share of the load that no one minds: an error below it is no reason to call a result unresolved.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -479,7 +481,9 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
         max_contact: most(&recording.contact),
         ..MotorResult::default()
     };
-    result.set_alpha(motor, mean(&recording.film_load) / motor.load);
+    let alpha = mean(&recording.film_load) / motor.load;
+    // What floats carries its load, whatever rounding has left.
+    result.set_alpha(motor, if (alpha - 1.0).abs() < ROUNDING { 1.0 } else { alpha });
     let loads = |greater| {
         recording.extreme_error(LineLoads::film_loads, &recording.film_load, &recording.film_load_error, greater)
     };
@@ -489,10 +493,13 @@ pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
     result.max_pressure_error = recording.extreme_error(series, pressures, errors, f64::max);
     let (series, errors) = (LineLoads::min_film_thicknesses, &recording.min_film_thickness_error);
     result.min_gap_error = recording.extreme_error(series, thicknesses, errors, f64::min);
-    // When a tooth begins and ends to touch is known to half a frame each.
+    // When a tooth begins and ends to touch is known to half a frame each. One that nearly touches may.
     let frame = motor.teeth as f64 / recording.frames.max(1) as f64;
-    result.teeth_in_contact_error =
-        if result.levitated { 0.0 } else { recording.estimate(LineLoads::teeth_in_contact).error + frame };
+    result.teeth_in_contact_error = if result.levitated {
+        recording.near_teeth(motor.touching_thickness())
+    } else {
+        recording.estimate(LineLoads::teeth_in_contact).error + frame
+    };
     result
 }
 

@@ -4,12 +4,12 @@ use crate::fidelity::GRIDS;
 use crate::numerics::grading::{clustering, map};
 use serde::{Deserialize, Serialize};
 
-/// One grid of a motor: intervals along a tooth and across half the width, time steps in a cycle.
+/// One grid of a motor or a plate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// Intervals along a tooth (of a plate: along half its length).
     pub along: usize,
-    /// Intervals across half the width.
+    /// Across half the width: intervals of finite volumes, or unknown nodes of a polynomial.
     pub across: usize,
     /// Time steps in a cycle.
     pub steps: usize,

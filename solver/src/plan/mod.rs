@@ -86,8 +86,8 @@ pub enum Choice {
 pub struct Weighed {
     /// How the part is solved if it is left out.
     pub reduced: Choice,
-    /// The number that decides: Λ/σ of the wedge term; otherwise the film's boundary layer over the side of a tooth that the gas
-    /// would have to leak out along, of the leaking in time the shorter one.
+    /// The number that decides: Λ/σ for the wedge term; otherwise the boundary layer over the distance between the two edges
+    /// whose leakage is neglected (for the film in time, the shorter of tooth and contact width).
     pub number: f64,
     /// Whether the scene says so.
     pub asked: bool,
@@ -169,17 +169,17 @@ pub struct Plan {
     pub rotor: Compliances,
     /// Rotor harmonics kept at most.
     pub most_harmonics: usize,
-    /// The rotor whose harmonics are counted in place of `rotor`'s, so that a similar one keeps as many.
+    /// Rotor that decides how many harmonics are kept, if not `rotor`: a similar rotor then keeps the same number.
     pub counted: Option<Compliances>,
     /// Error of α asked for, relative; 0 on grids that were asked for, which are not refined.
     pub accuracy: f64,
     /// The error of α that the fidelity aims at, relative, whether or not the grids were asked for.
     pub target_error: f64,
-    /// Grids at most, those of `grids` included, and unknown nodes of a polynomial across half the width.
+    /// Most grids, those of `grids` included.
     pub most_grids: usize,
-    /// See `most_grids`.
+    /// Most unknown nodes of a polynomial across half the width.
     pub most_across: usize,
-    /// Nodes across and their clustering, should it have to be finite volumes.
+    /// Fallback to finite volumes: intervals across half the width, and their clustering parameter.
     pub robust: (usize, f64),
     /// Largest relative change that counts as a repeating cycle.
     pub tolerance: f64,

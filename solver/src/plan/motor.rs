@@ -22,6 +22,9 @@ const MORE_GRIDS: usize = 3;
 /// Intervals along a tooth that leave a node to solve on the coarsest grid.
 const FEWEST_ALONG: usize = 2 << (GRIDS - 1);
 
+/// Most unknown nodes of a polynomial across half the width.
+const MOST_ACROSS: usize = 12;
+
 impl Plan {
     /// The plan of a motor at a fidelity; `numerics` overrules.
     ///
@@ -62,7 +65,9 @@ impl Plan {
         };
         let half = 0.5 * motor.contact_width;
         let robust = graded(spec.volumes, numerics.film_nodes_across.map(|n| n / 2), half, edge);
-        let across = numerics.film_nodes_across.map_or(spec.across, |n| (n / 2).max(1));
+        // With fewer nodes, leaving out the last one may by chance change little although the layer at the sides is not resolved.
+        let least = (half / layer).sqrt().round() as usize;
+        let across = numerics.film_nodes_across.map_or(spec.across.max(least), |n| (n / 2).max(1));
         let spectral = layer / half > THINNEST_LAYER;
         let (across, clustering_across) = if spectral { (across, spectral_clustering(layer / half)) } else { robust };
         let steps_per_pitch = numerics.steps_per_cycle.unwrap_or(spec.steps).div_ceil(motor.teeth);
@@ -108,7 +113,7 @@ impl Plan {
             accuracy: if custom(numerics) { 0.0 } else { spec.target_error },
             target_error: spec.target_error,
             most_grids: if custom(numerics) { GRIDS } else { GRIDS + MORE_GRIDS },
-            most_across: if numerics.film_nodes_across.is_some() { across } else { 12 },
+            most_across: if numerics.film_nodes_across.is_some() { across } else { MOST_ACROSS },
             robust,
             tolerance: numerics.tolerance.unwrap_or(spec.tolerance),
             round_limit: ROUND_LIMIT,

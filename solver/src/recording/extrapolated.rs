@@ -23,6 +23,10 @@ pub struct Balance {
 
 /// Least share of the load on asperities for them to take what extrapolation leaves of the balance.
 const LEAST_HELD: f64 = 1e-3;
+/// How much thinner than at any node a film may be, in units of its departure there from the chord of its neighbours: between nodes it is a
+/// quarter, of a parabola; at the edge of a tooth, where faces on asperities come closest, it changes faster than nodes follow.
+const BETWEEN: f64 = 0.25;
+const AT_EDGE: f64 = 0.6;
 /// Largest factor by which extrapolation changes an absolute pressure.
 const LARGEST_FACTOR: f64 = 2.0;
 
@@ -122,6 +126,31 @@ impl LineLoads {
     /// Least film thickness of each frame \[m\].
     pub fn min_film_thicknesses(&self) -> Vec<f64> {
         self.series(|nodes| self.film_thickness[nodes].iter().copied().fold(f64::INFINITY, f64::min), f64::min)
+    }
+
+    /// Least film thickness of each tooth in one frame \[m\].
+    pub fn thinnest(&self, frame: usize) -> impl Iterator<Item = f64> {
+        (0..self.teeth).map(move |tooth| {
+            let line = self.line_offset(tooth, frame);
+            self.film_thickness[line..line + self.x.len()].iter().copied().fold(f64::INFINITY, f64::min)
+        })
+    }
+
+    /// By how much the film may be thinner than it is at any node in a frame \[m\], by how far the thickness departs from the chord of
+    /// its neighbours where it is least; 0 where the gap is closed, so that the thickness is `closed`.
+    pub fn thinner_between_nodes(&self, frame: usize, closed: f64) -> f64 {
+        let nodes = self.x.len();
+        let lines = (0..self.teeth).map(|tooth| self.line_offset(tooth, frame));
+        let all = lines.flat_map(|line| (0..nodes).map(move |i| (line, i)));
+        let least = all.min_by(|a, b| self.film_thickness[a.0 + a.1].total_cmp(&self.film_thickness[b.0 + b.1]));
+        let Some((line, i)) = least.filter(|(line, i)| nodes > 2 && self.film_thickness[line + i] > closed) else {
+            return 0.0;
+        };
+        let factor = if i == 0 || i == nodes - 1 { AT_EDGE } else { BETWEEN };
+        let i = i.clamp(1, nodes - 2);
+        let [before, here, behind] = [i - 1, i, i + 1].map(|i| (self.x[i], self.film_thickness[line + i]));
+        let share = (here.0 - before.0) / (behind.0 - before.0);
+        factor * (here.1 - before.1 - share * (behind.1 - before.1)).abs()
     }
 
     /// Teeth that touch in each frame.

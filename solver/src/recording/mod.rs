@@ -39,11 +39,11 @@ pub struct Recording {
     pub period: f64,
     /// One cycle of a transient: after its last frame comes another cycle, and no tooth is another one at another time.
     pub transient: bool,
-    /// Stator's normal displacement W_S \[m\] (zero for a plate).
+    /// Stator's normal displacement W_S \[m\], `[tooth][frame][node]` as the lines (zero for a plate).
     pub stator: Vec<f64>,
-    /// x of the pressure map, from the tooth's middle \[m\].
+    /// x of the pressure map, from the middle of tooth or plate \[m\]; of a round plate the radius \[m\].
     pub map_x: Vec<f64>,
-    /// y of the pressure map, from the middle of the width \[m\]; only y ≥ 0 when `half_width`; `[0]` for a strip.
+    /// y of the pressure map, from the middle of the width \[m\]; only y ≥ 0 when `half_width`; `[0]` for a strip and a round plate.
     pub map_y: Vec<f64>,
     /// The map covers y ≥ 0 only.
     pub half_width: bool,
@@ -53,7 +53,7 @@ pub struct Recording {
     pub pressure: Vec<f64>,
     /// Of a transient: the same of the other teeth, `[tooth − 1][frame][ix][iy]`.
     pub other_pressure: Vec<f64>,
-    /// Per frame: film load on one wavelength or the plate \[N\].
+    /// Per frame: film load on one wavelength or the plate \[N; of a strip N/m\].
     pub film_load: Vec<f64>,
     /// Per frame: contact load \[N\].
     pub contact_load: Vec<f64>,
@@ -63,7 +63,8 @@ pub struct Recording {
     pub min_film_thickness: Vec<f64>,
     /// Per frame: greatest pressure on any tooth \[Pa\].
     pub max_pressure: Vec<f64>,
-    /// Estimated numerical errors of the series, absolute, a value each frame; empty where they are not known.
+    /// Estimated numerical error of `film_load`, absolute \[N; of a strip N/m\], a value each frame. This and the two below are empty where
+    /// not known.
     pub film_load_error: Vec<f64>,
     /// Of `min_film_thickness` \[m\].
     pub min_film_thickness_error: Vec<f64>,
@@ -108,7 +109,7 @@ pub struct LineLoads {
     pub contact: Vec<f64>,
     /// Film's net gauge line load \[N/m\], likewise (of a strip: gauge pressure × 1 m of width); zero without film.
     pub film: Vec<f64>,
-    /// Film thickness h = gap + H_m \[m\], likewise; empty without film.
+    /// Film thickness h \[m\], likewise: gap + H_m, or over asperities the mean gap; empty without film.
     pub film_thickness: Vec<f64>,
     /// Greatest pressure across the width \[Pa\], likewise; empty without film.
     pub peak: Vec<f64>,
@@ -131,7 +132,7 @@ impl DerefMut for Recording {
 }
 
 impl Recording {
-    /// What follows from the lines, with its error: from how it differs on those that this recording is judged by.
+    /// `value` of the lines, with an error from the same value of the `yardsticks`; infinite if there are none.
     pub fn estimate(&self, value: impl Fn(&LineLoads) -> f64) -> Estimate {
         let found = value(&self.lines);
         match &self.yardsticks[..] {
@@ -159,8 +160,10 @@ impl Recording {
         let gas = ambient * self.teeth as f64;
         self.film_load_error = errors(&self.film_load, LineLoads::film_loads, 1.0, &|load| everywhere * (gas + load));
         self.max_pressure_error = errors(&self.max_pressure, LineLoads::max_pressures, PEAK, &|p| everywhere * p);
+        let judged = errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, 1.0, &|_| 0.0);
+        let between = (0..self.frames).map(|frame| self.thinner_between_nodes(frame, self.touching.min_spacing));
         self.min_film_thickness_error =
-            errors(&self.min_film_thickness, LineLoads::min_film_thicknesses, 1.0, &|_| 0.0);
+            judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();
     }
 
     /// Error of an extreme of a series: by how much it differs on what this recording is judged by, and the error of the series there.
@@ -177,6 +180,17 @@ impl Recording {
         let there = found.iter().position(|v| *v == value).and_then(|frame| errors.get(frame)).copied();
         // Extremes between two frames: the change from twice the steps counts in full.
         (value - extreme(&series(before))).abs().max(there.unwrap_or(0.0)).max((value - extreme(&series(finest))).abs())
+    }
+
+    /// Mean over the cycle of the number of teeth whose film is at most `touching` thick \[m\], or would be if it were thinner by its
+    /// estimated error.
+    pub fn near_teeth(&self, touching: f64) -> f64 {
+        let teeth = self
+            .min_film_thickness_error
+            .iter()
+            .enumerate()
+            .map(|(frame, error)| self.thinnest(frame).filter(|thickness| thickness - error <= touching).count());
+        teeth.sum::<usize>() as f64 / self.frames.max(1) as f64
     }
 
     /// Time of a frame \[s\].
