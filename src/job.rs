@@ -38,11 +38,13 @@ use crate::analysis::validity::Excess;
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
+use crate::platform::timed;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solution::{Solution, Status};
 use crate::solve::{Settings, solve_from};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A scene and what came of solving it at one fidelity: immutable, shared.
 #[derive(Debug)]
@@ -106,18 +108,21 @@ pub struct Request {
     pub problem: Problem,
     /// Fidelities, coarse to fine.
     pub fidelities: Vec<Fidelity>,
+    /// Time for each of them, if it is limited: then the best so far is the result.
+    pub budget: Option<Duration>,
 }
 
 /// One fidelity of a request, solved: what it came to, or what the user is told. `None` if it was cancelled.
 fn solved(
     problem: &Problem,
-    fidelity: Fidelity,
+    (fidelity, budget): (Fidelity, Option<Duration>),
     warm: &mut Warm,
     cancel: &Cancel,
     mut listen: impl FnMut(&Progress),
 ) -> Option<Result<Solution, String>> {
     let settings = Settings { fidelity, ..Settings::default() };
-    Some(match caught(|| solve_from(warm, problem, &settings, &mut listen, cancel)) {
+    let limited = budget.map_or(cancel.clone(), |budget| timed(cancel, budget));
+    Some(match caught(|| solve_from(warm, problem, &settings, &mut listen, &limited)) {
         Ok(Ok(solution)) if solution.status == Status::Cancelled => return None,
         Ok(Ok(solution)) => Ok(solution),
         Ok(Err(_)) if cancel.is_cancelled() => return None,

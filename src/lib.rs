@@ -33,6 +33,7 @@
 //! | --- | --- |
 //! | [`platform`] | where the program runs: a process or a page |
 //! | [`atomic`], [`input`] | files that appear whole or not at all, locks between processes; files from outside |
+//! | [`ticks`] | round numbers on axes |
 //! | [`citation`] | how the program is cited |
 //! | [`scene`] | what a person edits: files, units, ranges, presets |
 //! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
@@ -54,6 +55,7 @@ pub mod job;
 pub mod lessons;
 pub mod platform;
 pub mod scene;
+pub mod ticks;
 
 pub use squeezefilm_solver::{
     budget, contact, control, digits, dimensionless, drive, estimate, fall, fidelity, film, gas, hold, ladder, memory,

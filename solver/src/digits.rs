@@ -1,9 +1,14 @@
 //! Numbers for people: as many digits as the error justifies. Whatever is written for a person to read gets its digits here.
 
+use std::time::Duration;
+
 /// Below this size numbers are written with an exponent.
 const SMALL: f64 = 1e-4;
 /// From this size on as well.
 const LARGE: f64 = 1e7;
+/// Times that [`parse_duration`] allows \[s\].
+const SHORTEST_TIME: f64 = 1e-6;
+const LONGEST_TIME: f64 = 86_400.0;
 
 /// `value` to a number of significant digits, whole digits never dropped: `0.2458`, `541.3`, `30418`, `1.050e-10`.
 pub fn significant(value: f64, digits: usize) -> String {
@@ -54,6 +59,31 @@ pub fn duration(seconds: f64) -> String {
         s => (s / 60.0, "min"),
     };
     format!("{} {unit}", significant(value, 3))
+}
+
+/// Reads a time with its unit, µs (or us), ms, s or min: `20ms`, `1,5 s`, `2min`.
+///
+/// # Errors
+/// Words that name the text and what is allowed: from 1 µs to a day.
+pub fn parse_duration(text: &str) -> Result<Duration, String> {
+    let text = text.trim();
+    let (number, unit) = [("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("min", 60.0), ("s", 1.0)]
+        .into_iter()
+        .find_map(|(name, unit)| text.strip_suffix(name).map(|number| (number, unit)))
+        .ok_or_else(|| {
+            let lacks = if text.ends_with(|c: char| c.is_ascii_digit()) {
+                "no unit"
+            } else {
+                "none of the units µs, ms, s and min"
+            };
+            format!("{text} has {lacks}: expected a time such as 20ms, 1.5s or 2min")
+        })?;
+    match number.trim().replace(',', ".").parse::<f64>() {
+        Ok(number) if (SHORTEST_TIME..=LONGEST_TIME).contains(&(number * unit)) => {
+            Ok(Duration::from_secs_f64(number * unit))
+        }
+        _ => Err(format!("{text} is not a time: expected from 1 µs to a day, such as 20ms, 1.5s or 2min")),
+    }
 }
 
 /// `0.24583 ± 0.00018`: both to the error's second significant digit. An error that is not finite is said to be unknown.
@@ -158,5 +188,17 @@ mod tests {
     #[test]
     fn durations_have_a_unit() {
         assert_eq!([0.0426, 5.0, 300.0].map(duration), ["42.6 ms", "5.00 s", "5.00 min"]);
+    }
+
+    #[test]
+    fn times_are_read_with_their_units() {
+        let read = |text: &str| parse_duration(text).map(|time| time.as_secs_f64());
+        assert_eq!(
+            [read("16ms"), read(" 2 s"), read("1,5min"), read("100µs"), read("100us"), read("100 μs")],
+            [Ok(0.016), Ok(2.0), Ok(90.0), Ok(1e-4), Ok(1e-4), Ok(1e-4)]
+        );
+        for wrong in ["", "16", "0ms", "1e-12s", "-1s", "nan s", "16 hours", "ms", "2000min"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
     }
 }

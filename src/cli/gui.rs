@@ -1,7 +1,7 @@
 //! `squeezefilm gui`, and the program without a command: the window.
 
 use super::exit::{CliError, Exit};
-use super::options::{MemoryOptions, STANDARD_INPUT, SceneOptions};
+use super::options::{AccuracyOptions, MemoryOptions, STANDARD_INPUT, SceneOptions};
 use crate::gui;
 use crate::gui::state::document::Document;
 use crate::gui::state::link::Link;
@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
   squeezefilm
   squeezefilm gui levitating
   squeezefilm gui '#fundamental&film.min_spacing_nm=100&tab=torque'
+  squeezefilm gui fundamental --accuracy 0.05% --budget 50ms
   squeezefilm gui --lesson 3 --step 4
   squeezefilm gui --lessons my-course")]
 pub(super) struct Arguments {
@@ -36,6 +37,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     scene: SceneOptions,
+
+    #[command(flatten)]
+    accuracy: AccuracyOptions,
 
     #[command(flatten)]
     memory: MemoryOptions,
@@ -67,7 +71,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     }
     let step = arguments.step.map_or(1, usize::from);
     let lesson = arguments.lesson.map(|lesson| Link::Lesson { lesson: lesson.into(), step });
-    gui::open(opened, arguments.lessons.clone(), link.or(lesson)).map_err(|error| no_window(error.to_string()))?;
+    let effort = (arguments.accuracy.fidelity(), arguments.accuracy.budget);
+    gui::open(opened, arguments.lessons.clone(), link.or(lesson), effort)
+        .map_err(|error| no_window(error.to_string()))?;
     Ok(Exit::Solved)
 }
 

@@ -5,19 +5,21 @@ use super::interrupt::cancel_on_interrupt;
 use super::terminal;
 use crate::atomic::{Staged, WriteError, check_writable};
 use crate::control::Cancel;
+use crate::digits::parse_duration;
 use crate::export::figure::{Figure, Format};
 use crate::export::files::stage_figure;
 use crate::export::html::shell;
 use crate::fidelity::{Fidelity, parse_accuracy};
 use crate::input;
 use crate::memory;
+use crate::platform::timed;
 use crate::scene::{Scene, presets};
 use crate::solve::{Method, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Changes to a scene.
 #[derive(Clone, Debug, Default, Args)]
@@ -80,24 +82,43 @@ fn from_standard_input() -> Result<Scene, CliError> {
     Ok(Scene::from_toml(&text, "standard input")?)
 }
 
-/// How to solve.
-#[derive(Clone, Debug, Args)]
-pub(super) struct SolveOptions {
+/// How exact a result is to be, and how long that may take.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(super) struct AccuracyOptions {
     /// How exact the result is to be: a name for an accuracy
     #[arg(long, value_name = "LEVEL", value_parser = fidelity(), conflicts_with = "accuracy", long_help = fidelity_help())]
-    pub(super) fidelity: Option<Fidelity>,
+    fidelity: Option<Fidelity>,
 
     /// How exact the result is to be, as a number: 0.1% or 0.001
     ///
     /// Grids are refined until the stated error is that small, or a limit of the work is reached; the result states the error that it has.
-    #[arg(long, value_name = "ERROR", value_parser = accuracy)]
-    pub(super) accuracy: Option<Fidelity>,
+    #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_negative_numbers = true)]
+    accuracy: Option<Fidelity>,
 
     /// Time for each solve: 20ms, 1.5s or 2min; then the best so far is the result
     ///
     /// Without an accuracy, that of `reference` is aimed at.
-    #[arg(long, value_name = "TIME", value_parser = time)]
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_hyphen_values = true)]
     pub(super) budget: Option<Duration>,
+}
+
+impl AccuracyOptions {
+    /// What was asked for by name or by number.
+    fn named(&self) -> Option<Fidelity> {
+        self.accuracy.or(self.fidelity)
+    }
+
+    /// The fidelity asked for, if one was: a budget alone aims at `reference`.
+    pub(super) fn fidelity(&self) -> Option<Fidelity> {
+        self.named().or(self.budget.map(|_| Fidelity::Reference))
+    }
+}
+
+/// How to solve.
+#[derive(Clone, Debug, Args)]
+pub(super) struct SolveOptions {
+    #[command(flatten)]
+    pub(super) accuracy: AccuracyOptions,
 
     /// Which algorithm
     ///
@@ -107,7 +128,7 @@ pub(super) struct SolveOptions {
     pub(super) method: Option<Method>,
 
     /// Number of threads [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub(super) threads: Option<u16>,
 
     #[command(flatten)]
@@ -125,19 +146,15 @@ impl SolveOptions {
         }
         self.memory.apply();
         let method = self.method.unwrap_or(method);
-        let chosen = self.accuracy.or(self.fidelity);
-        if let (Method::Paper, Some(time)) = (method, self.budget) {
+        if let (Method::Paper, Some(time)) = (method, self.accuracy.budget) {
             terminal::warning(&format!("--budget {time:?} has no effect: method paper has its own meshes"));
         }
-        if let (Method::Paper, Some(level)) = (method, chosen) {
+        if let (Method::Paper, Some(level)) = (method, self.accuracy.named()) {
             terminal::warning(&format!("{} has no effect: method paper has its own meshes", level.option()));
         }
-        let fidelity = if self.budget.is_some() { Fidelity::Reference } else { fidelity };
-        Ok(Settings { fidelity: chosen.unwrap_or(fidelity), method, ..Settings::default() })
+        Ok(Settings { fidelity: self.accuracy.fidelity().unwrap_or(fidelity), method, ..Settings::default() })
     }
-}
 
-impl SolveOptions {
     /// The settings, and the flag that ends the command: by Ctrl-C, and each solve after its budget.
     pub(super) fn begin(&self) -> Result<(Settings, Cancel), CliError> {
         let settings = self.prepare(Fidelity::default(), Method::default())?;
@@ -146,11 +163,7 @@ impl SolveOptions {
 
     /// The flag of a command whose solves each have the budget that was given.
     pub(super) fn within_budget(&self, cancel: Cancel) -> Cancel {
-        let Some(budget) = self.budget else { return cancel };
-        cancel.with_budget(move || {
-            let started = Instant::now();
-            move || started.elapsed() >= budget
-        })
+        self.accuracy.budget.map_or(cancel.clone(), |budget| timed(&cancel, budget))
     }
 }
 
@@ -300,21 +313,6 @@ fn accuracy(text: &str) -> Result<Fidelity, String> {
     parse_accuracy(text).map(Fidelity::to)
 }
 
-/// A time as people write it: `20ms`, `1.5s`, `2min`.
-pub(super) fn time(text: &str) -> Result<Duration, String> {
-    let text = text.trim();
-    let (number, unit) = [("ms", 1e-3), ("min", 60.0), ("s", 1.0)]
-        .into_iter()
-        .find_map(|(name, unit)| text.strip_suffix(name).map(|number| (number, unit)))
-        .ok_or_else(|| format!("{text} has no unit: expected a time such as 20ms, 1.5s or 2min"))?;
-    match number.trim().parse::<f64>() {
-        Ok(number) if number > 0.0 && number * unit <= 86_400.0 => Ok(Duration::from_secs_f64(number * unit)),
-        _ => Err(format!(
-            "{text} is not a time: expected more than nothing and at most a day, such as 20ms, 1.5s or 2min"
-        )),
-    }
-}
-
 fn fidelity() -> ValueParser {
     PossibleValuesParser::new(Fidelity::ALL.map(Fidelity::name)).try_map(|name| name.parse::<Fidelity>()).into()
 }
@@ -325,8 +323,11 @@ fn fidelity_help() -> String {
         "How exact the result is to be: a name for an accuracy\n\n\
          Grids are refined until the stated error of α, or of a plate's mean load, is at most {} of its value, or \
          a limit of the work is reached; the result states the error that it has. Where the film carries less than a hundredth of the \
-         load, the accuracy is a share of that hundredth.",
-        named.join(", ")
+         load, the accuracy is a share of that hundredth.\n\n\
+         Without this option, `--accuracy` or `--budget` it is {}; for `table1` and `reproduce`, fine; for the window, what was chosen there last, \
+         which these options count as.",
+        named.join(", "),
+        Fidelity::default()
     )
 }
 
@@ -356,15 +357,6 @@ mod tests {
         assert!(scene(&three).about.contains("stator.tooth_radius_m = 3 m, was none;"), "{}", scene(&three).about);
         let named = scene(&[("film.min_spacing_nm", "100"), ("name", "Mine"), ("about", "My own.")]);
         assert_eq!((named.name.as_str(), named.about.as_str()), ("Mine", "My own."));
-    }
-
-    #[test]
-    fn times_are_read_with_their_units() {
-        let read = |text: &str| time(text).map(|time| time.as_secs_f64());
-        assert_eq!([read("16ms"), read(" 2 s"), read("1.5min")], [Ok(0.016), Ok(2.0), Ok(90.0)]);
-        for wrong in ["", "16", "0ms", "-1s", "nan s", "16 hours", "ms", "2000min"] {
-            assert!(read(wrong).is_err(), "{wrong}");
-        }
     }
 
     #[test]

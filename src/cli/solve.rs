@@ -7,6 +7,7 @@ use super::{summary, terminal};
 use crate::analysis::compare::unique;
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
+use crate::digits::duration;
 use crate::export::files::{self, Control, ExportError, Solved};
 use crate::export::json::{self, Summary, force_unit};
 use crate::memory;
@@ -14,10 +15,10 @@ use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::scene::presets::BUILT_IN;
 use crate::solution::{Status, settled};
-use crate::solve::{Settings, check, solve};
+use crate::solve::{Method, Settings, check, solve};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -134,6 +135,13 @@ fn one(
     for warning in &result.warnings {
         terminal::warning(warning);
     }
+    let over = |budget: &Duration| settings.method != Method::Paper && wall_s > OVER * budget.as_secs_f64();
+    if let Some(budget) = arguments.common.solve.accuracy.budget.filter(over) {
+        terminal::warning(&format!(
+            "--budget {budget:?}: the solve took {}; its first grids, without which there is no result, are always completed",
+            duration(wall_s)
+        ));
+    }
     if !arguments.common.output.json {
         terminal::text(&summary::text(scene, problem, &solution.outcome, &result));
     } else if arguments.presets.len() == 1 {
@@ -176,6 +184,8 @@ fn own(preset: &str, names: &mut Vec<String>) -> String {
     name
 }
 
+/// How many times as long as was allowed a solve may take before it is told.
+const OVER: f64 = 1.5;
 /// Bytes above which it is told beforehand how much will be written.
 const MUCH: u64 = 500_000_000;
 

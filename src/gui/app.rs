@@ -12,6 +12,7 @@ use super::ui::{layout, theme};
 use super::update::platform::Platform;
 use super::update::storage::keep;
 use super::update::updater::Updater;
+use crate::digits::parse_duration;
 use crate::platform::Instant;
 use crate::platform::window::{Parent, dropped, fragment, mirror, prefers_dark};
 use crate::scene::Scene;
@@ -208,6 +209,7 @@ impl eframe::App for App {
         let recent: Vec<String> = state.recent.iter().map(|path| path.display().to_string()).collect();
         storage.set_string("recent", recent.join("\n"));
         storage.set_string("fidelity", state.document.target().to_string());
+        storage.set_string("budget", state.budget.map_or_else(String::new, |budget| format!("{budget:?}")));
         storage.set_string("theme", if state.dark { "dark" } else { "light" }.to_owned());
         storage.set_string("lecture", state.lecture.to_string());
     }
@@ -240,6 +242,7 @@ fn restored(
     };
     let target = stored("fidelity").and_then(|name| name.parse().map_err(|fault| faults.push(fault)).ok());
     let mut state = State::new(target.into_iter().fold(document, Document::with_target));
+    state.budget = stored("budget").and_then(|text| parse_duration(&text).ok());
     state.lessons = LessonState::new(stored("lessons"));
     state.recent = stored("recent").map(|text| text.lines().map(PathBuf::from).collect()).unwrap_or_default();
     state.dark = stored("theme").map_or(prefers_dark().unwrap_or(true), |theme| theme != "light");

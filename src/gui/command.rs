@@ -14,6 +14,7 @@ use crate::lessons::Prediction;
 use crate::problem::Numerics;
 use crate::scene::Value;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// One request of the user.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +47,8 @@ pub enum Command {
         /// All of the scene's numerics.
         numerics: Numerics,
     },
+    /// The most time that a solve may take from now on, if that is limited.
+    Budget(Option<Duration>),
     /// Copies a link to what is shown.
     CopyLink,
     /// Tells what the program is, and how it is cited.
@@ -186,11 +189,11 @@ pub enum PinCommand {
 pub enum SweepCommand {
     /// Varies this along x (0) or y (1), over a range round its present value.
     Choose(usize, &'static str),
-    /// Along x or y, from this.
+    /// First value along x (0) or y (1), as typed.
     From(usize, String),
-    /// Up to this.
+    /// Last value, likewise.
     To(usize, String),
-    /// In so many values.
+    /// Number of values, likewise.
     Count(usize, String),
     /// By equal ratios instead of equal steps.
     Log(usize, bool),

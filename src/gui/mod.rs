@@ -11,19 +11,27 @@ pub mod state;
 pub mod ui;
 pub mod update;
 
+use crate::fidelity::Fidelity;
 use crate::platform::window;
+use command::Command;
 use state::document::Document;
 use state::link::Link;
 use std::path::PathBuf;
+use std::time::Duration;
 use update::platform::Platform;
 use update::storage::StorageFile;
 
 /// Opens the window on a scene, or where the last one was left, and returns when it is closed. `lessons`: a folder of them,
-/// beside the built-in ones. `link`: what to show of that.
+/// beside the built-in ones. `link`: what to show of that. `fidelity` and `budget`: how exactly, and for how long, edits are solved.
 ///
 /// # Errors
 /// If there is no display, or no way to draw on it.
-pub fn open(opened: Option<Document>, lessons: Option<PathBuf>, link: Option<Link>) -> Result<(), eframe::Error> {
+pub fn open(
+    opened: Option<Document>,
+    lessons: Option<PathBuf>,
+    link: Option<Link>,
+    (fidelity, budget): (Option<Fidelity>, Option<Duration>),
+) -> Result<(), eframe::Error> {
     // Without a file of its own it keeps nothing: another window's is left alone.
     let file = window::storage_folder().and_then(|folder| StorageFile::claim(&folder).ok());
     let storage = file.as_ref().map(|file| file.path().to_owned());
@@ -36,6 +44,12 @@ pub fn open(opened: Option<Document>, lessons: Option<PathBuf>, link: Option<Lin
         }
         if let Some(link) = link {
             app.follow(link);
+        }
+        if let Some(target) = fidelity {
+            app.carry_out(Command::Use { target, numerics: app.state().document.scene().numerics() });
+        }
+        if budget.is_some() {
+            app.carry_out(Command::Budget(budget));
         }
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };

@@ -32,6 +32,7 @@ thread_local! {
 pub(super) struct Step {
     posed: Posed,
     fidelity: Fidelity,
+    budget: Option<Duration>,
 }
 
 impl Work for Step {
@@ -44,7 +45,8 @@ impl Work for Step {
         let found = WARM.with_borrow_mut(|warm| {
             let warm = warm.entry(self.fidelity).or_default();
             let (started_warm, started) = (!warm.is_empty(), Instant::now());
-            let found = solved(&self.posed.problem, self.fidelity, warm, cancel, |progress| tell(*progress))?;
+            let effort = (self.fidelity, self.budget);
+            let found = solved(&self.posed.problem, effort, warm, cancel, |progress| tell(*progress))?;
             Some(found.map(|solution| (solution, started_warm, started.elapsed().as_secs_f64())))
         });
         found.unwrap_or_else(Self::ended)
@@ -182,8 +184,8 @@ fn step(shared: &Rc<RefCell<Shared>>) {
         return advance(shared);
     };
     (running.at, running.history) = ((fidelity, now), Vec::new());
-    let Request { scene, problem, .. } = &running.request;
-    let work = Step { posed: Posed { scene: scene.clone(), problem: problem.clone() }, fidelity };
+    let Request { scene, problem, budget, .. } = &running.request;
+    let work = Step { posed: Posed { scene: scene.clone(), problem: problem.clone() }, fidelity, budget: *budget };
     let theirs = Rc::downgrade(shared);
     let told = move |told| {
         if let Some(shared) = theirs.upgrade() {

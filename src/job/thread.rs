@@ -144,7 +144,7 @@ fn refine(
     now: fn() -> Instant,
     tell: &dyn Fn(Event) -> bool,
 ) -> bool {
-    let Request { scene, problem, fidelities } = request;
+    let Request { scene, problem, fidelities, budget } = request;
     for &fidelity in fidelities {
         if cancel.is_cancelled() {
             return false;
@@ -153,7 +153,7 @@ fn refine(
         let started = now();
         let warm = warm.entry(fidelity).or_default();
         let started_warm = !warm.is_empty();
-        let found = solved(problem, fidelity, warm, cancel, |progress| {
+        let found = solved(problem, (fidelity, *budget), warm, cancel, |progress| {
             history.push(*progress);
             tell(Event::Progress { number, fidelity, progress: *progress });
         });
@@ -191,7 +191,7 @@ mod tests {
 
     fn request(preset: &str, fidelities: &[Fidelity]) -> Request {
         let scene = presets::find(preset).unwrap();
-        Request { problem: Problem::try_from(&scene).unwrap(), scene, fidelities: fidelities.to_vec() }
+        Request { problem: Problem::try_from(&scene).unwrap(), scene, fidelities: fidelities.to_vec(), budget: None }
     }
 
     fn until_done(solver: &Solver, number: u64) -> Vec<Event> {

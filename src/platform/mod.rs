@@ -12,6 +12,17 @@ pub use native::*;
 pub use web::*;
 pub use web_time::{Instant, SystemTime};
 
+use crate::control::Cancel;
+use std::time::Duration;
+
+/// `cancel`, with so much time for each solve: when it is spent, the best so far is the result.
+pub fn timed(cancel: &Cancel, budget: Duration) -> Cancel {
+    cancel.with_budget(move || {
+        let started = Instant::now();
+        move || started.elapsed() >= budget
+    })
+}
+
 /// What a file dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {

@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Opens the window in the page's canvas.
 #[wasm_bindgen]
 pub fn open() -> Result<(), String> {
-    squeezefilm::gui::open(None, None, None).map_err(|error| error.to_string())
+    squeezefilm::gui::open(None, None, None, (None, None)).map_err(|error| error.to_string())
 }
 
 /// What the window shows, as JSON.

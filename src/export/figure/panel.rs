@@ -12,10 +12,11 @@ use super::placed::{
     mark_ends,
 };
 use super::plane;
-use super::scale::{Scaled, Ticks, round_step, short};
+use super::scale::{Scaled, Ticks, short};
 use super::style::Style;
 use super::svg::{Pen, Picture, Rect, Svg, Type, escaped};
 use super::text;
+use crate::ticks::Steps;
 
 /// Width of axes and ticks \[pt\].
 const THIN: f64 = 0.6;
@@ -417,7 +418,7 @@ fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
     let values = finite(&contours.grid.values);
     let scale = map.map_or(Scale::Linear, |map| map.scale);
     let range = Scaled::new(&Range::Auto, scale, values.into_iter(), false);
-    let step = round_step(range.to - range.from, 10).0;
+    let step = Steps::new([range.from, range.to], 10).step();
     if step <= contours.error {
         return (Vec::new(), step);
     }

@@ -4,6 +4,7 @@
 use super::axis::{Range, Scale};
 use super::colour::{Colour, Colours};
 use crate::digits::signed;
+use crate::ticks::Steps;
 
 /// Part of the data's span that is added at either end of an axis that shows curves.
 const MARGIN: f64 = 0.05;
@@ -135,42 +136,23 @@ impl Ticks {
     }
 }
 
-/// The step of 1, 2 or 5 times a power of ten that divides `span` into at most `most` parts, and into how many a minor
-/// tick divides it.
-pub(super) fn round_step(span: f64, most: usize) -> (f64, usize) {
-    let rough = span / most as f64;
-    let size = 10f64.powf(rough.log10().floor());
-    let within = rough / size;
-    for (step, minor) in [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)] {
-        if within <= step * (1.0 + 1e-9) {
-            return (step * size, minor);
-        }
-    }
-    (10.0 * size, 5)
-}
-
 fn linear(range: &Scaled, most: usize, whole: bool) -> Ticks {
-    let span = range.to - range.from;
-    let (step, minor) = match round_step(span, most) {
-        (step, _) if whole && step <= 1.0 => (1.0, 1),
-        found => found,
-    };
-    if !(step.is_finite() && step > 0.0) {
+    let ends = [range.from, range.to];
+    let steps = Steps::new(ends, most);
+    let ones = whole && steps.step() <= 1.0;
+    let steps = if ones { Steps::of(ends, 1.0) } else { steps };
+    if !(steps.step().is_finite() && steps.step() > 0.0) {
         return Ticks::default();
     }
     let size = range.from.abs().max(range.to.abs());
-    let power = if (1.0 / PLAIN..PLAIN).contains(&size) && step >= 1e-4 { 0 } else { thousands(size) };
-    // Places from the step, so that 0.1 + 0.2 is 0.3.
-    let places = (f64::from(power) - step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize;
-    let small = step / minor as f64;
-    let (first, last) = ((range.from / small - 1e-6).ceil(), (range.to / small + 1e-6).floor());
-    let count = (last - first).clamp(0.0, 1000.0) as usize;
-    let ticks = (0..=count)
-        .map(|i| {
-            let number = first + i as f64;
-            let at = number * small;
-            let major = (number / minor as f64).round() * minor as f64 == number;
-            Tick { at, label: major.then(|| fixed(without(at, power), places)) }
+    let power = if (1.0 / PLAIN..PLAIN).contains(&size) && steps.step() >= 1e-4 { 0 } else { thousands(size) };
+    let places = steps.decimals(power);
+    let (minor, every) = if ones { (steps, 1) } else { steps.divided(ends) };
+    let ticks = minor
+        .numbers()
+        .map(|number| {
+            let at = number as f64 * minor.step();
+            Tick { at, label: (number % every == 0).then(|| fixed(without(at, power), places)) }
         })
         .filter(|tick| range.holds(tick.at))
         .collect();

@@ -5,7 +5,6 @@ pub mod format;
 pub mod ring;
 pub mod scales;
 pub mod sliders;
-pub mod ticks;
 pub mod words;
 
 pub use crate::recording::sample;

@@ -1,6 +1,6 @@
 //! The held plate as the window has it: where it is held, how it was lately, which of that is shown, and the ranges of its axes.
 
-use crate::hold::{Hold, REACH, Reading, leak_time};
+use crate::hold::{Hold, Reading, leak_time};
 use crate::job::hold::{HeldPlate, SNAPSHOTS, Snapshot, slowed};
 use crate::problem::Plate;
 use crate::scene::Scene;
@@ -210,7 +210,7 @@ impl HoldState {
 
     /// Gaps that it can be held at \[m\].
     pub fn reach(&self) -> [f64; 2] {
-        REACH.map(|share| share * self.plate.mean_gap)
+        Hold::reach(&self.plate)
     }
 
     /// Where it is held \[m\].

@@ -185,7 +185,7 @@ pub struct Swept {
     /// The text of a panic that ended it.
     failure: Option<String>,
     started: Instant,
-    /// How many rows there were when it was begun or gone on with.
+    /// How many rows there were when it was begun or continued.
     before: usize,
 }
 

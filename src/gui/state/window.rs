@@ -1,7 +1,7 @@
 //! The state of the whole window.
 
 use super::activity::Activity;
-use super::dialogs::Export;
+use super::dialogs::{Export, Purpose};
 use super::document::{Document, absolute};
 use super::dropped::Dropped;
 use super::edits::RejectedEdits;
@@ -26,6 +26,7 @@ use crate::platform::HAS_FILES;
 use crate::recording::Recording;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Files remembered.
 const RECENT: usize = 10;
@@ -35,6 +36,8 @@ const RECENT: usize = 10;
 pub struct State {
     /// The scene being edited.
     pub document: Document,
+    /// The most time that a solve may take, if that is limited: then the best so far is shown.
+    pub budget: Option<Duration>,
     /// Edits that the scene did not take.
     pub rejected: RejectedEdits,
     /// The run on screen.
@@ -71,8 +74,8 @@ pub struct State {
     pub dropped: Option<Dropped>,
     /// The plate that is held, once its tab was shown.
     pub hold: Option<HoldState>,
-    /// The path that the last file could not be opened from or saved to, for the next prompt.
-    pub failed_path: Option<String>,
+    /// What could not be done last with a file, opening or saving, and its path, for the next prompt.
+    pub failed_path: Option<(Purpose, String)>,
     /// What is in the way until it is answered.
     pub modal: Option<Modal>,
     /// Whether the sheet of shortcuts is shown.
@@ -92,6 +95,7 @@ impl State {
     pub fn new(document: Document) -> Self {
         Self {
             document,
+            budget: None,
             rejected: RejectedEdits::default(),
             run: None,
             activity: Activity::default(),

@@ -1,9 +1,9 @@
 //! What charts have in common.
 
 use crate::digits::signed;
-use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::ui::glossary;
 use crate::gui::ui::paint::{PlotStyle, widened};
+use crate::ticks::{Steps, decades};
 use eframe::egui::{self, Align2, Color32, CursorIcon, Id, Rect, RichText, Sense, TextStyle, UiBuilder, pos2, vec2};
 use egui_plot::{
     AxisHints, FilledArea, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotMemory, PlotPoints, PlotResponse,
@@ -263,7 +263,7 @@ pub(in crate::gui::ui) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, L
     });
 }
 
-/// Ticks of an axis of log₁₀: powers of ten, at most about `most`, and 2 and 5 times them if they are few and that is `between`.
+/// Marks of an axis of log₁₀: powers of ten, at most about `most`, and 2 and 5 times them if they are few and that is `between`.
 pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64, between: bool) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     decades([from, to], most, between).into_iter().map(|value| GridMark { value, step_size: 1.0 }).collect()
@@ -275,27 +275,27 @@ pub(in crate::gui::ui) fn tick(mark: GridMark) -> String {
     signed(format!("{:.decimals$}", mark.value))
 }
 
-/// Ticks at 1, 2 or 5 times a power of ten, at most about `most`.
+/// Marks at 1, 2 or 5 times a power of ten, at most about `most`.
 fn round_ticks(input: &GridInput, most: f64) -> Vec<GridMark> {
     apart(input, (input.bounds.1 - input.bounds.0) / most.max(1.0))
 }
 
-/// Ticks at 1, 2 or 5 times a power of ten that is at least `least`.
+/// Marks at 1, 2 or 5 times a power of ten that is at least `least`.
 pub(in crate::gui::ui) fn apart(input: &GridInput, least: f64) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     if !(least.is_finite() && least > 0.0) {
         return Vec::new();
     }
-    marks(Ticks::apart([from, to], least))
+    marks(Steps::apart([from, to], least))
 }
 
 /// Round marks, about `about`, and two at least.
 fn several(input: &GridInput, about: usize) -> Vec<GridMark> {
-    marks(Ticks::several([input.bounds.0, input.bounds.1], about))
+    marks(Steps::several([input.bounds.0, input.bounds.1], about))
 }
 
 /// Marks at these numbers.
-pub(in crate::gui::ui) fn marks(ticks: Ticks) -> Vec<GridMark> {
+pub(in crate::gui::ui) fn marks(ticks: Steps) -> Vec<GridMark> {
     ticks.values().map(|value| GridMark { value, step_size: ticks.step() }).collect()
 }
 

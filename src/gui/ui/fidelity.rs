@@ -1,13 +1,20 @@
-//! The choice of a fidelity: one of the four names, or an accuracy that is typed.
+//! The choice of a fidelity: one of the four names, or an accuracy that is typed; and of the time that a solve may take.
 
 use super::context::DrawContext;
 use super::glossary;
 use super::hint::Hint;
+use crate::digits::parse_duration;
 use crate::fidelity::{Fidelity, parse_accuracy};
-use eframe::egui::{ComboBox, Id, Key, PopupCloseBehavior, Response, Ui};
+use crate::gui::command::Command;
+use eframe::egui::{ComboBox, Id, Key, PopupCloseBehavior, Response, TextEdit, Tooltip, Ui};
 
-/// Width of the field for an accuracy \[points\].
+/// Width of a field, and least width of the list \[points\].
 const FIELD: f32 = 72.0;
+const LIST: f32 = 190.0;
+
+/// The fields of a list, by what follows its own name.
+const ACCURACY: &str = "accuracy";
+const BUDGET: &str = "budget";
 
 /// A combo box that shows `present`, and what was chosen instead of it. `width` is that of the box; none is the usual one.
 pub fn choose(
@@ -17,43 +24,127 @@ pub fn choose(
     width: Option<f32>,
     cx: &DrawContext<'_>,
 ) -> (Response, Option<Fidelity>) {
-    let mut chosen = None;
+    list(ui, (id, width), present.to_string(), |ui| fidelities(ui, id, present, cx))
+}
+
+/// As [`choose`], of all that is solved from now on, with a field for the most time that a solve may take.
+pub fn choose_target(ui: &mut Ui, present: Fidelity, width: f32, cx: &DrawContext<'_>) -> (Response, Option<Fidelity>) {
+    const ID: &str = "target";
+    let budget = cx.state.budget.map(|budget| format!("{budget:?}"));
+    let shown = budget.as_ref().map_or_else(|| present.to_string(), |budget| format!("{present}, within {budget}"));
+    list(ui, (ID, Some(width)), shown, |ui| {
+        let chosen = fidelities(ui, ID, present, cx);
+        let hint = "The most time that a solve may take, such as 20ms or 1.5s: then the best so far is shown. \
+                    Empty for as long as it takes";
+        let read = |text: &str| if text.trim().is_empty() { Ok(None) } else { parse_duration(text).map(Some) };
+        let field = Field { label: "in at most", name: "Time for a solve", example: "any time", hint };
+        if let Some(budget) = field.show(ui, (ID, BUDGET), budget.unwrap_or_default(), read, cx) {
+            cx.push(Command::Budget(budget));
+        }
+        chosen
+    })
+}
+
+/// The combo box, and what was chosen in its list. What was typed there is forgotten when it closes.
+fn list<T>(
+    ui: &mut Ui,
+    (id, width): (&'static str, Option<f32>),
+    shown: String,
+    show: impl FnOnce(&mut Ui) -> Option<T>,
+) -> (Response, Option<T>) {
     let combo = ComboBox::from_id_salt(id)
-        .selected_text(present.to_string())
+        .selected_text(shown)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .truncate();
     let combo = if let Some(width) = width { combo.width(width) } else { combo };
     let shown = combo.show_ui(ui, |ui| {
-        for fidelity in Fidelity::ALL {
-            let entry = ui.selectable_label(fidelity == present, fidelity.name());
-            if glossary::hover(ui, entry, fidelity.name()).clicked() {
-                chosen = Some(fidelity);
-            }
-        }
-        ui.separator();
-        let (typed, refused) = (Id::unique((id, "typed")), Id::unique((id, "refused")));
-        let mut text: String = ui.data(|data| data.get_temp(typed)).unwrap_or_default();
-        let field = ui.horizontal(|ui| {
-            let label = ui.label("or");
-            let field = eframe::egui::TextEdit::singleline(&mut text).desired_width(FIELD).hint_text("0.1 %");
-            ui.add(field).labelled_by(label.id).accessible_name("Accuracy")
-        });
-        let field = field.inner.hint("The stated relative error to solve for, then Enter: from 0.0001 % to 50 %");
-        if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
-            let read = parse_accuracy(&text);
-            ui.data_mut(|data| data.insert_temp(refused, read.clone().err().unwrap_or_default()));
-            chosen = read.ok().map(Fidelity::to);
-        } else if field.changed() {
-            ui.data_mut(|data| data.remove::<String>(refused));
-        }
-        if chosen.is_some() {
-            text.clear();
-            ui.close();
-        }
-        ui.data_mut(|data| data.insert_temp(typed, text));
-        if let Some(fault) = ui.data(|data| data.get_temp::<String>(refused)).filter(|fault| !fault.is_empty()) {
-            cx.say(ui, fault, cx.colours.alarm);
-        }
+        ui.set_min_width(LIST);
+        show(ui)
     });
-    (shown.response, chosen.filter(|fidelity| *fidelity != present))
+    if shown.inner.is_none() {
+        ui.data_mut(|data| {
+            for field in [ACCURACY, BUDGET] {
+                data.remove::<String>(typed((id, field)));
+                data.remove::<String>(refused((id, field)));
+            }
+        });
+    }
+    (shown.response, shown.inner.flatten())
+}
+
+fn typed(id: (&'static str, &'static str)) -> Id {
+    Id::unique((id, "typed"))
+}
+
+fn refused(id: (&'static str, &'static str)) -> Id {
+    Id::unique((id, "refused"))
+}
+
+fn fidelities(ui: &mut Ui, id: &'static str, present: Fidelity, cx: &DrawContext<'_>) -> Option<Fidelity> {
+    let mut chosen = None;
+    for fidelity in Fidelity::ALL {
+        let entry = ui.selectable_label(fidelity == present, fidelity.name());
+        if glossary::hover(ui, entry, fidelity.name()).clicked() {
+            ui.close();
+            chosen = Some(fidelity);
+        }
+    }
+    ui.separator();
+    let hint = "The stated relative error to solve for: from 0.0001 % to 50 %";
+    let field = Field { label: "or an error of", name: "Accuracy", example: "0.1 %", hint };
+    let named = Fidelity::ALL.contains(&present);
+    let number = if named { String::new() } else { present.to_string() };
+    let typed = field.show(ui, (id, ACCURACY), number, parse_accuracy, cx);
+    chosen.or(typed.map(Fidelity::to)).filter(|fidelity| *fidelity != present)
+}
+
+/// A field whose text is taken when it is left.
+struct Field {
+    label: &'static str,
+    name: &'static str,
+    example: &'static str,
+    hint: &'static str,
+}
+
+impl Field {
+    /// What was typed in place of `present`, once it is read; text that cannot be read stays, with the reason beside it.
+    fn show<T>(
+        &self,
+        ui: &mut Ui,
+        id: (&'static str, &'static str),
+        present: String,
+        read: impl Fn(&str) -> Result<T, String>,
+        cx: &DrawContext<'_>,
+    ) -> Option<T> {
+        let (typed, refused) = (typed(id), refused(id));
+        let mut text: String = ui.data(|data| data.get_temp(typed)).unwrap_or_else(|| present.clone());
+        let field = ui.horizontal(|ui| {
+            let label = ui.label(self.label);
+            let field = TextEdit::singleline(&mut text).desired_width(FIELD).hint_text(self.example);
+            ui.add(field).labelled_by(label.id).accessible_name(self.name)
+        });
+        let field = field.inner.hint(self.hint);
+        let mut taken = None;
+        if field.lost_focus() && text != present && !ui.input(|input| input.key_pressed(Key::Escape)) {
+            match read(&text) {
+                Ok(found) => {
+                    taken = Some(found);
+                    ui.close();
+                }
+                Err(fault) => {
+                    ui.data_mut(|data| data.insert_temp(refused, fault));
+                }
+            }
+        } else if field.changed() {
+            ui.data_mut(|data| {
+                data.remove::<String>(refused);
+                data.insert_temp(typed, text);
+            });
+        }
+        if let Some(fault) = ui.data(|data| data.get_temp::<String>(refused)) {
+            // Beside the list, which does not grow once it is open.
+            Tooltip::for_widget(&field).show(|ui| cx.say(ui, fault, cx.colours.alarm));
+        }
+        taken
+    }
 }

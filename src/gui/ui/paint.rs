@@ -4,8 +4,8 @@ use super::glossary;
 use super::hint::Hint;
 use super::theme::{self, Palette};
 use crate::gui::derived::format::{ends, plain};
-use crate::gui::derived::ticks::{Ticks, round_down};
 use crate::recording::Recording;
+use crate::ticks::{Steps, round_down};
 use eframe::egui::epaint::{Mesh, Shape};
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
 use std::cell::RefCell;
@@ -198,7 +198,7 @@ impl Axes {
     pub(in crate::gui::ui) fn y_ticks(&self, painter: &Painter, style: &PlotStyle, unit: f64) {
         let about = (self.rect.height() / (2.2 * style.row)).clamp(1.0, 6.0) as usize;
         let range = [self.y[0] / unit, self.y[1] / unit];
-        let ticks = Ticks::several(range, about);
+        let ticks = Steps::several(range, about);
         for value in ticks.values() {
             let y = self.py(value * unit);
             painter.hline(self.rect.x_range(), y, Stroke::new(1.0, style.grid));
@@ -218,9 +218,9 @@ impl Axes {
         }
     }
 
-    fn x_values(&self, style: &PlotStyle, unit: f64) -> Ticks {
+    fn x_values(&self, style: &PlotStyle, unit: f64) -> Steps {
         let about = (self.rect.width() / (3.6 * style.row)).clamp(1.0, 12.0) as usize;
-        Ticks::new([self.x[0] / unit, self.x[1] / unit], about)
+        Steps::new([self.x[0] / unit, self.x[1] / unit], about)
     }
 
     /// Values below the plot, and the name of the axis left of them.

@@ -44,7 +44,7 @@ impl Default for Platform {
     }
 }
 
-/// Nobody closes a dialog this soon: it was never there.
+/// Without a portal and without zenity rfd returns `None` at once. An answer sooner than this means that there was no dialog.
 const TOO_SOON: Duration = Duration::from_millis(400);
 
 /// Asks the system's own dialog.

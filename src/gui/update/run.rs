@@ -37,7 +37,7 @@ impl Updater {
             Command::OpenPathPrompt => {
                 let prompt = PathPrompt::asked(
                     &[Purpose::Open, Purpose::Save(None)],
-                    state.failed_path.take().unwrap_or_else(|| state.suggested_name()),
+                    state.failed_path.take().map_or_else(|| state.suggested_name(), |(_, path)| path),
                 );
                 state.modal = Some(Modal::Path(prompt));
             }
@@ -54,7 +54,11 @@ impl Updater {
                 }
             }
             Command::WritePicture(picture, path) => self.write_picture(picture, &path),
-            Command::Refine(fidelity) => self.solve(&[fidelity]),
+            Command::Refine(fidelity) => self.solve(vec![fidelity], None),
+            Command::Budget(budget) => {
+                state.budget = budget;
+                self.refine();
+            }
             Command::CancelSolve => {
                 self.solver.cancel();
                 state.activity.running = None;
@@ -191,9 +195,12 @@ impl Updater {
             Answer::Path(path) => self.carry_out(Command::with_path(purpose, path)),
             Answer::Cancelled => {}
             Answer::NoDialog => {
+                let failed =
+                    self.state.failed_path.take_if(|(failed, _)| failed.is_like(&purpose)).map(|(_, path)| path);
                 let path = match &purpose {
-                    Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
-                    Purpose::Save(_) => self.state.suggested_name(),
+                    Purpose::Open => failed.unwrap_or_default(),
+                    Purpose::Save(_) => failed.unwrap_or_else(|| self.state.suggested_name()),
+                    Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
                     Purpose::Picture(_) => PICTURE.to_owned(),
                     Purpose::Export(export) => export.file_name().to_owned(),
                 };

@@ -138,7 +138,7 @@ impl Updater {
                 self.scene_replaced();
             }
             Err(error) => {
-                self.state.failed_path = path.map(|path| path.display().to_string());
+                self.state.failed_path = path.map(|path| (Purpose::Open, path.display().to_string()));
                 self.state.fail(error);
             }
         }
@@ -167,7 +167,7 @@ impl Updater {
                 then.into_iter().for_each(|next| self.proceed_now(next));
             }
             Err(error) => {
-                self.state.failed_path = Some(path.display().to_string());
+                self.state.failed_path = Some((Purpose::Save(None), path.display().to_string()));
                 self.state.fail(error);
             }
         }

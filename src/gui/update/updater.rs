@@ -61,18 +61,24 @@ impl Updater {
         Problem::try_from(self.state.document.scene()).map_err(|error| self.state.fail(error)).ok()
     }
 
-    /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted.
+    /// Asks for the present scene, draft first, then refined up to the fidelity that is wanted, for as long as is allowed.
     pub(super) fn refine(&mut self) {
-        self.solve(&self.state.document.target().and_coarser());
+        let (target, budget) = (self.state.document.target(), self.state.budget);
+        let mut fidelities = target.and_coarser();
+        if budget.is_some() {
+            // The last of them begins with coarse grids itself.
+            fidelities.drain(1..fidelities.len().max(2) - 1);
+        }
+        self.solve(fidelities, budget);
     }
 
-    /// Asks for the present scene at these fidelities.
-    pub(super) fn solve(&mut self, fidelities: &[Fidelity]) {
+    /// Asks for the present scene at these fidelities, each within the budget.
+    pub(super) fn solve(&mut self, fidelities: Vec<Fidelity>, budget: Option<Duration>) {
         let State { document, activity, .. } = &mut self.state;
         match Problem::try_from(document.scene()) {
             Ok(problem) => {
                 let scene = document.scene().clone();
-                activity.number = self.solver.submit(Request { scene, problem, fidelities: fidelities.to_vec() });
+                activity.number = self.solver.submit(Request { scene, problem, fidelities, budget });
                 activity.failure = None;
             }
             Err(error) => activity.failure = Some(error.to_string()),

@@ -26,7 +26,8 @@ pub struct Snapshot {
     pub number: u64,
     /// Gap, force and what follows from them.
     pub reading: Reading,
-    /// Nodes along x ≥ 0, and across y ≥ 0 (of a strip one), from the middle \[m\].
+    /// Nodes along x ≥ 0, and across y ≥ 0 (of a strip or a round plate one), from the middle \[m\]; of a round plate,
+    /// those along x are radii.
     pub x: Vec<f64>,
     /// As `x`, across.
     pub y: Vec<f64>,

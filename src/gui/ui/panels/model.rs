@@ -165,7 +165,7 @@ impl Row<'_> {
         let (target, numerics) = (self.document().target(), self.document().scene().numerics());
         ui.horizontal(|ui| {
             let label = ui.label(RichText::new("Solved up to").color(self.cx.colours.quiet));
-            let (combo, chosen) = fidelity::choose(ui, "target", target, Some(ui.available_width()), self.cx);
+            let (combo, chosen) = fidelity::choose_target(ui, target, ui.available_width(), self.cx);
             if let Some(target) = chosen {
                 self.cx.push(Command::Use { target, numerics });
             }

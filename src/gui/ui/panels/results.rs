@@ -15,7 +15,7 @@ use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Scenario};
-use crate::solution::{Floating, MotorResult, Outcome, Performance, PlateResult, Status};
+use crate::solution::{Floating, MotorResult, Outcome, Performance, PlateResult, Status, StoppedBy};
 use eframe::egui::{self, Color32, RichText, TextStyle};
 
 /// Significant digits of numbers without an error of their own.
@@ -202,6 +202,9 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
             number(ui, cx, "Error of the load", &rough(result.film_load_error), force_unit(&run.problem));
         }
     }
+    if run.solution.accuracy.stopped_by == StoppedBy::Budget {
+        cx.note(ui, "The time allowed was up before the error was as small as asked for");
+    }
     if stats.coupling_iterations > 0 {
         number(ui, cx, "Rounds of film and contact", &stats.coupling_iterations.to_string(), "");
         number(ui, cx, "Contact problems", &stats.contact_solves.to_string(), "");
@@ -226,7 +229,8 @@ fn convergence_banner(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>
     match &run.solution.status {
         Status::Converged if stale => {}
         Status::Converged => {
-            let last = run.history.last();
+            // A grid that the time did not suffice for is given up before it has converged.
+            let last = run.history.iter().rev().find(|round| round.residual <= round.tolerance);
             let text = last.map_or_else(String::new, |last| {
                 format!(": the last round changed {:.0e}, allowed {:.0e}", last.residual, last.tolerance)
             });

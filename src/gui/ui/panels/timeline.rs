@@ -10,7 +10,7 @@ use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::keys;
 use crate::platform::SOLVED_HERE;
-use crate::solution::{Outcome, Status};
+use crate::solution::{Outcome, Status, StoppedBy};
 use eframe::egui::{self, ProgressBar, RichText, Slider};
 
 /// Seconds on screen for one cycle that can be chosen.
@@ -124,8 +124,10 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             };
             let stale = cx.state.stale(run);
             let ended = if run.solution.status == Status::Converged && !stale { "converged, " } else { "" };
-            let text =
-                format!("Shown: {}, {ended}{error}, solved{SOLVED_HERE} in {:.1} ms", run.fidelity, 1e3 * run.wall_s);
+            let cut =
+                if run.solution.accuracy.stopped_by == StoppedBy::Budget { " as far as time allowed" } else { "" };
+            let (asked, took) = (run.fidelity, 1e3 * run.wall_s);
+            let text = format!("Shown: {asked}{cut}, {ended}{error}, solved{SOLVED_HERE} in {took:.1} ms");
             let label = ui.label(text);
             glossary::hover(ui, label, "Fidelity");
             match run.solution.status {

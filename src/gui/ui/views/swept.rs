@@ -12,13 +12,13 @@ use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::{digits, trimmed};
 use crate::gui::derived::scales::span;
-use crate::gui::derived::ticks::{Ticks, decades};
 use crate::gui::derived::words::label;
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{self, Inset, between, dots, tick, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, field_colours, title_with_ends};
 use crate::scene::{ParameterKind, Scale};
+use crate::ticks::{Steps, decades};
 use eframe::egui::epaint::Mesh;
 use eframe::egui::{
     Align2, Color32, CursorIcon, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2,
@@ -145,12 +145,12 @@ fn ends(axis: &Axis) -> [f64; 2] {
 /// Round numbers with their places, about as many as there is room for.
 fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<GridMark> {
     if axis.scale != Scale::Log {
-        return chart::marks(Ticks::new(range, most));
+        return chart::marks(Steps::new(range, most));
     }
     let mut found = decades(range, most as f64, true);
     if !(2..=most.max(2)).contains(&found.len()) {
         // Less than a few: equal steps, where the logarithm has them.
-        let ticks = Ticks::new(range.map(|end| 10f64.powf(end)), most);
+        let ticks = Steps::new(range.map(|end| 10f64.powf(end)), most);
         found = ticks.values().filter(|value| *value > 0.0).map(f64::log10).collect();
     }
     // A step is what is free beside a mark.
@@ -426,7 +426,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     }
     inner.add(Shape::Mesh(Arc::new(mesh)));
     let lines = once(ui, "contours", (plotted.number, plotted.rows.len(), plotted.quantity), || {
-        let ticks = Ticks::new(range, LEVELS);
+        let ticks = Steps::new(range, LEVELS);
         // Where lines would be nearer to each other than values are told apart there are none.
         if !log && ticks.step() <= typical_error(plotted.rows, plotted.quantity) {
             return Vec::new();
@@ -457,7 +457,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
 }
 
 /// Values that get a line: none so near to an end that it would follow what the error is of.
-fn levels(ticks: Ticks, range: [f64; 2], log: bool) -> impl Iterator<Item = f64> {
+fn levels(ticks: Steps, range: [f64; 2], log: bool) -> impl Iterator<Item = f64> {
     let fraction = move |level: f64| (level - range[0]) / (range[1] - range[0]);
     let whole = move |level: &f64| !log || (level - level.round()).abs() < 1e-6;
     ticks.values().filter(move |level| is_contour(fraction(*level))).filter(whole)
@@ -468,7 +468,7 @@ type Contour = (f64, Vec<Vec<[f64; 2]>>);
 
 /// Lines of equal value, each with its value once.
 fn contours(painter: &Painter, style: &PlotStyle, axes: &Axes, lines: &[Contour], (range, log): ([f64; 2], bool)) {
-    let ticks = Ticks::new(range, LEVELS);
+    let ticks = Steps::new(range, LEVELS);
     let mut written: Vec<Rect> = Vec::new();
     for (level, pieces) in lines {
         let level = *level;
@@ -521,10 +521,10 @@ mod tests {
     fn no_line_of_equal_value_follows_what_is_error_alone() {
         let range = [-1.1e-5, 1.0];
         let found: Vec<String> =
-            levels(Ticks::new(range, LEVELS), range, false).map(|level| format!("{level:.1}")).collect();
+            levels(Steps::new(range, LEVELS), range, false).map(|level| format!("{level:.1}")).collect();
         assert_eq!(found, ["0.2", "0.4", "0.6", "0.8"]);
         let range = [-5.2, 0.5];
-        assert_eq!(levels(Ticks::new(range, LEVELS), range, true).count(), 6);
+        assert_eq!(levels(Steps::new(range, LEVELS), range, true).count(), 6);
     }
 
     #[test]

@@ -1,17 +1,17 @@
-//! Round numbers on axes.
+//! Round numbers on axes, of figures and of the window.
 
 use crate::digits::signed;
+use std::ops::RangeInclusive;
 
 /// Round numbers on an axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Ticks {
+pub struct Steps {
     step: f64,
     first: i64,
     last: i64,
-    decimals: usize,
 }
 
-impl Ticks {
+impl Steps {
     /// About `about` steps of 1, 2 or 5 times a power of ten over `range`.
     pub fn new(range: [f64; 2], about: usize) -> Self {
         Self::apart(range, (range[1] - range[0]) / about.max(1) as f64)
@@ -20,24 +20,40 @@ impl Ticks {
     /// As [`Self::new`], with more steps if only one number would be there: it alone says nothing about the scale.
     pub fn several(range: [f64; 2], about: usize) -> Self {
         let mut more = (about..about + 3).map(|about| Self::new(range, about));
-        more.find(|ticks| ticks.values().count() > 1).unwrap_or_else(|| Self::new(range, about))
+        more.find(|steps| steps.values().count() > 1).unwrap_or_else(|| Self::new(range, about))
     }
 
     /// Steps of 1, 2 or 5 times a power of ten over `range`, of `least` or more.
     pub fn apart(range: [f64; 2], least: f64) -> Self {
-        let step = round_up(least);
-        let decimals = (-step.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
-        Self {
-            step,
-            first: (range[0] / step - 1e-6).ceil() as i64,
-            last: (range[1] / step + 1e-6).floor() as i64,
-            decimals,
-        }
+        Self::of(range, round_up(least))
+    }
+
+    /// The multiples of `step` in `range`.
+    pub fn of(range: [f64; 2], step: f64) -> Self {
+        let first = (range[0] / step - 1e-6).ceil() as i64;
+        Self { step, first, last: (range[1] / step + 1e-6).floor() as i64 }
+    }
+
+    /// Each step divided into 4 or 5, so that numbers stay round; and which of the two.
+    pub fn divided(self, range: [f64; 2]) -> (Self, i64) {
+        let lead = self.step / 10f64.powf((self.step.log10() + 1e-9).floor());
+        let every = if (1.5..3.0).contains(&lead) { 4 } else { 5 };
+        (Self::of(range, self.step / every as f64), every)
+    }
+
+    /// Which multiples of the step they are, ascending; at most 101.
+    pub fn numbers(self) -> RangeInclusive<i64> {
+        self.first..=self.last.min(self.first.saturating_add(100))
     }
 
     /// The round numbers, ascending.
     pub fn values(self) -> impl Iterator<Item = f64> {
-        (self.first..=self.last.min(self.first.saturating_add(50))).map(move |k| k as f64 * self.step)
+        self.numbers().map(move |number| number as f64 * self.step)
+    }
+
+    /// Decimals that tell numbers apart which are divided by ten to this power.
+    pub fn decimals(&self, power: i32) -> usize {
+        (f64::from(power) - self.step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize
     }
 
     /// From one to the next.
@@ -47,7 +63,7 @@ impl Ticks {
 
     /// `value` with as many decimals as the step needs.
     pub fn format(&self, value: f64) -> String {
-        signed(format!("{value:.*}", self.decimals))
+        signed(format!("{value:.*}", self.decimals(0)))
     }
 }
 
@@ -91,13 +107,13 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        let ticks = Ticks::new([-1.4, 24.6], 6);
-        assert_eq!(ticks.values().collect::<Vec<_>>(), [0.0, 5.0, 10.0, 15.0, 20.0]);
-        let ticks = Ticks::new([0.0, 0.031], 4);
-        let texts: Vec<String> = ticks.values().map(|value| ticks.format(value)).collect();
+        let steps = Steps::new([-1.4, 24.6], 6);
+        assert_eq!(steps.values().collect::<Vec<_>>(), [0.0, 5.0, 10.0, 15.0, 20.0]);
+        let steps = Steps::new([0.0, 0.031], 4);
+        let texts: Vec<String> = steps.values().map(|value| steps.format(value)).collect();
         assert_eq!(texts, ["0.00", "0.01", "0.02", "0.03"]);
-        assert!(Ticks::new([0.0, 0.0], 3).values().count() < 60);
-        assert!(Ticks::new([1e300, -1e300], 0).values().count() < 60);
+        assert!(Steps::new([0.0, 0.0], 3).values().count() <= 101);
+        assert!(Steps::new([1e300, -1e300], 0).values().count() <= 101);
     }
 
     #[test]
