@@ -73,6 +73,9 @@ impl Staged {
     /// [`WriteError`] if it cannot be made, or is a file.
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
         let failed = |source| WriteError { path: folder.to_owned(), source };
+        if HAS_FILES && folder.is_file() {
+            return Err(failed(io::Error::new(ErrorKind::NotADirectory, "it is a file, not a folder")));
+        }
         let made = !folder.exists();
         if HAS_FILES {
             fs::create_dir_all(folder).map_err(failed)?;

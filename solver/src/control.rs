@@ -100,7 +100,7 @@ pub struct Progress {
     pub residual: f64,
     /// What the change has to fall below.
     pub tolerance: f64,
-    /// Film load on this grid so far \[N\].
+    /// Film load on this grid so far \[N; of a strip N/m\].
     pub film_load: f64,
 }
 

@@ -27,7 +27,8 @@ pub struct Dimensionless {
     pub bearing_to_squeeze: f64,
     /// Thickness of the layer at the edges into which the ambient pressure reaches in a cycle, sqrt(2D/ω) \[m\], with
     /// D = H² p_a Q / (12 μ) and Q = 1 + 6 m for first-order slip. The other laws: 1 without slip, 1 + 6 m + 6 m² for
-    /// second order; Fukui and Kaneko's is estimated by the first-order one. Between rough faces D is that across the width.
+    /// second order. Fukui and Kaneko's is estimated as 1 + 6 m (2/α − 1), with α the accommodation coefficient. Between
+    /// rough faces D is that across the width.
     pub boundary_layer: f64,
 }
 

@@ -158,8 +158,8 @@ pub fn judged(value: f64, before: f64, finest: f64) -> Estimate {
     Estimate { value, error: (SPREAD * (value - before).abs()).max(CORRECTION * (value - finest).abs()) }
 }
 
-/// What is left of an approach whose last two changes had these sizes, if they go on to fall as fast; if they fall more slowly than to a
-/// share of `slowest`, `creep` times the last.
+/// Estimated distance to the limit of a sequence whose last two changes have these sizes: the geometric series if
+/// after/before < `slowest`, otherwise `creep` times the last change.
 pub fn left(before: f64, after: f64, slowest: f64, creep: f64) -> f64 {
     let ratio = after / before;
     if ratio < slowest { after * ratio / (1.0 - ratio) } else { creep * after }

@@ -45,7 +45,7 @@ pub struct Fall {
     pub status: Status,
     /// Cycles made.
     pub cycles: usize,
-    /// The mean gap of the periodic solve \[m\]; `None` if it does not float, and why is told.
+    /// Mean gap at which the plate floats by the periodic solve \[m\]; `Err` with the reason in words if it does not float.
     pub floats: Result<Estimate, String>,
 }
 

@@ -27,7 +27,7 @@ pub enum Fidelity {
     To(u32),
 }
 
-/// What a fidelity asks of the finest grid.
+/// What a fidelity asks of the finest grid of its plan; `ladder` may refine further.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spec {
     /// Intervals along a tooth of ordinary width.
@@ -38,7 +38,7 @@ pub struct Spec {
     pub volumes: usize,
     /// Steps in a cycle, at least.
     pub steps: usize,
-    /// Nodes in one wavelength that a tooth as wide as the wave would have.
+    /// Film intervals per wavelength: a tooth gets at least this number times tooth width over wavelength.
     pub per_wave: usize,
     /// First interval at an ambient edge, in units of the film's boundary layer √(2D/ω) when closed.
     pub edge_fraction: f64,
@@ -60,7 +60,7 @@ pub struct Spec {
     pub target_error: f64,
 }
 
-/// How many times each fidelity's grid is halved.
+/// Number of nested grids of a plan: the finest one, and those with half and a quarter of its intervals and steps.
 pub const GRIDS: usize = 3;
 
 impl Fidelity {
@@ -242,7 +242,13 @@ pub fn parse_accuracy(text: &str) -> Result<f64, String> {
     let value = number.trim().replace(',', ".").parse::<f64>().ok().map(|value| value * unit);
     match value {
         Some(value) if (ACCURACY[0]..=ACCURACY[1]).contains(&value) => Ok(value),
-        _ => Err(format!("accuracy = {text} is not allowed: a relative error from 0.0001% to 50%, as 0.1% or 0.001")),
+        _ => {
+            let meant = value.filter(|value| unit == 1.0 && (0.5..=50.0).contains(value));
+            let meant = meant.map_or_else(String::new, |value| format!("; did you mean {value}%?"));
+            Err(format!(
+                "accuracy = {text} is not allowed: a relative error from 0.0001% to 50%, as 0.1% or 0.001{meant}"
+            ))
+        }
     }
 }
 

@@ -135,9 +135,17 @@ impl Hold {
         Self { finer: times, ..self }
     }
 
+    /// Least and greatest gap that the plate may be held at \[m\].
+    pub fn reach(plate: &Plate) -> [f64; 2] {
+        let [lowest, most] = REACH.map(|share| share * plate.mean_gap);
+        // A plate under a load rests on its roughness.
+        let least = if plate.load.is_some() { lowest.max(plate.min_spacing).min(plate.mean_gap) } else { lowest };
+        [least, most]
+    }
+
     /// The gap nearest to `gap` \[m\] that the plate may be held at.
     pub fn within_reach(plate: &Plate, gap: f64) -> f64 {
-        let [least, most] = REACH.map(|share| share * plate.mean_gap);
+        let [least, most] = Self::reach(plate);
         if gap.is_finite() { gap.clamp(least, most) } else { plate.mean_gap }
     }
 
@@ -191,8 +199,8 @@ impl Hold {
         Ok(())
     }
 
-    /// Lets the plate go for `duration` \[s\] of the film's time, above a face that vibrates, or is to stand still, from where it is and as
-    /// fast as it is. Without a load it stays where it is. What is read off in the mean: the gap without the vibration, and the mean force.
+    /// Lets the plate move freely for `duration` \[s\] of film time from its present position and speed, above a face that vibrates or
+    /// comes to rest. Without a load it stays where it is. Returns the gap without the vibration at the end, and the mean force.
     ///
     /// # Errors
     /// [`FilmError`] if a step has no solution to working precision.
@@ -247,7 +255,7 @@ impl Hold {
         self.free.speed == 0.0 && self.free.amplitude == 0.0
     }
 
-    /// The plate where and as fast as it is, in the hand or not.
+    /// Speed of the plate and state of the vibration under it; at rest while it is held.
     pub fn free(&self) -> Free {
         self.free
     }
@@ -290,7 +298,7 @@ impl Hold {
         }
     }
 
-    /// The nodes of the finer grid: a quarter of the plate, of a strip half its length.
+    /// Nodes of the finer grid: a quarter of a rectangle, half the length of a strip, the radius of a round plate.
     pub fn grid(&self) -> &FilmGrid {
         self.fine.film.grid()
     }

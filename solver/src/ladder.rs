@@ -115,8 +115,8 @@ impl<T> Nested<T> {
 }
 
 /// Climbs the grids of `plan`, and further, started from what was found for a similar scene, until `cancel`'s budget is spent: then
-/// the best so far is what there is. A polynomial across may swing below no pressure at all; a scene that it fails is solved with
-/// finite volumes, which cannot.
+/// the best so far is what there is. A polynomial across the width can oscillate to negative pressure. A scene that fails this way
+/// is solved with finite volumes, which keep the pressure positive.
 pub fn climb<S: Scene>(
     scene: &mut S,
     plan: &Plan,

@@ -126,8 +126,8 @@ fn of_plate(plate: &Plate, plan: &Plan, numbers: u64) -> Need {
     need(numbers + FIXED, (2 * grid.along + 1, across, grid.steps, 1))
 }
 
-/// Of a motor's periodic state: all grids are kept to the end; beside them there is the acceleration of the finest, and then the
-/// fields.
+/// Memory that a motor's periodic state needs: all its grids, and beside them the larger of the acceleration's history on the
+/// finest grid and the recorded fields.
 pub fn motor(motor: &Motor, plan: &Plan) -> Need {
     let grids = grids(plan);
     let levels: u64 = grids.iter().map(|grid| level(motor, plan, grid)).sum();
@@ -147,7 +147,7 @@ fn plate_level(plate: &Plate, plan: &Plan, grid: &Grid) -> u64 {
     film.cycle(steps) + 2 * steps * film.along + 3 * steps * plan.frames_per_step as u64
 }
 
-/// Of a plate's periodic state, likewise.
+/// Memory that a plate's periodic state needs, likewise.
 pub fn plate(plate: &Plate, plan: &Plan) -> Need {
     let grids = grids(plan);
     let levels: u64 = grids.iter().map(|grid| plate_level(plate, plan, grid)).sum();
@@ -165,7 +165,7 @@ fn transient(film: &Film, stored: u64, steps: u64, maps: bool, kept: usize) -> u
     3 * EXTRAPOLATED_LINES / 2 * lines + EXTRAPOLATED_MAPS * maps + kept as u64 * (KEPT_LINES * lines + maps)
 }
 
-/// Of a motor's transient from rest (`startup`), every tooth on all grids of the plan, of whose cycles so many are kept.
+/// Memory that a motor's transient from rest (`startup`) needs: every tooth on all grids of the plan, and the `kept` cycles.
 pub fn motor_startup(motor: &Motor, plan: &Plan, kept: usize) -> Need {
     let plan = Plan { every_tooth: true, trapped: false, ..plan.clone() };
     let levels: u64 = plan.grids.iter().map(|grid| level(motor, &plan, grid)).sum();
@@ -174,7 +174,7 @@ pub fn motor_startup(motor: &Motor, plan: &Plan, kept: usize) -> Need {
     of_motor(motor, &plan, levels + plan.grids.last().map_or(0, fields))
 }
 
-/// Of a plate's transient from rest, likewise.
+/// Memory that a plate's transient from rest needs, likewise.
 pub fn plate_startup(plate: &Plate, plan: &Plan, kept: usize) -> Need {
     let plan = &plan.even_steps();
     let levels: u64 = plan.grids.iter().map(|grid| plate_level(plate, plan, grid)).sum();
@@ -182,8 +182,8 @@ pub fn plate_startup(plate: &Plate, plan: &Plan, kept: usize) -> Need {
     of_plate(plate, plan, levels + plan.grids.last().map_or(0, fields))
 }
 
-/// Of the paper's method, on so many film nodes along and across, contact spacings and steps: a recording of every tooth, films
-/// and mesh of one instant, and the matrix of the nodes in contact.
+/// Memory that the paper's method needs, on so many film nodes along and across, contact spacings and steps: a recording of
+/// every tooth, films and mesh of one instant, and the matrix of the nodes in contact.
 pub fn paper(motor: &Motor, (along, across, contact, steps): (usize, usize, usize, usize)) -> Need {
     let teeth = motor.teeth as u64;
     let nodes = (along * across) as u64;

@@ -90,7 +90,7 @@ pub struct MotorResult {
     pub min_gap: f64,
     /// Greatest absolute pressure \[Pa\].
     pub max_pressure: f64,
-    /// Greatest contact force at any node and instant \[N/m\].
+    /// Greatest contact line load at any node and instant \[N/m\].
     pub max_contact: f64,
     /// Estimated errors of teeth in contact, least film thickness \[m\] and greatest pressure \[Pa\], absolute.
     pub teeth_in_contact_error: f64,
@@ -108,11 +108,11 @@ pub struct Point {
     /// Torque on the rotor \[N m\].
     pub torque: Estimate,
     /// Power given to the rotor \[W\].
-    pub output: f64,
+    pub output: Estimate,
     /// Heat of friction \[W\].
-    pub friction: f64,
+    pub friction: Estimate,
     /// Output over what the stator gives to friction, rotor and film; `None` where the rotor is not driven.
-    pub efficiency: Option<f64>,
+    pub efficiency: Option<Estimate>,
 }
 
 /// Torque, power and efficiency with the film, or without it; the whole ring.
@@ -164,9 +164,9 @@ pub struct PlateResult {
     pub film_load: f64,
     /// Estimated numerical error of `film_load`, absolute.
     pub film_load_error: f64,
-    /// Least gauge force in the cycle.
+    /// Least gauge force in the cycle \[N; of a strip N/m\].
     pub film_load_min: f64,
-    /// Greatest gauge force in the cycle.
+    /// Greatest gauge force in the cycle \[N; of a strip N/m\].
     pub film_load_max: f64,
     /// Least film thickness \[m\].
     pub min_gap: f64,

@@ -86,8 +86,7 @@ pub enum SolveError {
 }
 
 impl SolveError {
-    /// Whether the input asked for what is not allowed: it is then known before anything is solved ([`check`]), but of a plate that does not
-    /// float.
+    /// Whether the fault is in the input. [`check`] finds such faults before anything is solved, except that a plate does not float.
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::PaperPlate | Self::PaperSurface | Self::Memory(_) => true,

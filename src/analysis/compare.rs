@@ -201,7 +201,8 @@ fn side(numbers: &Numbers, quantity: Quantity) -> (Option<f64>, Option<f64>) {
 /// 100 (b/a − 1), and the sum of what the two errors make of it.
 fn difference(a: (Option<f64>, Option<f64>), b: (Option<f64>, Option<f64>)) -> (Option<f64>, Option<f64>) {
     let (Some(first), Some(own)) = (a.0, b.0) else { return (None, None) };
-    if first == 0.0 {
+    // Of what may be nothing at all there is no share.
+    if first.abs() <= a.1.unwrap_or(0.0) {
         return (None, None);
     }
     let finite = |value: f64| value.is_finite().then_some(value);

@@ -1,6 +1,6 @@
 //! What a plan decided, in words: what is solved of each part of the model, and why.
 
-use crate::digits::percent;
+use crate::digits::{percent, short};
 use crate::plan::{Choice, Decision, Weighed};
 use crate::problem::{Flow, Teeth, Time, Wedge, Width};
 use crate::solution::Model;
@@ -51,10 +51,11 @@ pub fn words(decision: &Decision) -> String {
             "half of it solved; the gap does not depend on y, so the other half is its mirror (exact)".to_owned()
         }
         Choice::MotorGrid { grid, layer, edge_fraction, middle, spectral } => format!(
-            "{} intervals along a tooth, the first {edge_fraction} of the film's boundary layer of {:.3} µm{}; across half the \
+            "{} intervals along a tooth, the first {} of the film's boundary layer of {:.3} µm{}; across half the \
              width {}; {} steps a cycle; two coarser grids for the error estimate, and finer ones while it is more than was \
              asked for",
             grid.along,
+            short(edge_fraction, 2),
             layer * 1e6,
             if middle { ", all of them densest where the crown is highest" } else { "" },
             if spectral {

@@ -67,9 +67,9 @@ pub struct Comparison {
     pub linear: Harmonic<f64>,
     /// What a spring and a damping of 1 are in N/m and N s/m, of a strip per metre of width.
     pub unit: Harmonic<f64>,
-    /// Cycle mean of P over the plate, solved, with its error …
+    /// Cycle mean over the plate of the pressure ratio P = p/p_a, solved, with its error.
     pub mean_pressure: Estimate,
-    /// … and in the limit σ → ∞ (Langlois 1962, Salbu 1964).
+    /// Cycle mean over the plate of the pressure ratio P = p/p_a, in the limit σ → ∞ (Langlois 1962, Salbu 1964).
     pub trapped_mean_pressure: f64,
     /// Greatest deviation of ⟨hΦ⟩ from its exact value at any point of the film, relative; `None` without a pressure map.
     pub invariant_deviation: Option<f64>,
@@ -87,7 +87,7 @@ impl Comparison {
         })
     }
 
-    /// Of a solve of `plate`; `film_load` is its mean \[N\] with its error.
+    /// Of a solve of `plate`; `film_load` is its mean \[N; of a strip N/m\] with its error.
     pub fn of(plate: &Plate, film_load: Estimate, recording: &Recording) -> Self {
         let force = plate.gas.ambient_pressure * plate.area();
         let effective = effective_squeeze_number(plate);
@@ -144,7 +144,7 @@ pub fn effective_squeeze_number(plate: &Plate) -> f64 {
     Dimensionless::of_plate(plate).squeeze_number * plate.mean_gap / mobility
 }
 
-/// Parts of a load over one cycle in phase with −cos τ and with sin τ \[N\].
+/// Parts of `load`, one value a frame \[N; of a strip N/m\], in phase with −cos τ and with sin τ, in the same unit.
 pub fn first_harmonic(load: &[f64]) -> Harmonic<f64> {
     let count = load.len().max(1) as f64;
     let mut harmonic = Harmonic { spring: 0.0, damping: 0.0 };

@@ -151,7 +151,7 @@ impl Verdict {
 /// The names of all verdicts.
 pub const VERDICTS: [&str; 5] = ["solved", "not converged", "non-physical", "failed", "refused"];
 
-/// What cannot be.
+/// A result that is physically impossible.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Violation {
     /// A result that is no number.
@@ -165,7 +165,7 @@ pub enum Violation {
         /// Its stated error.
         error: f64,
     },
-    /// A pressure that no gas has.
+    /// Least absolute pressure \[Pa\], zero or below.
     #[error("the pressure falls to {0:.2e} Pa")]
     Pressure(f64),
     /// Rotor and stator closer than roughness lets them.
@@ -173,13 +173,13 @@ pub enum Violation {
     Overlap {
         /// Least film thickness \[m\].
         thickness: f64,
-        /// H_m \[m\].
+        /// Least film thickness that the faces allow \[m\].
         spacing: f64,
     },
-    /// The rotor is pulled by the contact.
+    /// Least contact line load \[N/m\], negative.
     #[error("the contact pulls with {0:.2e} N/m")]
     Pull(f64),
-    /// Film and contact do not carry the load.
+    /// Largest |film + contact − load| at an instant, as a share of the load.
     #[error("film and contact together are off the load by {0:.2e} of it")]
     Balance(f64),
 }

@@ -191,7 +191,8 @@ impl Sweep {
         Quantity::of(self.problem()).collect()
     }
 
-    /// Sixteen digits that differ if anything differs that the results depend on: scene, axes, settings or version.
+    /// Hash as sixteen hexadecimal digits. It differs if anything differs that the results depend on: scene, axes, settings or
+    /// version.
     pub fn fingerprint(&self) -> String {
         let method = self.settings.method;
         // The paper's method has no fidelity.
@@ -329,7 +330,7 @@ fn varied(scene: &Scene, axes: &[Axis], values: &[f64]) -> Result<Scene, SceneEr
     Ok(scene)
 }
 
-/// Sixteen digits that differ if one of the texts does: the same on every machine and in every version of the compiler.
+/// Hash of the texts as sixteen hexadecimal digits, the same on every machine and with every compiler version.
 pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
     let mut hash = FnvHasher::default();
     for text in texts {

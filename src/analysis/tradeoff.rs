@@ -1,11 +1,11 @@
 //! Error against solve time of one scene, measured: what each accuracy, a family of grids and the paper's method cost
 //! here and now, and which is the cheapest that serves.
 //!
-//! The clock is the caller's. Runs are interleaved, every setting once and then again, so that a machine that is busy for
-//! a while favours none. What is judged is one number, α of a motor and the mean film load of a plate; errors are shares
-//! of it. The measured error of a setting is its distance from the most accurate setting plus that one's own stated
-//! error: a bound, for this scene. A coarse grid may be right by luck, though, and wrong in the scene beside it. Settings are
-//! therefore judged by the greater of the measured error and the one that the run states of itself.
+//! The clock is the caller's. Runs are interleaved, every setting once and then again, so that a machine that is busy for a
+//! while favours none. One number is judged: α of a motor, the mean film load of a plate, or the mean gap of one that floats;
+//! errors are shares of it. The measured error of a setting is its distance from the most accurate setting plus that one's
+//! own stated error: a bound, for this scene. A coarse grid may be right by luck, though, and wrong in the scene beside it.
+//! Settings are therefore judged by the greater of the measured error and the one that the run states of itself.
 //!
 //! Settings differ in grids alone. The model stays the scene's: what its switches (`numerics.flow`, …) say holds for each of them.
 

@@ -368,8 +368,8 @@ fn slopes(
 }
 
 impl Column {
-    /// What 1 % of the key changes, as a share of one: the change of the key that the elasticity is relative to, in its unit. `None` of a
-    /// key that has no natural zero, or is zero.
+    /// The scale of the key that an elasticity is relative to, in its unit: the size of its value, of a temperature the value above
+    /// absolute zero. `None` if the value is 0 and the key is no temperature.
     pub fn scale(&self) -> Option<f64> {
         let relative = self.parameter.unit == "°C" || self.at != 0.0;
         relative.then(|| scale(self.parameter, self.at))

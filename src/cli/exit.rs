@@ -84,8 +84,8 @@ pub(super) enum CliError {
     /// A comparison that cannot be made.
     #[error(transparent)]
     Compare(#[from] CompareError),
-    /// What a cancelled sweep left cannot be gone on with.
-    #[error("{}: cannot be gone on with: {source}; give another folder, or --restart to begin anew", path.display())]
+    /// What a cancelled sweep left cannot be continued.
+    #[error("{}: cannot be continued: {source}; give another folder, or --restart to begin anew", path.display())]
     Resume {
         /// The file.
         path: PathBuf,

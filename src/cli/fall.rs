@@ -76,7 +76,7 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> 
     let rests = rows.last().is_some_and(|row| row.rests);
     let how = match ended.status {
         Status::Converged if rests => format!("it rests after {} cycles", ended.cycles),
-        Status::Converged => format!("it floats still after {} cycles", ended.cycles),
+        Status::Converged => format!("it floats at rest after {} cycles", ended.cycles),
         Status::NotConverged { .. } | Status::NotResolved { .. } => {
             format!("STILL MOVING after {} cycles", ended.cycles)
         }
@@ -100,7 +100,11 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> 
     }
     text.push_str(&columns.text("  ", &[0, 1, 2, 3]));
     if let Some(gap) = floats {
-        let told = format!("The periodic solve floats at a mean gap of {} µm.", with_error(gap.value, gap.error));
+        let told = format!(
+            "The periodic solve, whose plate stands still over the vibration, floats at a mean gap of {} µm; the ± above is that of \
+             the steps in time.",
+            with_error(gap.value, gap.error)
+        );
         text.push_str(&paragraph(&told, "\n", ""));
     }
     text

@@ -266,7 +266,9 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
 /// How well a fit agrees, in sentences.
 fn summary(fitted: &Fitted, measured: &Measured) -> String {
     let used = fitted.rows.iter().filter(|row| row.residual.is_some()).count();
-    let counts = format!("{used} measurements, {} degrees of freedom", fitted.degrees_of_freedom);
+    let counted = |number: usize, one: &str, many: &str| format!("{number} {}", if number == 1 { one } else { many });
+    let freedom = counted(fitted.degrees_of_freedom, "degree of freedom", "degrees of freedom");
+    let counts = format!("{}, {freedom}", counted(used, "measurement", "measurements"));
     let agreement = match fitted.error_scale {
         _ if fitted.errors_known => {
             format!("χ² = {} of {counts}, with the errors that were given.", significant(fitted.chi_squared, 4))

@@ -76,6 +76,7 @@ fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
     };
     if let Some(path) = &arguments.out {
         write_file(path, |out| out.write_all(toml.as_bytes()))?;
+        terminal::note(&format!("wrote {}", path.display()));
     } else if arguments.json {
         terminal::data(&json::text(&Object::new(preset, &scene, Some(&toml))));
     } else {

@@ -54,7 +54,7 @@ pub(super) struct Arguments {
     #[arg(long = "uncertainty", value_name = "KEY=AMOUNT", value_parser = uncertainty)]
     uncertainties: Vec<(String, Uncertainty)>,
 
-    /// Solves so many random scenes of these uncertainties as well
+    /// Also solves this many random scenes drawn from the uncertainties
     #[arg(long, value_name = "N", requires = "uncertainties", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     monte_carlo: Option<u32>,
 
@@ -84,7 +84,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     if settings.method == Method::Paper {
         return Err(CliError::Usage("--method paper: sensitivities are those of our own method; allowed here: auto"));
     }
-    if arguments.common.solve.budget.is_some() {
+    if arguments.common.solve.accuracy.budget.is_some() {
         return Err(CliError::Usage(
             "--budget: solves that are compared are equally exact; allowed here: --fidelity or --accuracy",
         ));

@@ -41,7 +41,7 @@ Files of --out:
   scene.toml  the scene that is varied: a preset again
 A sweep that is cancelled (Ctrl-C), or killed, leaves sweep.incomplete.csv
 instead; the same command goes on from there, to the same result. With --part
-3/64 there is only sweep.part-3-of-64.csv, complete or to be gone on with.";
+3/64 there is only sweep.part-3-of-64.csv, complete or to be continued.";
 
 /// Solves a preset over values of one key, of two or of three
 ///
@@ -63,15 +63,15 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "KEY=FROM:TO:COUNT[:log] or KEY=VALUE,VALUE…", required = true)]
     vary: Vec<Vary>,
 
-    /// Solves a part of the points, as 3/64 the third of 64; squeezefilm join makes the whole of all parts
+    /// Solves one part of the points: 3/64 is the third of 64 parts; squeezefilm join puts them together
     ///
     /// Parts follow from the points alone. Each can be solved on another machine, and together they are what one machine gives, byte by
-    /// byte. A part that was ended before it was complete is gone on with by the same command. At most 100 000 points are in a part, and are
-    /// joined; all parts together may have more.
+    /// byte. The same command continues a part that was interrupted. At most 100 000 points are in a part, and are joined; all parts
+    /// together may have more.
     #[arg(long, value_name = "NUMBER/COUNT", requires = "out")]
     part: Option<Part>,
 
-    /// Begins anew: forgets what an earlier sweep, cancelled, left in the folder of --out
+    /// Starts again and discards what a cancelled sweep left in the folder of --out
     #[arg(long, requires = "out")]
     restart: bool,
 

@@ -3,7 +3,7 @@
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
-use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, time};
+use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -11,7 +11,7 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Effort, Point, Target, Tradeoff, candidates, measure};
 use crate::atomic::Staged;
-use crate::digits::{duration, percent, significant};
+use crate::digits::{duration, parse_duration, percent, significant};
 use crate::export::tradeoff::{ChoiceObject, Object, figure, settings};
 use crate::export::{csv, json};
 use crate::fidelity::parse_accuracy;
@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     accuracy: Option<f64>,
 
     /// Recommends the most accurate setting within this time: 16ms, 2s or 1min
-    #[arg(long, value_name = "TIME", value_parser = time)]
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_hyphen_values = true)]
     budget: Option<Duration>,
 
     /// Runs of every setting [default: as many as fit into about a minute, 1 to 31]

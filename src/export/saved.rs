@@ -1,4 +1,4 @@
-//! A sweep that is not complete, or a part of it, as a CSV file: saved while it is solved, gone on with, and joined to the whole.
+//! A sweep that is not complete, or a part of it, as a CSV file: saved while it is solved, continued, and joined to the whole.
 //!
 //! The first line is a comment: an object of JSON that says of which sweep the rows are, and which part. The rest is the CSV of a sweep
 //! with a checksum of each row. Numbers are written with the fewest digits that read back to the same bits, so that a sweep in parts is the

@@ -14,17 +14,17 @@ pub struct Object {
     pub faces: Vec<Face>,
     /// H_m by the paper: mean of both peak-to-valley heights.
     pub min_spacing_nm: f64,
-    /// Both faces together.
+    /// Combined rms roughness √(σ₁² + σ₂²) \[nm\].
     pub rms_nm: f64,
-    /// By McCool 1987.
+    /// Summit radius R (McCool 1987) \[µm\].
     pub summit_radius_um: f64,
-    /// By McCool 1987.
+    /// Summits per area η (McCool 1987) \[1/mm²\].
     pub summit_density_per_mm2: f64,
     /// m₀m₄/m₂².
     pub bandwidth: f64,
     /// γ along x.
     pub lay: f64,
-    /// Of the variance.
+    /// The stator's share of the variance, 0 to 1.
     pub stator_share: f64,
     /// φ along x and across at h/σ = 1, 2, 3, 5.
     pub flow_factors: Vec<FlowFactors>,

@@ -1,7 +1,7 @@
 //! A sweep as JSON and as CSV, with the same names, and as a figure.
 //!
 //! Numbers are written with the fewest digits that read back to the same bits, so that a sweep that was cancelled and
-//! gone on with is the same, byte by byte, as one that was not.
+//! continued is the same, byte by byte, as one that was not.
 
 use super::csv::words;
 use crate::analysis::attempt::RunStatus;

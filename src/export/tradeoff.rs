@@ -12,7 +12,7 @@ use serde::Serialize;
 pub struct Object<'a> {
     /// Name of the scene.
     pub preset: &'a str,
-    /// The number that is judged: `alpha` or `film_load_n`.
+    /// The number that is judged: `alpha`, `film_load_n` or, for a plate under a load, `mean_gap_um`.
     pub judged: &'static str,
     /// The setting that the others are judged by.
     pub reference: Option<&'a str>,

@@ -122,7 +122,7 @@ pub enum Act {
     StartUp,
 }
 
-/// What does a task, or does not do it.
+/// Actions tried on a task: changes of the scene, and actions in a tab.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Doing {
     /// Changes of the scene.
@@ -149,9 +149,9 @@ pub struct Task {
     pub too_far: Option<(Check, Vec<Block>)>,
     /// Help, given one after the other on request.
     pub hints: Vec<Vec<Block>>,
-    /// What would do, shown on request.
+    /// Actions that fulfil the task, shown on request.
     pub example: Doing,
-    /// What would not do: for tests.
+    /// Actions that must not fulfil the task, for tests.
     pub wrong: Doing,
     /// What is said once it holds.
     pub then: Vec<Block>,

@@ -32,9 +32,9 @@ pub struct StepWork {
     pub wrong: usize,
     /// Whether the task was fulfilled.
     pub fulfilled: bool,
-    /// What was said to have been seen, if anything yet.
+    /// The student's answer to the observation, if any yet.
     pub observed: Option<usize>,
-    /// How often it was something else than what there was to see.
+    /// Number of wrong answers to the observation.
     pub misread: usize,
     /// Hints that were asked for.
     pub hints: usize,

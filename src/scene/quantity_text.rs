@@ -94,7 +94,7 @@ fn value(units: Kind, unit: &str, text: &str) -> Option<f64> {
     if let Ok(plain) = text.parse::<f64>() {
         return plain.is_finite().then_some(plain);
     }
-    let mut reader = Reader { rest: &text, units, with_unit: false };
+    let mut reader = Reader { rest: &text, units, with_unit: false, unit: 1.0 };
     let found = reader.sum()?;
     let size = units.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, size)| *size);
     let power = i32::from(reader.with_unit);
@@ -116,6 +116,8 @@ struct Reader<'t> {
     units: Kind,
     /// Whether any number had a unit.
     with_unit: bool,
+    /// Size of the last one.
+    unit: f64,
 }
 
 impl Reader<'_> {
@@ -145,13 +147,21 @@ impl Reader<'_> {
 
     fn product(&mut self) -> Option<Term> {
         let mut product = self.factor()?;
+        let mut unitless = product.power == 0;
         loop {
             if self.takes("*") {
                 let next = self.factor()?;
                 product = Term { number: product.number * next.number, power: product.power + next.power };
+                unitless &= next.power == 0;
             } else if self.takes("/") {
+                let simple = self.rest.starts_with(|c: char| c.is_ascii_digit());
                 let next = self.factor()?;
                 product = Term { number: product.number / next.number, power: product.power - next.power };
+                if unitless && simple && next.power == 1 {
+                    // A quarter, in that unit: "1/4 um".
+                    product = Term { number: product.number * self.unit * self.unit, power: 1 };
+                }
+                unitless &= next.power == 0;
             } else {
                 return Some(product);
             }
@@ -173,7 +183,7 @@ impl Reader<'_> {
             self.units.iter().filter(|(name, _)| self.rest.starts_with(name)).max_by_key(|(name, _)| name.len());
         let Some(&(name, size)) = longest else { return Some(term) };
         self.takes(name);
-        self.with_unit = true;
+        (self.with_unit, self.unit) = (true, size);
         Some(Term { number: term.number * size, power: term.power + 1 })
     }
 
@@ -212,6 +222,8 @@ mod tests {
             ("plate.mean_gap_um", "-(-1 + 1e-1)", 0.9),
             ("plate.mean_gap_um", "(1+2)um", 3.0),
             ("plate.mean_gap_um", "2um*3um/1um", 6.0),
+            ("plate.mean_gap_um", "1/4 mm", 250.0),
+            ("plate.mean_gap_um", "2 × 3/4 µm + 1/2 µm", 2.0),
             ("stator.frequency_khz", "40 000Hz", f64::NAN),
             ("stator.frequency_khz", "40000Hz", 40.0),
             ("stator.frequency_khz", "4e4 Hz", 40.0),
@@ -244,6 +256,8 @@ mod tests {
             "250nm + 3",
             "1um*1um",
             "1mm/1um",
+            "1/(1mm+4um)",
+            "1um/4um/4um",
             "1 2",
             "1.2.3",
             "(1",

@@ -100,8 +100,9 @@ impl Scene {
         !other && (parameter.when.is_empty() || parameter.when.iter().any(chosen)) && self.applies(parameter).is_ok()
     }
 
-    /// Whether a key that applies to this scene can change its results. A plate's file may hold keys of the film and of the numerics
-    /// that only a motor heeds; to set or to vary one is refused. A plate that floats comes to rest on its roughness.
+    /// Whether a key that applies to this scene can change its results. A plate's file may contain keys that only a motor uses;
+    /// setting or varying one of them is refused. The minimum spacing does matter for a plate under a load, which may come to rest
+    /// on its roughness.
     pub fn heeds(&self, key: &str) -> bool {
         let idle = |parameter: &Parameter| parameter.belongs == Belongs::IdleOnPlate;
         let rests = key == "film.min_spacing_nm" && self.floats();

@@ -60,7 +60,7 @@ pub struct Contact {
 /// Fields of one instant at the nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Instant {
-    /// Film thickness h = g + H_m \[m\].
+    /// Film thickness h \[m\]: g + H_m, or over asperities the mean gap.
     pub film_thickness: Vec<f64>,
     /// Contact line load c \[N/m\].
     pub contact: Vec<f64>,
@@ -88,7 +88,8 @@ const ROUND_OFF: f64 = 2e-14;
 const LAST_BITS: f64 = 1e-15;
 
 impl Contact {
-    /// Nodes at `lengths` \[m\], film acting on `film_widths` \[m\] at each, on a rotor with `modes`.
+    /// Nodes that stand for `lengths` \[m\], with film on `film_widths` \[m\] of the width at each, on a rotor with `modes`;
+    /// `ambient_pressure` \[Pa\], `min_spacing` H_m \[m\], and `load` L \[N\] on one wavelength.
     pub fn new(
         modes: Modes,
         lengths: Vec<f64>,

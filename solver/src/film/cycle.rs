@@ -98,7 +98,8 @@ impl FilmCycle {
         self.film.accept(tolerance);
     }
 
-    /// Share of the gas in an even gap `h` \[m\] that is still there after `dt` \[s\], by its slowest mode.
+    /// Share of a small excess of gas over ambient pressure, in an even gap `h` \[m\], that one implicit step of `dt` \[s\] leaves in
+    /// the slowest mode.
     pub fn stays(&self, h: f64, dt: f64) -> f64 {
         1.0 / (1.0 + dt * self.film.slowest_leak(h))
     }

@@ -18,8 +18,9 @@ pub fn invariant(excursion: f64, knudsen: f64) -> f64 {
     cycle_mean(excursion, |h| 0.5 * h * h * h + 6.0 * knudsen * h * h)
 }
 
-/// Z of the trapped-gas limit σ → ∞ away from the edges: ψ²/2 + 6mψ = ⟨H³/2 + 6mH²⟩/⟨H⟩, constant in time and space.
-/// `invariant_mean` is ⟨H³/2 + 6mH²⟩, `gap_mean` ⟨H⟩; any consistent unit of length (6m then stands for 6λ_a).
+/// Trapped height Z for σ → ∞ away from the edges, constant in time and space: Z²/2 + slip Z = invariant_mean/gap_mean,
+/// with `invariant_mean` = ⟨H³/2 + slip H²⟩ and `gap_mean` = ⟨H⟩. `slip` is 6m; with all lengths in metres it is
+/// 6λ_a \[m\].
 pub fn trapped_height(invariant_mean: f64, gap_mean: f64, slip: f64) -> f64 {
     let right = invariant_mean / gap_mean;
     // (−6m + √(36m² + 2·right)), written without cancellation.
@@ -34,7 +35,8 @@ pub fn trapped_mean_pressure(excursion: f64, knudsen: f64) -> f64 {
 }
 
 /// Amplitude of the net load of a strip of width 1 for ε → 0, divided by p_a·area·ε: tanh(κ/2)/(κ/2) − 1,
-/// κ² = iσ/(1+6m). Real part: spring (in phase with the gap, negative for a restoring force); imaginary: damping.
+/// κ² = iσ/(1+6m). Returns (real, imaginary): the real part is the spring, negative if it restores; the imaginary part is
+/// minus the damping, negative if it dissipates.
 pub fn linear_strip(squeeze_number: f64, knudsen: f64) -> (f64, f64) {
     let kappa = Complex::new(0.0, squeeze_number / (1.0 + 6.0 * knudsen)).sqrt();
     let half = kappa * 0.5;

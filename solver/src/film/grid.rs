@@ -36,7 +36,7 @@ impl Axis {
         Self::clustered(half, start, intervals, grading::clustering(edge_spacing * intervals as f64 / length))
     }
 
-    /// An axis with a given clustering parameter β (`numerics::grading`).
+    /// An axis of `intervals` over half-length `half` \[m\], clustered by β (`numerics::grading`; 0 is uniform).
     pub fn clustered(half: f64, start: Start, intervals: usize, beta: f64) -> Self {
         let nodes = match start {
             Start::Ambient => grading::two_sided(half, intervals, beta),
@@ -168,9 +168,9 @@ impl Axis {
 /// The film's nodes. Field values are stored `[ix][iy]`, y fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmGrid {
-    /// Along the ring.
+    /// Along the ring, or along the plate; of a round plate its radius.
     pub x: Axis,
-    /// Across, radially. One node: an infinitely wide strip.
+    /// Across the width. One node: an infinitely wide strip, a round plate, or a film that does not flow this way.
     pub y: Axis,
 }
 

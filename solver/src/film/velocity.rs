@@ -38,7 +38,7 @@ impl Velocity {
         Self { thickness, slip_length, driven: -0.5 * gradient / gas.viscosity, walls }
     }
 
-    /// u at a height above the lower wall, 0 ≤ z ≤ h \[m/s\].
+    /// Velocity u \[m/s\] at height `z` \[m\] above the lower wall, 0 ≤ z ≤ h.
     pub fn at(&self, z: f64) -> f64 {
         let Self { thickness, slip_length, driven, walls: [lower, upper] } = *self;
         driven * (z * (thickness - z) + slip_length * thickness)

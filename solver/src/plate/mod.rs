@@ -32,7 +32,7 @@ pub struct Periodic {
     pub status: Status,
     /// The numbers, with the error estimate.
     pub result: PlateResult,
-    /// Mean load of each grid, coarse to fine.
+    /// Mean load of each grid, coarse to fine \[N; of a strip N/m\].
     pub loads: Vec<f64>,
     /// What it cost, all grids.
     pub stats: Stats,

@@ -204,7 +204,8 @@ impl HeightMap {
         [at(k % self.nx, self.nx), at(k / self.nx, self.ny)]
     }
 
-    /// The heights less the polynomial of this degree in x and y, 0 to 2, that is closest to them: level, or of a round face flat.
+    /// The heights less their least-squares polynomial of this degree in x and y: 0 removes the mean, 1 also the tilt, 2 also the
+    /// curvature.
     pub fn levelled(&self, degree: usize) -> Self {
         let powers: Vec<[i32; 2]> = (0..=degree as i32)
             .flat_map(|whole| (0..=whole).map(move |y| [whole - y, y]))

@@ -31,7 +31,7 @@ pub struct Texture {
     pub correlation: [Option<f64>; 2],
     /// The same for 0.2, which ISO 25178-2 takes.
     pub correlation_fifth: [Option<f64>; 2],
-    /// m₀ \[m²\], m₂, m₄ \[1/m²\], mean of both directions.
+    /// Mean squares of height m₀ \[m²\], slope m₂ \[–\] and curvature m₄ \[1/m²\]; m₂ and m₄ are means over both directions.
     pub moments: [f64; 3],
     /// Autocorrelation along x and y: `(lag [m], value)`, up to half the face.
     pub autocorrelation: [Vec<(f64, f64)>; 2],
@@ -39,6 +39,8 @@ pub struct Texture {
 
 /// Points of an autocorrelation that is kept beyond its fall to 0.2.
 const TAIL: usize = 3;
+/// What rounding leaves of heights that are level, over the largest of them.
+const ROUNDING: f64 = 1e-12;
 /// Most lags of an autocorrelation.
 const MOST_LAGS: usize = 2000;
 
@@ -47,9 +49,11 @@ const MOST_LAGS: usize = 2000;
 /// # Errors
 /// [`HeightMapError`] if the text is no face, or if it is flat.
 pub fn measured(text: &str, degree: usize) -> Result<(HeightMap, Texture), HeightMapError> {
-    let map = HeightMap::read(text)?.levelled(degree);
+    let read = HeightMap::read(text)?;
+    let largest = read.heights.iter().fold(0.0, |largest: f64, height| largest.max(height.abs()));
+    let map = read.levelled(degree);
     let texture = Texture::of(&map);
-    let rough = texture.rms > 0.0 && texture.moments.iter().all(|moment| *moment > 0.0);
+    let rough = texture.rms > ROUNDING * largest && texture.moments.iter().all(|moment| *moment > 0.0);
     if rough { Ok((map, texture)) } else { Err(HeightMapError::Flat) }
 }
 
@@ -158,7 +162,7 @@ pub struct Pair {
     pub summit_density: f64,
     /// Bandwidth m₀m₄/m₂²: at least 1.5 for an isotropic face of random heights.
     pub bandwidth: f64,
-    /// γ along x, within what flow factors are known for; 1 if it is not known.
+    /// γ along x of both faces, limited to the range of the flow factors; a face whose lay is not known counts as γ = 1.
     pub lay: f64,
     /// The stator's share of the variance.
     pub stator_share: f64,

@@ -196,6 +196,8 @@ impl Measured {
     /// [`FitError::Table`], which names line, column, value and what is allowed.
     pub fn from_csv(text: &str, origin: &str, problem: &Problem) -> Result<Self, FitError> {
         let fault = |line: Option<u64>, what: String| FitError::Table { origin: origin.to_owned(), line, what };
+        // The reader miscounts lines that end in CRLF.
+        let text = &text.replace("\r\n", "\n");
         // Where the comma is in decimals, semicolons divide the columns.
         let semicolons = text.lines().find(|line| !line.starts_with('#')).is_some_and(|head| head.contains(';'));
         let decimal = |text: &str| if semicolons { text.replace(',', ".") } else { text.to_owned() };

@@ -139,7 +139,7 @@ pub struct Optimum {
     pub limited: Vec<Estimate>,
     /// The unknowns there, with a line through the optimum along each.
     pub lines: Vec<Scan>,
-    /// Whether the search ended by itself.
+    /// Whether the search ended by itself, with every limit kept.
     pub converged: bool,
     /// How many solves it took.
     pub solves: usize,
@@ -401,9 +401,11 @@ fn describe(
         let (side, value) = (bound.name(), short(line.value, 6));
         warnings.push(format!("{} is at its {side} bound, {value} {}: {beyond}", parameter.key, parameter.unit));
     }
+    let mut kept = true;
     for ((limit, _), found) in goal.limits.iter().zip(&limited) {
         let over = if limit.below { found.value - limit.value } else { limit.value - found.value };
         if over > found.error.max(2e-3 * limit.value.abs()) {
+            kept = false;
             warnings
                 .push(format!("the limit {limit} cannot be kept: {} is reached", with_error(found.value, found.error)));
         } else if over.abs() <= found.error.max(2e-3 * limit.value.abs()) {
@@ -431,7 +433,7 @@ fn describe(
         before: value(&before),
         limited,
         lines,
-        converged,
+        converged: converged && kept,
         solves: model.solves(),
         warnings,
         scene,

@@ -1,9 +1,9 @@
 //! Slip laws: the mobility ψ(Z) of the film.
 //!
-//! The Poiseuille mass flux is −k h² ψ(Z) ∇(p/p_a) p_a/(12μ) with Z = h p/p_a \[m\] and ψ = Z Q, Q the factor of slip, a
-//! function of the local Knudsen number Kn = λ_a/Z only. k, a function of the gap only, is that of rough faces (`surface::flow`), and 1
-//! of smooth ones. Every law here has |d ln ψ/d ln Z| ≤ 1, which makes the Jacobian of the discrete film an M-matrix (`film::stepper`);
-//! k does not change that.
+//! The Poiseuille flow, as volume at ambient pressure per metre of width \[m²/s\], is −k h² ψ(Z) ∇(p/p_a) p_a/(12μ) with Z = h p/p_a
+//! \[m\] and ψ = Z Q, Q the factor of slip, a function of the local Knudsen number Kn = λ_a/Z only. k, a function of the gap only, is
+//! that of rough faces (`surface::flow`), and 1 of smooth ones. Every law here has |d ln ψ/d ln Z| ≤ 1, which makes the Jacobian of the
+//! discrete film an M-matrix (`film::stepper`); k does not change that.
 //!
 //! Each law is a file and its line in `laws!`; whatever asks for it (`Mobility`) is compiled for each.
 
