@@ -119,6 +119,29 @@ fn the_numbers_are_in_the_svg() {
 }
 
 #[test]
+fn names_of_places_close_together_stand_apart() {
+    let places = [[1.0, 1.0], [1.02, 1.01], [1.01, 0.98], [0.0, 0.0], [2.0, 2.0]];
+    let mut panel = Panel::new("", Axis::new("x", ""), Axis::new("y", "")).layer(Line::new("", places, Style::quiet()));
+    for (i, at) in places.into_iter().enumerate() {
+        panel = panel.layer(Text::new(at, format!("number {i}")));
+    }
+    let svg = figure::to_svg(&Figure::new("").panel(panel));
+    let document = Document::parse(&svg).unwrap();
+    let names = document
+        .descendants()
+        .filter(|node| node.has_tag_name("text") && node.text().is_some_and(|text| text.starts_with("number ")));
+    let at: Vec<[f64; 2]> =
+        names.map(|node| ["x", "y"].map(|name| node.attribute(name).unwrap().parse().unwrap())).collect();
+    assert_eq!(at.len(), places.len());
+    // Eight letters of about half their size of 7.5 points.
+    for (i, a) in at.iter().enumerate() {
+        for b in &at[..i] {
+            assert!((a[0] - b[0]).abs() > 26.0 || (a[1] - b[1]).abs() > 6.0, "{at:?}");
+        }
+    }
+}
+
+#[test]
 fn panels_of_a_column_line_up() {
     let line = |scale: f64| Line::new("", [[0.0, 0.0], [1.0, scale]], Style::default());
     let panel = |scale: f64| Panel::new("", Axis::new("x", ""), Axis::new("y", "")).layer(line(scale));

@@ -239,8 +239,11 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
         ("alpha,film.min_spacing_nm\n0.2\n", "table.csv:2"),
         ("film_steps\n3\n", "column film_steps: unknown"),
     ] {
-        let error = Measured::from_csv(text, "table.csv", &problem).unwrap_err().to_string();
-        assert!(error.contains(words), "{text:?}: {error}");
+        // A line is the same one however lines end.
+        for text in [text.to_owned(), text.replace('\n', "\r\n")] {
+            let error = Measured::from_csv(&text, "table.csv", &problem).unwrap_err().to_string();
+            assert!(error.contains(words), "{text:?}: {error}");
+        }
     }
     let motor = scene("fundamental", &[]);
     // As spreadsheets write it where the comma is in decimals.
@@ -332,6 +335,11 @@ fn an_optimum_keeps_its_limits() {
     assert!((found.limited[0].value - 0.2).abs() < 5e-4, "{found:?}");
     assert!((found.value.value - 0.2 * 2.45).abs() < 2e-3, "{found:?}");
     assert!(found.warnings.iter().any(|text| text == "the limit alpha < 0.2 is what stops it"), "{:?}", found.warnings);
+    // Where it is kept nowhere, that is no optimum.
+    let arguments = ["fit", "fundamental", "--maximise", "film_load_n", "--vary", "film.min_spacing_nm=100:400"];
+    let output = run(&[&arguments[..], &["--subject-to", "alpha<0.05", "--fidelity", "draft"]].concat());
+    let said = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
+    assert!(output.status.code() == Some(3) && said.contains("the limit alpha < 0.05 cannot be kept"), "{said}");
     // Without it the bound is reached, and said to be.
     let goal = Goal::new(&motor, "film_load_n", true, &[]).unwrap();
     let found = optimise(&motor, &vary, &goal, &DRAFT, (1, &Cancel::new(), &|_, _| ())).unwrap().unwrap();

@@ -6,7 +6,7 @@
 use squeezefilm::export::surface::preset;
 use squeezefilm::scene::presets;
 use squeezefilm::surface::height_map::{HeightMap, HeightMapError};
-use squeezefilm::surface::texture::{Pair, Texture};
+use squeezefilm::surface::texture::{Pair, Texture, measured};
 use std::f64::consts::{PI, TAU};
 
 /// Numbers in 0 … 1 that are the same in every run.
@@ -132,6 +132,15 @@ fn what_cannot_be_read_names_line_and_what_is_allowed() {
         assert!(words.iter().all(|word| message.contains(word)), "{text:?}: {message}");
     }
     assert_eq!(HeightMap::read(head).unwrap_err(), HeightMapError::Size { nx: 0, ny: 0 });
+    // A face without any roughness, lying level or not.
+    let plane = |slope: f64| {
+        let row =
+            |j: usize| (0..16).map(|i| format!("{}", 0.1 + slope * (i + 2 * j) as f64)).collect::<Vec<_>>().join(",");
+        format!("{head}{}\n", (0..16).map(row).collect::<Vec<_>>().join("\n"))
+    };
+    for slope in [0.0, 0.7] {
+        assert_eq!(measured(&plane(slope), 1).unwrap_err(), HeightMapError::Flat);
+    }
 }
 
 /// The lines that are to be pasted are a preset: as they stand, and with the other half in place of the first.

@@ -298,4 +298,10 @@ mod tests {
         assert_eq!(Fidelity::to(0.007).to_string(), "0.7%");
         assert!("0%".parse::<Fidelity>().is_err() && "0.1".parse::<Fidelity>().is_err());
     }
+
+    #[test]
+    fn whoever_forgets_the_per_cent_is_told() {
+        assert!(parse_accuracy("5").unwrap_err().ends_with("; did you mean 5%?"));
+        assert!(["5000", "60%", "-5", "much"].iter().all(|text| !parse_accuracy(text).unwrap_err().contains("mean")));
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::CommonOptions;
+use super::options::{CommonOptions, effort};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -13,9 +13,9 @@ use crate::export::compare::{LIMITS, Object, difference_text, frames, parameter_
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
 use crate::scene::{Scene, Value};
-use crate::solve::{Method, Settings};
+use crate::solve::Settings;
 use clap::Args;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -82,7 +82,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         }
     }
     let object = || json::document(&Object::new(&runs, &settings), command);
-    terminal::result(arguments.common.output.json, object, || text(&runs, &settings, arguments.all));
+    terminal::result(arguments.common.output.json, object, || {
+        text(&runs, &settings, arguments.common.solve.accuracy.budget, arguments.all)
+    });
     let presets = if runs.len() == 1 { "preset" } else { "presets" };
     terminal::note(&format!("{} {presets} in {}", runs.len(), duration(wall_s)));
     if let Some(folder) = folder {
@@ -103,11 +105,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 }
 
 /// The tables for people. Runs are lettered, so that long names do not widen them.
-fn text(runs: &[ComparedRun], settings: &Settings, all: bool) -> String {
-    let how = match settings.method {
-        Method::Auto => format!("fidelity {}", settings.fidelity),
-        Method::Paper => "the paper's algorithm".to_owned(),
-    };
+fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all: bool) -> String {
+    let how = effort(settings, budget);
     let all = all || runs.len() < 2;
     let title = if runs.len() < 2 {
         format!("one preset, {how}")

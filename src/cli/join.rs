@@ -46,7 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     };
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let Joined { sweep, rows, command } = join(&parts)?;
-    let exit = tell(&sweep, &rows, arguments.output.json, &command);
+    let exit = tell(&sweep, &rows, None, arguments.output.json, &command);
     if let Some(folder) = folder {
         let paths = files::swept(folder, &sweep, &rows, &command, &arguments.figures.formats())?;
         terminal::note(&written(folder, &paths));

@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, FigureOptions, PRESSURE, warn_of_given_path};
+use super::options::{CommonOptions, FigureOptions, PRESSURE, effort, warn_of_given_path};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -16,7 +16,6 @@ use crate::export::saved::{self, ReadError};
 use crate::export::sweep::Object;
 use crate::export::{files, json};
 use crate::scene::show_text;
-use crate::solve::Method;
 use clap::Args;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -82,6 +81,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, CliError> {
     let scene = arguments.common.scene.scene(&arguments.preset)?;
     let (settings, cancel) = arguments.common.solve.begin()?;
+    let budget = arguments.common.solve.accuracy.budget;
     let part = arguments.part.unwrap_or(Part::WHOLE);
     let sweep = Sweep::of_part(&scene, &arguments.vary, &settings, part)?;
     let varies = |key: &str| sweep.axes().iter().any(|axis| axis.parameter.key == key);
@@ -125,11 +125,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
                 let path = folder.save_unfinished(&rows)?;
                 terminal::note(&format!("they are kept in {}; the same command goes on from there", path.display()));
             }
-            None => terminal::note(&format!("reached was\n\n{}", text(&sweep, &rows))),
+            None => terminal::note(&format!("reached was\n\n{}", text(&sweep, &rows, budget))),
         }
         return Ok(Exit::Other);
     }
-    let exit = tell(&sweep, &rows, arguments.common.output.json, command);
+    let exit = tell(&sweep, &rows, budget, arguments.common.output.json, command);
     terminal::note(&format!("{} points in {}", rows.len() - done.len(), duration(wall_s)));
     if let Some(folder) = &folder {
         terminal::note(&written(folder.path, &folder.save(&rows, &arguments.common.figures)?));
@@ -138,14 +138,14 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 }
 
 /// Prints the rows, for people or as JSON. What that leads to.
-pub(super) fn tell(sweep: &Sweep, rows: &[Row], json: bool, command: &[String]) -> Exit {
+pub(super) fn tell(sweep: &Sweep, rows: &[Row], budget: Option<Duration>, json: bool, command: &[String]) -> Exit {
     for row in rows {
         if let RunStatus::Failed(reason) = &row.status {
             terminal::error(&format!("{}: {reason}", place(sweep, row)));
         }
     }
     let object = Object::new(sweep, rows);
-    terminal::result(json, || json::document(&object, command), || text(sweep, rows));
+    terminal::result(json, || json::document(&object, command), || text(sweep, rows, budget));
     Exit::worst(rows.iter().map(|row| Exit::from(&row.status)))
 }
 
@@ -249,12 +249,9 @@ fn place(sweep: &Sweep, row: &Row) -> String {
 }
 
 /// The table for people.
-fn text(sweep: &Sweep, rows: &[Row]) -> String {
+fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
     let keys: Vec<&str> = sweep.axes().iter().map(|axis| axis.parameter.key).collect();
-    let how = match sweep.settings().method {
-        Method::Auto => format!("fidelity {}", sweep.settings().fidelity),
-        Method::Paper => "the paper's algorithm".to_owned(),
-    };
+    let how = effort(sweep.settings(), budget);
     let title = format!("{}, {} points over {}, {how}", show_text(&sweep.scene().name), rows.len(), keys.join(", "));
     let mut text = paragraph(&title, "", "");
     text.push('\n');
@@ -349,8 +346,8 @@ mod tests {
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::NotConverged);
         rows.push(row(2, RunStatus::Failed("no".to_owned())));
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Other);
-        assert!(!text(&sweep, &rows[..2]).contains("limits exceeded"));
-        let shown = text(&sweep, &rows);
+        assert!(!text(&sweep, &rows[..2], None).contains("limits exceeded"));
+        let shown = text(&sweep, &rows, None);
         assert!(shown.contains("limits exceeded"), "{shown}");
         assert!(shown.lines().any(|line| line.contains("150 ") && line.ends_with("NOT CONVERGED")), "{shown}");
         assert!(

@@ -396,10 +396,11 @@ impl Movie {
         let Some(before) = before else { return [0, 0, width, height] };
         let mut edges = [width, height, 0, 0];
         for (y, (old, new)) in before.chunks_exact(3 * width).zip(rgb.chunks_exact(3 * width)).enumerate() {
-            let differs = |x: &usize| old[3 * x..3 * x + 3] != new[3 * x..3 * x + 3];
-            let (Some(first), Some(last)) = ((0..width).find(differs), (0..width).rev().find(differs)) else {
+            if old == new {
                 continue;
-            };
+            }
+            let differ = || old.iter().zip(new).map(|(old, new)| old != new);
+            let [first, last] = [differ().position(|it| it), differ().rposition(|it| it)].map(|at| at.unwrap_or(0) / 3);
             edges = [edges[0].min(first), edges[1].min(y), edges[2].max(last + 1), y + 1];
         }
         if edges[2] == 0 { [0, 0, 1, 1] } else { edges }
@@ -425,6 +426,8 @@ const SAMPLES: usize = 400_000;
 struct Palette {
     colours: Vec<[u8; 3]>,
     known: HashMap<[u8; 3], u8>,
+    /// The one asked for before: often the next one, too.
+    last: ([u8; 3], u8),
 }
 
 impl Palette {
@@ -452,7 +455,8 @@ impl Palette {
             colours.extend(network.color_map_rgb().chunks_exact(3).map(|c| [c[0], c[1], c[2]]));
         }
         let known = colours.iter().zip(0..TRANSPARENT).map(|(colour, index)| (*colour, index)).collect();
-        Self { colours, known }
+        let last = (colours.first().copied().unwrap_or_default(), 0);
+        Self { colours, known, last }
     }
 
     /// For the file: 256 colours.
@@ -464,12 +468,17 @@ impl Palette {
 
     /// The nearest colour.
     fn index(&mut self, colour: [u8; 3]) -> u8 {
+        if self.last.0 == colour {
+            return self.last.1;
+        }
         let colours = &self.colours;
-        *self.known.entry(colour).or_insert_with(|| {
+        let index = *self.known.entry(colour).or_insert_with(|| {
             let far = |other: &[u8; 3]| -> u32 { (0..3).map(|k| u32::from(colour[k].abs_diff(other[k])).pow(2)).sum() };
             let nearest = colours.iter().zip(0..TRANSPARENT).min_by_key(|(other, _)| far(other));
             nearest.map_or(0, |(_, index)| index)
-        })
+        });
+        self.last = (colour, index);
+        index
     }
 }
 

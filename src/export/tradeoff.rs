@@ -2,9 +2,7 @@
 
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Family, Point, Tradeoff};
-use crate::export::figure::{
-    Anchor, Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text,
-};
+use crate::export::figure::{Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text};
 use serde::Serialize;
 
 /// The object of `--json`.
@@ -148,10 +146,8 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
         panel.layers.insert(1, Points::new("chosen", rings, Colour::BLACK, ring).into());
     }
     for point in tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity) {
-        if let Some([time, error]) = place(point) {
-            // A little above its point.
-            let text = Text::new([time, 1.45 * error], point.run.candidate.name.clone());
-            panel = panel.layer(Text { anchor: Anchor::Middle, ..text });
+        if let Some(at) = place(point) {
+            panel = panel.layer(Text::new(at, point.run.candidate.name.clone()));
         }
     }
     let runs: usize = tradeoff.points.iter().map(|point| point.run.times.len()).sum();

@@ -1,6 +1,7 @@
 //! Colours of figures: few, with a meaning, told apart with the common colour deficiencies.
 
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
 /// Red, green, blue.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -57,16 +58,42 @@ pub enum Colours {
     Signed,
 }
 
+/// Steps of a range that have colours of their own: finer than eight bits tell apart.
+const SHADES: usize = 4096;
+
 impl Colours {
     /// The colour of a fraction of the range, clamped to 0 … 1.
     pub fn at(self, fraction: f64) -> Colour {
-        let gradient = match self {
-            Self::Field => colorous::VIRIDIS,
-            Self::Heat => colorous::MAGMA,
-            Self::Signed => colorous::RED_BLUE,
-        };
+        static RAMPS: LazyLock<[Vec<Colour>; 3]> = LazyLock::new(|| {
+            [colorous::VIRIDIS, colorous::MAGMA, colorous::RED_BLUE].map(|gradient| {
+                let shade = |i: usize| gradient.eval_rational(i, SHADES);
+                (0..SHADES).map(shade).map(|shade| Colour(shade.r, shade.g, shade.b)).collect()
+            })
+        });
         let fraction = if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 };
-        let colour = gradient.eval_continuous(if self == Self::Signed { 1.0 - fraction } else { fraction });
-        Colour(colour.r, colour.g, colour.b)
+        let (ramp, fraction) = match self {
+            Self::Field => (0, fraction),
+            Self::Heat => (1, fraction),
+            Self::Signed => (2, 1.0 - fraction),
+        };
+        RAMPS[ramp][((SHADES - 1) as f64 * fraction).round() as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shades_are_as_fine_as_eight_bits() {
+        for i in 0..=1000 {
+            let at = f64::from(i) / 1000.0;
+            let Colour(r, g, b) = Colours::Field.at(at);
+            let exact = colorous::VIRIDIS.eval_continuous(at);
+            let off = [(r, exact.r), (g, exact.g), (b, exact.b)].map(|(shown, exact)| shown.abs_diff(exact));
+            assert!(off.iter().all(|off| *off <= 1), "{at}: {off:?}");
+        }
+        assert_eq!(Colours::Signed.at(0.0), Colours::Signed.at(f64::NAN));
+        assert_ne!(Colours::Signed.at(0.0), Colours::Signed.at(7.0));
     }
 }

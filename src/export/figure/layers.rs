@@ -23,7 +23,7 @@ pub enum Layer {
     Contours(Contours),
     /// Kinds over a plane.
     Categories(Categories),
-    /// Words at a place.
+    /// Words that name a place.
     Text(Text),
 }
 
@@ -221,7 +221,7 @@ pub struct Categories {
     pub kinds: Vec<(String, Colour)>,
 }
 
-/// Words at a place.
+/// Words that name a place, beside it: on the first side where nothing else is drawn.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Text {
@@ -229,30 +229,15 @@ pub struct Text {
     pub at: [f64; 2],
     /// The words.
     pub text: String,
-    /// Which part of the words is there.
-    pub anchor: Anchor,
     /// Colour.
     pub colour: Colour,
 }
 
 impl Text {
-    /// Black words that begin at `at`.
+    /// Black words.
     pub fn new(at: [f64; 2], text: impl Into<String>) -> Self {
         Self { at, text: text.into(), ..Self::default() }
     }
-}
-
-/// Which part of a text lies at its place.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Anchor {
-    /// Its beginning.
-    #[default]
-    Start,
-    /// Its middle.
-    Middle,
-    /// Its end.
-    End,
 }
 
 macro_rules! layer_from {

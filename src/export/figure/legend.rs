@@ -6,7 +6,6 @@ use super::layers::{Band, Layer, Line};
 use super::placed::{Entry, LEADING, MAJOR, NOTE, Placed, SPACE, Sign, fills, mark_ends};
 use super::scale::Scaled;
 use super::svg::Rect;
-use super::text;
 
 /// Between names in a row.
 const APART: f64 = 10.0;
@@ -62,7 +61,7 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     let places = [right, left, 0.5 * (left + right)].into_iter().flat_map(|x| heights.map(|y| [x, y]));
     let mut places: Vec<[f64; 2]> = places.collect();
     places.sort_by_key(|[_, y]| *y != top && *y != bottom);
-    let free = places.into_iter().map(|[x, y]| Rect { x, y, width, height }).find(|rect| is_free(rect, &drawn));
+    let free = places.into_iter().map(|[x, y]| Rect { x, y, width, height }).find(|rect| covered(rect, &drawn) == 0);
     if let Some(rect) = free {
         placed.legend_box = Some(rect);
         placed.legend = entries
@@ -73,12 +72,12 @@ pub(super) fn choose(placed: &mut Placed, panel: &Panel) {
     }
 }
 
-/// Whether none of the points is in or near a rectangle.
-pub(super) fn is_free(rect: &Rect, points: &[[f64; 2]]) -> bool {
+/// How many of the points are in or near a rectangle.
+pub(super) fn covered(rect: &Rect, points: &[[f64; 2]]) -> usize {
     let near = 2.0;
     let wide =
         Rect { x: rect.x - near, y: rect.y - near, width: rect.width + 2.0 * near, height: rect.height + 2.0 * near };
-    !points.iter().any(|point| wide.holds(*point))
+    points.iter().filter(|point| wide.holds(**point)).count()
 }
 
 /// Points all along what is drawn, close together, in `area`; marks on request.
@@ -117,11 +116,6 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) ->
                     single.push(at(&y, [*x, *value]));
                     path(&mut [at(&y, [*x, value - error]), at(&y, [*x, value + error])].into_iter());
                 }
-            }
-            Layer::Text(words) => {
-                let [x, y] = at(&placed.y, words.at);
-                let width = text::width(&words.text, NOTE);
-                path(&mut [[x, y], [x + width, y]].into_iter());
             }
             Layer::Mark(mark) if marks => {
                 let [from, to] = mark_ends(placed, mark, area);

@@ -5,8 +5,8 @@ use super::colour::Colour;
 use super::description::Panel;
 use super::geometry::{clipped_area, clipped_line, contour, is_contour};
 use super::isoline::{self, Isoline};
-use super::layers::{Anchor, Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points, Text};
-use super::legend::{drawn, is_free};
+use super::layers::{Band, Contours, Direction, Grid, Layer, Line, MARKED, Map, Mark, Points};
+use super::legend::{covered, drawn};
 use super::placed::{
     BAR, Bar, GAP, HEAD, LABEL, MAJOR, MINOR, NOTE, Placed, SPACE, Sign, TICK, axis_label, fills, first_map, map_range,
     mark_ends,
@@ -55,10 +55,10 @@ pub(super) fn draw(svg: &mut Svg, placed: &Placed, panel: &Panel) {
             Layer::Points(points) => on.points(svg, points),
             Layer::Mark(mark) => on.mark(svg, mark),
             Layer::Contours(contours) => on.contours(svg, contours),
-            Layer::Text(words) => on.text(svg, words),
-            Layer::Map(_) | Layer::Categories(_) => {}
+            Layer::Map(_) | Layer::Categories(_) | Layer::Text(_) => {}
         }
     }
+    on.names(svg);
     on.axes(svg);
     if let Some(bar) = &placed.bar {
         colour_bar(svg, bar);
@@ -195,7 +195,6 @@ impl On<'_> {
     fn place_of_words(&self, mark: &Mark, from: [f64; 2]) -> Rect {
         let area = &self.placed.rect;
         let (width, height) = (text::width(&mark.label, NOTE), NOTE);
-        let legend = self.placed.legend_box.into_iter();
         let place = |x: f64, y: f64| Rect { x, y, width, height };
         let places: Vec<Rect> = match mark.direction {
             Direction::Vertical => {
@@ -209,25 +208,56 @@ impl On<'_> {
                 ends.into_iter().flat_map(|x| sides.map(|y| place(x, y))).collect()
             }
         };
-        let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
-        let drawn = drawn(self.placed, self.panel, area, false);
-        let corners = legend.flat_map(|r| [[r.x, r.y], [r.right(), r.y], [r.x, r.bottom()], [r.right(), r.bottom()]]);
-        let taken: Vec<[f64; 2]> = drawn.into_iter().chain(corners).collect();
-        let found = places.iter().filter(inside).find(|rect| is_free(rect, &taken));
-        found.or_else(|| places.iter().find(inside)).or(places.first()).copied().unwrap_or_default()
+        self.freest(&places, &self.taken(false))
     }
 
-    fn text(&self, svg: &mut Svg, words: &Text) {
-        let at = self.at(words.at, false);
-        if !self.placed.rect.holds(at) {
+    /// The first place inside the axes where least is drawn.
+    fn freest(&self, places: &[Rect], taken: &[[f64; 2]]) -> Rect {
+        let area = &self.placed.rect;
+        let inside = |rect: &&Rect| area.holds([rect.x, rect.y]) && area.holds([rect.right(), rect.bottom()]);
+        let freest = places.iter().filter(inside).min_by_key(|rect| covered(rect, taken));
+        freest.or(places.first()).copied().unwrap_or_default()
+    }
+
+    /// Points all over what is drawn, the legend too; marks on request.
+    fn taken(&self, marks: bool) -> Vec<[f64; 2]> {
+        let mut taken = drawn(self.placed, self.panel, &self.placed.rect, marks);
+        taken.extend(self.placed.legend_box.iter().flat_map(Rect::points));
+        taken
+    }
+
+    /// The names of places, each beside its own: right and left first, then above and below, then at the corners.
+    fn names(&self, svg: &mut Svg) {
+        let area = &self.placed.rect;
+        let names = self.panel.layers.iter().filter_map(|layer| match layer {
+            Layer::Text(words) => Some((words, self.at(words.at, false))).filter(|(_, at)| area.holds(*at)),
+            _ => None,
+        });
+        let names: Vec<_> = names.collect();
+        if names.is_empty() {
             return;
         }
-        let anchor = match words.anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
-        };
-        svg.text(at, &words.text, &Type { colour: words.colour, ..Type::new(NOTE, anchor) });
+        let mut taken = self.taken(true);
+        for (words, [x, y]) in names {
+            let (width, height, apart) = (text::width(&words.text, NOTE), 0.8 * NOTE, 5.0);
+            let [right, left, centre] = [x + apart, x - apart - width, x - 0.5 * width];
+            let [above, below, middle] = [y - apart - height, y + apart, y - 0.5 * height];
+            let places = [
+                [right, middle],
+                [left, middle],
+                [centre, above],
+                [centre, below],
+                [right, above],
+                [left, below],
+                [right, below],
+                [left, above],
+            ];
+            let places = places.map(|[x, y]| Rect { x, y, width, height });
+            let place = self.freest(&places, &taken);
+            let style = Type { colour: words.colour, ..Type::new(NOTE, "start") };
+            svg.text([place.x, place.bottom()], &words.text, &style);
+            taken.extend(place.points());
+        }
     }
 
     fn contours(&self, svg: &mut Svg, contours: &Contours) {

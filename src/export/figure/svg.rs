@@ -23,6 +23,16 @@ impl Rect {
         self.y + self.height
     }
 
+    /// Points all over it, close together.
+    pub(super) fn points(&self) -> impl Iterator<Item = [f64; 2]> {
+        let apart = 3.0;
+        let [columns, rows] = [self.width, self.height].map(|length| (length / apart).ceil() as usize);
+        let Self { x, y, width, height } = *self;
+        let along = |from: f64, length: f64, i: usize, of: usize| from + length * i as f64 / of.max(1) as f64;
+        (0..=columns)
+            .flat_map(move |i| (0..=rows).map(move |j| [along(x, width, i, columns), along(y, height, j, rows)]))
+    }
+
     pub(super) fn holds(&self, [x, y]: [f64; 2]) -> bool {
         let slack = 1e-6;
         x >= self.x - slack && x <= self.right() + slack && y >= self.y - slack && y <= self.bottom() + slack

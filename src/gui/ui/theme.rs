@@ -1,5 +1,6 @@
 //! Colours and sizes: the only place that has any.
 
+use crate::export::figure::{Colour, Colours};
 use eframe::egui::{self, Color32, FontData, FontFamily};
 
 /// Colours with a meaning, for one of the two themes. Distinguishable with the common colour deficiencies (Okabe–Ito).
@@ -83,8 +84,8 @@ pub fn run_colour(slot: usize, dark: bool) -> Color32 {
 
 /// Colour of a value between 0 and 1 in a field: perceptually uniform.
 pub fn field_colour(value: f64) -> Color32 {
-    let colour = colorous::VIRIDIS.eval_continuous(value.clamp(0.0, 1.0));
-    Color32::from_rgb(colour.r, colour.g, colour.b)
+    let Colour(r, g, b) = Colours::Field.at(value);
+    Color32::from_rgb(r, g, b)
 }
 
 /// `colour` on a face that has this much light, 0 to 1.
