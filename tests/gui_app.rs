@@ -819,6 +819,12 @@ fn panels_are_as_wide_again_as_before_the_window_was_small() {
     window.set_size(Vec2::new(800.0, 600.0));
     window.run_steps(4);
     assert!(width(&window) < before);
+    // On a telephone that lies on its side half of it is the middle's.
+    window.set_size(Vec2::new(844.0, 390.0));
+    window.run_steps(4);
+    let left = window.get_by_role_and_label(Role::Button, "Motion").rect();
+    let right = window.get_by_label_contains("Converged").rect();
+    assert!(right.left() - left.left() > 422.0, "{left} {right}");
     window.set_size(Vec2::new(1400.0, 900.0));
     window.run_steps(4);
     assert_eq!(width(&window), before);

@@ -18,7 +18,7 @@ struct Side {
 }
 
 const PARAMETERS: Side = Side { default: 300.0, least: 210.0, share: 0.3 };
-/// A lesson is read: wider than the results, whose place it takes.
+/// A lesson is read: wider than the results, whose place it takes, on a telephone too.
 const LESSON: Side = Side { default: 392.0, least: 240.0, share: 0.36 };
 const RESULTS: Side = Side { default: 304.0, least: 190.0, share: 0.29 };
 
@@ -27,10 +27,11 @@ impl Side {
         (self.share * window).max(self.least)
     }
 
-    /// Fits `panel` into a window of this width: what is in the middle stays the widest.
-    fn fit(&self, panel: egui::Panel, window: f32) -> egui::Panel {
+    /// Fits `panel` into a window of this width: what is in the middle stays the widest. `spare`: it begins as narrow as it can be.
+    fn fit(&self, panel: egui::Panel, window: f32, spare: bool) -> egui::Panel {
         let most = self.most(window);
-        panel.default_size(self.default.min(most)).size_range(self.least..=most).resizable(true)
+        let default = if spare { self.least } else { self.default };
+        panel.default_size(default.min(most)).size_range(self.least..=most).resizable(true)
     }
 }
 
@@ -50,17 +51,26 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         timeline::status(ui, cx);
     });
     let width = ui.available_width();
-    // Each size of text remembers its own widths, and so does a window too narrow for the usual ones: made wide again, it has
-    // those that it had.
+    let telephone = ui.ctx().content_rect().height() < tabs::labels::LOW;
+    // Each size of text remembers its own widths, and so does a window too narrow or too low for the usual ones: made large again, it
+    // has those that it had.
     let id = |name: &str, side: &Side| {
         let size = if state.lecture { ", lecture" } else { "" };
-        format!("{name}{size}{}", if side.most(width) < side.default { ", narrow" } else { "" })
+        let window = match side.most(width) < side.default {
+            _ if telephone => ", telephone",
+            true => ", narrow",
+            false => "",
+        };
+        format!("{name}{size}{window}")
     };
     // A lesson comes first for the keyboard.
     if state.view.results && state.lessons.running().is_some_and(|running| !running.all_results) {
-        LESSON.fit(egui::Panel::right(id("lesson", &LESSON)), width).frame(side).show(ui, |ui| lesson::show(ui, cx));
+        LESSON
+            .fit(egui::Panel::right(id("lesson", &LESSON)), width, false)
+            .frame(side)
+            .show(ui, |ui| lesson::show(ui, cx));
     } else if state.view.results {
-        RESULTS.fit(egui::Panel::right(id("results", &RESULTS)), width).frame(side).show(ui, |ui| {
+        RESULTS.fit(egui::Panel::right(id("results", &RESULTS)), width, telephone).frame(side).show(ui, |ui| {
             // As wide before the first result as after it.
             ui.set_min_width(ui.available_width());
             if state.lessons.running().is_some() && ui.button("Back to the lesson").clicked() {
@@ -76,7 +86,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     // Where little is left for it, a plate in the hand takes the place of parameters that a lesson does not ask for.
     let held = state.view.tab == Tab::Hold && state.lessons.step().is_some_and(|(_, step)| step.light.is_empty());
     if state.view.parameters && !(held && width < CROWDED) {
-        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width).frame(side).show(ui, |ui| {
+        PARAMETERS.fit(egui::Panel::left(id("parameters", &PARAMETERS)), width, telephone).frame(side).show(ui, |ui| {
             cx.mark(ui, "parameters", ui.max_rect().expand(2.0));
             parameters::show(ui, cx);
         });
