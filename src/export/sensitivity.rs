@@ -263,7 +263,7 @@ impl Found<'_> {
         let what = if certain {
             "Change of each result for 1 % more of each parameter"
         } else {
-            "Change of each result for one standard deviation more of each uncertain parameter"
+            "Change of each result for one standard deviation (s.d.) more of each uncertain parameter"
         };
         let mut figure = self.figure_of(format!("{what}, with the error of the derivative."), fidelity);
         for (output, of) in self.sensitivity.outputs.iter().enumerate() {
@@ -272,7 +272,7 @@ impl Found<'_> {
             let axis = if certain {
                 Axis::new(format!("{}, % for 1 % more", of.words()), "")
             } else {
-                Axis::new(format!("{}, for one standard deviation more", of.words()), unit)
+                Axis::new(format!("{}, for 1 s.d. more", of.words()), unit)
             };
             let mut names: Vec<(f64, String)> = Vec::new();
             let mut panel = Panel::default();
