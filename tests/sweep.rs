@@ -146,6 +146,22 @@ fn run(arguments: &[&str], out: Option<&Path>) -> Output {
 const COMMAND: [&str; 4] = ["sweep", "fundamental", "--fidelity=draft", "--vary=stator.frequency_khz=10:50:5"];
 
 #[test]
+fn a_title_says_how_exactly_it_is_solved() {
+    let title = |asked: &[&str]| {
+        let output = run(&[&["sweep", "levitating", "--vary", "stator.frequency_khz=30,40"], asked].concat(), None);
+        String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned()
+    };
+    for (asked, words) in [
+        (&["--fidelity", "draft"][..], "fidelity draft"),
+        (&["--accuracy", "1%"], "accuracy 1%"),
+        (&["--budget", "2ms"], "fidelity reference, in at most 2ms a solve"),
+    ] {
+        let title = title(asked);
+        assert!(title.ends_with(&format!("over stator.frequency_khz, {words}")), "{title}");
+    }
+}
+
+#[test]
 fn files_and_json_agree_and_are_gone_on_with() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("out");
