@@ -6,7 +6,7 @@ use squeezefilm::control::Cancel;
 use squeezefilm::export::animation::{self, AnimationError, Movie};
 use squeezefilm::export::figure::{
     self, Axis, Band, Categories, Colour, Contours, Figure, FigureError, Grid, Layer, Line, Map, Mark, Marker, Panel,
-    Points, Provenance, Range, Scale, Shading, Shape, Style, Text, Width,
+    Points, Provenance, Range, Shading, Shape, Style, Text, Width,
 };
 use squeezefilm::export::figures;
 use squeezefilm::fidelity::Fidelity;
@@ -256,17 +256,15 @@ fn with_all_layers(x: &[f64], y: &[f64], log: bool) -> Figure {
     let values: Vec<f64> = x.iter().flat_map(|x| y.iter().map(move |y| x * y)).collect();
     let kinds = values.iter().map(|value| (value.abs() as usize) % 4).collect();
     let grid = Grid { x: x.to_vec(), y: y.to_vec(), values };
-    let scale = if log { Scale::Log } else { Scale::Linear };
     let mut cloud = Points::new("points", points(), Colour::FILM, Marker::hollow(Shape::Diamond));
     cloud.errors = y.to_vec();
     let mut other = Line::new("right", points(), Style::nth(3));
     other.right = true;
     let [ax, ay, az] = axes;
     let mut panel = Panel::new("p_{a}", ax.clone(), ay.clone())
-        .layer(Map { grid: grid.clone(), scale, ..Map::default() })
+        .layer(Map { grid: grid.clone(), ..Map::default() })
         .layer(Map { grid: grid.clone(), shading: Shading::Cells, range: Range::Fixed(2.0, 2.0), ..Map::default() })
-        .layer(Contours { grid: grid.clone(), labels: true, ..Contours::default() })
-        .layer(Contours { grid, levels: vec![f64::NAN, 1.0, 1.0], labels: true, ..Contours::default() })
+        .layer(Contours { grid, labels: true, ..Contours::default() })
         .layer(Categories { x: x.to_vec(), y: y.to_vec(), values: kinds, kinds: vec![("k".into(), Colour::BLACK)] })
         .layer(Line::new("line", points(), Style::nth(0)))
         .layer(other)
@@ -326,19 +324,6 @@ fn a_long_curve_is_thinned() {
     let line = Line::new("wave", wave, Style::default());
     let figure = Figure::new("").panel(Panel::new("", Axis::default(), Axis::default()).layer(line));
     assert!(figure::to_svg(&figure).len() < 2_000_000);
-}
-
-#[test]
-fn a_description_survives_json() {
-    let figure = a_map();
-    let text = serde_json::to_string(&figure).unwrap();
-    assert_eq!(serde_json::from_str::<Figure>(&text).unwrap(), figure);
-    // What is not said has its default: a description may be written by hand.
-    let brief: Figure =
-        serde_json::from_str(r#"{"panels":[{"x":{"scale":"log"},"layers":[{"line":{"points":[[1,2],[10,3]]}}]}]}"#)
-            .unwrap();
-    assert_eq!(brief.panels[0].height, Panel::default().height);
-    assert!(figure::to_svg(&brief).contains("<polyline"));
 }
 
 #[test]

@@ -1,12 +1,9 @@
 //! Axes: what they show, and over which range.
 
-use serde::{Deserialize, Serialize};
-
 /// One axis.
 ///
 /// Labels may raise and lower: `m^{2}`, `p_{a}`; raised and lowered characters of Unicode are set alike.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     /// The quantity.
     pub label: String,
@@ -57,9 +54,14 @@ impl Axis {
     }
 }
 
-/// How values are spread along an axis or over colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+/// Least and greatest of values, what is not a number left out; of none, from infinity to minus infinity.
+pub(in crate::export) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let ends = [f64::INFINITY, f64::NEG_INFINITY];
+    values.into_iter().fold(ends, |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// How values are spread along an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
     /// Evenly.
     #[default]
@@ -69,8 +71,7 @@ pub enum Scale {
 }
 
 /// What an axis or a colour bar covers.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Range {
     /// The data.
     #[default]

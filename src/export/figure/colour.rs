@@ -1,10 +1,9 @@
 //! Colours of figures: few, with a meaning, told apart with the common colour deficiencies.
 
-use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// Red, green, blue.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
 impl Colour {
@@ -46,14 +45,11 @@ impl Colour {
 }
 
 /// How values become colours. All are perceptually uniform.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Colours {
     /// From dark to light, for quantities: viridis.
     #[default]
     Field,
-    /// From dark to light through red, for a second quantity beside the first: magma.
-    Heat,
     /// From blue over white to red, for differences; give it a range symmetric about zero.
     Signed,
 }
@@ -64,8 +60,8 @@ const SHADES: usize = 4096;
 impl Colours {
     /// The colour of a fraction of the range, clamped to 0 … 1.
     pub fn at(self, fraction: f64) -> Colour {
-        static RAMPS: LazyLock<[Vec<Colour>; 3]> = LazyLock::new(|| {
-            [colorous::VIRIDIS, colorous::MAGMA, colorous::RED_BLUE].map(|gradient| {
+        static RAMPS: LazyLock<[Vec<Colour>; 2]> = LazyLock::new(|| {
+            [colorous::VIRIDIS, colorous::RED_BLUE].map(|gradient| {
                 let shade = |i: usize| gradient.eval_rational(i, SHADES);
                 (0..SHADES).map(shade).map(|shade| Colour(shade.r, shade.g, shade.b)).collect()
             })
@@ -73,8 +69,7 @@ impl Colours {
         let fraction = if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 };
         let (ramp, fraction) = match self {
             Self::Field => (0, fraction),
-            Self::Heat => (1, fraction),
-            Self::Signed => (2, 1.0 - fraction),
+            Self::Signed => (1, 1.0 - fraction),
         };
         RAMPS[ramp][((SHADES - 1) as f64 * fraction).round() as usize]
     }

@@ -1,13 +1,11 @@
-//! What a figure is: plain data that can be kept, compared and sent. Nothing in here draws.
+//! What a figure is: plain data that can be kept and compared. Nothing in here draws.
 
 use super::axis::Axis;
 use super::layers::Layer;
 use super::provenance::Provenance;
-use serde::{Deserialize, Serialize};
 
 /// A figure: panels in rows and columns, and where its numbers come from.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// A line above the panels; may be empty.
     pub title: String,
@@ -40,8 +38,7 @@ impl Figure {
 }
 
 /// Width of a figure on paper.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Width {
     /// One column of a journal: 85 mm.
     #[default]
@@ -70,8 +67,7 @@ impl Width {
 }
 
 /// Axes with layers drawn one over the other, the first lowest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// A line above the axes, as in `(a) surfaces`; may be empty.
     pub title: String,
@@ -125,8 +121,7 @@ impl Panel {
 }
 
 /// Where the names of the layers stand.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Legend {
     /// In the emptiest corner; above the axes if every corner is taken.
     #[default]

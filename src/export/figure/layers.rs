@@ -1,13 +1,11 @@
 //! What is drawn in a panel: curves, areas, points, fields, words.
 
-use super::axis::{Range, Scale};
+use super::axis::Range;
 use super::colour::{Colour, Colours};
-use super::style::{Dash, Marker, Style};
-use serde::{Deserialize, Serialize};
+use super::style::{Marker, Style};
 
 /// One thing in a panel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Layer {
     /// A curve.
     Line(Line),
@@ -31,8 +29,7 @@ pub enum Layer {
 pub(super) const MARKED: usize = 24;
 
 /// A curve. Points that are not finite, or not positive on a logarithmic axis, interrupt it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
     /// Its name in the legend; empty for none.
     pub name: String,
@@ -57,8 +54,7 @@ impl Line {
 }
 
 /// The area between two curves of the same x: an error band, or a body.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
     /// Its name in the legend; empty for none.
     pub name: String,
@@ -68,20 +64,17 @@ pub struct Band {
     pub colour: Colour,
     /// 0 is invisible, 1 is solid.
     pub opacity: f64,
-    /// Read on the right axis.
-    pub right: bool,
 }
 
 impl Band {
-    /// A pale band read on the left axis.
+    /// A pale band.
     pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 3]>, colour: Colour) -> Self {
-        Self { name: name.into(), points: points.into_iter().collect(), colour, opacity: 0.25, right: false }
+        Self { name: name.into(), points: points.into_iter().collect(), colour, opacity: 0.25 }
     }
 }
 
 /// Single points.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points {
     /// Its name in the legend; empty for none.
     pub name: String,
@@ -93,12 +86,10 @@ pub struct Points {
     pub colour: Colour,
     /// Shape.
     pub marker: Marker,
-    /// Read on the right axis.
-    pub right: bool,
 }
 
 impl Points {
-    /// Points without error bars, read on the left axis.
+    /// Points without error bars.
     pub fn new(
         name: impl Into<String>,
         points: impl IntoIterator<Item = [f64; 2]>,
@@ -110,8 +101,7 @@ impl Points {
 }
 
 /// A straight line across the axes, with words at its end.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mark {
     /// Which way it runs.
     pub direction: Direction,
@@ -136,8 +126,7 @@ impl Mark {
 }
 
 /// Which way a [`Mark`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
     /// At one x.
     Vertical,
@@ -147,8 +136,7 @@ pub enum Direction {
 }
 
 /// Values at the nodes of a plane, as colours. Where a value is not finite nothing is drawn.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Map {
     /// The quantity, at the colour bar.
     pub label: String,
@@ -158,8 +146,6 @@ pub struct Map {
     pub grid: Grid,
     /// How values become colours.
     pub colours: Colours,
-    /// Linear or logarithmic colours.
-    pub scale: Scale,
     /// What the colours cover.
     pub range: Range,
     /// Whether colours run from node to node or every node has its cell.
@@ -167,8 +153,7 @@ pub struct Map {
 }
 
 /// Values at the nodes of a plane; the nodes need not be uniform.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
     /// Ascending.
     pub x: Vec<f64>,
@@ -179,8 +164,7 @@ pub struct Grid {
 }
 
 /// How the plane between nodes is filled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
     /// Linear from node to node: fields.
     #[default]
@@ -189,27 +173,19 @@ pub enum Shading {
     Cells,
 }
 
-/// Lines of equal value.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+/// Lines of equal value, up to ten round ones, black or white as the map below asks.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contours {
     /// Where the values are.
     pub grid: Grid,
-    /// The values of the lines; empty for up to ten round ones.
-    pub levels: Vec<f64>,
     /// What the values are told apart by: a typical error. Where round values would be nearer to each other there are no lines.
     pub error: f64,
     /// Whether each line carries its value.
     pub labels: bool,
-    /// Colour; without one, black or white as the map below asks.
-    pub colour: Option<Colour>,
-    /// Dashes.
-    pub dash: Dash,
 }
 
 /// Kinds over a plane, each node's cell in the colour of its kind.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Categories {
     /// Ascending.
     pub x: Vec<f64>,
@@ -222,21 +198,18 @@ pub struct Categories {
 }
 
 /// Words that name a place, beside it: on the first side where nothing else is drawn.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Text {
     /// `[x, y]` of the left axis.
     pub at: [f64; 2],
     /// The words.
     pub text: String,
-    /// Colour.
-    pub colour: Colour,
 }
 
 impl Text {
-    /// Black words.
+    /// Words beside a place.
     pub fn new(at: [f64; 2], text: impl Into<String>) -> Self {
-        Self { at, text: text.into(), ..Self::default() }
+        Self { at, text: text.into() }
     }
 }
 

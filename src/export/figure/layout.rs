@@ -135,8 +135,8 @@ fn y_values(panel: &Panel, scale: Scale, right: bool, values: &mut Vec<f64>) {
     for layer in &panel.layers {
         match layer {
             Layer::Line(line) if line.right == right => values.extend(line.points.iter().map(|p| p[1])),
-            Layer::Band(band) if band.right == right => values.extend(band.points.iter().flat_map(|p| [p[1], p[2]])),
-            Layer::Points(points) if points.right == right => {
+            Layer::Band(band) if !right => values.extend(band.points.iter().flat_map(|p| [p[1], p[2]])),
+            Layer::Points(points) if !right => {
                 for (i, [_, y]) in points.points.iter().enumerate() {
                     let error = points.errors.get(i).copied().filter(|e| e.is_finite()).unwrap_or(0.0).abs();
                     values.extend([*y, y - error, y + error]);

@@ -98,23 +98,20 @@ pub(super) fn drawn(placed: &Placed, panel: &Panel, area: &Rect, marks: bool) ->
             }
         }
     };
-    let axis = |right: bool| if right { placed.right.unwrap_or(placed.y) } else { placed.y };
     let mut single = Vec::new();
     for layer in &panel.layers {
         match layer {
-            Layer::Line(line) => path(&mut line.points.iter().map(|p| at(&axis(line.right), *p))),
+            Layer::Line(line) => path(&mut line.points.iter().map(|p| at(&placed.upright(line.right), *p))),
             Layer::Band(band) => {
-                let y = axis(band.right);
                 for [x, low, high] in &band.points {
-                    path(&mut [at(&y, [*x, *low]), at(&y, [*x, *high])].into_iter());
+                    path(&mut [at(&placed.y, [*x, *low]), at(&placed.y, [*x, *high])].into_iter());
                 }
             }
             Layer::Points(cloud) => {
-                let y = axis(cloud.right);
                 for (i, [x, value]) in cloud.points.iter().enumerate() {
                     let error = cloud.errors.get(i).copied().unwrap_or(0.0);
-                    single.push(at(&y, [*x, *value]));
-                    path(&mut [at(&y, [*x, value - error]), at(&y, [*x, value + error])].into_iter());
+                    single.push(at(&placed.y, [*x, *value]));
+                    path(&mut [value - error, value + error].map(|end| at(&placed.y, [*x, end])).into_iter());
                 }
             }
             Layer::Mark(mark) if marks => {

@@ -69,5 +69,6 @@ pub use svg::escaped;
 #[cfg(feature = "gui")]
 pub(crate) use geometry::{contour, is_contour};
 
+pub(super) use axis::extent;
 pub(super) use error::Pixels;
 pub(super) use files::{pixels, png_bytes};

@@ -12,7 +12,7 @@ use super::placed::{
     mark_ends,
 };
 use super::plane;
-use super::scale::{Scaled, Ticks, short};
+use super::scale::{Scaled, Ticks, on_contour};
 use super::style::Style;
 use super::svg::{Pen, Picture, Rect, Svg, Type, escaped};
 use super::text;
@@ -99,8 +99,7 @@ impl On<'_> {
     }
 
     fn py(&self, y: f64, right: bool) -> f64 {
-        let range = self.placed.right.filter(|_| right).unwrap_or(self.placed.y);
-        self.placed.rect.bottom() - range.fraction(y) * self.placed.rect.height
+        self.placed.rect.bottom() - self.placed.upright(right).fraction(y) * self.placed.rect.height
     }
 
     fn at(&self, [x, y]: [f64; 2], right: bool) -> [f64; 2] {
@@ -131,7 +130,7 @@ impl On<'_> {
 
     fn band(&self, svg: &mut Svg, band: &Band) {
         svg.open(&named("band", &band.name));
-        let at = |p: &[f64; 3]| [self.at([p[0], p[1]], band.right), self.at([p[0], p[2]], band.right)];
+        let at = |p: &[f64; 3]| [self.at([p[0], p[1]], false), self.at([p[0], p[2]], false)];
         let known = |p: &[f64; 3]| at(p).iter().flatten().all(|c| !c.is_nan());
         for run in band.points.split(|p| !known(p)) {
             let there = run.iter().map(|p| at(p)[0]);
@@ -145,7 +144,7 @@ impl On<'_> {
     fn points(&self, svg: &mut Svg, points: &Points) {
         svg.open(&named("points", &points.name));
         let rect = &self.placed.rect;
-        let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.at(*p, points.right)));
+        let shown = || points.points.iter().enumerate().map(|(i, p)| (i, *p, self.at(*p, false)));
         let mut bars = Vec::new();
         for (i, [x, y], _) in shown() {
             let error = points.errors.get(i).copied().filter(|e| e.is_finite()).unwrap_or(0.0).abs();
@@ -154,7 +153,7 @@ impl On<'_> {
             }
             // What a logarithmic axis cannot show of a bar is below it.
             let ends = [y + error, y - error].map(|y| {
-                let [px, py] = self.at([x, y], points.right);
+                let [px, py] = self.at([x, y], false);
                 [px, if py.is_nan() { rect.bottom() + 10.0 } else { py }]
             });
             for part in clipped_line(ends.into_iter(), rect) {
@@ -254,8 +253,7 @@ impl On<'_> {
             ];
             let places = places.map(|[x, y]| Rect { x, y, width, height });
             let place = self.freest(&places, &taken);
-            let style = Type { colour: words.colour, ..Type::new(NOTE, "start") };
-            svg.text([place.x, place.bottom()], &words.text, &style);
+            svg.text([place.x, place.bottom()], &words.text, &Type::new(NOTE, "start"));
             taken.extend(place.points());
         }
     }
@@ -265,7 +263,7 @@ impl On<'_> {
         if !plane::fits(x, y, values.len()) {
             return;
         }
-        let (levels, step) = levels(contours, first_map(self.panel));
+        let (levels, step) = levels(contours);
         // Places first, so that lines are straight on paper on either kind of axis.
         let px: Vec<f64> = x.iter().map(|x| self.px(*x)).collect();
         let py: Vec<f64> = y.iter().map(|y| self.py(*y, false)).collect();
@@ -273,12 +271,8 @@ impl On<'_> {
         let map = first_map(self.panel);
         let mut lines = Vec::new();
         for level in levels {
-            let pen = Pen {
-                colour: contours.colour.unwrap_or_else(|| contrast(map, level)),
-                width: 0.7,
-                dash: contours.dash,
-            };
-            let label = if contours.labels { short(level, step) } else { String::new() };
+            let pen = Pen::solid(contrast(map, level), 0.7);
+            let label = if contours.labels { on_contour(level, step) } else { String::new() };
             for line in contour(&px, &py, values, level) {
                 for part in clipped_line(line.into_iter(), &self.placed.rect) {
                     lines.push(Isoline::new(part, &label, pen));
@@ -436,18 +430,8 @@ fn colour_bar(svg: &mut Svg, bar: &Bar) {
 }
 
 /// Values of contours and the step between them.
-fn levels(contours: &Contours, map: Option<&Map>) -> (Vec<f64>, f64) {
-    let finite = |values: &[f64]| values.iter().copied().filter(|v| v.is_finite()).collect::<Vec<_>>();
-    if !contours.levels.is_empty() {
-        let levels = finite(&contours.levels);
-        let steps = levels.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|step| *step > 0.0);
-        let least = steps.fold(f64::INFINITY, f64::min);
-        let size = levels.iter().map(|v| v.abs()).filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min);
-        return (levels, least.min(size / 10.0));
-    }
-    let values = finite(&contours.grid.values);
-    let scale = map.map_or(Scale::Linear, |map| map.scale);
-    let range = Scaled::new(&Range::Auto, scale, values.into_iter(), false);
+fn levels(contours: &Contours) -> (Vec<f64>, f64) {
+    let range = Scaled::new(&Range::Auto, Scale::Linear, contours.grid.values.iter().copied(), false);
     let step = Steps::new([range.from, range.to], 10).step();
     if step <= contours.error {
         return (Vec::new(), step);
@@ -482,18 +466,18 @@ mod tests {
         // α of a map whose half carries nothing, up to the solver's error.
         let values = vec![-1.1e-6, 2e-7, -3e-7, 0.98];
         let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values };
-        let (values, _) = levels(&Contours { grid, ..Contours::default() }, None);
+        let (values, _) = levels(&Contours { grid, ..Contours::default() });
         assert!(values.len() >= 4 && values.iter().all(|value| *value > 0.05), "{values:?}");
         // One that nowhere carries anything.
         let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0, 1.0], values: vec![-6.7e-9, 2.2e-9, 1e-9, -3e-9] };
         let noise = Contours { grid, error: 1.25e-5, ..Contours::default() };
-        assert!(levels(&noise, None).0.is_empty() && levels(&Contours { error: 0.0, ..noise }, None).0.len() >= 4);
+        assert!(levels(&noise).0.is_empty() && levels(&Contours { error: 0.0, ..noise }).0.len() >= 4);
     }
 
     #[test]
     fn contours_choose_round_values() {
         let grid = Grid { x: vec![0.0, 1.0], y: vec![0.0], values: vec![0.0, 1.03] };
-        let (values, step) = levels(&Contours { grid, ..Contours::default() }, None);
+        let (values, step) = levels(&Contours { grid, ..Contours::default() });
         assert!(values.len() >= 5 && (step - 0.2).abs() < 1e-12, "{values:?} {step}");
     }
 }

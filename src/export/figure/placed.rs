@@ -1,5 +1,6 @@
 //! A panel's place on the paper, with its legend and colour bar, and the sizes that all who place and draw share.
 
+use super::axis::Scale;
 use super::colour::Colour;
 use super::description::Panel;
 use super::layers::{Direction, Layer, Map, Mark};
@@ -61,6 +62,13 @@ pub(super) struct Placed {
     /// A legend inside has a background.
     pub(super) legend_box: Option<Rect>,
     pub(super) title: Option<[f64; 2]>,
+}
+
+impl Placed {
+    /// The axis of what is read on the left, or on the right if there is one.
+    pub(super) fn upright(&self, right: bool) -> Scaled {
+        self.right.filter(|_| right).unwrap_or(self.y)
+    }
 }
 
 /// What stands for a layer in the legend.
@@ -134,5 +142,5 @@ pub(super) fn first_map(panel: &Panel) -> Option<&Map> {
 
 /// The range of a map's colours.
 pub(super) fn map_range(map: &Map) -> Scaled {
-    Scaled::new(&map.range, map.scale, map.grid.values.iter().copied(), false)
+    Scaled::new(&map.range, Scale::Linear, map.grid.values.iter().copied(), false)
 }

@@ -34,7 +34,7 @@ pub(super) fn pixels(
 
 /// The same as a PDF of one page, its text as text.
 pub(super) fn pdf(drawing: &Drawing, svg: &str, facts: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
-    page(drawing, &tree(svg)?, facts).map_err(FigureError::Draw)
+    document(&[Page { size: drawing.size, pictures: &drawing.pictures, svg }], facts)
 }
 
 /// The drawing as the renderers read it.
@@ -69,55 +69,67 @@ fn options() -> usvg::Options<'static> {
 }
 
 /// A page: pictures, and the drawing over them.
-fn page(drawing: &Drawing, tree: &Tree, facts: &[(&'static str, String)]) -> Result<Vec<u8>, String> {
-    let options = svg2pdf::ConversionOptions { pdfa: false, ..svg2pdf::ConversionOptions::default() };
-    let (chunk, drawn) = svg2pdf::to_chunk(tree, options).map_err(|error| error.to_string())?;
+struct Page<'a> {
+    /// Width and height \[pt\].
+    size: [f64; 2],
+    pictures: &'a [Picture],
+    /// The drawing, an SVG.
+    svg: &'a str,
+}
+
+/// Pages as a PDF, their text as text.
+fn document(pages: &[Page<'_>], facts: &[(&'static str, String)]) -> Result<Vec<u8>, FigureError> {
+    let failed = |error: &dyn std::fmt::Display| FigureError::Draw(error.to_string());
     let mut next = Ref::new(1);
-    let [catalog, pages, page, content, info] = [(); 5].map(|()| next.bump());
-    let mut renamed = HashMap::new();
-    let chunk = chunk.renumber(|old| *renamed.entry(old).or_insert_with(|| next.bump()));
-    let drawn = renamed.get(&drawn).copied().ok_or("the drawing has no page")?;
-    let images: Vec<Ref> = drawing.pictures.iter().map(|_| next.bump()).collect();
-
-    let [width, height] = drawing.size.map(|length| length as f32);
+    let [catalog, all, info] = [(); 3].map(|()| next.bump());
+    let leaves: Vec<Ref> = pages.iter().map(|_| next.bump()).collect();
     let mut pdf = Pdf::new();
-    pdf.catalog(catalog).pages(pages);
-    pdf.pages(pages).kids([page]).count(1);
-    let mut leaf = pdf.page(page);
-    leaf.media_box(pdf_writer::Rect::new(0.0, 0.0, width, height)).parent(pages).contents(content);
-    let mut resources = leaf.resources();
-    let mut objects = resources.x_objects();
-    objects.pair(Name(b"Drawing"), drawn);
-    let name = |i: usize| format!("Picture{i}");
-    for (i, image) in images.iter().enumerate() {
-        objects.pair(Name(name(i).as_bytes()), *image);
-    }
-    objects.finish();
-    resources.finish();
-    leaf.finish();
+    pdf.catalog(catalog).pages(all);
+    pdf.pages(all).kids(leaves.iter().copied()).count(i32::try_from(leaves.len()).unwrap_or(i32::MAX));
+    for (Page { size, pictures, svg }, leaf) in pages.iter().zip(leaves) {
+        let options = svg2pdf::ConversionOptions { pdfa: false, ..svg2pdf::ConversionOptions::default() };
+        let (chunk, drawn) = svg2pdf::to_chunk(&tree(svg)?, options).map_err(|error| failed(&error))?;
+        let mut renamed = HashMap::new();
+        let content = next.bump();
+        let chunk = chunk.renumber(|old| *renamed.entry(old).or_insert_with(|| next.bump()));
+        let drawn = renamed.get(&drawn).copied().ok_or_else(|| failed(&"the drawing has no page"))?;
+        let images: Vec<Ref> = pictures.iter().map(|_| next.bump()).collect();
 
-    let mut operations = Content::new();
-    for (i, picture) in drawing.pictures.iter().enumerate() {
-        let [x, y, w, h] =
-            [picture.rect.x, picture.rect.bottom(), picture.rect.width, picture.rect.height].map(|c| c as f32);
-        operations.save_state();
-        operations.transform([w, 0.0, 0.0, h, x, height - y]);
-        operations.x_object(Name(name(i).as_bytes()));
-        operations.restore_state();
+        let [width, height] = size.map(|length| length as f32);
+        let mut page = pdf.page(leaf);
+        page.media_box(pdf_writer::Rect::new(0.0, 0.0, width, height)).parent(all).contents(content);
+        let mut resources = page.resources();
+        let mut objects = resources.x_objects();
+        objects.pair(Name(b"Drawing"), drawn);
+        let name = |i: usize| format!("Picture{i}");
+        for (i, image) in images.iter().enumerate() {
+            objects.pair(Name(name(i).as_bytes()), *image);
+        }
+        objects.finish();
+        resources.finish();
+        page.finish();
+
+        let mut operations = Content::new();
+        for (i, picture) in pictures.iter().enumerate() {
+            let [x, y, w, h] =
+                [picture.rect.x, picture.rect.bottom(), picture.rect.width, picture.rect.height].map(|c| c as f32);
+            operations.save_state();
+            operations.transform([w, 0.0, 0.0, h, x, height - y]);
+            operations.x_object(Name(name(i).as_bytes()));
+            operations.restore_state();
+        }
+        operations.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
+        operations.x_object(Name(b"Drawing"));
+        pdf.stream(content, &operations.finish());
+        for (image, picture) in images.iter().zip(*pictures) {
+            let packed = deflated(&picture.rgb).map_err(|error| failed(&error))?;
+            let mut object = pdf.image_xobject(*image, &packed);
+            object.filter(Filter::FlateDecode);
+            let [columns, rows] = picture.size.map(|count| i32::try_from(count).unwrap_or(i32::MAX));
+            object.width(columns).height(rows).bits_per_component(8).color_space().device_rgb();
+        }
+        pdf.extend(&chunk);
     }
-    operations.save_state();
-    operations.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
-    operations.x_object(Name(b"Drawing"));
-    operations.restore_state();
-    pdf.stream(content, &operations.finish());
-    for (image, picture) in images.iter().zip(&drawing.pictures) {
-        let packed = deflated(&picture.rgb)?;
-        let mut object = pdf.image_xobject(*image, &packed);
-        object.filter(Filter::FlateDecode);
-        let [columns, rows] = picture.size.map(|count| i32::try_from(count).unwrap_or(i32::MAX));
-        object.width(columns).height(rows).bits_per_component(8).color_space().device_rgb();
-    }
-    pdf.extend(&chunk);
     let mut about = pdf.document_info(info);
     for (keyword, text) in facts {
         match *keyword {
@@ -132,41 +144,20 @@ fn page(drawing: &Drawing, tree: &Tree, facts: &[(&'static str, String)]) -> Res
 }
 
 /// Pages of a size \[pt\], each the body of an SVG, as one PDF, their text as text.
-pub(super) fn svg_pages(title: &str, [width, height]: [f64; 2], pages: &[String]) -> Result<Vec<u8>, FigureError> {
-    let failed = |error: String| FigureError::Draw(error);
-    let mut next = Ref::new(1);
-    let [catalog, tree, info] = [(); 3].map(|()| next.bump());
-    let leaves: Vec<Ref> = pages.iter().map(|_| next.bump()).collect();
-    let mut pdf = Pdf::new();
-    pdf.catalog(catalog).pages(tree);
-    pdf.pages(tree).kids(leaves.iter().copied()).count(i32::try_from(leaves.len()).unwrap_or(i32::MAX));
-    let [w, h] = [width, height].map(|length| length as f32);
-    for (body, leaf) in pages.iter().zip(leaves) {
-        let svg = format!(
+pub(super) fn svg_pages(title: &str, size: [f64; 2], pages: &[String]) -> Result<Vec<u8>, FigureError> {
+    let [width, height] = size;
+    let drawing = |body: &String| {
+        format!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="{FAMILIES}">{body}</svg>"#
-        );
-        let drawing = Tree::from_str(&svg, &options()).map_err(|error| failed(error.to_string()))?;
-        let settings = svg2pdf::ConversionOptions { pdfa: false, ..svg2pdf::ConversionOptions::default() };
-        let (chunk, drawn) = svg2pdf::to_chunk(&drawing, settings).map_err(|error| failed(error.to_string()))?;
-        let mut renamed = HashMap::new();
-        let content = next.bump();
-        let chunk = chunk.renumber(|old| *renamed.entry(old).or_insert_with(|| next.bump()));
-        let drawn = renamed.get(&drawn).copied().ok_or_else(|| failed("the drawing has no page".to_owned()))?;
-        let mut page = pdf.page(leaf);
-        page.media_box(pdf_writer::Rect::new(0.0, 0.0, w, h)).parent(tree).contents(content);
-        page.resources().x_objects().pair(Name(b"Drawing"), drawn);
-        page.finish();
-        let mut operations = Content::new();
-        operations.transform([w, 0.0, 0.0, h, 0.0, 0.0]);
-        operations.x_object(Name(b"Drawing"));
-        pdf.stream(content, &operations.finish());
-        pdf.extend(&chunk);
-    }
-    pdf.document_info(info).title(TextStr(title)).creator(TextStr("squeezefilm"));
-    Ok(pdf.finish())
+        )
+    };
+    let drawings: Vec<String> = pages.iter().map(drawing).collect();
+    let pages: Vec<Page<'_>> = drawings.iter().map(|svg| Page { size, pictures: &[], svg }).collect();
+    document(&pages, &[("Title", title.to_owned()), ("Software", "squeezefilm".to_owned())])
 }
 
-fn deflated(bytes: &[u8]) -> Result<Vec<u8>, String> {
+fn deflated(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
     let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
-    encoder.write_all(bytes).and_then(|()| encoder.finish()).map_err(|error| error.to_string())
+    encoder.write_all(bytes)?;
+    encoder.finish()
 }

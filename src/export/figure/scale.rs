@@ -1,9 +1,9 @@
 //! From values to places along an axis, and the ticks of an axis: steps of 1, 2 and 5 when linear, decades when
 //! logarithmic.
 
-use super::axis::{Range, Scale};
+use super::axis::{Range, Scale, extent};
 use super::colour::{Colour, Colours};
-use crate::digits::signed;
+use crate::digits::{self, signed};
 use crate::ticks::Steps;
 
 /// Part of the data's span that is added at either end of an axis that shows curves.
@@ -31,17 +31,8 @@ impl Scaled {
         {
             return Self::widened(a.min(*b), a.max(*b), scale);
         }
-        let all = |values: &mut dyn Iterator<Item = f64>| {
-            values
-                .filter(shown)
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-        };
-        let data = all(&mut { values });
-        let extra = match range {
-            Range::Including(extra) => all(&mut extra.iter().copied()),
-            _ => (f64::INFINITY, f64::NEG_INFINITY),
-        };
-        let (low, high) = (data.0.min(extra.0), data.1.max(extra.1));
+        let extra = if let Range::Including(extra) = range { extra.as_slice() } else { &[] };
+        let [low, high] = extent(values.chain(extra.iter().copied()).filter(shown));
         if low > high {
             return if scale == Scale::Log { Self::widened(0.1, 10.0, scale) } else { Self::widened(0.0, 1.0, scale) };
         }
@@ -50,7 +41,8 @@ impl Scaled {
             return range;
         }
         // Where zero was asked for and is an end, the axis stops.
-        let stops = |end: f64| end == 0.0 && (extra.0 == 0.0 || extra.1 == 0.0);
+        let extra = extent(extra.iter().copied().filter(shown));
+        let stops = |end: f64| end == 0.0 && extra.contains(&0.0);
         let room = |end: f64, outwards: f64| if stops(end) { 0.0 } else { outwards * MARGIN };
         let (from, to) = (range.value(-room(low, 1.0)), range.value(1.0 + room(high, 1.0)));
         if from.is_finite() && to.is_finite() && (scale == Scale::Linear || from > 0.0) {
@@ -222,15 +214,14 @@ pub(super) fn power(exponent: i32) -> String {
 }
 
 /// A value in a few digits, as on a contour: `0.245`, `1.5×10^{−9}`.
-pub(super) fn short(value: f64, step: f64) -> String {
+pub(super) fn on_contour(value: f64, step: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
         return "0".to_owned();
     }
     if !(1e-3..1e5).contains(&size) {
         let exponent = size.log10().floor() as i32;
-        let mantissa = format!("{:.2}", without(value, exponent));
-        let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.').replace('-', "−");
+        let mantissa = signed(digits::short(without(value, exponent), 3));
         return if mantissa == "1" { power(exponent) } else { format!("{mantissa}×{}", power(exponent)) };
     }
     let places = if step > 0.0 { (-step.log10() - 1e-9).ceil().clamp(0.0, 8.0) as usize } else { 3 };
@@ -298,10 +289,10 @@ mod tests {
     }
 
     #[test]
-    fn short_values() {
-        assert_eq!(short(0.25, 0.05), "0.25");
-        assert_eq!(short(-400.0, 100.0), "−400");
-        assert_eq!(short(1e-9, 1e-9), "10^{−9}");
-        assert_eq!(short(1.5e-9, 1e-9), "1.5×10^{−9}");
+    fn values_on_contours() {
+        assert_eq!(on_contour(0.25, 0.05), "0.25");
+        assert_eq!(on_contour(-400.0, 100.0), "−400");
+        assert_eq!(on_contour(1e-9, 1e-9), "10^{−9}");
+        assert_eq!(on_contour(1.5e-9, 1e-9), "1.5×10^{−9}");
     }
 }

@@ -1,11 +1,9 @@
 //! How lines and points look.
 
 use super::colour::Colour;
-use serde::{Deserialize, Serialize};
 
 /// How a line looks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     /// Colour.
     pub colour: Colour,
@@ -36,13 +34,6 @@ impl Style {
         self
     }
 
-    /// With markers.
-    #[must_use]
-    pub fn marker(mut self, marker: Marker) -> Self {
-        self.marker = Some(marker);
-        self
-    }
-
     /// A thin grey line for marks.
     pub fn quiet() -> Self {
         Self { colour: Colour::QUIET, width: 0.6, dash: Dash::Solid, marker: None }
@@ -64,8 +55,7 @@ impl Style {
 }
 
 /// Dashes of a line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
     /// None.
     #[default]
@@ -79,8 +69,7 @@ pub enum Dash {
 }
 
 /// A point's sign.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
     /// Shape.
     pub shape: Shape,
@@ -109,8 +98,7 @@ impl Marker {
 }
 
 /// Shape of a marker.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shape {
     /// A circle.
     #[default]
