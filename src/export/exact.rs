@@ -1,6 +1,7 @@
 //! A plate beside what is known exactly, as the `exact` object of `solve --json`.
 
 use super::estimates;
+use super::figure::extent;
 use crate::analysis::exact::Comparison;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -10,8 +11,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 /// leave (Boyle), and of gas that is not compressed, whose least is its greatest, negative. What is not known is null.
 impl Serialize for Comparison {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let [boyle, viscous] = [&self.limits.boyle, &self.limits.viscous].map(|load| extent(load.iter().copied()));
         let (linear, unit, absolute) = (self.linear, self.unit, self.stiffness_and_damping());
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("effective_squeeze_number", &self.effective_squeeze_number)?;
@@ -27,9 +27,9 @@ impl Serialize for Comparison {
         estimates::add(&mut map, "mean_pressure_ratio", "", Some(self.mean_pressure))?;
         map.serialize_entry("trapped_mean_pressure_ratio", &self.trapped_mean_pressure)?;
         map.serialize_entry("invariant_deviation", &self.invariant_deviation)?;
-        map.serialize_entry("boyle_load_min_n", &least(&self.limits.boyle))?;
-        map.serialize_entry("boyle_load_max_n", &most(&self.limits.boyle))?;
-        map.serialize_entry("incompressible_load_max_n", &most(&self.limits.viscous))?;
+        map.serialize_entry("boyle_load_min_n", &boyle[0])?;
+        map.serialize_entry("boyle_load_max_n", &boyle[1])?;
+        map.serialize_entry("incompressible_load_max_n", &viscous[1])?;
         map.end()
     }
 }

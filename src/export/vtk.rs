@@ -7,6 +7,7 @@
 //! The format is VTK's own ("legacy", version 3.0, binary): a few lines of text, each followed by numbers of four bytes, the most significant first
 //! (<https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>).
 
+use super::figures::mirrored;
 use crate::problem::{Problem, Scenario};
 use crate::recording::Recording;
 use crate::recording::sample::column;
@@ -117,29 +118,28 @@ fn piece<'a>(
 ) -> Vec<Across<'a>> {
     let mut stored = vec![0.0; recording.map_y.len()];
     let nodes = &recording.x;
-    let mirrored = recording.half_length && !recording.radial && nodes.first().is_some_and(|x| *x >= 0.0);
-    let images = if mirrored { nodes.len() } else { 0 };
-    let images = (0..images).rev().map(|i| (-nodes[i], i)).filter(|(x, _)| *x < 0.0);
-    let all = images.chain(nodes.iter().copied().zip(0..));
+    let half = recording.half_length && !recording.radial && nodes.first().is_some_and(|x| *x >= 0.0);
     let line = recording.line_offset(tooth, frame);
     // Round, or along a strip, all values are the same.
     let alone = recording.map_y.len() < 2;
-    all.filter_map(|(x, i)| {
-        if !column(recording, tooth, x, frame as f64, &mut stored) {
-            return None;
-        }
-        let (ys, pressure): (Vec<f64>, Vec<f64>) = if alone {
-            (0..=ROUND).map(|i| (TAU * i as f64 / ROUND as f64, stored.first().copied().unwrap_or(f64::NAN))).unzip()
-        } else {
-            let half = recording.map_y.iter().copied().zip(stored.iter().copied());
-            let images = half.clone().rev().filter(|(y, _)| recording.half_width && *y > 0.0).map(|(y, p)| (-y, p));
-            images.chain(half).unzip()
-        };
-        let (bottom, top) = heights(i);
-        let places = ys.into_iter().map(|y| place(x, y)).collect();
-        Some(Across { places, pressure, bottom, top, thickness: &recording.film_thickness[line + i] })
-    })
-    .collect()
+    mirrored(nodes, half)
+        .into_iter()
+        .filter_map(|(x, i)| {
+            if !column(recording, tooth, x, frame as f64, &mut stored) {
+                return None;
+            }
+            let (ys, pressure): (Vec<f64>, Vec<f64>) = if alone {
+                (0..=ROUND)
+                    .map(|i| (TAU * i as f64 / ROUND as f64, stored.first().copied().unwrap_or(f64::NAN)))
+                    .unzip()
+            } else {
+                mirrored(&recording.map_y, recording.half_width).into_iter().map(|(y, j)| (y, stored[j])).unzip()
+            };
+            let (bottom, top) = heights(i);
+            let places = ys.into_iter().map(|y| place(x, y)).collect();
+            Some(Across { places, pressure, bottom, top, thickness: &recording.film_thickness[line + i] })
+        })
+        .collect()
 }
 
 /// A file of VTK.

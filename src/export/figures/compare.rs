@@ -5,7 +5,7 @@ use super::motor::{all_teeth_on, crest_in_the_middle, one_tooth, pressure_span, 
 use super::plate;
 use super::series::{mirrored, over_cycle, phase as phase_of, rest, span, tooth_map, with_margin};
 use super::unit::prefixed;
-use crate::export::figure::{Axis, Figure, Grid, Layer, Legend, Line, Map, Panel, Range, Style, Width};
+use crate::export::figure::{Axis, Figure, Layer, Legend, Line, Map, Panel, Range, Style, Width, extent};
 use crate::problem::{Motor, Plate};
 use crate::recording::Recording;
 use crate::recording::sample::Lines;
@@ -75,8 +75,7 @@ fn wave_axis(runs: &[MotorRun<'_>]) -> (Axis, impl Fn(&Recording) -> f64) {
         let (half, scale) = (0.5 * run.recording.pitch, scale(run.recording));
         [-half * scale, (run.recording.length - half) * scale]
     });
-    let [low, high] =
-        ends.fold([f64::INFINITY, f64::NEG_INFINITY], |all, ends| [all[0].min(ends[0]), all[1].max(ends[1])]);
+    let [low, high] = extent(ends.flatten());
     let axis = if alike { Axis::new("x", "mm") } else { Axis::new("x/λ", "") };
     (axis.fixed(low, high), scale)
 }
@@ -191,10 +190,8 @@ pub fn loads(runs: &[MotorRun<'_>]) -> Figure {
 
 /// Least and greatest pressure of all runs, and its unit.
 fn common_pressure<'a>(recordings: impl Iterator<Item = &'a Recording>) -> ([f64; 2], (String, f64)) {
-    let spans = recordings.map(pressure_span);
-    let [low, high] =
-        spans.fold([f64::INFINITY, f64::NEG_INFINITY], |all, span| [all[0].min(span[0]), all[1].max(span[1])]);
-    ([low, high], pressure_unit(high))
+    let span = extent(recordings.flat_map(pressure_span));
+    (span, pressure_unit(span[1]))
 }
 
 /// The film's pressure under all teeth of every run, with one scale of colours.
@@ -218,9 +215,7 @@ pub fn maps(runs: &[MotorRun<'_>], phase: f64) -> Figure {
 pub fn teeth(runs: &[MotorRun<'_>], phase: f64) -> Figure {
     let maps =
         runs.iter().map(|run| tooth_map(run.recording, run.recording.teeth / 2, nearest_frame(run.recording, phase)));
-    let [low, high] = maps.fold([f64::INFINITY, f64::NEG_INFINITY], |all, map| {
-        map.iter().fold(all, |all, p| [all[0].min(*p), all[1].max(*p)])
-    });
+    let [low, high] = extent(maps.flatten());
     let (unit, scale) = pressure_unit(high);
     let mut figure = Figure::new("under the tooth in the middle");
     for run in runs {
@@ -340,21 +335,10 @@ pub fn plate_maps(runs: &[PlateRun<'_>]) -> Figure {
     let ([low, high], (unit, scale)) = common_pressure(runs.iter().map(|run| run.recording));
     let mut figure = Figure::new("pressure along the plate and over the cycle");
     for run in runs {
-        let recording = run.recording;
-        let x = mirrored(&recording.map_x, recording.half_length);
-        let frames = recording.frames;
-        let columns: Vec<Vec<f64>> = (0..=frames).map(|m| plate::middle_line(recording, m % frames.max(1))).collect();
-        let at = |i: usize, m: usize| columns[m].get(i).map_or(f64::NAN, |p| p * scale);
-        let values = x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect();
-        let grid = Grid {
-            x: x.iter().map(|(x, _)| x / run.scene.length).collect(),
-            y: (0..=frames).map(|m| phase_of(recording, m)).collect(),
-            values,
-        };
         let map = Map {
             label: "absolute pressure".to_owned(),
             unit: unit.clone(),
-            grid,
+            grid: plate::over_length_and_cycle(run.recording, scale, |x| x / run.scene.length),
             range: Range::Fixed(low * scale, high * scale),
             ..Map::default()
         };

@@ -24,6 +24,8 @@ pub mod surface;
 pub mod torque;
 mod unit;
 
+pub(super) use series::mirrored;
+
 use super::figure::{Axis, Dash, Figure, Line, Mark, Panel, Provenance, Range, Style};
 use crate::analysis::exact::Comparison;
 use crate::control::Progress;

@@ -40,6 +40,19 @@ pub(super) fn middle_line(recording: &Recording, frame: usize) -> Vec<f64> {
     (0..nx).filter_map(|i| recording.pressure.get((frame * nx + i) * ny + j).copied()).collect()
 }
 
+/// Pressure along the line in the middle and over the cycle: a pascal is `scale`, and `place` is where a node \[m\] is drawn.
+pub(super) fn over_length_and_cycle(recording: &Recording, scale: f64, place: impl Fn(f64) -> f64) -> Grid {
+    let x = mirrored(&recording.map_x, recording.half_length);
+    let frames = recording.frames;
+    let columns: Vec<Vec<f64>> = (0..=frames).map(|m| middle_line(recording, m % frames.max(1))).collect();
+    let at = |i: usize, m: usize| columns[m].get(i).map_or(f64::NAN, |p| p * scale);
+    Grid {
+        values: x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect(),
+        x: x.into_iter().map(|(x, _)| place(x)).collect(),
+        y: (0..=frames).map(|m| phase(recording, m)).collect(),
+    }
+}
+
 /// `N`, or of a strip `N/m`.
 pub(super) fn force(plate: &Plate) -> &'static str {
     if plate.is_strip() { "N/m" } else { "N" }
@@ -137,20 +150,17 @@ pub fn moving(plate: &Plate, recording: &Recording, frame: usize) -> Figure {
 /// Absolute pressure: over the plate at the instant of its greatest; of a strip, along it and over the cycle.
 pub fn map(plate: &Plate, recording: &Recording) -> Figure {
     let (unit, scale) = prefixed(span(recording.pressure.iter().copied(), 0.0)[1], "Pa");
-    let x = mirrored(&recording.map_x, recording.half_length);
-    let (ny, frames) = (recording.map_y.len(), recording.frames);
-    let millimetres = |nodes: &[(f64, usize)]| nodes.iter().map(|(node, _)| node * 1e3).collect::<Vec<_>>();
+    let ny = recording.map_y.len();
     let strip = plate.width.is_none() || ny < 2;
     let along = if recording.radial { "diameter" } else { "strip" };
     let (title, y_axis, grid) = if strip {
-        let columns: Vec<Vec<f64>> = (0..=frames).map(|m| middle_line(recording, m % frames.max(1))).collect();
-        let at = |i: usize, m: usize| columns[m].get(i).map_or(f64::NAN, |p| p * scale);
-        let values = x.iter().flat_map(|(_, i)| (0..=frames).map(move |m| (*i, m))).map(|(i, m)| at(i, m)).collect();
-        let y = (0..=frames).map(|m| phase(recording, m)).collect();
-        (format!("pressure along the {along}"), Axis::new("t/T", ""), Grid { x: millimetres(&x), y, values })
+        let grid = over_length_and_cycle(recording, scale, |x| x * 1e3);
+        (format!("pressure along the {along}"), Axis::new("t/T", ""), grid)
     } else {
         let most = recording.max_pressure.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(m, _)| m);
+        let x = mirrored(&recording.map_x, recording.half_length);
         let y = mirrored(&recording.map_y, recording.half_width);
+        let millimetres = |nodes: &[(f64, usize)]| nodes.iter().map(|(node, _)| node * 1e3).collect();
         let offset = most * recording.map_x.len() * ny;
         let at = |i: usize, j: usize| recording.pressure.get(offset + i * ny + j).map_or(f64::NAN, |p| p * scale);
         let values = x.iter().flat_map(|(_, i)| y.iter().map(move |(_, j)| (*i, *j))).map(|(i, j)| at(i, j)).collect();

@@ -50,7 +50,7 @@ pub(super) fn tooth_map(recording: &Recording, tooth: usize, frame: usize) -> Ve
 }
 
 /// Nodes over the whole width (or length) from those of one half, and for each the stored node it mirrors.
-pub(super) fn mirrored(nodes: &[f64], half: bool) -> Vec<(f64, usize)> {
+pub(in crate::export) fn mirrored(nodes: &[f64], half: bool) -> Vec<(f64, usize)> {
     let all = nodes.iter().copied().enumerate();
     let stored = all.clone().map(|(i, node)| (node, i));
     if !half {
