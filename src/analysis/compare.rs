@@ -120,6 +120,11 @@ pub struct ParameterRow {
 }
 
 impl ParameterRow {
+    /// The key, with its unit after a comma.
+    pub fn label(&self) -> String {
+        labelled(self.parameter.key, self.parameter.unit)
+    }
+
     /// Whether the scenes differ in it.
     pub fn differs(&self) -> bool {
         self.values.windows(2).any(|pair| pair[0] != pair[1])
@@ -172,7 +177,6 @@ pub struct ResultCell {
 /// Every quantity that one of the runs has, errors beside what they are of, in the order of the columns of a sweep.
 pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
     let numbers: Vec<Numbers> = runs.iter().map(ComparedRun::numbers).collect();
-    let errors: Vec<Quantity> = Quantity::all().filter_map(Quantity::error).collect();
     let row = |quantity: Quantity| {
         let first = numbers.first().map(|numbers| side(numbers, quantity)).unwrap_or_default();
         let units: Vec<&'static str> = runs.iter().map(|run| quantity.unit(&run.problem)).collect();
@@ -190,7 +194,7 @@ pub fn results(runs: &[ComparedRun]) -> Vec<ResultRow> {
         let unit = there.all(|other| other == unit).then_some(unit);
         Some(ResultRow { quantity, unit, cells })
     };
-    Quantity::all().filter(|quantity| !errors.contains(quantity)).filter_map(row).collect()
+    Quantity::all().filter(|quantity| !quantity.is_error()).filter_map(row).collect()
 }
 
 /// A value and its error.

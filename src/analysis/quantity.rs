@@ -167,27 +167,18 @@ impl Quantity {
         matches!(self, FilmSteps | Cycles | Rounds | ContactSolves)
     }
 
+    /// Whether it is the estimated numerical error of another one, which the table has before it.
+    pub fn is_error(self) -> bool {
+        self.name().contains("_error")
+    }
+
     /// The quantity that is this one's estimated numerical error, if it has one.
     pub fn error(self) -> Option<Self> {
         match self {
-            Alpha => Some(AlphaError),
             // The load is shared: what one has too much the other has too little.
-            FilmLoad | ContactLoad => Some(FilmLoadError),
-            StallTorque => Some(StallTorqueError),
-            NoLoadSpeed => Some(NoLoadSpeedError),
-            MaxPower => Some(MaxPowerError),
-            MaxEfficiency => Some(MaxEfficiencyError),
-            MaxTorque => Some(MaxTorqueError),
-            LoadRatio => Some(LoadRatioError),
-            MeanGap => Some(MeanGapError),
-            FilmLoadMin => Some(FilmLoadMinError),
-            FilmLoadMax => Some(FilmLoadMaxError),
-            TeethInContact => Some(TeethInContactError),
-            LoadRatioMin => Some(LoadRatioMinError),
-            LoadRatioMax => Some(LoadRatioMaxError),
-            MinGap => Some(MinGapError),
-            MaxPressure => Some(MaxPressureError),
-            _ => None,
+            ContactLoad => Some(FilmLoadError),
+            _ if self.is_error() => None,
+            _ => TABLE.get(self as usize + 1).map(|next| next.0).filter(|next| next.is_error()),
         }
     }
 }
@@ -206,6 +197,12 @@ pub fn labelled(words: &str, unit: &str) -> String {
 }
 
 impl Numbers {
+    /// One of them with its estimated numerical error, which is not a number if none is known.
+    pub fn estimate(&self, number: Quantity) -> Option<Estimate> {
+        let error = number.error().and_then(|error| self.get(error)).unwrap_or(f64::NAN);
+        self.get(number).map(|value| Estimate { value, error })
+    }
+
     /// Of a solution of `problem`.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let mut numbers = Self::default();
@@ -311,7 +308,14 @@ mod tests {
     fn the_table_is_in_the_order_of_the_enum() {
         for (i, quantity) in Quantity::all().enumerate() {
             assert_eq!(quantity as usize, i);
-            assert!(quantity.error().is_none_or(|error| error.name().contains("_error")));
+            // Every error is that of the number before it, and of no other but the contact load.
+            let of: Vec<Quantity> = Quantity::all().filter(|of| of.error() == Some(quantity)).collect();
+            match quantity {
+                FilmLoadError => assert_eq!(of, [FilmLoad, ContactLoad]),
+                _ if quantity.is_error() => assert_eq!(of, [TABLE[i - 1].0]),
+                _ => assert!(of.is_empty()),
+            }
+            assert_eq!(quantity.is_error(), quantity.words().starts_with("error of"));
         }
     }
 

@@ -99,10 +99,7 @@ impl Output {
             Some(Estimate { value: found.value * unit, error: found.error * unit })
         };
         let found = match self {
-            Self::Number(quantity) => numbers.get(quantity).map(|value| {
-                let error = quantity.error().and_then(|error| numbers.get(error));
-                Estimate { value, error: error.unwrap_or(f64::NAN) }
-            }),
+            Self::Number(quantity) => numbers.estimate(quantity),
             Self::Stiffness => harmonic(|found| found.spring, |unit| unit.spring),
             Self::Damping => harmonic(|found| found.damping, |unit| unit.damping),
         };

@@ -4,15 +4,13 @@ use super::Tell;
 use super::error::FitError;
 use super::measured::Measured;
 use super::model::{Computed, Model};
-use super::starts::spread;
+use super::starts::{best, spread};
 use super::statistics::Certainty;
 use super::unknown::{Bound, Unknown};
 use crate::analysis::attempt::caught;
 use crate::control::Cancel;
 use crate::digits::{short, significant};
-use crate::fidelity::Fidelity;
 use crate::scene::Scene;
-use crate::solve::{Method, Settings};
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, DenseMatrix, Executor,
     Jacobian, Residual, TerminationCode, TrustRegionReflective,
@@ -28,8 +26,6 @@ const MOST_STEPS: u64 = 60;
 const MOST_ATTEMPTS: usize = 8;
 /// An unknown this close in x to a bound that χ² falls towards is at the bound.
 const AT_BOUND: f64 = 5e-3;
-/// Starts that are refined, beside that of the scene's own values.
-const REFINED: usize = 3;
 /// From this correlation on two unknowns are told to be hard to tell apart.
 const ALIKE: f64 = 0.98;
 /// Minima whose unknowns differ by less than this in x are the same.
@@ -293,16 +289,13 @@ fn coarse(
     cancel: &Cancel,
 ) -> Option<Vec<Vec<f64>>> {
     let points = spread(model.unknowns().len(), starts.saturating_sub(1));
-    let draft = Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..*model.settings() };
-    let solved = model.at(&points, &draft, cancel)?;
-    let mut judged: Vec<(f64, Vec<f64>)> = solved
+    let solved = model.drafts(&points, cancel)?;
+    let judged = solved
         .iter()
         .zip(points)
         .map(|(solved, point)| (sum_of_squares(&residuals(measured, &in_order(measured, solved), used)), point))
-        .filter(|(chi_squared, _)| chi_squared.is_finite())
-        .collect();
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Some(judged.into_iter().take(REFINED).map(|(_, point)| point).collect())
+        .filter(|(chi_squared, _)| chi_squared.is_finite());
+    Some(best(judged.collect()))
 }
 
 /// From a point to the minimum that it leads to: χ² there, the point, and whether it is one. `None` if cancelled.

@@ -130,10 +130,8 @@ enum Column {
 
 /// Numbers that can be measured: those of a solve but for what it cost and its own errors.
 pub fn measurable(problem: &Problem) -> Vec<Quantity> {
-    let all: Vec<Quantity> = Quantity::of(problem).collect();
-    let is_error = |quantity: &Quantity| all.iter().any(|other| other.error() == Some(*quantity));
     let other = |quantity: &Quantity| matches!(quantity, Quantity::Residual | Quantity::Tolerance);
-    all.iter().copied().filter(|quantity| !quantity.is_count() && !is_error(quantity) && !other(quantity)).collect()
+    Quantity::of(problem).filter(|quantity| !quantity.is_count() && !quantity.is_error() && !other(quantity)).collect()
 }
 
 /// Names of measurable numbers, divided by commas.

@@ -9,6 +9,7 @@ use crate::analysis::variation::Variation;
 use crate::control::Cancel;
 use crate::drive::Scaled;
 use crate::estimate::Estimate;
+use crate::fidelity::Fidelity;
 use crate::motor::Warm;
 use crate::problem::{Problem, Scenario, rpm};
 use crate::scene::Scene;
@@ -170,6 +171,11 @@ impl<'a> Model<'a> {
         (!cancel.is_cancelled()).then_some(rows)
     }
 
+    /// The same by drafts.
+    pub(super) fn drafts(&self, points: &[Vec<f64>], cancel: &Cancel) -> Option<Vec<Vec<Vec<Computed>>>> {
+        self.at(points, &Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..self.settings }, cancel)
+    }
+
     fn solve(&self, condition: usize, x: &[f64], settings: &Settings, cancel: &Cancel) -> Vec<Computed> {
         let asked = &self.asked[condition];
         let fields = asked.iter().any(|what| matches!(what, Observable::Torque { .. }));
@@ -269,10 +275,7 @@ fn read(problem: &Problem, solution: &Solution, asked: &[Observable]) -> Vec<Com
     asked
         .iter()
         .map(|what| match what {
-            Observable::Number(quantity) => {
-                let error = quantity.error().and_then(|error| numbers.get(error)).unwrap_or(f64::NAN);
-                numbers.get(*quantity).map(|value| Estimate { value, error }).ok_or_else(none)
-            }
+            Observable::Number(quantity) => numbers.estimate(*quantity).ok_or_else(none),
             Observable::Torque { .. } => curve.next().map(|point| point.torque).ok_or_else(none),
         })
         .collect()

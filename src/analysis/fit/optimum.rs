@@ -4,17 +4,16 @@ use super::Tell;
 use super::error::FitError;
 use super::measured::{Observable, named, names};
 use super::model::{Computed, Model};
-use super::starts::spread;
+use super::starts::{best, spread};
 use super::unknown::{Bound, Bounds, Unknown};
 use crate::analysis::attempt::{attempt, caught};
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
 use crate::digits::{short, with_error};
 use crate::estimate::Estimate;
-use crate::fidelity::Fidelity;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
-use crate::solve::{Method, Settings};
+use crate::solve::Settings;
 use basin::{
     BoxBounds, Cobyla, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints, CostFunction, Executor,
     NoLinearConstraints, NoNonlinearBlock, NonlinearBlock, NonlinearBlocks, NonlinearInequalityValues, SelectedState,
@@ -27,8 +26,6 @@ use std::sync::{Mutex, PoisonError};
 const RADIUS: (f64, f64) = (0.2, 5e-4);
 /// Most points that are tried from one start.
 const MOST_POINTS: u64 = 600;
-/// Starts that are refined, beside that of the scene's own values.
-const REFINED: usize = 3;
 /// An unknown this close in x to a bound is at the bound.
 const AT_BOUND: f64 = 2e-3;
 /// Points of a line through the optimum.
@@ -261,28 +258,22 @@ pub fn optimise(
     let own = model.start();
     let points: Vec<Vec<f64>> =
         std::iter::once(own.clone()).chain(spread(own.len(), starts.saturating_sub(1))).collect();
-    let draft = Settings { fidelity: Fidelity::Draft, method: Method::Auto, ..*settings };
-    let Some(solved) = model.at(&points, &draft, cancel) else { return Ok(None) };
+    let Some(solved) = model.drafts(&points, cancel) else { return Ok(None) };
     let found = |solved: &[Vec<Computed>]| solved[0][0].as_ref().ok().map(|found| found.value.abs());
     let Some(size) = solved.iter().find_map(|solved| found(solved)).map(|size| if size > 0.0 { size } else { 1.0 })
     else {
         return Err(FitError::NoStart(solved[0][0][0].as_ref().err().cloned().unwrap_or_default()));
     };
-    let mut judged: Vec<(f64, Vec<f64>)> = solved
-        .iter()
-        .zip(points)
-        .skip(1)
-        .filter_map(|(solved, point)| {
-            let (cost, beyond) = goal.judge(&solved[0], size)?;
-            // What breaks a limit is no good start, unless all do.
-            Some((cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond)), point))
-        })
-        .collect();
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let judged = solved.iter().zip(points).skip(1).filter_map(|(solved, point)| {
+        let (cost, beyond) = goal.judge(&solved[0], size)?;
+        // What breaks a limit is no good start, unless all do.
+        Some((cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond)), point))
+    });
+    let starts = best(judged.collect());
     let tried = Mutex::new((0, f64::NAN));
     let count = own.len();
-    let mut best: Option<(f64, Vec<f64>, bool)> = None;
-    for start in std::iter::once(own.clone()).chain(judged.into_iter().take(REFINED).map(|(_, point)| point)) {
+    let mut reached: Option<(f64, Vec<f64>, bool)> = None;
+    for start in std::iter::once(own.clone()).chain(starts) {
         let search = Search {
             model: &model,
             goal,
@@ -308,11 +299,11 @@ pub fn optimise(
         let Some(solved) = model.at(std::slice::from_ref(&x), settings, cancel) else { return Ok(None) };
         let Some((cost, beyond)) = goal.judge(&solved[0][0], size) else { continue };
         let cost = cost + NOTHING * beyond.iter().fold(0.0, |most: f64, beyond| most.max(*beyond - 1e-3));
-        if best.as_ref().is_none_or(|best| cost < best.0) {
-            best = Some((cost, x, ended.cost_evals() < MOST_POINTS));
+        if reached.as_ref().is_none_or(|best| cost < best.0) {
+            reached = Some((cost, x, ended.cost_evals() < MOST_POINTS));
         }
     }
-    let Some((_, mut x, converged)) = best else {
+    let Some((_, mut x, converged)) = reached else {
         return Err(FitError::NoStart("no point that was tried could be solved".to_owned()));
     };
     let at: Vec<Option<Bound>> = x

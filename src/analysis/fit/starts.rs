@@ -1,7 +1,9 @@
-//! Points spread over the unit cube.
+//! Where a search starts: points spread over the unit cube, and the best of them.
 
 /// Most starts of a search.
 pub const MOST_STARTS: usize = 10_000;
+/// Starts that are refined, beside that of the scene's own values.
+const REFINED: usize = 3;
 
 /// `count` points that fill the unit cube of so many dimensions evenly: the additive recurrence whose step is the generalised golden
 /// ratio, the root of φ^(d+1) = φ + 1 (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). The same ones every time.
@@ -15,6 +17,12 @@ pub(super) fn spread(dimensions: usize, count: usize) -> Vec<Vec<f64>> {
         (0..dimensions).map(along).collect()
     };
     (1..=count).map(point).collect()
+}
+
+/// The points with the least numbers, best first: those that are refined.
+pub(super) fn best(mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    judged.into_iter().take(REFINED).map(|(_, point)| point).collect()
 }
 
 #[cfg(test)]

@@ -12,8 +12,6 @@ pub(super) struct Certainty {
     pub(super) covariance: DMatrix<f64>,
     /// Directions of x, of length 1, that the measurements do not determine.
     pub(super) undetermined: Vec<Vec<f64>>,
-    /// Least singular value over the greatest.
-    pub(super) conditioning: f64,
 }
 
 impl Certainty {
@@ -21,15 +19,14 @@ impl Certainty {
     pub(super) fn of(columns: &[Vec<f64>]) -> Self {
         let (rows, unknowns) = (columns.first().map_or(0, Vec::len), columns.len());
         let jacobian = DMatrix::from_fn(rows, unknowns, |row, unknown| columns[unknown][row]);
-        let nothing =
-            || Self { covariance: DMatrix::zeros(unknowns, unknowns), undetermined: Vec::new(), conditioning: 0.0 };
+        let nothing = || Self { covariance: DMatrix::zeros(unknowns, unknowns), undetermined: Vec::new() };
         if jacobian.is_empty() {
             return nothing();
         }
         let Some(decomposed) = jacobian.try_svd(false, true, f64::EPSILON, 0) else { return nothing() };
         let Some(directions) = decomposed.v_t else { return nothing() };
         let values = decomposed.singular_values;
-        let (greatest, least) = (values.max(), values.min());
+        let greatest = values.max();
         let mut found = nothing();
         for (i, value) in values.iter().enumerate() {
             let direction = directions.row(i);
@@ -38,9 +35,6 @@ impl Certainty {
             } else {
                 found.undetermined.push(direction.iter().copied().collect());
             }
-        }
-        if greatest > 0.0 {
-            found.conditioning = least / greatest;
         }
         found
     }
@@ -61,7 +55,7 @@ mod tests {
         for (found, expected) in found.covariance.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }
-        assert!(found.undetermined.is_empty() && found.conditioning > 0.1);
+        assert!(found.undetermined.is_empty());
     }
 
     #[test]
