@@ -26,14 +26,11 @@ pub fn significant(value: f64, digits: usize) -> String {
     format!("{value:.*}", decimals(size, digits))
 }
 
-/// As [`significant`], without zeros at the end that say nothing: `0.1`, `250`.
+/// As [`significant`], without zeros at the end that say nothing: `0.1`, `250`, `1.05e-10`.
 pub fn short(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    let (size, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
+    if size.contains('.') { size.trim_end_matches('0').trim_end_matches('.').to_owned() + exponent } else { text }
 }
 
 /// A share in per cent, two digits: `5.0 %`.
@@ -44,6 +41,11 @@ pub fn percent(share: f64) -> String {
 /// `value` rounded to a number of significant digits.
 pub fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value)
+}
+
+/// `value` to three digits, as sentences have it: `0.128`, `541`, `30400`.
+pub fn brief(value: f64) -> f64 {
+    rounded(value, 3)
 }
 
 /// A number of a scene, with the digits in which it was given: conversions to SI leave a last bit that nobody wrote.
@@ -113,6 +115,14 @@ pub fn with_error(value: f64, error: f64) -> String {
     format!("{} ± {error:.places$}", if is_zero(&value) { value.trim_start_matches('-') } else { &value })
 }
 
+/// A value with its error as [`with_error`] has it, or alone, to four digits: if it is exact, or an error has no place beside it.
+pub fn stated(value: f64, error: Option<f64>) -> String {
+    match error {
+        None | Some(0.0) => significant(value, 4),
+        Some(error) => with_error(value, error),
+    }
+}
+
 /// Whether a number that was written has no digit but zeros.
 fn is_zero(text: &str) -> bool {
     !text.bytes().any(|digit| matches!(digit, b'1'..=b'9'))
@@ -165,6 +175,14 @@ mod tests {
         ] {
             assert_eq!(with_error(value, error), shown);
         }
+        for (error, shown) in [
+            (Some(1.8e-4), "0.24583 ± 0.00018"),
+            (Some(f64::INFINITY), "0.2458 (error not estimated)"),
+            (Some(0.0), "0.2458"),
+            (None, "0.2458"),
+        ] {
+            assert_eq!(stated(0.2458277, error), shown);
+        }
     }
 
     #[test]
@@ -180,9 +198,9 @@ mod tests {
         ] {
             assert_eq!(significant(value, digits), shown);
         }
-        assert_eq!([short(0.1, 3), short(200.0, 4), short(1.05e-10, 4)], ["0.1", "200", "1.050e-10"]);
+        assert_eq!([short(0.1, 3), short(200.0, 4), short(1.05e-10, 4)], ["0.1", "200", "1.05e-10"]);
         assert_eq!([percent(0.05), percent(3e-4), percent(1.0)], ["5.0 %", "0.030 %", "100 %"]);
-        assert_eq!((as_given(0.7 + 1e-16), rounded(-1234.0, 2)), (0.7, -1200.0));
+        assert_eq!((as_given(0.7 + 1e-16), rounded(-1234.0, 2), brief(30417.8)), (0.7, -1200.0, 30400.0));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Each limit of the model: its number, how great that may be, and what it means in a sentence.
 
-use crate::digits;
+use crate::digits::brief;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
 use crate::problem::{Gas, Motor, Named, Plate, Slip};
 use crate::surface::flow::LEAST_RATIO;
@@ -101,8 +101,8 @@ impl Film<'_> {
         let (limit, text) = if value > INERTIA {
             let text = format!(
                 "The gas has inertia in a gap of {} µm (ωρh²/12μ = {}, {}), which the film equation leaves out.",
-                rounded(self.gap * 1e6),
-                rounded(value),
+                brief(self.gap * 1e6),
+                brief(value),
                 self.gas.ideal
             );
             (INERTIA, text)
@@ -110,8 +110,8 @@ impl Film<'_> {
             let text = format!(
                 "In so viscous a film (gap {} µm) the inertia of the gas, which the film equation leaves out, adds about {} times the \
                  mean load that is computed.",
-                rounded(self.gap * 1e6),
-                rounded(INERTIAL_LOAD * value / sigma)
+                brief(self.gap * 1e6),
+                brief(INERTIAL_LOAD * value / sigma)
             );
             (INERTIA_TO_SQUEEZE * sigma, text)
         };
@@ -125,9 +125,9 @@ impl Film<'_> {
         let text = format!(
             "A gap of {} µm is {} times as wide as heat travels in a cycle ({} µm): the gas is warmed and cooled as it is squeezed, and \
              not isothermal.",
-            rounded(self.gap * 1e6),
-            rounded(value),
-            rounded(depth * 1e6)
+            brief(self.gap * 1e6),
+            brief(value),
+            brief(depth * 1e6)
         );
         excess("isothermal", value, THERMAL_DEPTHS, "", text)
     }
@@ -141,16 +141,13 @@ impl Film<'_> {
             slip => format!("{} slip", slip.name()),
         };
         let text = if gas.slip == Slip::FukuiKaneko {
-            format!(
-                "The fit of Fukui and Kaneko ends before Kn = {}; beyond, the flow is extrapolated.",
-                rounded(value)
-            )
+            format!("The fit of Fukui and Kaneko ends before Kn = {}; beyond, the flow is extrapolated.", brief(value))
         } else {
             let exact = FukuiKaneko { mean_free_path: gas.mean_free_path.max(f64::MIN_POSITIVE) };
             let ratio = SlipLaw::of(gas).at(self.closed).0 / exact.at(self.closed).0;
             format!(
                 "At Kn = {} {law} lets {} % {} gas flow than the Boltzmann equation, which the law of Fukui and Kaneko (film.slip) follows.",
-                rounded(value),
+                brief(value),
                 (100.0 * (ratio - 1.0)).abs().round(),
                 if ratio < 1.0 { "less" } else { "more" }
             )
@@ -165,8 +162,8 @@ impl Film<'_> {
         let across = format!(
             "The {} is {} wavelengths of sound across ({} mm, {})",
             self.body,
-            rounded(value),
-            rounded(wavelength * 1e3),
+            brief(value),
+            brief(wavelength * 1e3),
             gas
         );
         let (limit, text) = if self.reynolds() > INERTIA {
@@ -175,7 +172,7 @@ impl Film<'_> {
             let pressure = 100.0 * gas.heat_ratio * TAU * self.amplitude / wavelength;
             let text = format!(
                 "{across}: its edges are taken to be at ambient pressure, and the sound around it, up to {} % of that, is left out.",
-                rounded(pressure)
+                brief(pressure)
             );
             (WAVELENGTHS, text)
         };
@@ -187,10 +184,10 @@ impl Film<'_> {
         let text = format!(
             "A film {} µm thick is not thin under a {} {} mm across: the gas beyond the edges, which is left out, makes it act as if {} % \
              larger.",
-            rounded(self.gap * 1e6),
+            brief(self.gap * 1e6),
             self.body,
-            rounded(self.side * 1e3),
-            rounded(100.0 * ELONGATION * value)
+            brief(self.side * 1e3),
+            brief(100.0 * ELONGATION * value)
         );
         excess("thinness", value, THINNESS, "", text)
     }
@@ -206,10 +203,10 @@ pub(super) fn sliding(motor: &Motor) -> Option<Excess> {
     let text = format!(
         "The faces slide at up to {} m/s, {} times the speed of sound ({}): shear warms the gas by some {} %, and it is not \
          isothermal.",
-        rounded(value * gas.speed_of_sound()),
-        rounded(value),
+        brief(value * gas.speed_of_sound()),
+        brief(value),
         gas,
-        rounded(100.0 * gas.prandtl * (gas.heat_ratio - 1.0) * value * value / 8.0)
+        brief(100.0 * gas.prandtl * (gas.heat_ratio - 1.0) * value * value / 8.0)
     );
     excess("sound", value, MACH, "", text)
 }
@@ -223,7 +220,7 @@ pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
     let answer = if value < 0.99 {
         format!(
             "with its mass, which is left out, it would yield up to {} times as much",
-            rounded(1.0 / (1.0 - value * value))
+            brief(1.0 / (1.0 - value * value))
         )
     } else {
         "its mass, which is left out, decides how it moves".to_owned()
@@ -231,9 +228,9 @@ pub(super) fn resonance(motor: &Motor, natural: &[f64]) -> Option<Excess> {
     let text = format!(
         "Harmonic {n} of the wave drives the rotor at {} kHz, and the lowest natural frequency of that shape, {} waves round the ring, is \
          {} kHz: {answer}.",
-        rounded(1e-3 * f64::from(n) * motor.frequency),
+        brief(1e-3 * f64::from(n) * motor.frequency),
         n * motor.waves,
-        rounded(1e-3 * natural),
+        brief(1e-3 * natural),
     );
     excess("rotor-resonance", value, RESONANCE, "", text)
 }
@@ -243,7 +240,7 @@ pub(super) fn stress(pressure: f64) -> Option<Excess> {
     let value = pressure * 1e-6;
     let text = format!(
         "Contact presses with up to {} MPa; a rotor of aluminium 6061-T6 yields at {YIELD_MPA} MPa, and the model is elastic.",
-        rounded(value)
+        brief(value)
     );
     excess("contact-stress", value, YIELD_MPA, "MPa", text)
 }
@@ -258,8 +255,8 @@ pub(super) fn roughness(motor: &Motor, closed: f64) -> Option<Excess> {
     let text = format!(
         "The mean planes of the faces come within {} nm, for a roughness of {} nm rms: summits no longer give way one by one, and flow \
          factors are not known below half of it.",
-        rounded(separation * 1e9),
-        rounded(rms * 1e9)
+        brief(separation * 1e9),
+        brief(rms * 1e9)
     );
     excess("roughness", value, ROUGHNESS, "", text)
 }
@@ -268,15 +265,11 @@ pub(super) fn nearness(plate: &Plate) -> Option<Excess> {
     let text = format!(
         "The plate comes within {} nm of the wall: the load hangs on faces smoother and more parallel than that, and 1 % of gap or \
          amplitude is 7 % of it or more.",
-        rounded((plate.mean_gap - plate.amplitude) * 1e9)
+        brief((plate.mean_gap - plate.amplitude) * 1e9)
     );
     excess("amplitude", plate.amplitude / plate.mean_gap, AMPLITUDE, "", text)
 }
 
 fn excess(name: &'static str, value: f64, limit: f64, unit: &'static str, text: String) -> Option<Excess> {
     (value > limit).then_some(Excess { name, value, limit, unit, text })
-}
-
-fn rounded(value: f64) -> f64 {
-    digits::rounded(value, 3)
 }
