@@ -1,9 +1,28 @@
-//! What a plan decided, in words: what is solved of each part of the model, and why.
+//! What a plan decided, in words: what is solved of each part of the model, and why; and how exactly it is solved.
 
 use crate::digits::{percent, short};
 use crate::plan::{Choice, Decision, Weighed};
 use crate::problem::{Flow, Teeth, Time, Wedge, Width};
 use crate::solution::Model;
+use crate::solve::{Method, Settings};
+use std::time::Duration;
+
+/// How exactly something is solved, from the name of its fidelity in results: `fidelity fine`, `accuracy 0.1 %`.
+pub fn exactness(fidelity: &str) -> String {
+    match fidelity.strip_suffix('%') {
+        Some(accuracy) => format!("accuracy {accuracy} %"),
+        None => format!("fidelity {fidelity}"),
+    }
+}
+
+/// The same of all solves of a command, as titles have it: `fidelity reference, in at most 2ms a solve`.
+pub fn effort(settings: &Settings, budget: Option<Duration>) -> String {
+    match (settings.method, budget) {
+        (Method::Paper, _) => "the paper's algorithm".to_owned(),
+        (Method::Auto, None) => exactness(&settings.fidelity.to_string()),
+        (Method::Auto, Some(time)) => format!("{}, in at most {time:?} a solve", effort(settings, None)),
+    }
+}
 
 /// A sentence for each decision of a solve.
 pub fn sentences(model: &Model) -> Vec<String> {

@@ -3,7 +3,7 @@
 use super::figures::figures;
 use super::objects::RowObject;
 use super::statements::statements;
-use crate::analysis::decision::sentences;
+use crate::analysis::decision::{effort, sentences};
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
 use crate::analysis::validity::outside;
 use crate::digits::with_error;
@@ -117,7 +117,7 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
         page.folded("the fundamental case as a preset", &row.both.scene.to_toml());
     }
     again(&mut page, command);
-    page.finish(&format!("squeezefilm {} · fidelity {}", env!("CARGO_PKG_VERSION"), all.settings.fidelity))
+    page.finish(&format!("squeezefilm {} · {}", env!("CARGO_PKG_VERSION"), effort(&all.settings, None)))
 }
 
 /// A number and its error on one line.
