@@ -18,7 +18,6 @@ use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
 use crate::solution::Status;
 use std::path::Path;
-use std::time::Instant;
 
 /// Rows shown to people, about.
 const SHOWN: usize = 24;
@@ -41,18 +40,16 @@ pub(super) fn run(
     command: &[String],
 ) -> Result<Option<Exit>, CliError> {
     let Dropped { scene, problem, common, fidelity, cycles, tolerance } = *asked;
-    let bar = Bar::share();
     let mut rows: Vec<Row> = Vec::new();
-    let mut each = |cycle: crate::fall::Cycle| {
-        let row = Row::from(cycle);
-        let share = row.cycle as f64 / cycles as f64;
-        bar.share_done(share, &format!("cycle {}: {} µm", row.cycle, significant(row.height_um, 4)));
-        rows.push(row);
-    };
-    let started = Instant::now();
-    let ended = fall(problem, fidelity, cycles, tolerance, &mut each, cancel);
-    let wall_s = started.elapsed().as_secs_f64();
-    drop(bar);
+    let (ended, wall_s) = Bar::share().timed(|bar| {
+        let mut each = |cycle: crate::fall::Cycle| {
+            let row = Row::from(cycle);
+            let share = row.cycle as f64 / cycles as f64;
+            bar.share_done(share, &format!("cycle {}: {} µm", row.cycle, significant(row.height_um, 4)));
+            rows.push(row);
+        };
+        fall(problem, fidelity, cycles, tolerance, &mut each, cancel)
+    });
     let Some(ended) = ended? else { return Ok(None) };
     let (floats, object) = (floats(&ended), Object::new(scene, fidelity, &ended, &rows, wall_s));
     object.warnings.iter().for_each(|warning| terminal::warning(warning));

@@ -90,6 +90,12 @@ impl Bar {
         Self { bar, unit, history: Vec::new(), started: Instant::now(), before: 0 }
     }
 
+    /// What `work` returns, and how long that took \[s\]; the bar ends with it.
+    pub(super) fn timed<T>(self, work: impl FnOnce(&Self) -> T) -> (T, f64) {
+        let done = work(&self);
+        (done, self.started.elapsed().as_secs_f64())
+    }
+
     /// One more row is done.
     pub(super) fn row_done(&self, row: &str) {
         self.bar.set_message(row.to_owned());

@@ -6,6 +6,7 @@ use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
+use crate::analysis::decision::exactness;
 use crate::analysis::stability::{Cell, MAPS, Map, VERDICTS, Verdict, number_of_cells, survey};
 use crate::atomic::Staged;
 use crate::digits::duration;
@@ -17,7 +18,6 @@ use crate::scene::show_text;
 use crate::solve::Method;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -67,13 +67,11 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let count = usize::from(arguments.cells);
 
     let total = number_of_cells(&scene, &maps, &methods, count);
-    let bar = Bar::points(total, 0);
-    let started = Instant::now();
-    let solved = survey(&scene, &maps, &methods, count, &settings, &cancel, &|cell| {
-        bar.point_done(&format!("{}, method {}", cell.map.name, cell.method.name()));
+    let (solved, wall_s) = Bar::points(total, 0).timed(|bar| {
+        survey(&scene, &maps, &methods, count, &settings, &cancel, &|cell| {
+            bar.point_done(&format!("{}, method {}", cell.map.name, cell.method.name()));
+        })
     });
-    let wall_s = started.elapsed().as_secs_f64();
-    drop(bar);
     let cells = solved?;
 
     let alone = format!("{} {}", arguments.common.scene.command(&arguments.preset), settings.fidelity.option());
@@ -116,8 +114,9 @@ fn text(
     alone: &str,
 ) -> String {
     let title = format!(
-        "{}: where it is solved, to the edges of the ranges; method auto at fidelity {fidelity}",
-        show_text(name)
+        "{}: where it is solved, to the edges of the ranges; method auto at {}",
+        show_text(name),
+        exactness(&fidelity.to_string())
     );
     let mut text = paragraph(&title, "", "");
     text.push('\n');

@@ -17,7 +17,6 @@ use crate::solution::{Accuracy, Status, StoppedBy};
 use crate::solve::Method;
 use crate::startup::{self, Cycle, Startup};
 use clap::Args;
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -94,23 +93,21 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         ..startup::Settings::default()
     };
 
-    let bar = Bar::share();
     let (mut rows, mut loads): (Vec<Row>, Vec<Vec<f64>>) = Default::default();
-    let mut each = |cycle: Cycle| {
-        let row = Row::of(&problem, &cycle);
-        let main = significant(row.main().0, 4);
-        if row.cycle > rows.len() {
-            bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
-        } else {
-            bar.share_done(1.0, &format!("cycle {} on finer grids: {main}", row.cycle));
-        }
-        place(&mut rows, cycle.number, row);
-        place(&mut loads, cycle.number, cycle.recording.film_load);
-    };
-    let started = Instant::now();
-    let ended = startup::startup(&problem, &settings, &mut each, &cancel);
-    let wall_s = started.elapsed().as_secs_f64();
-    drop(bar);
+    let (ended, wall_s) = Bar::share().timed(|bar| {
+        let mut each = |cycle: Cycle| {
+            let row = Row::of(&problem, &cycle);
+            let main = significant(row.main().0, 4);
+            if row.cycle > rows.len() {
+                bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
+            } else {
+                bar.share_done(1.0, &format!("cycle {} on finer grids: {main}", row.cycle));
+            }
+            place(&mut rows, cycle.number, row);
+            place(&mut loads, cycle.number, cycle.recording.film_load);
+        };
+        startup::startup(&problem, &settings, &mut each, &cancel)
+    });
     let ended = ended?;
     let steady = steady(&problem, &ended);
     let object = Object::new(&scene, &problem, &settings, &ended, &rows, wall_s);
@@ -131,11 +128,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
         terminal::note(&written(folder, &staged.commit()?));
     }
-    Ok(match ended.status {
-        Status::Converged => Exit::Solved,
-        Status::NotConverged { .. } | Status::NotResolved { .. } => Exit::NotConverged,
-        Status::Cancelled => Exit::Other,
-    })
+    Ok(Exit::of(&ended.status))
 }
 
 /// Cycles shown to people at the beginning, and as powers of two after that.
