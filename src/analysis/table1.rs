@@ -106,13 +106,14 @@ pub fn published_at(scene: &Scene, keys: &[&str]) -> Vec<Published> {
 }
 
 /// A published value, and where it lies on some keys.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Published {
     /// Name of the row.
     pub row: String,
     /// The value of each key there, in its unit.
     pub values: Vec<f64>,
     /// Film load as published \[N\].
+    #[serde(rename = "film_load_n")]
     pub film_load: f64,
     /// α as published.
     pub alpha: f64,

@@ -3,18 +3,19 @@
 //! Numbers are written with the fewest digits that read back to the same bits.
 
 use super::animation::{AnimationError, Movie, Options};
-use super::csv::words as csv_words;
+use super::csv::{number, words as csv_words};
+use super::estimates;
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
 use super::json::{beside_limit, status_name};
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
-use crate::analysis::decision::sentences;
+use crate::analysis::decision::{effort, exactness, sentences};
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
-use crate::digits::{significant, with_error};
+use crate::digits::{significant, stated, with_error};
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene::Value;
@@ -51,7 +52,7 @@ pub struct ParameterObject {
     /// Unit of its values.
     pub unit: &'static str,
     /// Its value in every run.
-    pub values: Vec<serde_json::Value>,
+    pub values: Vec<Option<Value>>,
 }
 
 /// One run: the names of `solve --json`, as far as a scene has them.
@@ -70,15 +71,7 @@ impl Serialize for RunObject<'_> {
         map.serialize_entry("status", &status(self.run))?;
         map.serialize_entry("converged", &self.run.converged())?;
         map.serialize_entry("force_unit", force_unit(&self.run.problem))?;
-        let numbers = self.run.numbers();
-        for quantity in Quantity::of(&self.run.problem) {
-            let value = numbers.get(quantity);
-            if quantity.is_count() {
-                map.serialize_entry(quantity.name(), &value.map(|count| count as u64))?;
-            } else {
-                map.serialize_entry(quantity.name(), &value)?;
-            }
-        }
+        estimates::add_numbers(&mut map, Quantity::of(&self.run.problem), &self.run.numbers())?;
         let differences: serde_json::Map<String, serde_json::Value> = self
             .differences
             .iter()
@@ -94,23 +87,6 @@ impl Serialize for RunObject<'_> {
     }
 }
 
-fn json_value(value: &Option<Value>) -> serde_json::Value {
-    match value {
-        None => serde_json::Value::Null,
-        Some(Value::Number(number)) => (*number).into(),
-        Some(Value::Whole(whole)) => (*whole).into(),
-        Some(Value::Flag(flag)) => (*flag).into(),
-        Some(Value::Text(text)) => text.clone().into(),
-        Some(Value::Rows(rows)) => rows.iter().map(|(k, c)| vec![*k, *c]).collect(),
-        Some(Value::Records(records)) => {
-            let cells = |record: &Vec<Value>| -> serde_json::Value {
-                record.iter().map(|cell| json_value(&Some(cell.clone()))).collect()
-            };
-            records.iter().map(cells).collect()
-        }
-    }
-}
-
 impl<'a> Object<'a> {
     /// The object of runs.
     pub fn new(runs: &'a [ComparedRun], settings: &Settings) -> Self {
@@ -121,12 +97,12 @@ impl<'a> Object<'a> {
             fidelity: (settings.method == Method::Auto).then(|| settings.fidelity.to_string()),
             runs: runs.iter().enumerate().map(|(i, run)| RunObject { run, differences: of(i) }).collect(),
             differing: parameter_rows(runs)
-                .iter()
-                .filter(|row| row.differs())
-                .map(|row| ParameterObject {
-                    key: row.parameter.key,
-                    unit: row.parameter.unit,
-                    values: row.values.iter().map(json_value).collect(),
+                .into_iter()
+                .filter(ParameterRow::differs)
+                .map(|ParameterRow { parameter, values }| ParameterObject {
+                    key: parameter.key,
+                    unit: parameter.unit,
+                    values,
                 })
                 .collect(),
         }
@@ -156,7 +132,7 @@ pub fn write_csv(runs: &[ComparedRun], out: &mut dyn Write) -> io::Result<()> {
     ])?;
     for row in results(runs) {
         for (i, (run, cell)) in runs.iter().zip(&row.cells).enumerate() {
-            let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+            let number = |value: Option<f64>| value.map_or_else(String::new, number);
             writer.write_record([
                 (i + 1).to_string().as_str(),
                 &csv_words(&run.label),
@@ -218,8 +194,8 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
             Scenario::Plate(plate) if plate.load.is_some() => (Quantity::MeanGap, "mean gap in µm"),
             Scenario::Plate(_) => (Quantity::LoadRatio, "load ratio"),
         };
-        let error = numbers.get(quantity.error()?).unwrap_or(f64::INFINITY);
-        Some(format!("{name} = {}", with_error(numbers.get(quantity)?, error)))
+        let found = numbers.estimate(quantity)?;
+        Some(format!("{name} = {}", with_error(found.value, found.error)))
     };
     Provenance {
         preset: runs.iter().map(|run| run.label.as_str()).collect::<Vec<_>>().join(", "),
@@ -288,13 +264,11 @@ pub fn frames(runs: &[ComparedRun], most: usize) -> usize {
 
 /// A value with its error, as many digits as that justifies; counts whole. With its unit, if runs have it in different ones.
 pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
-    let text = match (cell.value, cell.error) {
-        (None, _) => return String::new(),
-        (Some(value), _) if row.quantity.is_count() => format!("{value}"),
-        (Some(value), Some(error)) if error > 0.0 => with_error(value, error),
-        // It has an estimate, but not here: that is told.
-        (Some(value), None) if row.quantity.error().is_some() => with_error(value, f64::INFINITY),
-        (Some(value), _) => significant(value, 4),
+    let text = match cell.value {
+        None => return String::new(),
+        Some(value) if row.quantity.is_count() => value.to_string(),
+        // If it has an estimate, but not here, that is told.
+        Some(value) => stated(value, cell.error.or(row.quantity.error().map(|_| f64::INFINITY))),
     };
     if row.unit.is_none() { format!("{text} {}", cell.unit) } else { text }
 }
@@ -334,15 +308,16 @@ pub fn report(
 ) -> String {
     let Some(first) = runs.first() else { return Page::new("squeezefilm", "Nothing to compare", "").finish("") };
     let others: Vec<&str> = runs.iter().skip(1).map(|run| run.label.as_str()).collect();
-    let mut fidelities: Vec<&str> = Vec::new();
+    let mut found: Vec<String> = Vec::new();
     for solution in runs.iter().filter_map(|run| run.solved.as_ref().ok()) {
-        if !fidelities.contains(&solution.model.fidelity.as_str()) {
-            fidelities.push(&solution.model.fidelity);
+        let exactness = exactness(&solution.model.fidelity);
+        if !found.contains(&exactness) {
+            found.push(exactness);
         }
     }
     let how = match settings.method {
-        Method::Auto if fidelities.is_empty() => format!("fidelity {}", settings.fidelity),
-        Method::Auto => format!("fidelity {}", fidelities.join(", ")),
+        Method::Auto if found.is_empty() => effort(settings, None),
+        Method::Auto => found.join(", "),
         Method::Paper => "the algorithm of Maeno and Bogy on its own meshes".to_owned(),
     };
     let lead = if others.is_empty() {
@@ -450,14 +425,13 @@ fn parameter_table<'a>(runs: &[ComparedRun], rows: impl Iterator<Item = &'a Para
     let labels = runs.iter().map(|run| (Kind::Number, run.label.clone()));
     let mut table = Table::new("").heads([(Kind::Words, "parameter".to_owned())].into_iter().chain(labels));
     for row in rows {
-        let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
         // What differs from the first run is marked.
         let values = row.values.iter().map(|value| match value {
             Some(shown) if *value == row.values[0] => (Kind::Number, shown.to_string()),
             Some(shown) => (Kind::Strong, shown.to_string()),
             None => (Kind::Quiet, row.parameter.absent.map_or("–", |_| "none").to_owned()),
         });
-        table.row([(Kind::Words, format!("{}{unit}", row.parameter.key))].into_iter().chain(values));
+        table.row([(Kind::Words, row.label())].into_iter().chain(values));
     }
     table
 }

@@ -116,6 +116,11 @@ pub fn rows<T: Serialize>(rows: impl IntoIterator<Item = T>, out: &mut dyn Write
     writer.flush()
 }
 
+/// The fewest digits that read back to the same bits.
+pub fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
 /// A text that is not ours, such as a scene's name, as a cell. What a spreadsheet would take for a formula begins with an
 /// apostrophe, by which it knows it for text.
 pub fn words(text: &str) -> Cow<'_, str> {
@@ -123,7 +128,8 @@ pub fn words(text: &str) -> Cow<'_, str> {
 }
 
 /// What a field holds.
-enum Cell {
+pub(super) enum Cell {
+    /// Nine digits.
     Number(f64),
     Whole(usize),
     Nothing,
@@ -131,21 +137,21 @@ enum Cell {
 use Cell::{Nothing, Number, Whole};
 
 /// A CSV file of numbers, row by row.
-struct Table<'a> {
+pub(super) struct Table<'a> {
     writer: csv::Writer<&'a mut dyn Write>,
     text: String,
 }
 
 impl<'a> Table<'a> {
-    fn new(out: &'a mut dyn Write) -> Self {
+    pub(super) fn new(out: &'a mut dyn Write) -> Self {
         Self { writer: csv::Writer::from_writer(out), text: String::new() }
     }
 
-    fn header(&mut self, names: &[&str]) -> io::Result<()> {
-        Ok(self.writer.write_record(names)?)
+    pub(super) fn header<S: AsRef<str>>(&mut self, names: &[S]) -> io::Result<()> {
+        Ok(self.writer.write_record(names.iter().map(AsRef::as_ref))?)
     }
 
-    fn row(&mut self, cells: impl IntoIterator<Item = Cell>) -> io::Result<()> {
+    pub(super) fn row(&mut self, cells: impl IntoIterator<Item = Cell>) -> io::Result<()> {
         for cell in cells {
             self.text.clear();
             // Writing to a String cannot fail.
@@ -160,7 +166,7 @@ impl<'a> Table<'a> {
         Ok(self.writer.write_record(None::<&[u8]>)?)
     }
 
-    fn finish(mut self) -> io::Result<()> {
+    pub(super) fn finish(mut self) -> io::Result<()> {
         self.writer.flush()
     }
 }

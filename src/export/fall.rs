@@ -1,5 +1,6 @@
 //! A plate that is dropped, as JSON and as CSV, with the same names, and as a figure.
 
+use super::csv;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::fall::{Cycle, Fall};
@@ -88,9 +89,7 @@ pub fn floats(ended: &Fall) -> Option<Estimate> {
 
 /// Writes the rows as CSV, the header first.
 pub fn write_csv(rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    rows.iter().try_for_each(|row| writer.serialize(row))?;
-    writer.flush()
+    csv::rows(rows, out)
 }
 
 /// Height over time, and where the periodic solve says that it ends, in µm.

@@ -1,15 +1,17 @@
 //! A fit, or an optimum, as JSON, as CSV and as figures.
 
 use super::csv;
+use super::estimates::finite;
 use super::figure::{
     Axis, Colour, Colours, Figure, Grid, Legend, Line, Map, Mark, Marker, Panel, Points, Provenance, Range, Shading,
-    Shape, Style,
+    Shape, Style, extent,
 };
-use crate::analysis::fit::{Fitted, Measured, Observable, Optimum};
+use crate::analysis::fit::{Fitted, Measured, Minimum, Observable, Optimum};
 use crate::estimate::Estimate;
 use crate::problem::Problem;
 use crate::scene::show_text;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// The object of `fit --json`: what the unknowns are, how sure, and what the measurements are beside what is computed.
@@ -38,7 +40,7 @@ pub struct Object<'a> {
     /// Correlation of the unknowns, likewise.
     pub correlation: Vec<Vec<Option<f64>>>,
     /// The minima that several starts led to, the best first.
-    pub minima: Vec<MinimumObject<'a>>,
+    pub minima: &'a [Minimum],
     /// The measurements.
     pub rows: Vec<RowObject<'a>>,
     /// How many solves it took.
@@ -66,22 +68,11 @@ pub struct UnknownObject<'a> {
     pub at_bound: Option<&'static str>,
 }
 
-/// A minimum.
-#[derive(Clone, Debug, Serialize)]
-pub struct MinimumObject<'a> {
-    /// χ² there.
-    pub chi_squared: f64,
-    /// The values of the unknowns.
-    pub values: &'a [f64],
-    /// How many starts led there.
-    pub starts: usize,
-}
-
 /// A measurement: a row of the CSV.
 #[derive(Clone, Debug, Serialize)]
 pub struct RowObject<'a> {
     /// Name of its line.
-    pub row: &'a str,
+    pub row: Cow<'a, str>,
     /// Keys that its condition changes, as `--set` takes them, divided by spaces.
     pub condition: String,
     /// What was measured.
@@ -99,11 +90,7 @@ pub struct RowObject<'a> {
     /// (computed − measured)/error; null if the measurement was left out.
     pub residual: Option<f64>,
     /// `used`, or why it was left out.
-    pub status: &'a str,
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
+    pub status: Cow<'a, str>,
 }
 
 fn matrix(rows: &[Vec<f64>]) -> Vec<Vec<Option<f64>>> {
@@ -117,7 +104,7 @@ pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>
             measured.conditions[one.condition].iter().map(|(key, value)| format!("{key}={}", show_text(value)));
         let computed = row.computed.as_ref().ok();
         RowObject {
-            row: &one.label,
+            row: Cow::Borrowed(&one.label),
             condition: changes.collect::<Vec<_>>().join(" "),
             quantity: one.what.name(),
             rotor_speed_rpm: match one.what {
@@ -129,11 +116,11 @@ pub fn rows<'a>(fitted: &'a Fitted, measured: &'a Measured) -> Vec<RowObject<'a>
             computed: computed.map(|found| found.value),
             numerical_error: computed.and_then(|found| finite(found.error)),
             residual: row.residual,
-            status: match (&row.computed, row.residual) {
+            status: Cow::Borrowed(match (&row.computed, row.residual) {
                 (_, Some(_)) => "used",
                 (Err(why), None) => why,
                 (Ok(_), None) => "left out: it could not be computed at the start",
-            },
+            }),
         }
     };
     measured.measurements.iter().zip(&fitted.rows).map(row).collect()
@@ -151,11 +138,6 @@ impl<'a> Object<'a> {
             to: found.unknown.to,
             at_bound: found.at.map(|at| at.name()),
         });
-        let minima = fitted.minima.iter().map(|minimum| MinimumObject {
-            chi_squared: minimum.chi_squared,
-            values: &minimum.values,
-            starts: minimum.starts,
-        });
         Self {
             preset,
             data: &measured.name,
@@ -168,7 +150,7 @@ impl<'a> Object<'a> {
             numerical_error: fitted.numerical_error,
             covariance: matrix(&fitted.covariance),
             correlation: matrix(&fitted.correlation),
-            minima: minima.collect(),
+            minima: &fitted.minima,
             rows: rows(fitted, measured),
             solves: fitted.solves,
             warnings: &fitted.warnings,
@@ -181,33 +163,11 @@ impl<'a> Object<'a> {
 /// # Errors
 /// Those of writing.
 pub fn write_csv(fitted: &Fitted, measured: &Measured, out: &mut dyn Write) -> io::Result<()> {
-    let rows = rows(fitted, measured).into_iter().map(|row| CsvRow {
-        row: csv::words(row.row).into_owned(),
-        status: csv::words(row.status).into_owned(),
-        condition: row.condition,
-        quantity: row.quantity,
-        rotor_speed_rpm: row.rotor_speed_rpm,
-        measured: row.measured,
-        error: row.error,
-        computed: row.computed,
-        numerical_error: row.numerical_error,
-        residual: row.residual,
-    });
-    csv::rows(rows, out)
-}
-
-#[derive(Serialize)]
-struct CsvRow {
-    row: String,
-    condition: String,
-    quantity: &'static str,
-    rotor_speed_rpm: Option<f64>,
-    measured: f64,
-    error: f64,
-    computed: Option<f64>,
-    numerical_error: Option<f64>,
-    residual: Option<f64>,
-    status: String,
+    let in_csv = |row: RowObject<'_>| {
+        let [name, status] = [&row.row, &row.status].map(|words| csv::words(words).into_owned().into());
+        RowObject { row: name, status, ..row }
+    };
+    csv::rows(rows(fitted, measured).into_iter().map(in_csv), out)
 }
 
 /// Most rows that are named in the figure of residuals.
@@ -265,8 +225,7 @@ fn panel(problem: &Problem, fitted: &Fitted, measured: &Measured, name: &str) ->
         return panel;
     }
     let ends = all().flat_map(|(one, _, computed)| [one.value, computed]);
-    let (least, most) =
-        ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), end| (least.min(end), most.max(end)));
+    let [least, most] = extent(ends);
     let mut dots = Points::new("", all().map(|(one, _, computed)| [computed, one.value]), Colour::FILM, solid);
     dots.errors = all().map(|(_, row, _)| row.error).collect();
     let room = 0.04 * (most - least);

@@ -1,5 +1,7 @@
 //! Sensitivities and uncertainties as JSON and as CSV, with the same names, and as figures.
 
+use super::csv::number;
+use super::estimates::finite;
 use crate::analysis::sensitivity::{LEAST, MonteCarlo, Propagated, Sensitivity, Spread, Uncertainties};
 use crate::analysis::variation::{Column, Sides, Slope};
 use crate::digits::significant;
@@ -150,10 +152,6 @@ impl From<Spread> for SpreadObject {
     }
 }
 
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
-}
-
 impl Found<'_> {
     /// The object of `--json`.
     pub fn object(&self, fidelity: &str) -> Object {
@@ -245,7 +243,7 @@ impl Found<'_> {
         let keys = self.uncertainties.iter().map(|(parameter, ..)| parameter.key);
         writer.write_record(keys.chain(self.sensitivity.outputs.iter().map(|output| output.name())))?;
         for draw in self.carlo.iter().flat_map(|carlo| &carlo.draws) {
-            let number = |value: &f64| finite(*value).map_or_else(String::new, |value| format!("{value:e}"));
+            let number = |value: &f64| finite(*value).map_or_else(String::new, number);
             writer.write_record(draw.values.iter().chain(&draw.results).map(number))?;
         }
         writer.flush()

@@ -1,5 +1,7 @@
 //! A start-up as JSON and as CSV, with the same names, and as a figure.
 
+use super::csv;
+use super::estimates::finite;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
 use crate::export::json::force_unit;
@@ -86,10 +88,6 @@ impl Row {
         let by_change = self.remaining.map_or(0.0, |left| (left.ln() / settings.tolerance.ln()).clamp(0.0, 1.0));
         by_cycles.max(by_change)
     }
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
 }
 
 /// The object of `--json`.
@@ -212,11 +210,9 @@ pub fn unsettled(startup: &Startup) -> Option<String> {
 
 /// Writes the rows as CSV, the header first; what is null is empty. Columns of a strip's forces are named `film_load_n_per_m`.
 pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(row)?;
-    }
-    let text = String::from_utf8(writer.into_inner().map_err(|error| error.into_error())?).map_err(io::Error::other)?;
+    let mut text = Vec::new();
+    csv::rows(rows, &mut text)?;
+    let text = String::from_utf8(text).map_err(io::Error::other)?;
     let (head, body) = text.split_once('\n').unwrap_or((&text, ""));
     let strip = force_unit(problem) == "N/m";
     let column =

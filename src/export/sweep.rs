@@ -3,14 +3,15 @@
 //! Numbers are written with the fewest digits that read back to the same bits, so that a sweep that was cancelled and
 //! continued is the same, byte by byte, as one that was not.
 
-use super::csv::words;
+use super::csv::{number, words};
+use super::estimates;
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::sweep::{Axis as SweepAxis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
 use crate::export::figure::{
     Axis, Band, Colour, Contours, Figure, Grid, Layer, Legend, Line, Map, Marker, Panel, Points, Provenance, Range,
-    Shading, Shape, Style, Width,
+    Shading, Shape, Style, Width, extent,
 };
 use crate::scene::{Scale, show_text};
 use crate::solve::Method;
@@ -36,13 +37,13 @@ pub(super) fn header(sweep: &Sweep) -> Vec<String> {
 pub(super) fn record(sweep: &Sweep, fingerprint: &str, row: &Row) -> Vec<String> {
     let mut cells = vec![fingerprint.to_owned(), row.point.to_string()];
     cells.extend(sweep.axes().iter().zip(&row.values).map(|(axis, value)| match axis.words.is_empty() {
-        true => digits(*value),
+        true => number(*value),
         false => words(&axis.text(*value)).into_owned(),
     }));
     cells.push(row.status.to_string());
     cells.push(row.outside.join(BETWEEN));
     cells.extend(sweep.quantities().into_iter().map(|quantity| {
-        let show = if quantity.is_count() { |count: f64| count.to_string() } else { digits };
+        let show = if quantity.is_count() { |count: f64| count.to_string() } else { number };
         row.numbers.get(quantity).map_or_else(String::new, show)
     }));
     cells
@@ -55,11 +56,6 @@ pub fn write_csv(sweep: &Sweep, rows: &[Row], out: &mut dyn Write) -> io::Result
     let fingerprint = sweep.fingerprint();
     rows.iter().try_for_each(|row| writer.write_record(record(sweep, &fingerprint, row)))?;
     writer.flush()
-}
-
-/// The fewest digits that read back to the same bits.
-fn digits(value: f64) -> String {
-    format!("{value:?}")
 }
 
 /// The object of `--json`.
@@ -84,7 +80,7 @@ pub struct Object<'a> {
     /// One for each point; the last axis varies fastest.
     pub rows: Vec<RowObject<'a>>,
     /// Published values of Table I in the plane of the sweep.
-    pub published: Vec<PublishedObject>,
+    pub published: Vec<Published>,
 }
 
 /// One axis.
@@ -121,35 +117,8 @@ impl Serialize for RowObject<'_> {
         }
         map.serialize_entry(STATUS, &self.row.status.to_string())?;
         map.serialize_entry(VALIDITY, &self.row.outside)?;
-        for quantity in &self.quantities {
-            let value = self.row.numbers.get(*quantity);
-            if quantity.is_count() {
-                map.serialize_entry(quantity.name(), &value.map(|count| count as u64))?;
-            } else {
-                map.serialize_entry(quantity.name(), &value)?;
-            }
-        }
+        estimates::add_numbers(&mut map, self.quantities.iter().copied(), &self.row.numbers)?;
         map.end()
-    }
-}
-
-/// One published value.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct PublishedObject {
-    /// Name of the row.
-    pub row: String,
-    /// The value of each axis.
-    pub values: Vec<f64>,
-    /// Film load as published \[N\].
-    pub film_load_n: f64,
-    /// α as published.
-    pub alpha: f64,
-}
-
-impl From<Published> for PublishedObject {
-    fn from(published: Published) -> Self {
-        let Published { row, values, film_load, alpha } = published;
-        Self { row, values, film_load_n: film_load, alpha }
     }
 }
 
@@ -183,7 +152,7 @@ impl<'a> Object<'a> {
                 .iter()
                 .map(|row| RowObject { axes: sweep.axes(), quantities: sweep.quantities(), row })
                 .collect(),
-            published: sweep.published().into_iter().map(PublishedObject::from).collect(),
+            published: sweep.published(),
         }
     }
 }
@@ -218,7 +187,7 @@ pub fn figure_of(sweep: &Sweep, rows: &[Row], quantity: Quantity) -> Figure {
                 .iter()
                 .filter(|row| row.status == RunStatus::Converged)
                 .filter_map(|row| row.numbers.get(quantity));
-            let [least, most] = found.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+            let [least, most] = extent(found);
             for value in first.values.iter().take(MOST_MAPS) {
                 let of_value = rows.iter().filter(|row| row.values[0] == *value);
                 let of_value: Vec<Row> =
@@ -331,10 +300,7 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
 fn within(sweep: &Sweep) -> impl Iterator<Item = Published> {
     let inside = |point: &Published| {
         sweep.axes().iter().zip(&point.values).all(|(axis, value)| {
-            let (least, most) = axis
-                .values
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(*value), most.max(*value)));
+            let [least, most] = extent(axis.values.iter().copied());
             (least..=most).contains(value)
         })
     };

@@ -1,5 +1,6 @@
 //! Table I as JSON objects and as a CSV file, with the same names.
 
+use super::estimates::finite;
 use super::json::status_name;
 use crate::analysis::table1::Row;
 use crate::solve::{Method, Settings};
@@ -43,18 +44,17 @@ impl Object {
     pub fn new(row: &Row, settings: &Settings) -> Self {
         let published = row.published.clone();
         let computed = row.computed.as_ref().ok();
-        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         Self {
             row: published.row,
             preset: published.preset,
             change: published.change,
             published_load_n: published.published_load_n,
-            film_load_n: finite(computed.map(|computed| computed.result.film_load)),
-            film_load_error_n: finite(computed.map(|computed| computed.film_load_error())),
+            film_load_n: computed.and_then(|computed| finite(computed.result.film_load)),
+            film_load_error_n: computed.and_then(|computed| finite(computed.film_load_error())),
             published_alpha: published.published_alpha,
-            alpha: finite(computed.map(|computed| computed.result.alpha)),
-            alpha_error: finite(computed.map(|computed| computed.result.alpha_error)),
-            difference_percent: finite(row.difference_percent()),
+            alpha: computed.and_then(|computed| finite(computed.result.alpha)),
+            alpha_error: computed.and_then(|computed| finite(computed.result.alpha_error)),
+            difference_percent: row.difference_percent().and_then(finite),
             converged: row.converged(),
             status: match &row.computed {
                 Ok(computed) => status_name(&computed.status).to_owned(),

@@ -1,6 +1,7 @@
 //! Torque, power and efficiency as the `merit` object of `solve --json`, and its curves as CSV. Speeds in rpm, for the
 //! whole ring.
 
+use super::csv::{Cell, Table};
 use super::estimates;
 use crate::analysis::torque::TorqueCurves;
 use crate::estimate::Estimate;
@@ -68,30 +69,28 @@ impl Serialize for Present<'_> {
 
 /// Writes both curves, one row for each speed. Where a value is not known, or the rotor is not driven, a field is empty.
 pub fn write_csv(curves: &TorqueCurves, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
+    let mut table = Table::new(out);
     let columns = [("torque", "_nm"), ("output", "_w"), ("friction", "_w"), ("efficiency", "")];
     let mut header = vec!["speed_rpm".to_owned()];
     for side in ["", "dry_"] {
         header
             .extend(columns.iter().flat_map(|(name, unit)| ["", "_error"].map(|of| format!("{side}{name}{of}{unit}"))));
     }
-    table.write_record(&header)?;
+    table.header(&header)?;
     for (wet, dry) in curves.with_film.curve.iter().zip(&curves.without_film.curve) {
-        let mut row = vec![text(Some(curves.rpm(wet.speed)))];
+        let mut row = vec![cell(curves.rpm(wet.speed))];
         for point in [wet, dry] {
             let numbers = [Some(point.torque), Some(point.output), Some(point.friction), point.efficiency];
-            row.extend(numbers.iter().flat_map(|number| [number.map(|n| n.value), number.map(|n| n.error)]).map(text));
+            let unknown = Estimate { value: f64::NAN, error: f64::NAN };
+            let numbers = numbers.map(|number| number.unwrap_or(unknown));
+            row.extend(numbers.iter().flat_map(|number| [number.value, number.error]).map(cell));
         }
-        table.write_record(&row)?;
+        table.row(row)?;
     }
-    table.flush()
+    table.finish()
 }
 
-/// Nine digits; empty if it is not known.
-fn text(value: Option<f64>) -> String {
-    match value {
-        Some(0.0) => "0".to_owned(),
-        Some(value) if value.is_finite() => format!("{value:.8e}"),
-        _ => String::new(),
-    }
+/// Empty if it is not known.
+fn cell(value: f64) -> Cell {
+    if value.is_finite() { Cell::Number(value) } else { Cell::Nothing }
 }

@@ -1,5 +1,6 @@
 //! Error against time as JSON and as CSV, with the same names, and as a figure.
 
+use super::estimates::finite;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::{Family, Point, Tradeoff};
 use crate::export::figure::{Axis, Colour, Dash, Figure, Line, Marker, Panel, Points, Provenance, Shape, Style, Text};
@@ -78,7 +79,6 @@ pub struct SettingObject {
 
 impl SettingObject {
     fn new(point: &Point, judged: Quantity, reference: bool) -> Self {
-        let finite = |value: f64| value.is_finite().then_some(value);
         let run = &point.run;
         let count = |quantity| run.numbers.get(quantity).map(|count| count as u64);
         Self {

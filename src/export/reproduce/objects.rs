@@ -1,5 +1,6 @@
 //! The numbers of the paper's tables and figures as JSON and CSV.
 
+use super::super::estimates::finite;
 use super::statements::{Statement, statements};
 use crate::analysis::reproduce::{Both, Reproduction, Row};
 use serde::Serialize;
@@ -37,7 +38,6 @@ impl RowObject {
     /// The object of a row.
     pub fn new(row: &Row) -> Self {
         let (paper, ours) = (Both::result(&row.both.paper), Both::result(&row.both.ours));
-        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         let published = &row.published;
         let difference = |load: f64| 100.0 * (load / published.published_load_n - 1.0);
         Self {
@@ -45,14 +45,14 @@ impl RowObject {
             preset: published.preset.clone(),
             published_load_n: published.published_load_n,
             published_alpha: published.published_alpha,
-            paper_load_n: finite(paper.map(|r| r.film_load)),
-            paper_alpha: finite(paper.map(|r| r.alpha)),
-            paper_alpha_error: finite(paper.map(|r| r.alpha_error)),
-            paper_difference_percent: finite(paper.map(|r| difference(r.film_load))),
-            film_load_n: finite(ours.map(|r| r.film_load)),
-            alpha: finite(ours.map(|r| r.alpha)),
-            alpha_error: finite(ours.map(|r| r.alpha_error)),
-            difference_percent: finite(ours.map(|r| difference(r.film_load))),
+            paper_load_n: paper.and_then(|r| finite(r.film_load)),
+            paper_alpha: paper.and_then(|r| finite(r.alpha)),
+            paper_alpha_error: paper.and_then(|r| finite(r.alpha_error)),
+            paper_difference_percent: paper.and_then(|r| finite(difference(r.film_load))),
+            film_load_n: ours.and_then(|r| finite(r.film_load)),
+            alpha: ours.and_then(|r| finite(r.alpha)),
+            alpha_error: ours.and_then(|r| finite(r.alpha_error)),
+            difference_percent: ours.and_then(|r| finite(difference(r.film_load))),
         }
     }
 }
