@@ -153,7 +153,7 @@ fn a_title_says_how_exactly_it_is_solved() {
     };
     for (asked, words) in [
         (&["--fidelity", "draft"][..], "fidelity draft"),
-        (&["--accuracy", "1%"], "accuracy 1%"),
+        (&["--accuracy", "1%"], "accuracy 1 %"),
         (&["--budget", "2ms"], "fidelity reference, in at most 2ms a solve"),
     ] {
         let title = title(asked);

@@ -2,11 +2,12 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, effort};
+use super::options::CommonOptions;
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
 use crate::analysis::compare::{ComparedRun, results, runs};
+use crate::analysis::decision::effort;
 use crate::digits::duration;
 use crate::export::animation::Options;
 use crate::export::compare::{LIMITS, Object, difference_text, frames, parameter_rows, status, value_text};
@@ -15,7 +16,7 @@ use crate::export::json;
 use crate::scene::{Scene, Value};
 use crate::solve::Settings;
 use clap::Args;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,11 +64,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         .collect::<Result<Vec<Scene>, _>>()?;
     let (folder, settings, cancel) = arguments.common.begin()?;
 
-    let bar = Bar::points(scenes.len(), 0);
-    let started = Instant::now();
-    let solved = runs(&scenes, &settings, &cancel, &|run| bar.point_done(&run.label));
-    let wall_s = started.elapsed().as_secs_f64();
-    drop(bar);
+    let (solved, wall_s) =
+        Bar::points(scenes.len(), 0).timed(|bar| runs(&scenes, &settings, &cancel, &|run| bar.point_done(&run.label)));
     let runs = solved?;
     if cancel.is_cancelled() {
         terminal::note("cancelled; no file was written");
@@ -117,8 +115,7 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     text.push('\n');
     let mut columns = Columns::new();
     for (i, run) in runs.iter().enumerate() {
-        let state = if run.converged() { String::new() } else { status(run).to_uppercase() };
-        columns.row([letter(i), run.label.clone(), state]);
+        columns.row([letter(i), run.label.clone(), json::mark(&status(run))]);
     }
     text.push_str(&columns.text("  ", &[]));
 
@@ -128,9 +125,8 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     let mut listed = 0;
     for row in parameter_rows(runs).iter().filter(|row| all || row.differs()) {
         listed += 1;
-        let unit = if row.parameter.unit.is_empty() { String::new() } else { format!(", {}", row.parameter.unit) };
         let shown = |value: &Option<Value>| value.as_ref().map_or_else(|| "none".to_owned(), Value::to_string);
-        columns.row(std::iter::once(format!("{}{unit}", row.parameter.key)).chain(row.values.iter().map(shown)));
+        columns.row(std::iter::once(row.label()).chain(row.values.iter().map(shown)));
     }
     let right: Vec<usize> = (1..=2 * runs.len()).collect();
     text.push('\n');

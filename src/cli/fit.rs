@@ -18,7 +18,6 @@ use crate::scene::{Parameter, Scene, show_text};
 use crate::solve::Settings;
 use clap::Args;
 use std::path::Path;
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -134,14 +133,13 @@ struct Call<'a> {
 impl Call<'_> {
     fn fit(&self, measured: &Measured) -> Result<Exit, CliError> {
         let model = Model::new(self.scene, &self.arguments.vary, self.settings)?.under(measured)?;
-        let (bar, started) = (Bar::share(), Instant::now());
-        let told = |points: usize, chi_squared: f64| {
-            bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)))
-        };
-        let fitted = fit(&model, measured, usize::from(self.arguments.starts), self.cancel, &told)?;
-        let wall_s = started.elapsed().as_secs_f64();
-        drop(bar);
-        let Some(fitted) = fitted else { return Ok(cancelled()) };
+        let starts = usize::from(self.arguments.starts);
+        let (fitted, wall_s) = Bar::share().timed(|bar| {
+            fit(&model, measured, starts, self.cancel, &|points, chi_squared| {
+                bar.count(&format!("{points} points, χ² {}", significant(chi_squared, 4)));
+            })
+        });
+        let Some(fitted) = fitted? else { return Ok(cancelled()) };
         let object = Object::new(&self.scene.name, &fitted, measured);
         let json = self.arguments.common.output.json;
         terminal::result(json, || json::document(&object, self.command), || text(self.scene, &fitted, measured));
@@ -157,14 +155,15 @@ impl Call<'_> {
     }
 
     fn optimum(&self, goal: &Goal) -> Result<Exit, CliError> {
-        let (bar, started) = (Bar::share(), Instant::now());
         let name = goal.quantity.name();
-        let told = |points: usize, best: f64| bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
-        let starts = (usize::from(self.arguments.starts), self.cancel, &told as _);
-        let found = optimise(self.scene, &self.arguments.vary, goal, self.settings, starts)?;
-        let wall_s = started.elapsed().as_secs_f64();
-        drop(bar);
-        let Some(found) = found else { return Ok(cancelled()) };
+        let (found, wall_s) = Bar::share().timed(|bar| {
+            let told = |points: usize, best: f64| {
+                bar.count(&format!("{points} points, {name} {}", significant(best, 5)));
+            };
+            let starts = (usize::from(self.arguments.starts), self.cancel, &told as _);
+            optimise(self.scene, &self.arguments.vary, goal, self.settings, starts)
+        });
+        let Some(found) = found? else { return Ok(cancelled()) };
         let problem = Problem::try_from(&found.scene)?;
         let object = OptimumObject::new(&self.scene.name, &found);
         let json = self.arguments.common.output.json;
@@ -189,14 +188,8 @@ fn with_unit(number: String, parameter: &Parameter) -> String {
     format!("{number} {}", parameter.unit).trim_end().to_owned()
 }
 
-/// As few digits as say it.
-fn plain(value: f64) -> String {
-    let text = short(value, 5);
-    if text.contains('e') { format!("{value:e}") } else { text }
-}
-
 fn bounds((from, to): (f64, f64), parameter: &Parameter) -> String {
-    with_unit(format!("{} … {}", plain(from), plain(to)), parameter)
+    with_unit(format!("{} … {}", short(from, 5), short(to, 5)), parameter)
 }
 
 fn at_bound(at: Option<Bound>) -> &'static str {
@@ -223,7 +216,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
         columns.row([
             parameter.key.to_owned(),
             with_unit(value, parameter),
-            plain(found.unknown.start),
+            short(found.unknown.start, 5),
             bounds((found.unknown.from, found.unknown.to), parameter),
             at_bound(found.at).to_owned(),
         ]);

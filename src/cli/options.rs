@@ -167,15 +167,6 @@ impl SolveOptions {
     }
 }
 
-/// How exactly something is solved, as titles have it: `fidelity fine`, `fidelity reference, in at most 2ms a solve`.
-pub(super) fn effort(settings: &Settings, budget: Option<Duration>) -> String {
-    match (settings.method, budget) {
-        (Method::Paper, _) => "the paper's algorithm".to_owned(),
-        (Method::Auto, None) => settings.fidelity.option().trim_start_matches('-').to_owned(),
-        (Method::Auto, Some(time)) => format!("{}, in at most {time:?} a solve", effort(settings, None)),
-    }
-}
-
 /// How much memory solving may take.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct MemoryOptions {

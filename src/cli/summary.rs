@@ -1,11 +1,13 @@
 //! A solution for people: aligned, a unit on every number, as many digits as its error justifies.
 
 use super::columns::{Columns, paragraph};
+use crate::analysis::decision::exactness;
 use crate::analysis::exact::{Comparison, units};
+use crate::analysis::quantity::Quantity;
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::Excess;
-use crate::digits::{as_given, duration, percent, short, significant, with_error};
+use crate::digits::{as_given, duration, percent, short, significant, stated, with_error};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::export::json::{FloatingObject, Summary, beside_limit};
@@ -45,7 +47,7 @@ pub(super) fn text(scene: &Scene, problem: &Problem, outcome: &Outcome, summary:
     text.push_str(&limits(&summary.validity));
     let model = &summary.model;
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "\nModelled: method {}, fidelity {}", model.method, model.fidelity);
+    let _ = writeln!(text, "\nModelled: method {}, {}", model.method, exactness(&model.fidelity));
     for reason in &model.why {
         text.push_str(&paragraph(reason, "  - ", "    "));
     }
@@ -61,7 +63,7 @@ fn status(summary: &Summary) -> String {
     if summary.status == "not resolved" {
         return "NOT RESOLVED: the stated error is as large as the result".to_owned();
     }
-    match (summary.residual, summary.tolerance) {
+    match (summary.numbers.get(Quantity::Residual), summary.numbers.get(Quantity::Tolerance)) {
         (Some(residual), Some(tolerance)) => {
             format!("NOT CONVERGED (the last round still changed by {residual:.1e}, allowed {tolerance:.0e})")
         }
@@ -71,17 +73,15 @@ fn status(summary: &Summary) -> String {
 }
 
 fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
-    let error = or_nan(summary.alpha_error);
+    let alpha = found(summary, Quantity::Alpha);
     let dry = or_nan(summary.dry_torque_nm);
-    let negative = regime::sucks(or_nan(summary.alpha), error);
+    let negative = regime::sucks(alpha.value, alpha.error);
     let without = summary.torque.as_ref().map_or_else(String::new, |torque| {
-        format!("; {} without film", stated(Some(torque.without_film.stall_torque), 1.0, "N·m"))
+        format!("; {} without film", in_unit(Some(torque.without_film.stall_torque), 1.0, "N·m"))
     });
-    let stall_error = summary.stall_torque_error_nm.unwrap_or(f64::INFINITY);
-    let stall_torque = summary.stall_torque_nm.map(|value| Estimate { value, error: stall_error });
     columns.row([
         "film share of the load  α",
-        &with_error(or_nan(summary.alpha), error),
+        &with_error(alpha.value, alpha.error),
         &format!(
             "of the {} N pressed on one wavelength{}",
             short(motor.load, 6),
@@ -91,26 +91,22 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     film_load(columns, summary);
     columns.row([
         "contact load",
-        &format!("{} N", with_error(or_nan(summary.contact_load_n), or_nan(summary.film_load_error_n))),
+        &format!("{} N", uncertain(summary, Quantity::ContactLoad)),
         "mean over the cycle, the rest of the load",
     ]);
     columns.row([
         "stall torque",
-        &stated(stall_torque, 1.0, "N·m"),
+        &in_unit(summary.numbers.estimate(Quantity::StallTorque), 1.0, "N·m"),
         &format!("of the whole ring, the rotor held at rest{without}"),
     ]);
     columns.row([
         "maximum operating torque",
-        &format!("{} N·m", with_error(or_nan(summary.max_torque_nm), dry * error)),
+        &format!("{} N·m", uncertain(summary, Quantity::MaxTorque)),
         &format!("the paper's bound μ_d (1 − α) waves L r; {} N·m if there were no air", shown(dry)),
     ]);
     columns.row([
         "teeth in contact",
-        &format!(
-            "{} of {}",
-            with_error(or_nan(summary.teeth_in_contact), or_nan(summary.teeth_in_contact_error)),
-            motor.teeth
-        ),
+        &format!("{} of {}", uncertain(summary, Quantity::TeethInContact), motor.teeth),
         "mean over the cycle",
     ]);
     columns.row(match summary.levitated {
@@ -129,7 +125,7 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
 fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueCurves) {
     let (wet, dry) = (&torque.with_film, &torque.without_film);
     let mut row = |name: &str, factor: f64, unit: &str, value: &dyn Fn(&Performance) -> Option<Estimate>| {
-        let of = |side| stated(value(side), factor, unit);
+        let of = |side| in_unit(value(side), factor, unit);
         columns.row([name, &of(wet), &format!("{} without film", of(dry))]);
     };
     let rpm = torque.rpm(1.0);
@@ -144,12 +140,12 @@ fn torque_rows(columns: &mut Columns, motor: &Motor, torque: &TorqueCurves) {
     }
     columns.row([
         "power lost in the film",
-        &stated(Some(torque.film_power), 1.0, "W"),
+        &in_unit(Some(torque.film_power), 1.0, "W"),
         "squeezed by the stator, mean over the cycle",
     ]);
     columns.row([
         "friction of a dry model",
-        stated(Some(torque.dry_equivalent), 1.0, "").trim_end(),
+        in_unit(Some(torque.dry_equivalent), 1.0, "").trim_end(),
         &format!("has the same maximum operating torque as {} with the film", as_given(motor.dry_friction)),
     ]);
 }
@@ -164,20 +160,9 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
         floating_rows(columns, plate, floating, summary.force_unit);
     }
     film_load(columns, summary);
-    columns.row([
-        "load ratio",
-        &with_error(or_nan(summary.mean_load_ratio), or_nan(summary.mean_load_ratio_error)),
-        area,
-    ]);
-    columns.row([
-        "",
-        &format!(
-            "{} … {}",
-            with_error(or_nan(summary.load_ratio_min), or_nan(summary.load_ratio_min_error)),
-            with_error(or_nan(summary.load_ratio_max), or_nan(summary.load_ratio_max_error))
-        ),
-        "least and greatest in the cycle",
-    ]);
+    columns.row(["load ratio", &uncertain(summary, Quantity::LoadRatio), area]);
+    let range = [Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| uncertain(summary, end));
+    columns.row(["", &range.join(" … "), "least and greatest in the cycle"]);
     if let Some(exact) = &summary.exact {
         exact_rows(columns, exact, units(plate));
     }
@@ -190,12 +175,13 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
 /// How a plate floats, beside trapped gas.
 fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject, unit: &str) {
     let [stiffness, _] = units(plate);
-    let mass = as_given(floating.load_n / GRAVITY * 1e3);
+    let mass = as_given(floating.load / GRAVITY * 1e3);
+    let (mean_gap, found) = (floating.mean_gap_um(), &floating.found);
     let stable = if floating.stable { "stable" } else { "not stable" };
     columns.row([
         "mean gap",
-        &format!("{} µm", with_error(or_nan(floating.mean_gap_um), or_nan(floating.mean_gap_error_um))),
-        &format!("at which the film carries the load of {} {unit}; {stable}", shown(floating.load_n)),
+        &format!("{} µm", with_error(mean_gap.value, mean_gap.error)),
+        &format!("at which the film carries the load of {} {unit}; {stable}", shown(floating.load)),
     ]);
     columns.row([
         "",
@@ -207,22 +193,19 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
     ]);
     columns.row([
         "stiffness of floating",
-        &format!(
-            "{} {stiffness}",
-            with_error(or_nan(floating.stiffness_n_per_m), or_nan(floating.stiffness_error_n_per_m))
-        ),
+        &format!("{} {stiffness}", with_error(found.stiffness.value, found.stiffness.error)),
         "by which the mean load falls with the mean gap",
     ]);
-    if let Some((frequency, error)) = floating.natural_frequency_hz.zip(floating.natural_frequency_error_hz) {
+    if let Some(Estimate { value: frequency, error }) = floating.natural_frequency() {
         let of = format!("of the mass whose weight is the load, {} g", shown(mass));
         columns.row(["natural frequency", &format!("{} Hz", with_error(frequency, error)), &of]);
     }
-    if let (Some(ratio), Some(stiffness)) = (floating.damping_ratio, floating.stiffness_n_per_m) {
-        let damping = floating.damping_n_s_per_m;
+    if let Some(ratio) = floating.damping_ratio() {
+        let damping = floating.damping;
         let how = if ratio < 1.0 {
             "it swings".to_owned()
         } else {
-            format!("it does not swing, but creeps back within about {}", duration(damping / stiffness))
+            format!("it does not swing, but creeps back within about {}", duration(damping / found.stiffness.value))
         };
         let of = format!("of slow motion, by Reynolds; {} times critical: {how}", significant(ratio, 2));
         columns.row(["damping of floating", &format!("{} {}", shown(damping), units(plate)[1]), &of]);
@@ -253,38 +236,29 @@ fn exact_rows(columns: &mut Columns, exact: &Comparison, [stiffness, damping]: [
     }
 }
 
-/// A number with its error, which is none at all where it is exact; "none" if there is no number.
-fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
+/// A number with its error and unit; "none" if there is no number.
+fn in_unit(found: Option<Estimate>, factor: f64, unit: &str) -> String {
     match found.filter(|found| found.value.is_finite()) {
-        Some(Estimate { value, error: 0.0 }) => format!("{} {unit}", shown(value * factor)),
-        Some(Estimate { value, error }) => format!("{} {unit}", with_error(value * factor, error * factor)),
+        Some(Estimate { value, error }) => format!("{} {unit}", stated(value * factor, Some(error * factor))),
         None => "none".to_owned(),
     }
 }
 
 fn film_load(columns: &mut Columns, summary: &Summary) {
     let unit = summary.force_unit;
-    columns.row([
-        "film load",
-        &format!("{} {unit}", with_error(or_nan(summary.film_load_n), or_nan(summary.film_load_error_n))),
-        "mean over the cycle",
-    ]);
-    let (least, most) = (or_nan(summary.film_load_min_n), or_nan(summary.film_load_max_n));
-    let (of_least, of_most) = (or_nan(summary.film_load_min_error_n), or_nan(summary.film_load_max_error_n));
-    let range = format!("{} … {} {unit}", with_error(least, of_least), with_error(most, of_most));
-    columns.row(["", &range, "least and greatest in the cycle"]);
+    columns.row(["film load", &format!("{} {unit}", uncertain(summary, Quantity::FilmLoad)), "mean over the cycle"]);
+    let range = [Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| uncertain(summary, end));
+    columns.row(["", &format!("{} {unit}", range.join(" … ")), "least and greatest in the cycle"]);
 }
 
 fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: f64) {
-    let least = match summary.min_gap_error_nm {
-        Some(error) if error > 0.0 => with_error(or_nan(summary.min_gap_nm), error),
-        _ => shown(or_nan(summary.min_gap_nm)),
-    };
+    let gap = found(summary, Quantity::MinGap);
+    let least = stated(gap.value, summary.numbers.get(Quantity::MinGapError));
     columns.row(["least film thickness", &format!("{least} nm"), thickness]);
-    let pressure = or_nan(summary.max_pressure_kpa);
+    let pressure = found(summary, Quantity::MaxPressure).value;
     columns.row([
         "highest pressure",
-        &format!("{} kPa", with_error(pressure, or_nan(summary.max_pressure_error_kpa))),
+        &format!("{} kPa", uncertain(summary, Quantity::MaxPressure)),
         &format!("{} × ambient", significant(pressure * 1e3 / ambient, 3)),
     ]);
 }
@@ -353,6 +327,17 @@ fn shown(value: f64) -> String {
     significant(value, DIGITS)
 }
 
+/// A number of the summary with its error; what is null in the object is unknown here.
+fn found(summary: &Summary, quantity: Quantity) -> Estimate {
+    summary.numbers.estimate(quantity).unwrap_or(Estimate { value: f64::NAN, error: f64::NAN })
+}
+
+/// The same in words.
+fn uncertain(summary: &Summary, quantity: Quantity) -> String {
+    let Estimate { value, error } = found(summary, quantity);
+    with_error(value, error)
+}
+
 /// What is null in the object is unknown here.
 fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
@@ -374,7 +359,8 @@ mod tests {
         solution.status = Status::NotConverged { residual: 2e-3, tolerance: 1e-6 };
         let summary = Summary::new(&problem, &solution, 0.0123, &[]);
         assert_eq!((summary.converged, summary.status), (false, "not converged"));
-        assert_eq!((summary.residual, summary.tolerance), (Some(2e-3), Some(1e-6)));
+        let change = [Quantity::Residual, Quantity::Tolerance].map(|quantity| summary.numbers.get(quantity));
+        assert_eq!(change, [Some(2e-3), Some(1e-6)]);
         let shown = text(&scene, &problem, &solution.outcome, &summary);
         assert!(shown.starts_with("Plate, viscous: NOT CONVERGED (the last round still changed by 2.0e-3"), "{shown}");
         assert!(shown.contains("N/m") && shown.contains("12.3 ms"), "{shown}");

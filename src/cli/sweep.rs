@@ -2,15 +2,16 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, FigureOptions, PRESSURE, effort, warn_of_given_path};
+use super::options::{CommonOptions, FigureOptions, PRESSURE, warn_of_given_path};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
 use crate::analysis::attempt::RunStatus;
+use crate::analysis::decision::effort;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
-use crate::digits::{duration, significant, with_error};
+use crate::digits::{duration, stated};
 use crate::export::compare::LIMITS;
 use crate::export::saved::{self, ReadError};
 use crate::export::sweep::Object;
@@ -100,22 +101,20 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         terminal::note(&format!("going on: {} of {points} points were solved before", done.len()));
     }
 
-    let bar = Bar::points(points, done.len());
-    let started = Instant::now();
     let saved = Mutex::new((done.clone(), Instant::now()));
-    let rows = sweep.run_part(part, &done, &cancel, &|row| {
-        bar.point_done(&place(&sweep, row));
-        let Some(folder) = &folder else { return };
-        let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
-        saved.0.push(row.clone());
-        if saved.1.elapsed() > SAVE_EVERY {
-            // If it fails now it may succeed at the end, and there it is told.
-            let _ = folder.save_unfinished(&saved.0);
-            saved.1 = Instant::now();
-        }
+    let (rows, wall_s) = Bar::points(points, done.len()).timed(|bar| {
+        sweep.run_part(part, &done, &cancel, &|row| {
+            bar.point_done(&place(&sweep, row));
+            let Some(folder) = &folder else { return };
+            let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
+            saved.0.push(row.clone());
+            if saved.1.elapsed() > SAVE_EVERY {
+                // If it fails now it may succeed at the end, and there it is told.
+                let _ = folder.save_unfinished(&saved.0);
+                saved.1 = Instant::now();
+            }
+        })
     });
-    let wall_s = started.elapsed().as_secs_f64();
-    drop(bar);
 
     if rows.len() < points {
         terminal::note(&format!("cancelled: {} of {points} points are solved", rows.len()));
@@ -270,9 +269,8 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
         cells.extend(shown.iter().map(|quantity| number(row, *quantity)));
         cells.push(row.outside.join(", "));
         cells.push(match &row.status {
-            RunStatus::Converged => String::new(),
             RunStatus::Failed(_) => "FAILED".to_owned(),
-            other => other.to_string().to_uppercase(),
+            status => json::mark(&status.to_string()),
         });
         columns.row(cells);
     }
@@ -308,18 +306,15 @@ const SHOWN: [Quantity; 9] = [
 
 fn number(row: &Row, quantity: Quantity) -> String {
     let Some(value) = row.numbers.get(quantity) else { return String::new() };
-    match quantity.error() {
+    let error = match quantity {
+        quantity if quantity.is_count() => return value.to_string(),
         // Of two numbers that say the same only the first shows its error.
+        Quantity::FilmLoad => None,
         // The load of a plate that floats is given.
-        Some(_) if quantity == Quantity::LoadRatio && row.numbers.get(Quantity::MeanGap).is_some() => {
-            significant(value, 4)
-        }
-        Some(error) if !matches!(quantity, Quantity::FilmLoad) && row.numbers.get(error) != Some(0.0) => {
-            with_error(value, row.numbers.get(error).unwrap_or(f64::INFINITY))
-        }
-        _ if quantity == Quantity::FilmSteps => value.to_string(),
-        _ => significant(value, 4),
-    }
+        Quantity::LoadRatio if row.numbers.get(Quantity::MeanGap).is_some() => None,
+        quantity => quantity.error().map(|error| row.numbers.get(error).unwrap_or(f64::INFINITY)),
+    };
+    stated(value, error)
 }
 
 #[cfg(test)]

@@ -7,9 +7,10 @@ use super::options::{OutputOptions, SceneOptions, SolveOptions};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
+use crate::analysis::decision::effort;
 use crate::analysis::table1::{Row, rows};
 use crate::atomic::Staged;
-use crate::digits::{duration, significant, with_error};
+use crate::digits::{duration, stated};
 use crate::export::table1::Object;
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
@@ -17,7 +18,6 @@ use crate::scene::table1::published;
 use crate::solution::Status;
 use crate::solve::{Method, Settings};
 use clap::Args;
-use std::time::Instant;
 
 /// Solves the 14 rows of the paper's Table I and prints published beside computed values
 ///
@@ -52,11 +52,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     let settings = arguments.solve.prepare(Fidelity::Fine, method)?;
     let cancel = arguments.solve.within_budget(cancel_on_interrupt());
 
-    let bar = Bar::rows(published().len());
-    let started = Instant::now();
-    let solved = rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.row_done(&row.published.row));
-    let wall_s = started.elapsed().as_secs_f64();
-    drop(bar);
+    let (solved, wall_s) = Bar::rows(published().len())
+        .timed(|bar| rows(&arguments.scene.changes, &settings, &cancel, &|row| bar.row_done(&row.published.row)));
     let rows = solved?;
 
     let exit = exit(&rows);
@@ -99,7 +96,7 @@ fn exit(rows: &[Row]) -> Exit {
 fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> String {
     let how = match settings.method {
         Method::Paper => "the paper's algorithm at the paper's own meshes".to_owned(),
-        Method::Auto => format!("mesh-converged, fidelity {}", settings.fidelity),
+        Method::Auto => format!("mesh-converged, {}", effort(settings, None)),
     };
     let mut text = paragraph(&format!("Table I of Maeno and Bogy (1992), published beside computed: {how}"), "", "");
     for (key, value) in changes {
@@ -124,7 +121,7 @@ fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> Stri
                 share,
                 estimated(computed.result.alpha, computed.result.alpha_error),
                 format!("{difference:+.1} %"),
-                mark(&computed.status).to_owned(),
+                json::mark(json::status_name(&computed.status)),
             ]),
             _ => columns.row([&published.row, &load, "failed", &share, "failed", "", ""]),
         }
@@ -145,18 +142,9 @@ const NOTES: [&str; 2] = [
      itself rises by 2 % when its mesh is doubled.",
 ];
 
-fn mark(status: &Status) -> &'static str {
-    match status {
-        Status::Converged => "",
-        Status::NotConverged { .. } => "NOT CONVERGED",
-        Status::NotResolved { .. } => "NOT RESOLVED",
-        Status::Cancelled => "cancelled",
-    }
-}
-
 /// With its error, where there is an estimate: one mesh alone gives none.
 fn estimated(value: f64, error: f64) -> String {
-    if error.is_finite() { with_error(value, error) } else { significant(value, 4) }
+    stated(value, Some(error).filter(|error| error.is_finite()))
 }
 
 #[cfg(test)]

@@ -195,8 +195,7 @@ fn cells(point: &Point, judged: Quantity, reference: bool) -> Vec<String> {
     let mark = match (&run.status, reference, point.best) {
         (_, true, _) => "reference".to_owned(),
         (RunStatus::Converged, _, true) => "best".to_owned(),
-        (RunStatus::Converged, _, false) => String::new(),
-        (status, ..) => status.to_string().to_uppercase(),
+        (status, ..) => json::mark(&status.to_string()),
     };
     vec![
         run.candidate.name.clone(),

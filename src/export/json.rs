@@ -1,19 +1,18 @@
 //! The JSON object of a solve. The names are fixed, as scripts depend on them: add to them, rename nothing.
 
+use super::estimates::{self, finite};
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::{Comparison, slow_damping};
 pub use crate::analysis::quantity::force_unit;
+use crate::analysis::quantity::{Numbers, Quantity};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
 use crate::digits::{short, significant};
-use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::motor::MotorError;
-use crate::problem::{Motor, Plate, Problem, Scenario};
-use crate::solution::{
-    Floating, Model, MotorResult, Outcome, Performance, PlateResult, Solution, Stats, Status, settled,
-};
-use serde::Serialize;
+use crate::problem::{Plate, Problem, Scenario};
+use crate::solution::{Floating, Model, Outcome, PlateResult, Solution, Stats, Status, settled};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// The version of the objects, and of the columns of tables.
 pub const SCHEMA: u32 = 1;
@@ -23,10 +22,8 @@ const NO_TORQUE_ERROR: &str = "no error of torque, power, speed and efficiency i
                                grids, and this was solved on one mesh; that of α is stated";
 
 /// The object. Numbers that a scene does not have, and numbers that are not finite, are null.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// [`SCHEMA`].
-    pub schema: u32,
     /// The scene's name.
     pub preset: String,
     /// `motor` or `plate`.
@@ -35,10 +32,6 @@ pub struct Summary {
     pub converged: bool,
     /// `converged`, `not converged`, `not resolved` (the error is as large as the result) or `cancelled`.
     pub status: &'static str,
-    /// Relative change of the last round, if it did not converge …
-    pub residual: Option<f64>,
-    /// … and what it had to fall below.
-    pub tolerance: Option<f64>,
     /// Error of the headline (α, a plate's mean load, the mean gap of one that floats) that was asked for, relative to it, and to a hundredth of the load where α is
     /// less than that; `null` on grids that the scene prescribes.
     pub accuracy_asked: Option<f64>,
@@ -46,70 +39,17 @@ pub struct Summary {
     pub accuracy_stated: Option<f64>,
     /// Why no finer grid was solved: `accuracy`, `budget` or `limit`.
     pub stopped_by: &'static str,
-    /// The film's share of the load.
-    pub alpha: Option<f64>,
-    /// Estimated numerical error of `alpha`, absolute.
-    pub alpha_error: Option<f64>,
     /// What forces are in: `N`, or `N/m` for a strip, where they are per metre of width.
     pub force_unit: &'static str,
-    /// Cycle mean of the film's net gauge force on one wavelength or the plate.
-    pub film_load_n: Option<f64>,
-    /// Estimated numerical error of `film_load_n`, absolute.
-    pub film_load_error_n: Option<f64>,
-    /// Its least value in the cycle.
-    pub film_load_min_n: Option<f64>,
-    /// Its greatest value in the cycle.
-    pub film_load_max_n: Option<f64>,
-    /// Estimated numerical errors of the two, absolute.
-    pub film_load_min_error_n: Option<f64>,
-    /// See `film_load_min_error_n`.
-    pub film_load_max_error_n: Option<f64>,
-    /// Cycle mean of the contact force on one wavelength.
-    pub contact_load_n: Option<f64>,
-    /// Torque of the whole ring, the rotor held at rest.
-    pub stall_torque_nm: Option<f64>,
-    /// Estimated numerical error of `stall_torque_nm`, absolute.
-    pub stall_torque_error_nm: Option<f64>,
-    /// The paper's maximum operating torque of the whole ring, μ_d (1 − α) waves L r: a bound.
-    pub max_torque_nm: Option<f64>,
-    /// The same bound without the air film.
+    /// The numbers; of these the object has `residual`, `tolerance` and [`RESULTS`].
+    pub numbers: Numbers,
+    /// The bound of the torque of the whole ring without the air film.
     pub dry_torque_nm: Option<f64>,
-    /// Cycle mean of the number of teeth that touch.
-    pub teeth_in_contact: Option<f64>,
-    /// Estimated numerical error of `teeth_in_contact`, absolute.
-    pub teeth_in_contact_error: Option<f64>,
     /// No tooth touches at any instant.
     pub levitated: Option<bool>,
-    /// Least film thickness, H_m included.
-    pub min_gap_nm: Option<f64>,
-    /// Estimated numerical error of `min_gap_nm`, absolute (motor, floating plate).
-    pub min_gap_error_nm: Option<f64>,
-    /// Greatest absolute pressure.
-    pub max_pressure_kpa: Option<f64>,
-    /// Estimated numerical error of `max_pressure_kpa`, absolute.
-    pub max_pressure_error_kpa: Option<f64>,
     /// How a plate floats; null if its mean gap is given.
     pub floating: Option<FloatingObject>,
-    /// Film load over ambient pressure × area (plate).
-    pub mean_load_ratio: Option<f64>,
-    /// Estimated numerical error of `mean_load_ratio`, absolute.
-    pub mean_load_ratio_error: Option<f64>,
-    /// Its least value in the cycle.
-    pub load_ratio_min: Option<f64>,
-    /// Its greatest value in the cycle.
-    pub load_ratio_max: Option<f64>,
-    /// Estimated numerical errors of the two, absolute.
-    pub load_ratio_min_error: Option<f64>,
-    /// See `load_ratio_min_error`.
-    pub load_ratio_max_error: Option<f64>,
-    /// σ.
-    pub squeeze_number: Option<f64>,
-    /// Λ.
-    pub bearing_number: Option<f64>,
-    /// Kn.
-    pub knudsen_number: Option<f64>,
     /// Torque, power and efficiency (motor), if they were asked for.
-    #[serde(rename = "merit")]
     pub torque: Option<TorqueCurves>,
     /// What is known exactly beside what was computed (plate).
     pub exact: Option<Comparison>,
@@ -121,65 +61,141 @@ pub struct Summary {
     pub validity: Vec<Excess>,
     /// What the user should know.
     pub warnings: Vec<String>,
-    /// Version of this program.
-    pub version: &'static str,
     /// The command line, word by word; empty if there was none.
     pub command: Vec<String>,
 }
 
-/// How a plate floats under its load. Of a strip, forces and mass are those of a metre of its width.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+/// The numbers of the object that say what came of a solve, in its order.
+const RESULTS: [Quantity; 27] = [
+    Quantity::Alpha,
+    Quantity::AlphaError,
+    Quantity::FilmLoad,
+    Quantity::FilmLoadError,
+    Quantity::FilmLoadMin,
+    Quantity::FilmLoadMax,
+    Quantity::FilmLoadMinError,
+    Quantity::FilmLoadMaxError,
+    Quantity::ContactLoad,
+    Quantity::StallTorque,
+    Quantity::StallTorqueError,
+    Quantity::MaxTorque,
+    Quantity::TeethInContact,
+    Quantity::TeethInContactError,
+    Quantity::MinGap,
+    Quantity::MinGapError,
+    Quantity::MaxPressure,
+    Quantity::MaxPressureError,
+    Quantity::LoadRatio,
+    Quantity::LoadRatioError,
+    Quantity::LoadRatioMin,
+    Quantity::LoadRatioMax,
+    Quantity::LoadRatioMinError,
+    Quantity::LoadRatioMaxError,
+    Quantity::SqueezeNumber,
+    Quantity::BearingNumber,
+    Quantity::KnudsenNumber,
+];
+
+impl Serialize for Summary {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("schema", &SCHEMA)?;
+        map.serialize_entry("preset", &self.preset)?;
+        map.serialize_entry("scene", self.scene)?;
+        map.serialize_entry("converged", &self.converged)?;
+        map.serialize_entry("status", self.status)?;
+        map.serialize_entry("residual", &self.numbers.get(Quantity::Residual))?;
+        map.serialize_entry("tolerance", &self.numbers.get(Quantity::Tolerance))?;
+        map.serialize_entry("accuracy_asked", &self.accuracy_asked)?;
+        map.serialize_entry("accuracy_stated", &self.accuracy_stated)?;
+        map.serialize_entry("stopped_by", self.stopped_by)?;
+        for quantity in RESULTS {
+            // Between the numbers, what is none, or is not one of every solve.
+            match quantity {
+                Quantity::FilmLoad => map.serialize_entry("force_unit", self.force_unit)?,
+                Quantity::TeethInContact => map.serialize_entry("dry_torque_nm", &self.dry_torque_nm)?,
+                Quantity::MinGap => map.serialize_entry("levitated", &self.levitated)?,
+                Quantity::LoadRatio => map.serialize_entry("floating", &self.floating)?,
+                _ => {}
+            }
+            map.serialize_entry(quantity.name(), &self.numbers.get(quantity))?;
+        }
+        map.serialize_entry("merit", &self.torque)?;
+        map.serialize_entry("exact", &self.exact)?;
+        map.serialize_entry("stats", &self.stats)?;
+        map.serialize_entry("model", &self.model)?;
+        map.serialize_entry("validity", &self.validity)?;
+        map.serialize_entry("warnings", &self.warnings)?;
+        map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
+        map.serialize_entry("command", &self.command)?;
+        map.end()
+    }
+}
+
+/// How a plate floats under its load. Of a strip, forces and mass are those of a metre of its width. In the object the natural frequency
+/// and the damping ratio are null if it is not stable.
+#[derive(Clone, Debug, PartialEq)]
 pub struct FloatingObject {
     /// The load.
-    pub load_n: f64,
-    /// Mean gap at which the film carries it.
-    pub mean_gap_um: Option<f64>,
-    /// Estimated numerical error of `mean_gap_um`, absolute.
-    pub mean_gap_error_um: Option<f64>,
+    pub load: f64,
+    /// Mean gap at which the film carries it, stiffness against slow motion, and natural frequency of a mass whose weight is the load.
+    pub found: Floating,
     /// Whether the film carries less at a greater gap.
     pub stable: bool,
-    /// By how much the load that the film carries falls with the mean gap: stiffness against slow motion.
-    pub stiffness_n_per_m: Option<f64>,
-    /// Estimated numerical error of `stiffness_n_per_m`, absolute.
-    pub stiffness_error_n_per_m: Option<f64>,
-    /// Natural frequency of a mass whose weight is the load on that stiffness; null if it is not stable.
-    pub natural_frequency_hz: Option<f64>,
-    /// Estimated numerical error of `natural_frequency_hz`, absolute.
-    pub natural_frequency_error_hz: Option<f64>,
     /// Damping of slow motion at this gap, by Reynolds: of a film that is not compressed.
-    pub damping_n_s_per_m: f64,
-    /// That damping over the one at which the mass no longer swings; null if it is not stable.
-    pub damping_ratio: Option<f64>,
-    /// Mean gap at which trapped gas that does not slip would carry it: (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²).
+    pub damping: f64,
+    /// Mean gap \[µm\] at which trapped gas that does not slip would carry it: (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²).
     pub trapped_mean_gap_um: f64,
     /// The same for a small load, a √(1.25 p_a A/F).
     pub small_load_mean_gap_um: f64,
 }
 
 impl FloatingObject {
-    fn new(plate: &Plate, load: f64, floating: &Floating) -> Self {
-        let known = |value: f64| Some(value).filter(|value| value.is_finite());
-        let stable = floating.stiffness.value > floating.stiffness.error;
-        let damping = slow_damping(plate);
+    fn new(plate: &Plate, load: f64, found: Floating) -> Self {
         Self {
-            load_n: load,
-            mean_gap_um: known(floating.mean_gap.value * 1e6),
-            mean_gap_error_um: known(floating.mean_gap.error * 1e6),
-            stable,
-            stiffness_n_per_m: known(floating.stiffness.value),
-            stiffness_error_n_per_m: known(floating.stiffness.error),
-            natural_frequency_hz: known(floating.natural_frequency.value).filter(|_| stable),
-            natural_frequency_error_hz: known(floating.natural_frequency.error).filter(|_| stable),
-            damping_n_s_per_m: damping,
-            damping_ratio: known(floating.damping_ratio(damping)).filter(|_| stable),
+            load,
+            found,
+            stable: found.stiffness.value > found.stiffness.error,
+            damping: slow_damping(plate),
             trapped_mean_gap_um: plate.trapped_gap(load) * 1e6,
             small_load_mean_gap_um: plate.amplitude * (1.25 / PlateResult::ratio(load, plate)).sqrt() * 1e6,
         }
     }
+
+    /// Mean gap \[µm\].
+    pub fn mean_gap_um(&self) -> Estimate {
+        Estimate { value: self.found.mean_gap.value * 1e6, error: self.found.mean_gap.error * 1e6 }
+    }
+
+    /// Natural frequency \[Hz\]; `None` if it is not stable.
+    pub fn natural_frequency(&self) -> Option<Estimate> {
+        self.stable.then_some(self.found.natural_frequency)
+    }
+
+    /// The damping over the one at which the mass no longer swings; `None` if it is not stable.
+    pub fn damping_ratio(&self) -> Option<f64> {
+        self.stable.then(|| self.found.damping_ratio(self.damping)).filter(|ratio| ratio.is_finite())
+    }
+}
+
+impl Serialize for FloatingObject {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("load_n", &self.load)?;
+        estimates::add(&mut map, "mean_gap", "_um", Some(self.mean_gap_um()))?;
+        map.serialize_entry("stable", &self.stable)?;
+        estimates::add(&mut map, "stiffness", "_n_per_m", Some(self.found.stiffness))?;
+        estimates::add(&mut map, "natural_frequency", "_hz", self.natural_frequency())?;
+        map.serialize_entry("damping_n_s_per_m", &self.damping)?;
+        map.serialize_entry("damping_ratio", &self.damping_ratio())?;
+        map.serialize_entry("trapped_mean_gap_um", &self.trapped_mean_gap_um)?;
+        map.serialize_entry("small_load_mean_gap_um", &self.small_load_mean_gap_um)?;
+        map.end()
+    }
 }
 
 /// What the solve cost.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct StatsObject {
     /// Wall time of the solve alone \[s\].
     pub wall_s: Option<f64>,
@@ -189,7 +205,7 @@ pub struct StatsObject {
 }
 
 /// What was modelled.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct ModelObject {
     /// `draft`, `standard`, …
     pub fidelity: String,
@@ -205,22 +221,6 @@ pub struct ModelObject {
     pub why: Vec<String>,
 }
 
-/// Collects numbers, and the names of those that are not finite.
-#[derive(Default)]
-struct Numbers {
-    unknown: Vec<&'static str>,
-}
-
-impl Numbers {
-    fn take(&mut self, name: &'static str, value: f64) -> Option<f64> {
-        if value.is_finite() {
-            return Some(value);
-        }
-        self.unknown.push(name);
-        None
-    }
-}
-
 impl Summary {
     /// Adds torque over speed, or the warning that it is not known.
     pub fn add_torque(&mut self, found: Result<Option<TorqueCurves>, MotorError>) {
@@ -233,106 +233,69 @@ impl Summary {
     /// The object of a solution. `wall_s`: how long the solve took, by the caller's clock. `command`: the words of the
     /// command line, kept as they are.
     pub fn new(problem: &Problem, solution: &Solution, wall_s: f64, command: &[String]) -> Self {
-        let mut numbers = Numbers::default();
         let problem = &*settled(problem, &solution.outcome);
-        let groups = Dimensionless::of(problem);
         let mut summary = Self {
-            schema: SCHEMA,
             preset: problem.name.clone(),
             converged: solution.status == Status::Converged,
             status: status_name(&solution.status),
             force_unit: force_unit(problem),
-            squeeze_number: numbers.take("squeeze_number", groups.squeeze_number),
-            bearing_number: numbers.take("bearing_number", groups.bearing_number),
-            knudsen_number: numbers.take("knudsen_number", groups.knudsen_number),
+            numbers: Numbers::of(problem, solution),
             accuracy_asked: (solution.accuracy.asked > 0.0).then_some(solution.accuracy.asked),
-            accuracy_stated: numbers.take("accuracy_stated", solution.accuracy.stated),
+            accuracy_stated: finite(solution.accuracy.stated),
             stopped_by: solution.accuracy.stopped_by.name(),
-            stats: StatsObject { wall_s: numbers.take("stats.wall_s", wall_s), counted: solution.stats },
+            stats: StatsObject { wall_s: finite(wall_s), counted: solution.stats },
             model: ModelObject::new(&solution.model),
             validity: validity::outside(problem, Some(solution)),
-            version: env!("CARGO_PKG_VERSION"),
+            warnings: solution.warnings.clone(),
             command: command.to_vec(),
             ..Self::default()
         };
-        if let Status::NotConverged { residual, tolerance } = solution.status {
-            summary.residual = numbers.take("residual", residual);
-            summary.tolerance = numbers.take("tolerance", tolerance);
+        match &problem.scenario {
+            Scenario::Motor(motor) => {
+                summary.scene = "motor";
+                summary.dry_torque_nm = finite(motor.friction_torque(motor.load));
+            }
+            Scenario::Plate(_) => summary.scene = "plate",
         }
         match (&problem.scenario, &solution.outcome) {
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
-                summary.fill_plate(plate, result, &mut numbers);
                 let film_load = Estimate { value: result.film_load, error: result.film_load_error };
                 summary.exact = Some(Comparison::of(plate, film_load, &solution.recording));
+                summary.floating =
+                    plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
             }
-            (Scenario::Motor(motor), Outcome::Motor(result)) => {
-                summary.fill_motor(motor, result, &mut numbers);
-                if let Some(Performance { stall_torque, .. }) = &solution.performance {
-                    summary.stall_torque_nm = numbers.take("stall_torque_nm", stall_torque.value);
-                    // Of a recording on one mesh there is no estimate.
-                    summary.stall_torque_error_nm = stall_torque.error.is_finite().then_some(stall_torque.error);
-                }
-            }
-            // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
-            (Scenario::Plate(_), Outcome::Motor(_)) => summary.scene = "plate",
-            (Scenario::Motor(_), Outcome::Plate(_)) => summary.scene = "motor",
+            (Scenario::Motor(_), Outcome::Motor(result)) => summary.levitated = Some(result.levitated),
+            _ => {}
         }
-        summary.warnings = solution.warnings.clone();
-        if summary.stall_torque_nm.is_some() && summary.stall_torque_error_nm.is_none() {
-            summary.warnings.push(NO_TORQUE_ERROR.to_owned());
-        }
-        if !numbers.unknown.is_empty() {
-            summary.warnings.push(format!("not known, hence null: {}", numbers.unknown.join(", ")));
-        }
+        summary.tell_unknown(problem, solution);
         summary
     }
 
-    fn fill_motor(&mut self, motor: &Motor, result: &MotorResult, numbers: &mut Numbers) {
-        self.scene = "motor";
-        self.alpha = numbers.take("alpha", result.alpha);
-        self.alpha_error = numbers.take("alpha_error", result.alpha_error);
-        self.film_load_n = numbers.take("film_load_n", result.film_load);
-        self.film_load_error_n = numbers.take("film_load_error_n", result.alpha_error * motor.load);
-        self.film_load_min_n = numbers.take("film_load_min_n", result.film_load_min);
-        self.film_load_max_n = numbers.take("film_load_max_n", result.film_load_max);
-        self.fill_range(result.film_load_range_error, result.max_pressure_error, numbers);
-        self.teeth_in_contact_error = numbers.take("teeth_in_contact_error", result.teeth_in_contact_error);
-        self.min_gap_error_nm = numbers.take("min_gap_error_nm", result.min_gap_error * 1e9);
-        self.contact_load_n = numbers.take("contact_load_n", result.contact_load);
-        self.max_torque_nm = numbers.take("max_torque_nm", result.max_torque);
-        self.dry_torque_nm = numbers.take("dry_torque_nm", motor.friction_torque(motor.load));
-        self.teeth_in_contact = numbers.take("teeth_in_contact", result.teeth_in_contact);
-        self.levitated = Some(result.levitated);
-        self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
-        self.max_pressure_kpa = numbers.take("max_pressure_kpa", result.max_pressure * 1e-3);
-    }
-
-    fn fill_plate(&mut self, plate: &Plate, result: &PlateResult, numbers: &mut Numbers) {
-        self.scene = "plate";
-        self.film_load_n = numbers.take("film_load_n", result.film_load);
-        self.film_load_error_n = numbers.take("film_load_error_n", result.film_load_error);
-        self.film_load_min_n = numbers.take("film_load_min_n", result.film_load_min);
-        self.film_load_max_n = numbers.take("film_load_max_n", result.film_load_max);
-        self.min_gap_nm = numbers.take("min_gap_nm", result.min_gap * 1e9);
-        self.max_pressure_kpa = numbers.take("max_pressure_kpa", result.max_pressure * 1e-3);
-        self.fill_range(result.film_load_range_error, result.max_pressure_error, numbers);
-        if let Some((load, floating)) = plate.load.zip(result.floating) {
-            self.min_gap_error_nm = numbers.take("min_gap_error_nm", floating.mean_gap.error * 1e9);
-            self.floating = Some(FloatingObject::new(plate, load, &floating));
+    /// Warns of numbers that the scene has and that are not known.
+    fn tell_unknown(&mut self, problem: &Problem, solution: &Solution) {
+        let known = |quantity: Quantity| self.numbers.get(quantity).is_some();
+        if known(Quantity::StallTorque) && !known(Quantity::StallTorqueError) {
+            self.warnings.push(NO_TORQUE_ERROR.to_owned());
         }
-        let mut ratio = |name, load| numbers.take(name, PlateResult::ratio(load, plate));
-        self.mean_load_ratio = ratio("mean_load_ratio", result.film_load);
-        self.mean_load_ratio_error = ratio("mean_load_ratio_error", result.film_load_error);
-        self.load_ratio_min = ratio("load_ratio_min", result.film_load_min);
-        self.load_ratio_max = ratio("load_ratio_max", result.film_load_max);
-        self.load_ratio_min_error = ratio("load_ratio_min_error", result.film_load_range_error[0]);
-        self.load_ratio_max_error = ratio("load_ratio_max_error", result.film_load_range_error[1]);
-    }
-
-    fn fill_range(&mut self, [least, most]: [f64; 2], pressure: f64, numbers: &mut Numbers) {
-        self.film_load_min_error_n = numbers.take("film_load_min_error_n", least);
-        self.film_load_max_error_n = numbers.take("film_load_max_error_n", most);
-        self.max_pressure_error_kpa = numbers.take("max_pressure_error_kpa", pressure * 1e-3);
+        let own: Vec<Quantity> = Quantity::of(problem).collect();
+        let expected = |quantity: &Quantity| match quantity {
+            Quantity::Residual | Quantity::Tolerance => matches!(solution.status, Status::NotConverged { .. }),
+            Quantity::StallTorque => solution.performance.is_some(),
+            Quantity::StallTorqueError => false,
+            other => own.contains(other),
+        };
+        let results = [Quantity::Residual, Quantity::Tolerance].into_iter().chain(RESULTS);
+        let unknown = results.filter(|quantity| expected(quantity) && !known(*quantity)).map(Quantity::name);
+        let accuracy = self.accuracy_stated.is_none().then_some("accuracy_stated");
+        let time = self.stats.wall_s.is_none().then_some("stats.wall_s");
+        let unknown: Vec<&str> = accuracy.into_iter().chain(time).chain(unknown).collect();
+        if !unknown.is_empty() {
+            self.warnings.push(format!("not known, hence null: {}", unknown.join(", ")));
+        }
+        // The gap of a plate that does not float is given: no error is written of it.
+        if self.scene == "plate" && self.floating.is_none() {
+            self.numbers.set(Quantity::MinGapError, f64::NAN);
+        }
     }
 
     /// As text, indented, with a line break at the end.
@@ -344,7 +307,7 @@ impl Summary {
 /// An object of `--json` as text, between what all of them have: the version of the format first, the program's version and the
 /// command line (word by word; empty if there was none) last.
 pub fn document(object: &impl Serialize, command: &[String]) -> String {
-    #[derive(Serialize)]
+    #[derive(serde::Serialize)]
     struct Document<'a, T> {
         schema: u32,
         #[serde(flatten)]
@@ -375,6 +338,11 @@ pub fn status_name(status: &Status) -> &'static str {
         Status::NotResolved { .. } => "not resolved",
         Status::Cancelled => "cancelled",
     }
+}
+
+/// A status, or that of a run in files, as it is marked beside numbers: in capitals; empty where all is well.
+pub fn mark(status: &str) -> String {
+    if status == status_name(&Status::Converged) { String::new() } else { status.to_uppercase() }
 }
 
 impl ModelObject {
@@ -411,7 +379,7 @@ mod tests {
         let Outcome::Plate(result) = &mut solution.outcome else { panic!("a plate") };
         result.film_load_error = f64::INFINITY;
         let summary = Summary::new(&problem, &solution, f64::NAN, &[]);
-        assert_eq!((summary.film_load_error_n, summary.stats.wall_s), (None, None));
+        assert_eq!((summary.numbers.get(Quantity::FilmLoadError), summary.stats.wall_s), (None, None));
         let warning = summary.warnings.last().unwrap();
         for name in ["stats.wall_s", "film_load_error_n", "mean_load_ratio_error"] {
             assert!(warning.contains(name), "{warning}");

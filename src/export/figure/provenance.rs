@@ -1,7 +1,7 @@
 //! Where the numbers of a figure come from.
 
 use crate::digits::with_error;
-use crate::export::json::{force_unit, status_name};
+use crate::export::json::{force_unit, mark, status_name};
 use crate::problem::Problem;
 use crate::solution::{Outcome, Solution};
 use serde::{Deserialize, Serialize};
@@ -37,11 +37,10 @@ impl Provenance {
                 format!("film load {} {unit}", with_error(result.film_load, result.film_load_error))
             }
         };
-        let status = status_name(&solution.status);
         Self {
             fidelity: solution.model.fidelity.clone(),
             error,
-            note: if status == "converged" { String::new() } else { status.to_uppercase() },
+            note: mark(status_name(&solution.status)),
             ..Self::named(&crate::scene::show_text(&problem.name))
         }
     }
