@@ -3,12 +3,13 @@
 
 use roxmltree::{Document, Node};
 use squeezefilm::control::Cancel;
-use squeezefilm::export::animation::{self, AnimationError, Movie};
+use squeezefilm::export::animation::{self, Movie};
 use squeezefilm::export::figure::{
     self, Axis, Band, Categories, Colour, Contours, Figure, FigureError, Grid, Layer, Line, Map, Mark, Marker, Panel,
     Points, Provenance, Range, Shading, Shape, Style, Text, Width,
 };
 use squeezefilm::export::figures;
+use squeezefilm::export::files::ExportError;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets;
@@ -532,7 +533,7 @@ fn an_mp4_of_one_frame_lasts_as_long_and_one_cancelled_half_way_leaves_nothing()
     assert!(track.samples.iter().all(|sample| sample.is_sync));
     let cancel = Cancel::new();
     let again = moving_dot(3).write(&path, &|| cancel.cancel(), &cancel);
-    assert!(matches!(again, Err(AnimationError::Cancelled)));
+    assert!(matches!(again, Err(ExportError::Cancelled)));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     assert_eq!(re_mp4::Mp4::read_bytes(&fs::read(&path).unwrap()).unwrap().tracks().len(), 1, "the older one is left");
 }
@@ -564,15 +565,15 @@ fn a_cancelled_animation_leaves_nothing() {
     cancel.cancel();
     for name in ["a.gif", "a.png", "a.mp4", "frames"] {
         let error = movie.write(&folder.path().join(name), &|| (), &cancel).unwrap_err();
-        assert!(matches!(error, AnimationError::Cancelled), "{name}: {error}");
+        assert!(matches!(error, ExportError::Cancelled), "{name}: {error}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let options = animation::Options::default();
     let drawn = Movie::of(3, &options, &|_| Figure::default(), &|| (), &cancel);
-    assert!(matches!(drawn, Err(AnimationError::Cancelled)));
-    assert!(matches!(movie.write(Path::new("a.avi"), &|| (), &cancel), Err(AnimationError::Extension { .. })));
+    assert!(matches!(drawn, Err(ExportError::Cancelled)));
+    assert!(matches!(movie.write(Path::new("a.avi"), &|| (), &cancel), Err(ExportError::Extension { .. })));
     assert!(matches!(
         Movie::of(0, &options, &|_| Figure::default(), &|| (), &Cancel::new()),
-        Err(AnimationError::NoCycle)
+        Err(ExportError::NoCycle)
     ));
 }

@@ -6,7 +6,6 @@ use crate::analysis::fit::FitError;
 use crate::analysis::sensitivity::SensitivityError;
 use crate::analysis::sweep::SweepError;
 use crate::atomic::WriteError;
-use crate::export::animation::AnimationError;
 use crate::export::figure::FigureError;
 use crate::export::files::ExportError;
 use crate::export::saved::{self, JoinError};
@@ -127,9 +126,6 @@ pub(super) enum CliError {
     /// What `--out` writes.
     #[error(transparent)]
     Export(#[from] ExportError),
-    /// An animation.
-    #[error(transparent)]
-    Animation(#[from] AnimationError),
     /// `--threads`.
     #[error("--threads {threads}: the threads cannot be started: {reason}")]
     Threads {
@@ -201,7 +197,7 @@ impl CliError {
             | Self::Usage(_)
             | Self::Input(_)
             | Self::Figure(FigureError::Extension { .. })
-            | Self::Animation(AnimationError::Extension { .. }) => Exit::BadInput,
+            | Self::Export(ExportError::Extension { .. }) => Exit::BadInput,
             #[cfg(feature = "gui")]
             Self::Link(_) => Exit::BadInput,
             #[cfg(feature = "gui")]
@@ -209,7 +205,6 @@ impl CliError {
             Self::Solve(_)
             | Self::Write(_)
             | Self::Figure(_)
-            | Self::Animation(_)
             | Self::Export(_)
             | Self::Threads { .. }
             | Self::Thread(_)

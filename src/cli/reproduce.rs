@@ -12,7 +12,8 @@ use crate::analysis::reproduce::{Reproduction, number_of_solves, reproduce};
 use crate::atomic::{Staged, WriteError, check_writable};
 use crate::control::Cancel;
 use crate::digits::{duration, with_error};
-use crate::export::animation::{AnimationError, Options, cycle, frames};
+use crate::export::animation::{Options, cycle, frames};
+use crate::export::files::ExportError;
 use crate::export::reproduce::{Object, RowObject, figures, report};
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
@@ -98,7 +99,7 @@ fn write(
         let options = Options { width: 860, ..Options::default() };
         let bar = Bar::frames(frames(&solution.recording, options.frames));
         let movie = match cycle(&both.problem, solution, &options, &|| bar.row_done(""), cancel) {
-            Err(AnimationError::Cancelled) => return Ok(None),
+            Err(ExportError::Cancelled) => return Ok(None),
             movie => movie?,
         };
         let mut bytes = Vec::new();

@@ -9,7 +9,7 @@ use crate::atomic::Staged;
 use crate::digits::significant;
 use crate::export::figures::surface::figure;
 use crate::export::json;
-use crate::export::surface::{Face, Object, preset};
+use crate::export::surface::{Face, FlowFactors, Object, preset};
 use crate::input::read_text;
 use crate::scene::heights::LARGEST;
 use crate::surface::height_map::HeightMap;
@@ -126,13 +126,12 @@ fn text(object: &Object) -> String {
         "",
     ));
     let mut factors = Columns::new();
-    factors.row(
-        ["h/σ".to_owned()].into_iter().chain(object.flow_factors.iter().map(|at| significant(at.gap_over_rms, 2))),
-    );
-    factors
-        .row(["φ along x".to_owned()].into_iter().chain(object.flow_factors.iter().map(|at| significant(at.along, 3))));
-    factors.row(
-        ["φ along y".to_owned()].into_iter().chain(object.flow_factors.iter().map(|at| significant(at.across, 3))),
-    );
+    let mut row = |name: &str, digits: usize, value: fn(&FlowFactors) -> f64| {
+        let values = object.flow_factors.iter().map(|at| significant(value(at), digits));
+        factors.row([name.to_owned()].into_iter().chain(values));
+    };
+    row("h/σ", 2, |at| at.gap_over_rms);
+    row("φ along x", 3, |at| at.along);
+    row("φ along y", 3, |at| at.across);
     text + &factors.text("  ", &[1, 2, 3, 4]) + "\n" + &object.preset
 }

@@ -6,7 +6,8 @@
 //! alone; since players do not repeat by themselves, it has the cycle several times. Each of the three says where its
 //! numbers come from, as a comment.
 
-use super::figure::{Figure, FigureError, Pixels, Provenance, pixels, png_bytes};
+use super::error::ExportError;
+use super::figure::{Figure, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
 use super::film::Film;
 pub use super::film::LONG_ENOUGH;
@@ -52,35 +53,6 @@ pub struct Movie {
     frames: Vec<Vec<u8>>,
 }
 
-/// An animation that cannot be made or written.
-#[derive(Debug, thiserror::Error)]
-pub enum AnimationError {
-    /// The caller cancelled; no file was written.
-    #[error("cancelled; no file was written")]
-    Cancelled,
-    /// The extension is none of those known.
-    #[error("{}: animations are written as .gif, as .mp4, as .png (animated), or into a folder, whose name has no extension", path.display())]
-    Extension {
-        /// The path asked for.
-        path: PathBuf,
-    },
-    /// The solve has no fields of a cycle.
-    #[error("there is no cycle to animate")]
-    NoCycle,
-    /// Frames differ in size.
-    #[error("frame {frame} has another size than the first")]
-    Size {
-        /// Which frame, from 0.
-        frame: usize,
-    },
-    /// A frame cannot be drawn.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// The file cannot be written.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-}
-
 /// The format of an animation, by its path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -96,7 +68,7 @@ pub enum Format {
 
 impl Format {
     /// The format of a path: `.gif`, `.png`, `.apng`, `.mp4`, or without extension a folder.
-    pub fn of(path: &Path) -> Result<Self, AnimationError> {
+    pub fn of(path: &Path) -> Result<Self, ExportError> {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("gif") => Ok(Self::Gif),
@@ -104,7 +76,7 @@ impl Format {
             Some("mp4") => Ok(Self::Mp4),
             None => Ok(Self::Folder),
             Some(_) if path.is_dir() => Ok(Self::Folder),
-            Some(_) => Err(AnimationError::Extension { path: path.to_owned() }),
+            Some(_) => Err(ExportError::Extension { path: path.to_owned() }),
         }
     }
 }
@@ -112,14 +84,14 @@ impl Format {
 /// Draws the cycle of a solve. `done` is called after each frame, from several threads.
 ///
 /// # Errors
-/// [`AnimationError`]: cancelled, no cycle, or a frame that cannot be drawn.
+/// [`ExportError`]: cancelled, no cycle, or a frame that cannot be drawn.
 pub fn cycle(
     problem: &Problem,
     solution: &Solution,
     options: &Options,
     done: &(dyn Fn() + Sync),
     cancel: &Cancel,
-) -> Result<Movie, AnimationError> {
+) -> Result<Movie, ExportError> {
     let recording = &solution.recording;
     let count = frames(recording, options.frames);
     Movie::of(count, options, &figure_of(problem, solution, recording, options), done, cancel)
@@ -129,7 +101,7 @@ pub fn cycle(
 /// steps, between them. Each frame is drawn when it is encoded, and `done` called after it.
 ///
 /// # Errors
-/// [`AnimationError`]; then no file is left, and an older one of that name is as it was.
+/// [`ExportError`]; then no file is left, and an older one of that name is as it was.
 pub fn write_video(
     path: &Path,
     problem: &Problem,
@@ -137,14 +109,14 @@ pub fn write_video(
     options: &Options,
     done: &dyn Fn(),
     cancel: &Cancel,
-) -> Result<(), AnimationError> {
+) -> Result<(), ExportError> {
     let count = video_frames(&solution.recording, options);
     let mut recording = Cow::Borrowed(&solution.recording);
     if count != frames(&recording, options.frames) {
         recording = Cow::Owned(recording.resampled(count));
     }
     if count == 0 {
-        return Err(AnimationError::NoCycle);
+        return Err(ExportError::NoCycle);
     }
     let options = Options { frames: count, ..*options };
     let figure = figure_of(problem, solution, &recording, &options);
@@ -196,8 +168,8 @@ fn on_screen(seconds: f64) -> f64 {
 }
 
 /// Why a file was not written.
-fn stopped(error: WriteError, cancel: &Cancel) -> AnimationError {
-    if cancel.is_cancelled() { AnimationError::Cancelled } else { error.into() }
+fn stopped(error: WriteError, cancel: &Cancel) -> ExportError {
+    if cancel.is_cancelled() { ExportError::Cancelled } else { error.into() }
 }
 
 /// How many frames an animation of at most `most` has: every second, third, … time step, if that leaves nearly so many.
@@ -232,20 +204,20 @@ impl Movie {
     /// Draws `count` frames that `figure` describes. `done` is called after each, from several threads.
     ///
     /// # Errors
-    /// [`AnimationError`]: cancelled, no frames, frames of several sizes, or one that cannot be drawn.
+    /// [`ExportError`]: cancelled, no frames, frames of several sizes, or one that cannot be drawn.
     pub fn of(
         count: usize,
         options: &Options,
         figure: &(dyn Fn(usize) -> Figure + Sync),
         done: &(dyn Fn() + Sync),
         cancel: &Cancel,
-    ) -> Result<Self, AnimationError> {
+    ) -> Result<Self, ExportError> {
         if count == 0 {
-            return Err(AnimationError::NoCycle);
+            return Err(ExportError::NoCycle);
         }
         let draw = |frame: usize| {
             if cancel.is_cancelled() {
-                return Err(AnimationError::Cancelled);
+                return Err(ExportError::Cancelled);
             }
             let figure = figure(frame);
             let scale = f64::from(options.width.max(1)) / figure.width.points();
@@ -256,7 +228,7 @@ impl Movie {
         let drawn = (0..count).into_par_iter().map(draw).collect::<Result<Vec<Pixels>, _>>()?;
         let (width, height) = (drawn[0].width, drawn[0].height);
         if let Some(frame) = drawn.iter().position(|pixels| (pixels.width, pixels.height) != (width, height)) {
-            return Err(AnimationError::Size { frame });
+            return Err(ExportError::Size { frame });
         }
         let seconds = on_screen(options.seconds);
         let source = figure(0).provenance.line();
@@ -277,8 +249,8 @@ impl Movie {
     /// `done` is called after each frame that is encoded.
     ///
     /// # Errors
-    /// [`AnimationError`]; then no file is left, and an older one of that name is as it was.
-    pub fn write(&self, path: &Path, done: &dyn Fn(), cancel: &Cancel) -> Result<Vec<PathBuf>, AnimationError> {
+    /// [`ExportError`]; then no file is left, and an older one of that name is as it was.
+    pub fn write(&self, path: &Path, done: &dyn Fn(), cancel: &Cancel) -> Result<Vec<PathBuf>, ExportError> {
         let stopped = |error| stopped(error, cancel);
         match Format::of(path)? {
             Format::Gif => write_file(path, |out| self.gif(out, cancel)).map_err(stopped)?,

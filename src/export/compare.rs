@@ -2,8 +2,9 @@
 //!
 //! Numbers are written with the fewest digits that read back to the same bits.
 
-use super::animation::{AnimationError, Movie, Options};
+use super::animation::{Movie, Options};
 use super::csv::{number, words as csv_words};
+use super::error::ExportError;
 use super::estimates;
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
@@ -225,13 +226,13 @@ pub fn all_figures(runs: &[ComparedRun]) -> Vec<(String, Figure)> {
 /// `done` is called after each frame, from several threads.
 ///
 /// # Errors
-/// [`AnimationError`]: cancelled, or a frame that cannot be drawn.
+/// [`ExportError`]: cancelled, or a frame that cannot be drawn.
 pub fn movies(
     runs: &[ComparedRun],
     options: &Options,
     done: &(dyn Fn() + Sync),
     cancel: &Cancel,
-) -> Result<Vec<(&'static str, Movie)>, AnimationError> {
+) -> Result<Vec<(&'static str, Movie)>, ExportError> {
     let (motors, plates) = motors_and_plates(runs);
     let provenance = provenance(runs);
     let movie = |recordings: Vec<&Recording>, draw: &(dyn Fn(f64) -> Figure + Sync)| {

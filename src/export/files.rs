@@ -1,8 +1,9 @@
 //! The files that a command writes for its results: what `--out` names, and what the window exports. Every file appears
 //! under its name only when all of them are complete; whoever cancels leaves nothing behind.
 
-use super::animation::{AnimationError, Movie, Options, cycle, frames, video_frames, write_video};
+use super::animation::{Movie, Options, cycle, frames, video_frames, write_video};
 use super::compare::{self, all_figures, movies, report};
+pub use super::error::ExportError;
 use super::figure::{Figure, FigureError, Format, Pixels, png_bytes, to_bytes};
 use super::json::{self, Summary};
 use super::{csv, figures, fit, npz, sensitivity, sweep, torque, vtk};
@@ -20,34 +21,6 @@ use crate::solve::Settings;
 use rayon::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
-
-/// Results that were not written.
-#[derive(Debug, thiserror::Error)]
-pub enum ExportError {
-    /// The caller cancelled; no file was written.
-    #[error("cancelled; no file was written")]
-    Cancelled,
-    /// A folder or a file.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// A figure.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// An animation.
-    #[error(transparent)]
-    Animation(AnimationError),
-}
-
-impl From<AnimationError> for ExportError {
-    fn from(error: AnimationError) -> Self {
-        match error {
-            AnimationError::Cancelled => Self::Cancelled,
-            AnimationError::Write(error) => Self::Write(error),
-            AnimationError::Figure(error) => Self::Figure(error),
-            other => Self::Animation(other),
-        }
-    }
-}
 
 /// How far an export is, and whether it is to go on.
 #[derive(Clone, Copy)]

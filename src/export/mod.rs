@@ -3,6 +3,7 @@
 pub mod animation;
 pub mod compare;
 pub mod csv;
+mod error;
 mod estimates;
 pub mod exact;
 pub mod fall;

@@ -280,20 +280,19 @@ fn curve_panel(sweep: &Sweep, rows: &[Row], x: &SweepAxis, quantity: Quantity) -
         .filter(|row| !sound(row))
         .filter_map(|row| Some([row.values[0], row.numbers.get(quantity)?]))
         .collect();
-    if !unsound.is_empty() {
-        panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
-    }
+    panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let value = |point: &Published| match quantity {
         Quantity::Alpha => Some(point.alpha),
         Quantity::FilmLoad => Some(point.film_load),
         _ => None,
     };
     let published: Vec<[f64; 2]> = within(sweep).filter_map(|point| Some([point.values[0], value(&point)?])).collect();
-    if !published.is_empty() {
-        let marker = Marker::hollow(Shape::Square);
-        panel = panel.layer(Points::new("published (Table I)", published, Colour::BLACK, marker));
-    }
-    panel
+    with_points(panel, "published (Table I)", published, Colour::BLACK, Marker::hollow(Shape::Square))
+}
+
+/// With points of this name, if there are any.
+fn with_points(panel: Panel, name: &str, points: Vec<[f64; 2]>, colour: Colour, marker: Marker) -> Panel {
+    if points.is_empty() { panel } else { panel.layer(Points::new(name, points, colour, marker)) }
 }
 
 /// Published points inside the range that is swept.
@@ -334,16 +333,10 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
         let error = typical_error(rows, quantity);
         panel = panel.layer(Contours { grid, error, labels: true, ..Contours::default() });
     }
-    if !unsound.is_empty() {
-        panel = panel.layer(Points::new("not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross)));
-    }
+    panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();
     let published: Vec<[f64; 2]> = within(sweep).filter_map(here).collect();
-    if !published.is_empty() {
-        let marker = Marker::hollow(Shape::Square);
-        panel = panel.layer(Points::new("rows of Table I", published, Colour::BLACK, marker));
-    }
-    panel
+    with_points(panel, "rows of Table I", published, Colour::BLACK, Marker::hollow(Shape::Square))
 }
 
 #[cfg(test)]

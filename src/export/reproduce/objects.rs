@@ -1,8 +1,8 @@
 //! The numbers of the paper's tables and figures as JSON and CSV.
 
-use super::super::estimates::finite;
 use super::statements::{Statement, statements};
 use crate::analysis::reproduce::{Both, Reproduction, Row};
+use crate::export::estimates::finite;
 use serde::Serialize;
 
 /// A row of Table I. What was not computed is null.
