@@ -41,6 +41,9 @@ pub enum StoppedBy {
 }
 
 impl StoppedBy {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Accuracy, Self::Budget, Self::Limit];
+
     /// Its name in results.
     pub fn name(self) -> &'static str {
         match self {

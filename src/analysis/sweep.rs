@@ -24,7 +24,7 @@ use crate::control::Cancel;
 use crate::motor::Warm;
 use crate::problem::Problem;
 use crate::scene::{Scene, SceneError};
-use crate::solution::Status;
+use crate::solution::{Status, StoppedBy};
 use crate::solve::{Method, Record, Settings, check};
 use fnv::FnvHasher;
 use rayon::prelude::*;
@@ -42,6 +42,9 @@ pub struct Row {
     pub values: Vec<f64>,
     /// How it ended.
     pub status: RunStatus,
+    /// Why no finer grid was solved; `None` if it failed.
+    #[serde(default)]
+    pub stopped_by: Option<StoppedBy>,
     /// The numbers; none if it failed.
     pub numbers: Numbers,
     /// Names of the limits of the model that it exceeds; none if it failed.
@@ -280,6 +283,7 @@ impl Sweep {
                 point,
                 values: self.values(point),
                 status: RunStatus::Waiting,
+                stopped_by: None,
                 numbers: Numbers::default(),
                 outside: Vec::new(),
             };
@@ -291,6 +295,7 @@ impl Sweep {
                 Ok((_, solution)) if solution.status == Status::Cancelled => break,
                 Ok((problem, solution)) => {
                     row.status = solution.status.into();
+                    row.stopped_by = Some(solution.accuracy.stopped_by);
                     row.numbers = Numbers::of(&problem, &solution);
                     row.outside = validity::names(&validity::outside(&problem, Some(&solution)));
                 }

@@ -10,7 +10,7 @@ use crate::analysis::compare::{ComparedRun, results, runs};
 use crate::analysis::decision::effort;
 use crate::digits::duration;
 use crate::export::animation::Options;
-use crate::export::compare::{LIMITS, Object, difference_text, frames, parameter_rows, status, value_text};
+use crate::export::compare::{LIMITS, Object, difference_text, frames, mark, parameter_rows, value_text};
 use crate::export::files::{self, Control, ExportError};
 use crate::export::json;
 use crate::scene::{Scene, Value};
@@ -115,7 +115,7 @@ fn text(runs: &[ComparedRun], settings: &Settings, budget: Option<Duration>, all
     text.push('\n');
     let mut columns = Columns::new();
     for (i, run) in runs.iter().enumerate() {
-        columns.row([letter(i), run.label.clone(), json::mark(&status(run))]);
+        columns.row([letter(i), run.label.clone(), mark(run)]);
     }
     text.push_str(&columns.text("  ", &[]));
 

@@ -12,11 +12,12 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
 use crate::digits::{duration, stated};
-use crate::export::compare::LIMITS;
+use crate::export::compare::{LIMITS, TIME_UP};
 use crate::export::saved::{self, ReadError};
 use crate::export::sweep::Object;
 use crate::export::{files, json};
 use crate::scene::show_text;
+use crate::solution::StoppedBy;
 use clap::Args;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -270,6 +271,7 @@ fn text(sweep: &Sweep, rows: &[Row], budget: Option<Duration>) -> String {
         cells.push(row.outside.join(", "));
         cells.push(match &row.status {
             RunStatus::Failed(_) => "FAILED".to_owned(),
+            RunStatus::Converged if row.stopped_by == Some(StoppedBy::Budget) => TIME_UP.to_owned(),
             status => json::mark(&status.to_string()),
         });
         columns.row(cells);
@@ -333,7 +335,8 @@ mod tests {
         numbers.set(Quantity::Alpha, 0.25);
         let row = |point: usize, status: RunStatus| {
             let outside = if point == 2 { vec!["slip-law", "sound"] } else { Vec::new() };
-            Row { point, values: sweep.values(point), status, numbers, outside }
+            let stopped_by = Some(if point == 0 { StoppedBy::Budget } else { StoppedBy::Accuracy });
+            Row { point, values: sweep.values(point), status, stopped_by, numbers, outside }
         };
         let mut rows = vec![row(0, RunStatus::Converged)];
         assert_eq!(Exit::worst(rows.iter().map(|row| Exit::from(&row.status))), Exit::Solved);
@@ -344,6 +347,7 @@ mod tests {
         assert!(!text(&sweep, &rows[..2], None).contains("limits exceeded"));
         let shown = text(&sweep, &rows, None);
         assert!(shown.contains("limits exceeded"), "{shown}");
+        assert!(shown.lines().any(|line| line.contains("100 ") && line.ends_with("  time was up")), "{shown}");
         assert!(shown.lines().any(|line| line.contains("150 ") && line.ends_with("NOT CONVERGED")), "{shown}");
         assert!(
             shown.lines().any(|line| line.contains("200 ") && line.ends_with("slip-law, sound  FAILED")),

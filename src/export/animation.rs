@@ -9,8 +9,8 @@
 use super::error::ExportError;
 use super::figure::{Figure, Pixels, Provenance, pixels, png_bytes};
 use super::figures;
-use super::film::Film;
-pub use super::film::LONG_ENOUGH;
+pub use super::mp4_cycle::LONG_ENOUGH;
+use super::mp4_cycle::Mp4Cycle;
 use crate::atomic::{Staged, WriteError, write_file};
 use crate::control::Cancel;
 use crate::problem::{Problem, Scenario};
@@ -125,10 +125,10 @@ pub fn write_video(
         pixels(&figure, f64::from(options.width.max(1)) / figure.width.points())
     };
     let first = draw(0)?;
-    let film = Film { size: [first.width, first.height], count, seconds: on_screen(options.seconds) };
+    let video = Mp4Cycle { size: [first.width, first.height], count, seconds: on_screen(options.seconds) };
     let picture = |frame: usize| Ok(Cow::Owned(draw(frame).map_err(io::Error::other)?.rgb));
     let source = Provenance::of(problem, solution).line();
-    write_file(path, |out| film.write(&picture, &source, out, done, cancel)).map_err(|error| stopped(error, cancel))
+    write_file(path, |out| video.write(&picture, &source, out, done, cancel)).map_err(|error| stopped(error, cancel))
 }
 
 /// How many frames [`write_video`] writes: if the options ask for fewer than the usual number, as many as [`frames`].
@@ -358,8 +358,8 @@ impl Movie {
     /// # Errors
     /// Those of the encoder and of the writer; an interruption if it was cancelled.
     pub fn mp4(&self, out: &mut dyn Write, done: &dyn Fn(), cancel: &Cancel) -> io::Result<()> {
-        let film = Film { size: [self.width, self.height], count: self.len(), seconds: self.seconds };
-        film.write(&|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)
+        let video = Mp4Cycle { size: [self.width, self.height], count: self.len(), seconds: self.seconds };
+        video.write(&|frame| Ok(Cow::Borrowed(&self.frames[frame])), &self.source, out, done, cancel)
     }
 
     /// Left, top, right and bottom of what differs from the frame before: at least one pixel.

@@ -9,7 +9,7 @@ use super::estimates;
 use super::figure::{Figure, Provenance};
 use super::figures::compare::{self as figures, DrawnRun, MotorRun, PlateRun};
 use super::html::{Kind, Page, Table, shell};
-use super::json::{beside_limit, status_name};
+use super::json::{self, beside_limit, status_name};
 use crate::analysis::compare::{ComparedRun, ParameterRow, ResultCell, ResultRow, parameters, results};
 use crate::analysis::decision::{effort, exactness, sentences};
 use crate::analysis::quantity::{Quantity, force_unit};
@@ -20,6 +20,7 @@ use crate::digits::{significant, stated, with_error};
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene::Value;
+use crate::solution::{Status, StoppedBy};
 use crate::solve::{Method, Settings};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
@@ -31,6 +32,19 @@ pub fn status(run: &ComparedRun) -> String {
         Err(reason) => format!("failed: {reason}"),
     }
 }
+
+/// How a solve ended, if that is to be known at once: it did not converge, or had not the time to become as exact as was asked for.
+pub fn mark(run: &ComparedRun) -> String {
+    match &run.solved {
+        Ok(solution) if solution.status == Status::Converged && solution.accuracy.stopped_by == StoppedBy::Budget => {
+            TIME_UP.to_owned()
+        }
+        _ => json::mark(&status(run)),
+    }
+}
+
+/// Of a result that is less exact than was asked for, since the time allowed for it was up.
+pub const TIME_UP: &str = "time was up";
 
 /// The object of `--json`.
 #[derive(Clone, Debug, serde::Serialize)]

@@ -11,13 +11,12 @@ pub mod fields;
 pub mod figure;
 pub mod figures;
 pub mod files;
-mod film;
 pub mod fit;
 pub mod html;
 pub mod json;
-
 #[cfg(feature = "video")]
 mod mp4;
+mod mp4_cycle;
 pub mod npz;
 pub mod reproduce;
 pub mod saved;
@@ -29,6 +28,4 @@ pub mod sweep;
 pub mod table1;
 pub mod torque;
 pub mod tradeoff;
-#[cfg(feature = "video")]
-mod video;
 pub mod vtk;

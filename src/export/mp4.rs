@@ -4,13 +4,13 @@
 //! ISO/IEC 14496-12 and of the AV1 binding to it; what is known of the pictures is a comment as Apple's programs write it,
 //! which nearly all readers know.
 
-use super::video::Video;
 use shiguredo_mp4::boxes::{
     Av01Box, Av1cBox, Brand, DinfBox, FtypBox, HdlrBox, MdhdBox, MdiaBox, MediaHeader, MinfBox, MoovBox, MvhdBox,
     SampleEntry, StblBox, StcoBox, StscBox, StscEntry, StsdBox, StssBox, StszBox, SttsBox, SttsEntry, TkhdBox, TrakBox,
     UnknownBox, VisualSampleEntryFields, VmhdBox,
 };
 use shiguredo_mp4::{BoxSize, BoxType, Either, Encode, FixedPointNumber, LanguageCode, Mp4FileTime, Uint};
+use squeezefilm_video::Video;
 use std::io::{self, Write};
 use std::num::NonZeroU32;
 

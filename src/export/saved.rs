@@ -4,12 +4,13 @@
 //! with a checksum of each row. Numbers are written with the fewest digits that read back to the same bits, so that a sweep in parts is the
 //! same, byte by byte, as one that is solved at once.
 
-use super::sweep::{BETWEEN, FIRST, VALIDITY, header, record};
+use super::sweep::{BETWEEN, FIRST, STOPPED_BY, VALIDITY, header, record};
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::analysis::sweep::{MOST_POINTS, Part, Row, Sweep, SweepError, Vary, digest};
 use crate::analysis::validity::NAMES;
 use crate::scene::Scene;
+use crate::solution::StoppedBy;
 use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
@@ -143,21 +144,28 @@ fn rows(sweep: &Sweep, fingerprint: &str, points: Range<usize>, text: &str) -> R
                 None => return Err(damaged(line, format!("status = {other}"))),
             },
         };
+        let stopped_by = match field(column + 1) {
+            "" => None,
+            name => {
+                let known = StoppedBy::ALL.into_iter().find(|known| known.name() == name);
+                Some(known.ok_or_else(|| damaged(line, format!("{STOPPED_BY} = {name}")))?)
+            }
+        };
         let mut outside = Vec::new();
-        for name in field(column + 1).split(BETWEEN).filter(|name| !name.is_empty()) {
+        for name in field(column + 2).split(BETWEEN).filter(|name| !name.is_empty()) {
             let known = NAMES.into_iter().find(|known| *known == name);
             outside.push(known.ok_or_else(|| damaged(line, format!("{VALIDITY} = {name}")))?);
         }
         let mut numbers = Numbers::default();
         for (i, quantity) in quantities.iter().enumerate() {
-            let text = field(column + 2 + i);
+            let text = field(column + 3 + i);
             if !text.is_empty() {
                 let value =
                     text.parse().map_err(|_| damaged(line, format!("{} = {text}", Quantity::name(*quantity))))?;
                 numbers.set(*quantity, value);
             }
         }
-        rows.push(Row { point, values: sweep.values(point), status, numbers, outside });
+        rows.push(Row { point, values: sweep.values(point), status, stopped_by, numbers, outside });
     }
     Ok(rows)
 }

@@ -14,6 +14,7 @@ use crate::export::figure::{
     Shading, Shape, Style, Width, extent,
 };
 use crate::scene::{Scale, show_text};
+use crate::solution::StoppedBy;
 use crate::solve::Method;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::io::{self, Write};
@@ -21,6 +22,8 @@ use std::io::{self, Write};
 /// Columns before those of the keys: which sweep, and which of its points.
 pub(super) const FIRST: [&str; 2] = ["sweep", "point"];
 const STATUS: &str = "status";
+/// Why no finer grid was solved: `accuracy`, `budget` or `limit`; nothing where it failed.
+pub(super) const STOPPED_BY: &str = "stopped_by";
 /// Names of the limits of the model that a point exceeds, in a CSV file one after the other with this between them.
 pub(super) const VALIDITY: &str = "validity";
 pub(super) const BETWEEN: &str = ";";
@@ -28,7 +31,7 @@ pub(super) const BETWEEN: &str = ";";
 pub(super) fn header(sweep: &Sweep) -> Vec<String> {
     let mut names = FIRST.map(str::to_owned).to_vec();
     names.extend(sweep.axes().iter().map(|axis| axis.parameter.key.to_owned()));
-    names.extend([STATUS, VALIDITY].map(str::to_owned));
+    names.extend([STATUS, STOPPED_BY, VALIDITY].map(str::to_owned));
     names.extend(sweep.quantities().into_iter().map(|quantity| quantity.column(sweep.problem())));
     names
 }
@@ -41,6 +44,7 @@ pub(super) fn record(sweep: &Sweep, fingerprint: &str, row: &Row) -> Vec<String>
         false => words(&axis.text(*value)).into_owned(),
     }));
     cells.push(row.status.to_string());
+    cells.push(row.stopped_by.map_or("", StoppedBy::name).to_owned());
     cells.push(row.outside.join(BETWEEN));
     cells.extend(sweep.quantities().into_iter().map(|quantity| {
         let show = if quantity.is_count() { |count: f64| count.to_string() } else { number };
@@ -116,6 +120,7 @@ impl Serialize for RowObject<'_> {
             map.serialize_entry(axis.parameter.key, &json_value(axis, *value))?;
         }
         map.serialize_entry(STATUS, &self.row.status.to_string())?;
+        map.serialize_entry(STOPPED_BY, &self.row.stopped_by.map(StoppedBy::name))?;
         map.serialize_entry(VALIDITY, &self.row.outside)?;
         estimates::add_numbers(&mut map, self.quantities.iter().copied(), &self.row.numbers)?;
         map.end()
@@ -358,6 +363,7 @@ pub(super) mod tests {
         let row = |point: usize, status: RunStatus| Row {
             point,
             values: sweep.values(point),
+            stopped_by: (status == RunStatus::Converged).then_some(StoppedBy::Budget),
             status,
             numbers,
             outside: vec!["slip-law", "sound"],
@@ -383,7 +389,14 @@ pub(super) mod tests {
         let plane = Sweep::new(&presets::find("fundamental").unwrap(), &vary, &Settings::default()).unwrap();
         let mut numbers = Numbers::default();
         numbers.set(Quantity::Alpha, 0.5);
-        let row = Row { point: 1, values: plane.values(1), status: RunStatus::Converged, numbers, outside: Vec::new() };
+        let row = Row {
+            point: 1,
+            values: plane.values(1),
+            status: RunStatus::Converged,
+            stopped_by: Some(StoppedBy::Accuracy),
+            numbers,
+            outside: Vec::new(),
+        };
         let drawn = figure(&plane, &[row]);
         let Layer::Map(map) = &drawn.panels[0].layers[0] else { panic!("{drawn:?}") };
         assert_eq!((&map.grid.x[..], &map.grid.y[..]), (&[100.0, 150.0, 200.0][..], &[3.0, 50.0][..]));

@@ -18,6 +18,7 @@ use crate::gui::ui::chart::{self, Inset, between, dots, tick, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::paint::{Axes, PlotStyle, field_colours, title_with_ends};
 use crate::scene::{ParameterKind, Scale};
+use crate::solution::StoppedBy;
 use crate::ticks::{Steps, decades};
 use eframe::egui::epaint::Mesh;
 use eframe::egui::{
@@ -97,6 +98,9 @@ impl Plotted<'_> {
         });
         lines.push(value.map_or_else(|| format!("{name}: none"), |value| format!("{name} {value} {unit}")));
         match &row.status {
+            RunStatus::Converged if row.stopped_by == Some(StoppedBy::Budget) => {
+                lines.push("As far as time allowed".to_owned());
+            }
             RunStatus::Converged => {}
             other => lines.push(other.to_string()),
         }

@@ -1,10 +1,10 @@
 //! A cycle as an MP4.
 
 #[cfg(feature = "video")]
-use super::video::Picture;
-#[cfg(feature = "video")]
-use super::{mp4, video};
+use super::mp4;
 use crate::control::Cancel;
+#[cfg(feature = "video")]
+use squeezefilm_video::{Picture, encode};
 use std::io::{self, Write};
 
 /// A video has whole cycles, and lasts at least this \[s\].
@@ -15,13 +15,13 @@ pub const LONG_ENOUGH: f64 = 12.0;
 type Picture<'a> = dyn Fn(usize) -> io::Result<std::borrow::Cow<'a, [u8]>> + Sync + 'a;
 
 /// A cycle as an MP4.
-pub(super) struct Film {
+pub(super) struct Mp4Cycle {
     pub(super) size: [u32; 2],
     pub(super) count: usize,
     pub(super) seconds: f64,
 }
 
-impl Film {
+impl Mp4Cycle {
     /// Writes it as often as [`LONG_ENOUGH`] asks.
     #[cfg(feature = "video")]
     pub(super) fn write(
@@ -36,7 +36,7 @@ impl Film {
         let step = (1000.0 * self.seconds).round() as u32;
         let timescale = u32::try_from(1000 * self.count).map_err(io::Error::other)?;
         let cycles = (LONG_ENOUGH / self.seconds).ceil() as u32;
-        let video = video::encode(self.count, picture, self.size, [step, timescale], done, cancel)?;
+        let video = encode(self.count, picture, self.size, [step, timescale], done, &|| cancel.is_cancelled())?;
         if cancel.is_cancelled() {
             return Err(io::ErrorKind::Interrupted.into());
         }
