@@ -1,7 +1,7 @@
-//! Whether a value is one that its key takes.
+//! Checks whether a key accepts a value.
 
 use super::compliance;
-use super::error::What;
+use super::error::{What, check_count};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
 use super::value::{Value, show_text};
@@ -9,13 +9,12 @@ use super::value::{Value, show_text};
 /// Most tables of an array.
 const MOST_RECORDS: usize = 32;
 
-/// Checks how many tables there are.
-pub(super) fn check_count(key: &'static str, count: usize, fewest: usize) -> Result<(), What> {
-    let allowed = fewest..=MOST_RECORDS;
-    if allowed.contains(&count) { Ok(()) } else { Err(What::Count { key, count, fewest, most: MOST_RECORDS }) }
+/// Checks how many tables an array has; `fewest` is the least that its key allows.
+pub(super) fn check_records(key: &'static str, count: usize, fewest: usize) -> Result<(), What> {
+    check_count(key, "tables", count, fewest..=MOST_RECORDS)
 }
 
-/// What a message calls one of an array of tables: its name, if it begins with one, or its number.
+/// The name of one of an array of tables in messages: its first value if that is a name, or else its number.
 pub(super) fn named(record: &[Value], number: usize) -> String {
     match record.first() {
         Some(Value::Text(name)) if !name.is_empty() => show_text(name),
@@ -24,7 +23,7 @@ pub(super) fn named(record: &[Value], number: usize) -> String {
 }
 
 impl Parameter {
-    /// The value as the key holds it: whole numbers are numbers, and numbers without a fraction are whole.
+    /// The value in the type of the key: a whole number is accepted as a number, and a number without a fraction as a whole number.
     pub(super) fn accept(&'static self, value: Value) -> Result<Value, What> {
         let wrong_type = |value: Value| Err(What::wrong_type(self, value.to_string()));
         let refused = |found, why, nearest| Err(What::Refused { parameter: self, found, why, nearest });
@@ -49,7 +48,7 @@ impl Parameter {
                 Ok(Value::Rows(rows))
             }
             (ParameterKind::Records { columns, fewest, .. }, Value::Records(records)) => {
-                check_count(self.key, records.len(), fewest)?;
+                check_records(self.key, records.len(), fewest)?;
                 let mut accepted = Vec::with_capacity(records.len());
                 for (record, number) in records.into_iter().zip(1..) {
                     if record.len() != columns.len() {
@@ -58,15 +57,11 @@ impl Parameter {
                     let which = named(&record, number);
                     let cells = columns.iter().zip(record).map(|(column, value)| column.accept(value));
                     let cells = cells.collect::<Result<_, _>>();
-                    accepted.push(cells.map_err(|fault| What::Record {
-                        key: self.key,
-                        which,
-                        fault: Box::new(fault),
-                    })?);
+                    accepted.push(cells.map_err(|fault| What::Within { key: self.key, which, fault: fault.into() })?);
                 }
                 Ok(Value::Records(accepted))
             }
-            // Read back from where no table tells what it is a table of.
+            // An empty array, when it is read back, does not show whether it was one of rows or of tables.
             (ParameterKind::Records { fewest: 0, .. }, Value::Rows(rows)) if rows.is_empty() => {
                 Ok(Value::Records(Vec::new()))
             }

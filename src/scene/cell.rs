@@ -1,7 +1,7 @@
-//! One value of an array of tables as a key of its own, so that it can be set and varied as any other: `rotor.part.flange.r_outer_mm`, or by
-//! its number, `rotor.support.1.z_top_mm`, counted from 1 as in messages.
+//! Keys that name one value in an array of tables, so that it can be set and varied like any other: `rotor.part.flange.r_outer_mm`, or with a
+//! number in place of the name, `rotor.support.1.z_top_mm`, counted from 1.
 //!
-//! Such a key is a [`Parameter`] made of that of the array and that of the column. It is not among `PARAMETERS`, and a scene keeps its
+//! The [`Parameter`] of such a key is made from those of the array and of the column. It is not among `PARAMETERS`, and a scene keeps its
 //! value in the array.
 
 use super::edges::with_edge;
@@ -13,13 +13,13 @@ use super::values::Scene;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// What a dotted key names of an array: the array, which of its tables, in words, and which column.
+/// The parts of such a key: the array, the name or number of one of its tables, and the index of the column.
 type Named<'a> = (&'static Parameter, &'a str, usize);
 
-/// Where it is in a scene: the array, its tables, and row and column.
+/// The place of a value in a scene: the array, its tables, and the indices of the table and the column.
 type Place = (&'static Parameter, Vec<Vec<Value>>, [usize; 2]);
 
-/// The longest key that is looked at \[bytes\].
+/// Longest key that is read \[bytes\].
 const LONGEST: usize = 100;
 
 fn named(key: &str) -> Option<Named<'_>> {
@@ -34,9 +34,9 @@ fn named(key: &str) -> Option<Named<'_>> {
     })
 }
 
-/// The keys that were asked for. They are few, and are kept for good, as those of the table are.
+/// The parameters of such keys that were asked for. They are few, and are kept until the program ends.
 static KNOWN: Mutex<BTreeMap<String, &'static Parameter>> = Mutex::new(BTreeMap::new());
-/// The most that are kept: nobody names so many.
+/// Most parameters that are kept.
 const MOST: usize = 10_000;
 
 impl Parameter {
@@ -65,10 +65,10 @@ fn find(key: &str) -> Option<&'static Parameter> {
 }
 
 impl Scene {
-    /// The array of a key that names one value of one, its tables in this scene, and where the value is; `None` of any other key.
+    /// The place of the value that a key names in an array; `None` for any other key.
     ///
     /// # Errors
-    /// If there is no such table.
+    /// There is no such table.
     fn cell(&self, key: &str) -> Option<Result<Place, What>> {
         let (array, which, column) = named(key)?;
         let Some(Value::Records(records)) = self.get(array.key) else { return Some(Err(self.unknown_key(key))) };
@@ -78,16 +78,16 @@ impl Scene {
         Some(place.ok_or_else(|| self.unknown_key(key)).map(|row| (array, records, [row, column])))
     }
 
-    /// The value of a key that names one of an array.
+    /// The value that a key names in an array.
     pub(super) fn cell_value(&self, key: &str) -> Option<Value> {
         let (_, records, [row, column]) = self.cell(key)?.ok()?;
         records.get(row)?.get(column).cloned()
     }
 
-    /// The array with the value of a key that names one of it; `None` of any other key. Where two parts share an edge, it moves in both.
+    /// An array, with another value where a key names one in it; `None` for any other key. An edge that two parts share moves in both.
     ///
     /// # Errors
-    /// If there is no such table.
+    /// There is no such table.
     pub(super) fn with_cell(&self, key: &str, value: &Value) -> Option<Result<(&'static Parameter, Value), What>> {
         let put = |(array, mut records, [row, column]): Place| {
             let ParameterKind::Records { columns, fewest, .. } = array.kind else {
@@ -105,7 +105,7 @@ impl Scene {
         Some(self.cell(key)?.map(put))
     }
 
-    /// The keys that name one value of an array of this scene.
+    /// All keys that name one value in an array of this scene.
     pub(super) fn cell_keys(&self) -> Vec<String> {
         let mut keys = Vec::new();
         for array in self.parameters() {
@@ -154,7 +154,7 @@ mod tests {
         for key in ["rotor.part.0.r_inner_mm", "rotor.part.5.r_inner_mm", "rotor.part.rim.width_mm", "rotor.part.rim"] {
             assert!(refused(key, "1").contains(&format!("unknown key {key}")), "{key}");
         }
-        // Removed, it stays what it is: what it was before is not known.
+        // Removing it changes nothing, because a value in an array has no default.
         let before = scene.clone();
         scene.unset(by_name).unwrap();
         assert_eq!(scene, before);

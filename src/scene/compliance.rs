@@ -1,5 +1,5 @@
-//! The rotor as a table: of its compliance, rows of (wavenumber \[1/m\], compliance \[m²/N\]), or of its Green's function, rows of
-//! (x \[mm\], deflection \[µm/N\]) from x = 0 on; the first column ascending.
+//! The rotor as a table: of its compliance, with rows (wavenumber \[1/m\], compliance \[m²/N\]), or of its Green's function, with rows
+//! (x \[mm\], deflection \[µm/N\]) that begin at x = 0. The first column ascends.
 //!
 //! A preset gives it inline,
 //!
@@ -16,27 +16,27 @@
 //! `#` are comments. The scene keeps the rows, so that a saved preset needs no second file and a change of `motor.waves` leaves the rotor
 //! as it is.
 
-use super::error::{Fault, SceneError, What};
+use super::error::{Fault, SceneError, What, check_count};
 use super::parameter::{Belongs, Parameter, ParameterKind, Range, Scale};
-use super::value::{Value, show_text};
+use super::value::{Value, show_number, show_text};
 use std::path::Path;
 
 /// Most rows of a table.
 pub const MOST_ROWS: usize = 100_000;
 
-/// The columns of a row of compliances, said of as keys are.
+/// The columns of a table of compliances. They are described like keys, so that messages about both are alike.
 pub static COMPLIANCE: [Parameter; 2] = [
     column("wavenumber_per_m", "1/m", 1e-3, 1e9, "Wavenumber k"),
     column("compliance_m2_per_n", "m²/N", 1e-20, 1.0, "Displacement amplitude over line-load amplitude"),
 ];
 
-/// Those of a row of the Green's function.
+/// The columns of a table of the Green's function.
 pub static GREEN: [Parameter; 2] = [
     column("x_mm", "mm", 0.0, 1e4, "Distance x from the force, along the ring"),
     column("deflection_um_per_n", "µm/N", -1e6, 1e6, "Deflection at x under a unit force"),
 ];
 
-/// What a CSV file may have in place of the wavenumber.
+/// The column that a CSV file may have in place of the wavenumber.
 static HARMONIC: Parameter = Parameter {
     kind: ParameterKind::Whole { min: 1, max: 1_000_000_000, default: 1 },
     ..column("harmonic", "", 1.0, 1.0, "Harmonic n of the wavelength λ, k = 2πn/λ")
@@ -45,7 +45,7 @@ static HARMONIC: Parameter = Parameter {
 const fn column(key: &'static str, unit: &'static str, min: f64, max: f64, about: &'static str) -> Parameter {
     let range = Range::new(min, max);
     let kind = ParameterKind::Number { range, slider: range, scale: Scale::Log, default: max };
-    Parameter { key, unit, belongs: Belongs::Motor, when: &[], instead_of: None, absent: None, kind, about }
+    Parameter { unit, ..Parameter::new(key, Belongs::Motor, kind, about) }
 }
 
 /// Checks one row against the ranges of its columns and the row `before`.
@@ -53,21 +53,39 @@ pub(super) fn check_row(columns: &'static [Parameter; 2], row: (f64, f64), befor
     for (column, value) in columns.iter().zip([row.0, row.1]) {
         column.accept(Value::Number(value))?;
     }
-    match before {
-        Some(before) if row.0 <= before => Err(What::NotAscending { column: columns[0].key, value: row.0, before }),
-        None if row.0 != 0.0 && columns[0].key == GREEN[0].key => Err(What::NotFromZero(row.0)),
-        _ => Ok(()),
-    }
+    let key = columns[0].key;
+    let message = match before.map(|before| (before, row.0 <= before)) {
+        Some((before, true)) => format!("is not above {}, the one before: sort the rows", show_number(before)),
+        None if row.0 != 0.0 && key == GREEN[0].key => {
+            "is not 0: the first row is the deflection under the force itself".to_owned()
+        }
+        _ => return Ok(()),
+    };
+    Err(What::Rule { key, message: format!("{key} = {} {message}", show_number(row.0)) })
+}
+
+/// The fault of a row that is not two numbers, as written.
+pub(super) fn not_a_pair(found: &str, [first, second]: &[Parameter; 2]) -> What {
+    let message = format!("{} is not a pair of numbers, {} and {}", show_text(found), first.key, second.key);
+    What::Rule { key: first.key, message }
+}
+
+/// The fault of row `row`, counted from 1.
+pub(super) fn in_row(key: &'static str, row: usize, fault: What) -> What {
+    What::Within { key, which: format!("row {row}"), fault: fault.into() }
+}
+
+/// Checks how many rows there are.
+pub(super) fn check_row_count(key: &'static str, rows: usize) -> Result<(), What> {
+    check_count(key, "rows", rows, 1..=MOST_ROWS)
 }
 
 /// Checks a table held in memory, up to its first fault.
 pub(super) fn check_rows(key: &'static str, columns: &'static [Parameter; 2], rows: &[(f64, f64)]) -> Result<(), What> {
-    if rows.is_empty() || rows.len() > MOST_ROWS {
-        return Err(What::TooManyRows { key, rows: rows.len(), limit: MOST_ROWS });
-    }
+    check_row_count(key, rows.len())?;
     let before = std::iter::once(None).chain(rows.iter().map(|row| Some(row.0)));
     let mut checked = rows.iter().zip(before).map(|(row, before)| check_row(columns, *row, before)).zip(1..);
-    checked.try_for_each(|(checked, row)| checked.map_err(|fault| What::Row { key, row, fault: fault.into() }))
+    checked.try_for_each(|(checked, row)| checked.map_err(|fault| in_row(key, row, fault)))
 }
 
 /// Reads the text of a CSV file for the `key` that names it. `wavelength` \[m\] turns harmonics into wavenumbers. Faults carry `path` and
@@ -89,12 +107,21 @@ pub(super) fn read_csv(
         .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
     let mut records = reader.records();
 
+    // What is in the file instead is not shown: the file may be any of this machine.
+    let other_header = || {
+        let (what, other) = match columns[1].key {
+            "compliance_m2_per_n" => ("compliance table", "harmonic,compliance_m2_per_n or "),
+            _ => ("table of a deflection", ""),
+        };
+        let [first, second] = columns.each_ref().map(|column| column.key);
+        What::Rule { key, message: format!("{key}: this is no {what}: expected the header {other}{first},{second}") }
+    };
     let header = match records.next() {
         Some(Ok(header)) => header,
-        _ => return Err(fault(Some(1), What::CsvHeader { key, columns }).into()),
+        _ => return Err(fault(Some(1), other_header()).into()),
     };
     let line_of = |record: &csv::StringRecord| {
-        // The position is where the reader stood before blank lines and comments: step over them.
+        // The position is before the blank lines and comments that the reader skips: they are counted here.
         record.position().map(|position| {
             let rest = text.trim_start_matches('\u{feff}').get(position.byte() as usize..).unwrap_or_default();
             let skipped = rest.lines().take_while(|l| l.trim().is_empty() || l.starts_with('#')).count();
@@ -104,34 +131,32 @@ pub(super) fn read_csv(
     let harmonics = match header.iter().collect::<Vec<_>>()[..] {
         ["harmonic", second] if second == COMPLIANCE[1].key && columns[1].key == second => true,
         [first, second] if [first, second] == [columns[0].key, columns[1].key] => false,
-        _ => return Err(fault(line_of(&header), What::CsvHeader { key, columns }).into()),
+        _ => return Err(fault(line_of(&header), other_header()).into()),
     };
 
     let mut rows: Vec<(f64, f64)> = Vec::new();
     let mut faults = SceneError::none();
     for (i, record) in records.enumerate() {
         let row = i + 1;
-        if row > MOST_ROWS {
-            faults.push(fault(None, What::TooManyRows { key, rows: row, limit: MOST_ROWS }));
+        if let Err(too_many) = check_row_count(key, row) {
+            faults.push(fault(None, too_many));
             break;
         }
         let (line, parsed) = match record {
             Ok(record) => (line_of(&record), row_of(&record, columns, harmonics, wavelength)),
             Err(error) => {
                 let line = error.position().map(|position| position.line() as usize);
-                (line, Err(What::NotAPair { found: show_text(&error.to_string()), columns }))
+                (line, Err(not_a_pair(&error.to_string(), columns)))
             }
         };
         let before = rows.last().map(|row| row.0);
         match parsed.and_then(|row| check_row(columns, row, before).map(|()| row)) {
             Ok(row) => rows.push(row),
-            Err(wrong) => faults.push(fault(line, What::Row { key, row, fault: wrong.into() })),
+            Err(wrong) => faults.push(fault(line, in_row(key, row, wrong))),
         }
     }
     let rows = faults.or(rows)?;
-    if rows.is_empty() {
-        return Err(fault(None, What::TooManyRows { key, rows: 0, limit: MOST_ROWS }).into());
-    }
+    check_row_count(key, rows.len()).map_err(|none| fault(None, none))?;
     Ok(rows)
 }
 
@@ -142,7 +167,7 @@ fn row_of(
     wavelength: f64,
 ) -> Result<(f64, f64), What> {
     let [first, second] = record.iter().collect::<Vec<_>>()[..] else {
-        return Err(What::NotAPair { found: show_text(&record.iter().collect::<Vec<_>>().join(",")), columns });
+        return Err(not_a_pair(&record.iter().collect::<Vec<_>>().join(","), columns));
     };
     let number = |column: &'static Parameter, field| {
         let value = column.accept(column.read(field)?)?;

@@ -1,4 +1,4 @@
-//! Scene to problem: keys get fields, and the units of the field become SI.
+//! Turns a scene into a problem: values of keys become fields, in SI units.
 
 use super::compliance::GREEN;
 use super::error::{SceneError, What};
@@ -29,8 +29,8 @@ impl TryFrom<&Scene> for Problem {
 }
 
 impl Scene {
-    /// The SI form of a scene whose keys may break the rules between them. A key that the table of keys does not have, or
-    /// has with another type, is an error: that is a fault of the program, which any test finds.
+    /// The problem of a scene, without a check of the rules between keys. It is an error if the table of keys lacks a key that is used here,
+    /// or has it with another type; that would be a fault of the program, which any test finds.
     pub(super) fn unchecked(&self) -> Result<Problem, What> {
         let optional = |key| {
             let parameter = self.parameter(key)?;

@@ -1,11 +1,11 @@
-//! The edges of the parts of a ring, of which one is moved.
+//! Moves an edge of a part of a ring's cross-section.
 //!
-//! Where two parts share an edge, it moves in both: the rim stays on its lining, and no edit on the way takes the ring apart.
+//! An edge that two parts share moves in both. The rim, for example, stays on its lining, and no edit separates the parts of the ring.
 
 use super::value::Value;
 use std::ops::RangeInclusive;
 
-/// Lengths that differ by less than this are one \[mm\].
+/// Lengths that differ by less than this are taken for equal \[mm\].
 const SAME: f64 = 1e-6;
 
 /// Inner and outer radius, bottom and top of a part or support \[mm\].
@@ -14,12 +14,13 @@ pub fn lengths(part: &[Value]) -> Option<[f64; 4]> {
     numbers.try_into().ok()
 }
 
-/// The edges that move with that on the side `which` of a part, itself first: numbers of parts, and which of their [`lengths`].
+/// The edges that move together with the edge `which` of the part `number`, itself first. An edge is the index of a part and of one of its
+/// [`lengths`].
 fn together(parts: &[Vec<Value>], (number, which): (usize, usize)) -> Vec<(usize, usize)> {
     let mut edges = vec![(number, which)];
     let boxes: Vec<_> = parts.iter().map(|part| lengths(part)).collect();
     if let Some(own) = boxes.get(number).copied().flatten() {
-        // The ends of the edge: heights of an upright one, radii of a level one.
+        // The ends of the edge are heights if it is vertical, and radii if it is horizontal.
         let ends = (which + 2) % 4 / 2 * 2;
         let shared = |other: &[f64; 4]| {
             (other[which ^ 1] - own[which]).abs() < SAME
@@ -30,7 +31,7 @@ fn together(parts: &[Vec<Value>], (number, which): (usize, usize)) -> Vec<(usize
     edges
 }
 
-/// How far an edge can be moved \[mm\] until one of the parts that it bounds is as thin as `step`.
+/// The range \[mm\] in which an edge can be moved. At its ends one of the parts that the edge bounds is as thin as `step`.
 pub fn reach(parts: &[Vec<Value>], edge: (usize, usize), step: f64) -> RangeInclusive<f64> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for (part, side) in together(parts, edge) {

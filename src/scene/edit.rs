@@ -1,4 +1,4 @@
-//! A scene changed from outside, key by key, and what to call it then.
+//! Changes of a scene, key by key, and its title after a change.
 
 use super::error::{SceneError, What};
 use super::heights;
@@ -9,9 +9,9 @@ use super::values::Scene;
 use std::path::Path;
 
 impl Scene {
-    /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes.
-    /// `none` or nothing removes an optional key. A path given for a CSV file is relative to the current folder. Giving a
-    /// table, or the parts of a ring, makes `rotor.model` that of the key. Tables are written as in TOML.
+    /// Sets a dotted key from text, as `--set key=value` does: numbers in the key's unit, names without quotes, tables as in TOML.
+    /// `none` or an empty text removes an optional key. The path of a CSV file is relative to the current folder. A table, or the parts of
+    /// a ring, also set `rotor.model` to the model that has them.
     ///
     /// # Errors
     ///
@@ -26,16 +26,15 @@ impl Scene {
             return Ok(());
         }
         let value = match parameter.kind {
-            ParameterKind::Rows { columns } => parse::rows_from_text(parameter, columns, text)?,
-            ParameterKind::Records { columns, .. } => parse::records_from_text(parameter, columns, text)?,
+            ParameterKind::Rows { .. } | ParameterKind::Records { .. } => parse::array_from_text(parameter, text)?,
             ParameterKind::CsvPath { fills } => return self.take_csv(parameter, fills, text, Path::new(text)),
             _ => parameter.read(text)?,
         };
         Ok(self.assign(parameter, value)?)
     }
 
-    /// Takes what follows from the CSV file at `path` for the keys that `parameter` fills, as far as this scene has them; `given` is the value
-    /// of the key, for messages.
+    /// Reads the CSV file at `path`, and sets those keys in `fills` that this scene has. `parameter` names the file, with the value `given`,
+    /// which messages quote.
     pub(super) fn take_csv(
         &mut self,
         parameter: &'static Parameter,
@@ -80,8 +79,8 @@ impl Scene {
         Ok(())
     }
 
-    /// Applies `key=value` pairs as one change: in any order, with the rules between keys checked at the end. The last
-    /// of several values for one key holds.
+    /// Applies `key=value` pairs as one change, in any order; the rules between keys are checked at the end. If a key has several values, the
+    /// last one counts.
     ///
     /// # Errors
     ///
@@ -108,28 +107,30 @@ impl Scene {
         Ok(())
     }
 
-    /// The parameter of a key, if it exists and applies. A compliance table may be given to a beam: it replaces it.
+    /// The parameter of a key that can be set. A table can be set on a rotor of another model: it then replaces that model.
     fn settable(&self, key: &str) -> Result<&'static Parameter, What> {
-        match key {
-            "schema" => return Err(What::Fixed("schema")),
-            "scene" => return Err(What::Fixed("scene")),
-            _ => {}
+        if let Some(key) = ["schema", "scene"].into_iter().find(|fixed| *fixed == key) {
+            return Err(What::Rule { key, message: format!("{key} cannot be changed: start from another preset") });
         }
         let parameter = self.parameter(key)?;
         match (self.applies(parameter), parameter.kind) {
-            (Ok(()), _) if !self.heeds(key) => Err(What::NoEffect { key: parameter.key, scene: self.scene() }),
+            (Ok(()), _) if !self.heeds(key) => {
+                let scene = self.scene();
+                let message = format!("{key} has no effect on a {scene}: it cannot be changed or varied here");
+                Err(What::Rule { key: parameter.key, message })
+            }
             (
                 Err(What::Elsewhere { selector, .. }),
                 ParameterKind::Rows { .. } | ParameterKind::CsvPath { fills: [_] } | ParameterKind::Records { .. },
             ) if selector != "scene" => Ok(parameter),
-            // What is set takes the place of what was given instead.
+            // The key that is set replaces the one that was given.
             (Err(What::BothGiven { .. }), _) => Ok(parameter),
             (applies, _) => applies.map(|()| parameter),
         }
     }
 
-    /// The keys, but for name and description, in which this scene differs from `original`; not the defaults that a newly chosen model
-    /// brings.
+    /// The keys in which this scene differs from `original`, except for name and description, and for the defaults of keys that `original`
+    /// does not have.
     pub fn changed<'a>(&'a self, original: &'a Self) -> impl Iterator<Item = &'static Parameter> + 'a {
         let told = self.parameters().filter(|parameter| !matches!(parameter.key, "name" | "about"));
         told.filter(move |parameter| {
@@ -138,7 +139,7 @@ impl Scene {
         })
     }
 
-    /// What to call a scene that was made of `original`: `Fundamental case, changed: 3 keys`, unless it has a name of its own.
+    /// The title of a scene that was made from `original`: `Fundamental case, changed: 3 keys`, unless it has another name.
     pub fn title(&self, original: &Self) -> String {
         match self.changed(original).count() {
             keys if keys > 0 && self.name == original.name => {
@@ -152,8 +153,8 @@ impl Scene {
         }
     }
 
-    /// Gives a scene that was made of `original` a name and a description that claim no more than is true: its [`Scene::title`], and
-    /// what was changed. Words of its own are kept.
+    /// Gives a scene that was made from `original` its [`Scene::title`] as a name, and a description that lists the changes. A name or a
+    /// description of its own is kept.
     pub fn retitle(&mut self, original: &Self) {
         let shown = |scene: &Self, Parameter { key, unit, .. }: &Parameter| match scene.get(key) {
             None => "none".to_owned(),

@@ -2,9 +2,10 @@
 //! the user sees, one line per fault: `my.toml:12: film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm`.
 
 use super::parameter::{Parameter, Range};
-use super::value::{Value, show_number};
+use super::value::{Value, show_text};
 use crate::input::ReadError;
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// The version of the file format this program reads and writes.
@@ -134,7 +135,7 @@ pub enum What {
     /// The file is not read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The file cannot be written, for the system's reason.
+    /// The file cannot be written; the reason that the operating system gives.
     #[error("cannot be written: {0}")]
     Unwritable(String),
     /// The text is not TOML; what its reader says.
@@ -143,17 +144,6 @@ pub enum What {
     /// No `schema` key.
     #[error("the key schema is missing: write schema = {SCHEMA} at the top of the file")]
     SchemaMissing,
-    /// A `schema` this program does not read, as written.
-    #[error("schema = {0} is not supported: this program reads schema = {SCHEMA}")]
-    SchemaUnsupported(String),
-    /// A `scene` that does not exist.
-    #[error("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{}", did_you_mean(nearest.as_deref()))]
-    UnknownScene {
-        /// The value in the file.
-        found: String,
-        /// The nearest name.
-        nearest: Option<String>,
-    },
     /// A key or table that no scene has.
     #[error("unknown {kind} {key}{}", suggestion(nearest.as_deref(), siblings))]
     Unknown {
@@ -165,14 +155,6 @@ pub enum What {
         nearest: Option<String>,
         /// The keys of the same table, or else the tables of the scene, for when nothing is near.
         siblings: Vec<&'static str>,
-    },
-    /// A plain value where a table belongs.
-    #[error("{table} = {found} is not a table: write [{table}] with its keys below")]
-    NotATable {
-        /// The table.
-        table: &'static str,
-        /// The value in the file.
-        found: String,
     },
     /// A key or table of the other kind of scene, or a key of another model.
     #[error("{key} belongs to {selector} = {}, and this is {selector} = \"{chosen}\"", listed(needs))]
@@ -194,17 +176,6 @@ pub enum What {
         /// The other one.
         other: &'static str,
     },
-    /// A key that this kind of scene does not heed.
-    #[error("{key} has no effect on a {scene}: it cannot be changed or varied here")]
-    NoEffect {
-        /// The dotted key.
-        key: &'static str,
-        /// The scene this is.
-        scene: &'static str,
-    },
-    /// A key that makes the scene what it is.
-    #[error("{0} cannot be changed: start from another preset")]
-    Fixed(&'static str),
     /// A value that the key does not take, whatever its size.
     #[error("{} = {found} is {why}: expected {}{}", parameter.key, parameter.accepts(), did_you_mean(nearest.as_deref()))]
     Refused {
@@ -227,7 +198,7 @@ pub enum What {
         /// What is allowed.
         range: Range,
     },
-    /// A rule between keys that is broken.
+    /// A rule between keys that is broken, or another fault that nothing but a message is made of.
     #[error("{message}")]
     Rule {
         /// The dotted key to change first.
@@ -235,103 +206,15 @@ pub enum What {
         /// What is wrong: the key, its value, and what is allowed.
         message: String,
     },
-    /// A list with no rows, or more than any needs.
-    #[error("{key} has {rows} rows: allowed 1 to {limit}")]
-    TooManyRows {
-        /// The dotted key.
-        key: &'static str,
-        /// Rows given.
-        rows: usize,
-        /// Most rows.
-        limit: usize,
-    },
-    /// A row of the compliance table is wrong.
-    #[error("{key}, row {row}: {fault}")]
-    Row {
-        /// The dotted key.
-        key: &'static str,
-        /// Row, from 1, header not counted.
-        row: usize,
-        /// What is wrong with it, said of the columns as of keys.
-        fault: Box<What>,
-    },
-    /// A row that is not two numbers, as written.
-    #[error("{found} is not a pair of numbers, {} and {}", columns[0].key, columns[1].key)]
-    NotAPair {
-        /// What is there.
-        found: String,
-        /// What a row holds.
-        columns: &'static [Parameter; 2],
-    },
-    /// A row whose first number is not above that of the row before.
-    #[error("{column} = {} is not above {}, the one before: sort the rows", show_number(*value), show_number(*before))]
-    NotAscending {
-        /// The first column.
-        column: &'static str,
-        /// The number.
-        value: f64,
-        /// That of the row before.
-        before: f64,
-    },
-    /// A Green's function that does not begin where the force is.
-    #[error("x_mm = {} is not 0: the first row is the deflection under the force itself", show_number(*.0))]
-    NotFromZero(f64),
-    /// Too few or too many tables.
-    #[error("{key} has {count} tables: allowed {fewest} to {most}")]
-    Count {
-        /// The dotted key.
-        key: &'static str,
-        /// Tables given.
-        count: usize,
-        /// Fewest.
-        fewest: usize,
-        /// Most.
-        most: usize,
-    },
-    /// One of an array of tables, such as a part of the rotor, is wrong.
+    /// One row of a table, or one of an array of tables such as a part of the rotor, is wrong.
     #[error("{key}, {which}: {fault}")]
-    Record {
-        /// The dotted key.
+    Within {
+        /// The dotted key of the table or array.
         key: &'static str,
-        /// Its name, or which of them it is, from 1.
+        /// Which row or table it is: its name, or its number from 1; the header of a CSV file does not count.
         which: String,
-        /// What is wrong with it, said of its keys.
+        /// What is wrong with it. Its columns or keys are named without those of the table around them.
         fault: Box<What>,
-    },
-    /// A key of such a table that is missing.
-    #[error("{} is missing: expected {}", .0.key, .0.accepts())]
-    Missing(&'static Parameter),
-    /// A CSV file cannot be read.
-    #[error("{key} = \"{given}\": {} {fault}", path.display())]
-    Csv {
-        /// The dotted key.
-        key: &'static str,
-        /// The value of the key.
-        given: String,
-        /// The file looked for.
-        path: PathBuf,
-        /// What is wrong with the file.
-        fault: ReadError,
-    },
-    /// The CSV file has no heights of a measured face.
-    #[error("{key} = \"{given}\": {}: {fault}", path.display())]
-    Heights {
-        /// The dotted key.
-        key: &'static str,
-        /// The value of the key.
-        given: String,
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        fault: String,
-    },
-    /// The CSV file has another header. What is in it is not shown: it may be any file of this machine.
-    #[error("{key}: this is no {},{}", no_table(columns), columns[1].key)]
-    CsvHeader {
-        /// The dotted key.
-        key: &'static str,
-        /// The columns of the table.
-        columns: &'static [Parameter; 2],
     },
     /// Neither a built-in preset nor a file.
     #[error(
@@ -352,33 +235,32 @@ impl What {
         Self::Refused { parameter, found, why: "of the wrong type", nearest: None }
     }
 
+    /// A CSV file at `path` that cannot be used. `key` names it, with the value `given`, and `fault` follows the path in the message.
+    pub(super) fn csv(key: &'static str, given: &str, path: &Path, fault: String) -> Self {
+        Self::Rule { key, message: format!("{key} = \"{}\": {}{fault}", show_text(given), path.display()) }
+    }
+
     /// The dotted key the fault is about, if it is about one.
     pub fn key(&self) -> Option<&str> {
         Some(match self {
             Self::Unknown { key, .. } | Self::Elsewhere { key, .. } => key,
-            Self::Fixed(key) | Self::NoEffect { key, .. } | Self::BothGiven { key, .. } | Self::Rule { key, .. } => key,
-            Self::TooManyRows { key, .. } | Self::Row { key, .. } | Self::NotATable { table: key, .. } => key,
-            Self::Count { key, .. }
-            | Self::Record { key, .. }
-            | Self::Csv { key, .. }
-            | Self::Heights { key, .. }
-            | Self::CsvHeader { key, .. } => key,
+            Self::BothGiven { key, .. } | Self::Rule { key, .. } | Self::Within { key, .. } => key,
             Self::Refused { parameter, .. } | Self::OutOfRange { parameter, .. } => parameter.key,
-            Self::SchemaMissing | Self::SchemaUnsupported(_) => "schema",
-            Self::UnknownScene { .. } => "scene",
+            Self::SchemaMissing => "schema",
             Self::Read(_) | Self::Unwritable(_) | Self::Syntax(_) | Self::UnknownPreset { .. } => return None,
-            Self::NotAPair { .. } | Self::NotAscending { .. } | Self::NotFromZero(_) | Self::Missing(_) => return None,
         })
     }
 }
 
-/// What a CSV file of these columns would be, and how its header would begin.
-fn no_table(columns: &[Parameter; 2]) -> String {
-    let (what, other) = match columns[1].key {
-        "compliance_m2_per_n" => ("compliance table", "harmonic,compliance_m2_per_n or "),
-        _ => ("table of a deflection", ""),
-    };
-    format!("{what}: expected the header {other}{}", columns[0].key)
+/// Checks how many rows a table has, or how many tables an array has; `what` says which, in the plural.
+pub(super) fn check_count(
+    key: &'static str,
+    what: &str,
+    count: usize,
+    allowed: RangeInclusive<usize>,
+) -> Result<(), What> {
+    let message = || format!("{key} has {count} {what}: allowed {} to {}", allowed.start(), allowed.end());
+    if allowed.contains(&count) { Ok(()) } else { Err(What::Rule { key, message: message() }) }
 }
 
 fn with_unit(parameter: &Parameter) -> String {
@@ -398,13 +280,14 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-fn did_you_mean(nearest: Option<&str>) -> String {
+/// The end of a message that offers the nearest name, if there is one.
+pub(super) fn did_you_mean(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |name| format!(": did you mean {name}?"))
 }
 
 fn suggestion(nearest: Option<&str>, siblings: &[&str]) -> String {
     match nearest {
-        Some(name) => format!(": did you mean {name}?"),
+        Some(_) => did_you_mean(nearest),
         None => format!(": known are {}", siblings.join(", ")),
     }
 }

@@ -1,5 +1,6 @@
-//! Values that follow from other keys where they are not given: pressure from altitude, viscosity and mean free path from the gas;
-//! of a motor, whichever of two ways to say the same is not used.
+//! Values that follow from other keys where they are not given: the pressure from the altitude, viscosity and mean free path from the gas.
+//! Some quantities of a motor have two keys, such as the load on one wavelength and the load on the whole ring ([`ALTERNATIVES`]). One of the
+//! two is given, and the other follows from it.
 
 use super::error::What;
 use super::parameter::Parameter;
@@ -11,11 +12,21 @@ use crate::gas::{self, atmosphere};
 /// A key whose value may follow from others.
 struct Following {
     key: &'static str,
-    /// The key that says so: the one that is given instead, or the one that chooses a model.
+    /// The key that it follows from: the one that is given instead, or the one that chooses a model.
     source: &'static str,
     /// The value in the unit of `key`; `None` if the scene gives it.
     value: fn(&Scene) -> Result<Option<f64>, What>,
 }
+
+/// Keys that replace another key which they are proportional to, and the factor between the two: the key is that number of times the other
+/// one, as `[numerator, denominator]` of a fraction. It depends on the scene.
+type Alternative = (&'static str, fn(&Scene) -> Result<[f64; 2], What>);
+
+const ALTERNATIVES: &[Alternative] = &[
+    ("motor.load_n", |scene| Ok([scene.number("motor.waves")?, 1.0])),
+    ("motor.rotor_speed_mm_per_s", |scene| Ok([scene.circumference_mm()?, 60.0])),
+    ("stator.tooth_share", |scene| Ok([1.0, scene.pitch_mm()?])),
+];
 
 static FOLLOWING: &[Following] = &[
     Following { key: "film.ambient_pressure_kpa", source: "film.altitude_m", value: pressure_at_altitude },
@@ -24,17 +35,17 @@ static FOLLOWING: &[Following] = &[
     Following {
         key: "motor.load_per_wave_n",
         source: "motor.load_n",
-        value: |scene| scene.from("motor.load_n", |load| Ok(load / scene.number("motor.waves")?)),
+        value: |scene| scene.replaced_by("motor.load_n"),
     },
     Following {
         key: "motor.rotor_speed_rpm",
         source: "motor.rotor_speed_mm_per_s",
-        value: |scene| scene.from("motor.rotor_speed_mm_per_s", |speed| Ok(60.0 * speed / scene.circumference_mm()?)),
+        value: |scene| scene.replaced_by("motor.rotor_speed_mm_per_s"),
     },
     Following {
         key: "stator.tooth_width_mm",
         source: "stator.tooth_share",
-        value: |scene| scene.from("stator.tooth_share", |share| Ok(share * scene.pitch_mm()?)),
+        value: |scene| scene.replaced_by("stator.tooth_share"),
     },
     Following { key: "rotor.point_compliance_um_per_n", source: "rotor.model", value: point_compliance },
 ];
@@ -46,18 +57,20 @@ impl Scene {
         (following.value)(self).ok().flatten()
     }
 
-    /// What an optional key would be that another one is given instead of, in the unit of the optional one.
+    /// The value \[in its own unit\] that an optional key would have, where the scene gives the key that it could replace; `None` if the scene
+    /// gives it, or if it is not proportional to the other one.
     pub fn alternative(&self, parameter: &Parameter) -> Option<f64> {
         let given = parameter.instead_of.filter(|_| self.given(parameter.key).is_none())?;
-        match parameter.key {
-            "motor.load_n" => Some(self.number(given).ok()? * self.number("motor.waves").ok()?),
-            "motor.rotor_speed_mm_per_s" => Some(self.number(given).ok()? * self.circumference_mm().ok()? / 60.0),
-            "stator.tooth_share" => Some(self.number(given).ok()? / self.pitch_mm().ok()?),
-            _ => None,
-        }
+        let [factor, divisor] = self.factor(parameter.key)?.ok()?;
+        Some(self.number(given).ok()? * factor / divisor)
     }
 
-    /// What follows and is out of the range of its key: the key that it follows from, and what is wrong.
+    /// The factor of a key in [`ALTERNATIVES`], as a fraction; `None` of any other key.
+    pub(super) fn factor(&self, key: &str) -> Option<Result<[f64; 2], What>> {
+        ALTERNATIVES.iter().find(|(alternative, _)| *alternative == key).map(|(_, factor)| factor(self))
+    }
+
+    /// Values that follow and are out of the range of their key: for each the key that it follows from, and what is wrong.
     pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
         FOLLOWING.iter().filter(|following| self.is_set(following.source)).filter_map(
             |Following { key, source, value }| {
@@ -74,12 +87,14 @@ impl Scene {
         )
     }
 
-    /// What follows from the number of a key, if it is given.
-    fn from(&self, key: &str, value: impl FnOnce(f64) -> Result<f64, What>) -> Result<Option<f64>, What> {
-        self.given(key).map(value).transpose()
+    /// The value of the key that a key in [`ALTERNATIVES`] replaces, if that key is given.
+    fn replaced_by(&self, key: &str) -> Result<Option<f64>, What> {
+        let (Some(given), Some(factor)) = (self.given(key), self.factor(key)) else { return Ok(None) };
+        let [factor, divisor] = factor?;
+        Ok(Some(divisor * given / factor))
     }
 
-    /// The mean free path \[nm\] where it is given, and matters: it then stays as it is when pressure changes.
+    /// The mean free path \[nm\] if it is given and matters. It then does not follow the pressure.
     pub fn given_mean_free_path(&self) -> Option<f64> {
         let slips = self.text("film.slip").is_ok_and(|law| law != "none");
         self.get("film.mean_free_path_nm").filter(|_| slips)?.as_number()

@@ -1,7 +1,6 @@
-//! Every key a scene can have: its unit, range, default and meaning. This table is the only place that says so; files,
-//! `--set`, checks, sliders, sweeps and the documentation all read it. Beside it, a new key needs its field in
-//! `problem.rs`, filled in `convert.rs`; a key of `[numerics]` needs a field of the same name in
-//! [`Numerics`](crate::problem::Numerics), and is filled by itself.
+//! Every key a scene can have: its unit, range, default and meaning. They are stated in this table only; files, `--set`, checks, sliders,
+//! sweeps and the documentation all read it. Besides an entry here, a new key needs its field in `problem.rs`, which `convert.rs` fills.
+//! A key of `[numerics]` needs only a field of the same name in [`Numerics`](crate::problem::Numerics).
 
 use super::compliance::{COMPLIANCE, GREEN};
 use super::parameter::Belongs::{Any, IdleOnPlate, Motor, Plate};
@@ -28,14 +27,15 @@ const HARD: &[Model] = &[("surface.model", &["minimum-spacing"])];
 const ASPERITIES: &[Model] = &[("surface.model", &["asperities"])];
 const ROUGH_FLOW: &[Model] = &[("surface.flow_factors", &["patir-cheng"])];
 const ROUGH: &[Model] = &[ASPERITIES[0], ROUGH_FLOW[0]];
+/// The meaning of a numerics key that is absent.
 const LEFT_OPEN: &str = "left to the fidelity";
 
-/// Every key of a scene file except `schema` and `scene`, in the order they are written. Of a number: key, unit, scenes
-/// that have it, range, part of the range worth a slider and how that is spaced, default, meaning.
+/// Every key of a scene file except `schema` and `scene`, in the order in which they are written. The columns of a number are: key, unit,
+/// scenes that have it, range, range of the slider, spacing of the slider, default, meaning.
 #[rustfmt::skip]
 pub static PARAMETERS: &[Parameter] = &[
     text("name", "Untitled", "Name shown with every result"),
-    text("about", "", "One line: what this scene is"),
+    text("about", "", "Description of the scene in one line"),
 
     number("motor.contact_radius_mm", "mm", Motor, (1.0, 500.0), (5.0, 100.0), Log, 29.0,
         "Radius at which the teeth touch the rotor"),
@@ -46,9 +46,9 @@ pub static PARAMETERS: &[Parameter] = &[
     number("motor.dry_friction", "", Motor, (0.0, 2.0), (0.0, 1.0), Linear, 0.7,
         "Friction coefficient where tooth and rotor touch"),
     number("motor.rotor_speed_rpm", "rpm", Motor, (-10000.0, 10000.0), (-300.0, 300.0), Linear, 0.0,
-        "Speed of the rotor, towards +x (against the wave) if positive"),
+        "Speed of the rotor; a positive one is towards +x, against the wave"),
     number("motor.rotor_speed_mm_per_s", "mm/s", Motor, (-600e3, 600e3), (-1000.0, 1000.0), Linear, 0.0,
-        "Speed of the rotor's surface at the contact radius, as the speed in rpm")
+        "Speed of the rotor's surface at the contact radius, with the sign of the speed in rpm")
         .absent("the speed in rpm is given").instead_of("motor.rotor_speed_rpm"),
 
     number("stator.frequency_khz", "kHz", Motor, (0.001, 10000.0), (1.0, 200.0), Log, 30.0, "Frequency of the vibration"),
@@ -66,7 +66,7 @@ pub static PARAMETERS: &[Parameter] = &[
 
     number("rotor.contact_width_mm", "mm", Motor, (0.01, 10.0), (0.05, 5.0), Log, 0.3, "Radial width of the contact"),
     choice("rotor.model", Motor, &["beam", "section", "ring", "table", "green"], "beam",
-        "How the rotor's compliance is described"),
+        "Description of the rotor's compliance"),
     number("rotor.decay_length_mm", "mm", Motor, (0.1, 100.0), (0.5, 20.0), Log, 4.0,
         "Length over which the deflection under a point load dies out").when(BENDING),
     number("rotor.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 70.0,
@@ -77,16 +77,16 @@ pub static PARAMETERS: &[Parameter] = &[
         "Deflection of the beam under a unit point load").when(BEAM),
     number("rotor.local_compliance_m2_per_n", "m²/N", Motor, (0.0, 1e-7), (0.0, 1e-9), Linear, 1.05e-10,
         "Local (Winkler) compliance in series with the beam").when(BENDING),
-    other("rotor.compliance_csv", Motor, CsvPath { fills: &["rotor.compliance"] },
+    Parameter::new("rotor.compliance_csv", Motor, CsvPath { fills: &["rotor.compliance"] },
         "CSV file of the compliance, relative to the preset's folder").when(TABLE),
-    other("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Compliance per wavenumber, inline").when(TABLE),
-    other("rotor.green_csv", Motor, CsvPath { fills: &["rotor.green"] },
+    Parameter::new("rotor.compliance", Motor, Rows { columns: &COMPLIANCE }, "Rows of wavenumber and compliance").when(TABLE),
+    Parameter::new("rotor.green_csv", Motor, CsvPath { fills: &["rotor.green"] },
         "CSV file of the deflection under a unit force, relative to the preset's folder").when(GREENS),
-    other("rotor.green", Motor, Rows { columns: &GREEN }, "Deflection under a unit force, over the distance from it, inline").when(GREENS),
-    other("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: PARTS },
-        "Rectangles of the ring's cross-section; the stator touches the lowest").when(RING),
-    other("rotor.support", Motor, Records { columns: &SUPPORT, fewest: 0, default: SUPPORTS },
-        "Boxes in which the ring is held").when(RING),
+    Parameter::new("rotor.green", Motor, Rows { columns: &GREEN }, "Rows of the distance from a unit force and the deflection there").when(GREENS),
+    Parameter::new("rotor.part", Motor, Records { columns: &PART, fewest: 1, default: PARTS },
+        "Rectangles that make up the ring's cross-section; the stator touches the lowest").when(RING),
+    Parameter::new("rotor.support", Motor, Records { columns: &SUPPORT, fewest: 0, default: SUPPORTS },
+        "Boxes of the cross-section in which the ring is held").when(RING),
 
     choice("plate.shape", Plate, &["rectangle", "disc", "ring"], "rectangle", "Outline of the plate"),
     number("plate.length_mm", "mm", Plate, (0.001, 1000.0), (0.01, 50.0), Log, 1.0, "Length of the plate along x").when(RECTANGLE),
@@ -97,51 +97,51 @@ pub static PARAMETERS: &[Parameter] = &[
         "Radius of the hole, in which the gas is at ambient pressure").when(RING_PLATE),
     number("plate.mean_gap_um", "µm", Plate, (0.01, 1000.0), (0.1, 100.0), Log, 1.0, "Mean gap under the plate"),
     number("plate.load_n", "N", Plate, (1e-6, 1e6), (0.01, 100.0), Log, 1.0,
-        "Load on a plate that floats; of a strip, on a metre of its width")
+        "Load on a plate that floats; of a strip, load on a metre of its width")
         .absent("the mean gap or the mass is given").instead_of("plate.mean_gap_um"),
     number("plate.mass_g", "g", Plate, (1e-4, 1e8), (1.0, 10e3), Log, 100.0,
-        "Mass of a plate that floats under its weight; of a strip, of a metre of its width")
+        "Mass of a plate that floats under its weight; of a strip, mass of a metre of its width")
         .absent("the mean gap or the load is given").instead_of("plate.mean_gap_um"),
     number("plate.amplitude_um", "µm", Plate, (0.0, 1000.0), (0.0, 10.0), Linear, 0.5,
-        "Amplitude of the vibration; smaller than a mean gap that is given"),
+        "Amplitude of the vibration; where the mean gap is given, it is smaller than that"),
     number("plate.frequency_khz", "kHz", Plate, (0.001, 10000.0), (0.01, 1000.0), Log, 30.0, "Frequency of the vibration"),
 
     number("film.min_spacing_nm", "nm", IdleOnPlate, (5.0, 10000.0), (5.0, 2000.0), Log, 200.0,
-        "Spacing that roughness leaves where the faces touch; unused by a plate whose gap is given").when(HARD),
+        "Spacing that roughness leaves where the faces touch; a plate whose gap is given does not use it").when(HARD),
     choice("film.gas", Any, &["custom", "air", "nitrogen", "helium", "argon", "carbon-dioxide", "hydrogen"], "custom",
-        "The gas, whose viscosity and mean free path follow; of a custom one they are given"),
+        "The gas. Its viscosity and mean free path follow from it; of a custom gas they are given"),
     number("film.temperature_c", "°C", Any, (-70.0, 500.0), (-20.0, 100.0), Linear, 20.0, "Temperature of the gas").when(NAMED),
-    number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the gas around"),
-    number("film.altitude_m", "m", Any, (-1000.0, 60e3), (0.0, 10e3), Linear, 0.0, "Altitude whose standard atmosphere has the pressure")
+    number("film.ambient_pressure_kpa", "kPa", Any, (0.01, 1000.0), (1.0, 1000.0), Log, 101.325, "Pressure of the surrounding gas"),
+    number("film.altitude_m", "m", Any, (-1000.0, 60e3), (0.0, 10e3), Linear, 0.0, "Altitude at which the standard atmosphere has the ambient pressure")
         .absent("the pressure is given").when(NAMED).instead_of("film.ambient_pressure_kpa"),
     number("film.viscosity_upa_s", "µPa s", Any, (1.0, 1000.0), (5.0, 50.0), Log, 18.1, "Viscosity of the gas").when(CUSTOM),
     number("film.mean_free_path_nm", "nm", Any, (0.0, 1e9), (0.0, 500.0), Linear, 64.0,
-        "Mean free path of the gas at the ambient pressure given").when(CUSTOM),
-    choice("film.slip", Any, Slip::NAMES, "first-order", "How the gas slips at the walls"),
+        "Mean free path of the gas at the ambient pressure").when(CUSTOM),
+    choice("film.slip", Any, Slip::NAMES, "first-order", "The law by which the gas slips at the walls"),
     number("film.accommodation", "", Any, (0.3, 1.0), (0.5, 1.0), Linear, 1.0,
-        "Share of the molecules that the walls reflect diffusely, the others specularly").when(BOLTZMANN),
-    flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); unused by a plate"),
+        "Share of the molecules that the walls reflect diffusely; they reflect the others specularly").when(BOLTZMANN),
+    flag("film.shear", IdleOnPlate, true, "Whether sliding drags gas along (the wedge term); a plate does not use it"),
 
     choice("surface.model", Motor, &["minimum-spacing", "asperities"], "minimum-spacing",
-        "How the faces meet: at a hard stop that leaves a minimum spacing, or on asperities that give way"),
+        "Contact of the faces: a hard stop at the minimum spacing, or elastic asperities"),
     choice("surface.contact_law", Motor, &["greenwood-williamson", "greenwood-tripp"], "greenwood-williamson",
-        "What the asperities carry: those of one face against a plane, or of both faces").when(ASPERITIES),
-    choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "How the heights of the summits are distributed").when(ASPERITIES),
-    other("surface.heights_csv", Motor,
+        "Contact law: asperities of one face against a plane, or of both faces").when(ASPERITIES),
+    choice("surface.summit_heights", Motor, &["gaussian", "exponential"], "gaussian", "Distribution of the heights of the summits").when(ASPERITIES),
+    Parameter::new("surface.heights_csv", Motor,
         CsvPath { fills: &["surface.rms_nm", "surface.summit_radius_um", "surface.summit_density_per_mm2", "surface.lay"] },
-        "CSV file of measured heights, relative to the preset's folder, that both faces are like: roughness, summits and lay follow where they are not given")
+        "CSV file of the measured heights of both faces, relative to the preset's folder: roughness, summits and lay follow where they are not given")
         .when(ROUGH),
     number("surface.rms_nm", "nm", Motor, (10.0, 5000.0), (20.0, 1000.0), Log, 100.0,
         "Standard deviation of the heights of both faces together").when(ROUGH),
     number("surface.summit_radius_um", "µm", Motor, (0.1, 1e4), (1.0, 1000.0), Log, 50.0, "Radius of a summit").when(ASPERITIES),
-    number("surface.summit_density_per_mm2", "1/mm²", Motor, (1.0, 1e7), (100.0, 1e6), Log, 1e4, "Summits on an area").when(ASPERITIES),
+    number("surface.summit_density_per_mm2", "1/mm²", Motor, (1.0, 1e7), (100.0, 1e6), Log, 1e4, "Number of summits per area").when(ASPERITIES),
     number("surface.elastic_modulus_gpa", "GPa", Motor, (0.01, 1000.0), (1.0, 250.0), Log, 60.0,
         "Contact modulus E* of both faces together, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂").when(ASPERITIES),
-    choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "How roughness changes the flow of the gas"),
+    choice("surface.flow_factors", Motor, &["none", "patir-cheng"], "none", "Flow factors, by which roughness changes the flow of the gas"),
     number("surface.lay", "", Motor, (0.112, 9.0), (0.112, 9.0), Log, 1.0,
-        "How much longer the asperities are along the wave than across it").when(ROUGH_FLOW),
+        "Length of the asperities along the wave over their length across it").when(ROUGH_FLOW),
     number("surface.stator_share", "", Motor, (0.0, 1.0), (0.0, 1.0), Linear, 0.5,
-        "Share of the variance of the heights that is the stator's").when(ROUGH_FLOW),
+        "Share of the stator in the variance of the heights of both faces").when(ROUGH_FLOW),
 
     whole("numerics.film_nodes_along", Any, (5, 2001), 101,
         "Film nodes along a tooth or plate, both ends counted").absent(LEFT_OPEN),
@@ -152,15 +152,15 @@ pub static PARAMETERS: &[Parameter] = &[
     number("numerics.tolerance", "", Any, (1e-9, 1e-2), (1e-7, 1e-2), Log, 1e-4,
         "Relative change of the trapped gas at which the cycle counts as repeating").absent(LEFT_OPEN),
     choice("numerics.wedge", IdleOnPlate, Wedge::NAMES, "auto",
-        "The wedge term of sliding: solved (on), left out (off), or as the scene needs"),
+        "Wedge term of sliding: solved (on), left out (off), or as the scene needs (auto)"),
     choice("numerics.teeth", IdleOnPlate, Teeth::NAMES, "auto",
-        "Teeth whose film is solved: one by lag symmetry, or all; the result is the same"),
+        "Teeth whose film is solved: one, as the others lag behind it, or all; the result is the same"),
     choice("numerics.width", IdleOnPlate, Width::NAMES, "auto",
-        "Width of the film that is solved: half by symmetry, or full; the result is the same"),
+        "Width of the film that is solved: half, as it is symmetric, or all; the result is the same"),
     choice("numerics.flow", IdleOnPlate, Flow::NAMES, "auto",
-        "Where the film flows: in the plane, or only across or along a tooth"),
+        "Directions in which the gas flows: both, or only across or along a tooth"),
     choice("numerics.time", IdleOnPlate, Time::NAMES, "auto",
-        "The film in time: marched step by step, or trapped, with no time to move"),
+        "The film over time: solved step by step, or trapped gas that has no time to flow"),
 ];
 
 impl Parameter {
@@ -169,21 +169,22 @@ impl Parameter {
         PARAMETERS.iter().any(|parameter| parameter.when.iter().any(|(selector, _)| *selector == self.key))
     }
 
-    /// Its place when several keys are set at once: what chooses a model decides which keys there are, what replaces another one
-    /// comes after that, and a table of harmonics needs the wavelength. Numbers that are given take the place of those from a file.
+    /// The order in which several keys are set at once, lowest first. A key that chooses a model comes first, because it decides which other
+    /// keys there are. Numbers come after a file, so that they replace those of the file. A key that replaces another one comes after it, and a
+    /// table of harmonics after the keys of the wavelength, which it needs.
     pub(super) fn rank(&self) -> u8 {
         match self.kind {
-            // A plate under a load heeds other keys.
+            // A load or a mass on a plate decides which other keys have an effect.
             _ if self.selects() || self.instead_of == Some("plate.mean_gap_um") => 0,
             ParameterKind::CsvPath { fills: [_, _, ..] } => 1,
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } => 4,
-            // After the array that it is a value of.
+            // A value of an array comes after the array.
             _ if self.key.matches('.').count() > 1 => 5,
             _ => 2 + u8::from(self.instead_of.is_some()),
         }
     }
 
-    /// The other keys of which a scene has this one or one of them.
+    /// The other keys for the same quantity: a scene has only one of them.
     pub(super) fn alternatives(&'static self) -> impl Iterator<Item = &'static Self> {
         let first = |parameter: &Self| parameter.instead_of.unwrap_or(parameter.key);
         PARAMETERS.iter().filter(move |other| other.key != self.key && first(other) == first(self))
@@ -213,7 +214,7 @@ const fn number(
     about: &'static str,
 ) -> Parameter {
     let (range, slider) = (Range::new(range.0, range.1), Range::new(slider.0, slider.1));
-    Parameter { unit, ..other(key, belongs, ParameterKind::Number { range, slider, scale, default }, about) }
+    Parameter { unit, ..Parameter::new(key, belongs, ParameterKind::Number { range, slider, scale, default }, about) }
 }
 
 const fn whole(
@@ -223,7 +224,7 @@ const fn whole(
     default: u32,
     about: &'static str,
 ) -> Parameter {
-    other(key, belongs, ParameterKind::Whole { min, max, default }, about)
+    Parameter::new(key, belongs, ParameterKind::Whole { min, max, default }, about)
 }
 
 const fn choice(
@@ -233,19 +234,15 @@ const fn choice(
     default: &'static str,
     about: &'static str,
 ) -> Parameter {
-    other(key, belongs, ParameterKind::Choice { options, default }, about)
+    Parameter::new(key, belongs, ParameterKind::Choice { options, default }, about)
 }
 
 const fn flag(key: &'static str, belongs: Belongs, default: bool, about: &'static str) -> Parameter {
-    other(key, belongs, ParameterKind::Flag { default }, about)
+    Parameter::new(key, belongs, ParameterKind::Flag { default }, about)
 }
 
 const fn text(key: &'static str, default: &'static str, about: &'static str) -> Parameter {
-    other(key, Any, ParameterKind::Text { default }, about)
-}
-
-const fn other(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Parameter {
-    Parameter { key, unit: "", belongs, when: &[], instead_of: None, absent: None, kind, about }
+    Parameter::new(key, Any, ParameterKind::Text { default }, about)
 }
 
 /// The tables of a scene file, in the order they are written.
@@ -261,7 +258,7 @@ pub fn markdown() -> String {
     for p in PARAMETERS {
         let accepts = match p.range() {
             Some(range) => range.to_string(),
-            None => Parameter { absent: None, ..*p }.accepts(),
+            None => p.accepts_if_given(),
         };
         let _ = writeln!(page, "| `{}` | {} | {accepts} | {} | {} |", p.key, p.unit, p.default_words(), p.about);
     }

@@ -1,14 +1,13 @@
-//! What a person edits: a scene, in the units of the field, as a TOML file, as `--set key=value`, or in the window.
+//! Scenes: what a person edits, in the units of the field, as a TOML file, by `--set key=value`, or in the window.
 //!
-//! A [`Scene`] holds the values of its keys; [`PARAMETERS`] says everything about each key: its unit, range, default,
-//! meaning, and the scenes and models that have it. Reading, setting, resetting, checking and writing go through that
-//! table and know no key by name. A scene becomes a checked, SI [`crate::problem::Problem`] by
-//! [`crate::problem::Problem::try_from`] (`convert.rs`), the only place where keys get types of their own. Errors
-//! ([`SceneError`]) name file, line, key, value and what is allowed, and list the first ten faults at once.
+//! A [`Scene`] holds the values of its keys. [`PARAMETERS`] has everything about each key: its unit, range, default and meaning, and the
+//! scenes and models that have it. Reading, setting, resetting, checking and writing use that table and know no key by name.
+//! [`crate::problem::Problem::try_from`] (`convert.rs`) turns a scene into a checked [`crate::problem::Problem`] in SI units; only there does
+//! each key have a type of its own. An error ([`SceneError`]) names file, line, key, value and what is allowed, and lists up to ten faults.
 //!
-//! A file starts with `schema = 1`, which is required, as the meaning of the rest depends on it. Everything else may be
-//! left out and takes its default: the fundamental case of Maeno and Bogy (1992), or for `scene = "plate"` an
-//! infinitely wide strip. An unknown key, or one of another scene or rotor model, is refused.
+//! A file starts with `schema = 1`, which is required, because the meaning of the rest depends on it. Every other key may be
+//! left out and then has its default: those of the fundamental case of Maeno and Bogy (1992), or for `scene = "plate"` of an
+//! infinitely wide strip. An unknown key, or a key of another scene or rotor model, is an error.
 //!
 //! ```
 //! use squeezefilm::{problem::Problem, scene::presets};
@@ -46,6 +45,7 @@ mod write;
 
 pub use error::{Fault, SCHEMA, SceneError, What};
 pub use keys::{PARAMETERS, markdown};
+pub(crate) use nearest::nearest;
 pub use parameter::{Belongs, Cell, Parameter, ParameterKind, Range, Scale};
 pub use value::Value;
 pub(crate) use value::{escaped, show_text};

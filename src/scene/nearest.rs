@@ -1,13 +1,13 @@
 //! The known name nearest to a mistyped one.
 
-/// How alike two names must be (Jaro–Winkler, 0 to 1) for one to be offered in place of the other.
+/// Least similarity (Jaro–Winkler, 0 to 1) of a name that is offered in place of another one.
 const ALIKE: f64 = 0.75;
 
-/// Longest name that is compared with others \[bytes\]: comparing takes time in proportion to both lengths.
+/// Longest name that is compared with others \[bytes\], because the time of a comparison is proportional to both lengths.
 const LONGEST: usize = 100;
 
-/// The candidate most like `name`, if any is alike.
-pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+/// The candidate that is most similar to `name`, if one is similar enough.
+pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > LONGEST {
         return None;
     }
@@ -17,8 +17,8 @@ pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
     (best.0 >= ALIKE).then_some(best.1)
 }
 
-/// The dotted key nearest to `key`: one with the same last part in another table first, then the most alike in the
-/// same table, then the most alike anywhere.
+/// The dotted key nearest to `key`: one with the same last part in another table, or else the most similar one in the same table, or else
+/// the most similar one anywhere.
 pub(super) fn nearest_key<'a>(key: &str, candidates: &[&'a str]) -> Option<&'a str> {
     fn leaf(key: &str) -> &str {
         key.rsplit('.').next().unwrap_or_default()

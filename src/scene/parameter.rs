@@ -1,8 +1,8 @@
-//! What there is to say about a key of a scene: unit, range, default, meaning, and where it is allowed.
+//! The description of a key of a scene: its unit, range, default and meaning, and the scenes that have it.
 
 use super::value::{Value, show_number};
 use serde::{Deserialize, Serialize};
-use std::fmt::{self, Write as _};
+use std::fmt;
 
 /// An interval of allowed values, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl fmt::Display for Range {
     }
 }
 
-/// How a slider or a sweep should space the values.
+/// The spacing of the values of a slider or a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Equal steps.
@@ -45,11 +45,11 @@ pub enum Scale {
 pub enum ParameterKind {
     /// A number.
     Number {
-        /// What is accepted.
+        /// The allowed values.
         range: Range,
-        /// The part of `range` worth a slider.
+        /// The range of the slider, a part of `range`.
         slider: Range,
-        /// How the slider is spaced.
+        /// The spacing of the slider.
         scale: Scale,
         /// The value of an absent key; of an optional key, the value to start from when it is switched on.
         default: f64,
@@ -80,19 +80,19 @@ pub enum ParameterKind {
         /// The value of an absent key.
         default: &'static str,
     },
-    /// Pairs of numbers, see [`super::compliance`].
+    /// A table: rows of two numbers, see [`super::compliance`].
     Rows {
-        /// What the numbers of a pair are.
+        /// The two columns.
         columns: &'static [Parameter; 2],
     },
-    /// The path of a CSV file, read when the scene is; the scene keeps what follows from it, not the path.
+    /// The path of a CSV file, which is read together with the scene. The scene keeps the values that follow from the file, not the path.
     CsvPath {
-        /// The keys that follow: one of rows, or several numbers, of which those that are given stay.
+        /// The keys whose values follow from the file: one table, or several numbers. Numbers that the preset gives are not replaced.
         fills: &'static [&'static str],
     },
     /// An array of tables.
     Records {
-        /// The keys of each table, each without a table of its own.
+        /// The keys of each table. Their names have no dot.
         columns: &'static [Parameter],
         /// Fewest tables.
         fewest: usize,
@@ -101,7 +101,7 @@ pub enum ParameterKind {
     },
 }
 
-/// One value of a default table.
+/// One value of an array of tables that is the default of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
     /// A number, in the unit of its column.
@@ -124,7 +124,7 @@ impl From<&Cell> for Value {
 pub enum Belongs {
     /// Every scene.
     Any,
-    /// Every scene, but the results of a plate do not depend on it: a file may have it, and to set or vary it is refused.
+    /// Every scene, but the results of a plate do not depend on it. The file of a plate may have it; setting or varying it is an error.
     IdleOnPlate,
     /// Motor scenes.
     Motor,
@@ -132,7 +132,7 @@ pub enum Belongs {
     Plate,
 }
 
-/// The key that chooses a model, and the models that have the key in question.
+/// A key that chooses a model, and those of its values with which a scene has the key in question.
 pub(super) type Model = (&'static str, &'static [&'static str]);
 
 /// One key of a scene.
@@ -144,20 +144,20 @@ pub struct Parameter {
     pub unit: &'static str,
     /// The scenes that have it.
     pub belongs: Belongs,
-    /// The models that have it, of which a scene needs one; empty: every scene has it.
+    /// The models that have it, of which a scene needs one. If empty, it does not depend on a model.
     pub when: &'static [Model],
-    /// An optional key that, where it is given, replaces another one.
+    /// Of an optional key that can be given in place of another one: that other key.
     pub instead_of: Option<&'static str>,
-    /// For a key that may be left out for good: what its absence means. `None`: absence means the default.
+    /// For an optional key: the meaning of its absence. `None` if an absent key has its default.
     pub absent: Option<&'static str>,
     /// Type, range and default.
     pub kind: ParameterKind,
-    /// One line: what it is.
+    /// Its meaning in one line.
     pub about: &'static str,
 }
 
-/// The units of the field: how a key ends, what people are shown, and how many make one SI unit (`rpm`: one turn a
-/// second). The longer endings come before those that they end in.
+/// The units of the field: the ending of a key, the unit as it is shown, and its conversion to SI (`rpm` to turns per second). An ending
+/// comes before shorter ones that it ends in.
 const UNITS: [(&str, &str, Per); 16] = [
     ("_per_mm2", "1/mm²", Per::Times(1e6)),
     ("_m2_per_n", "m²/N", Per::One),
@@ -177,8 +177,8 @@ const UNITS: [(&str, &str, Per); 16] = [
     ("_c", "°C", Per::Above(273.15)),
 ];
 
-/// What makes SI of a number. Dividing by an exact power of ten rounds once: 200 nm is the double nearest to 2e-7 m.
-/// Multiplying by 1e-9, which is not itself exact, would round twice.
+/// The conversion of a number to SI. Division by a power of ten, which is exact, rounds once: 200 nm becomes the double nearest to 2e-7 m.
+/// Multiplication by 1e-9, which is not exact itself, would round twice.
 #[derive(Clone, Copy)]
 enum Per {
     One,
@@ -188,6 +188,11 @@ enum Per {
 }
 
 impl Parameter {
+    /// A parameter that every model has, and that replaces no other; its value is a pure number or none.
+    pub(super) const fn new(key: &'static str, belongs: Belongs, kind: ParameterKind, about: &'static str) -> Self {
+        Self { key, unit: "", belongs, when: &[], instead_of: None, absent: None, kind, about }
+    }
+
     /// The TOML table the key is in; empty for the keys above all tables.
     pub fn table(&self) -> &'static str {
         self.key.split_once('.').map_or("", |(table, _)| table)
@@ -241,10 +246,16 @@ impl Parameter {
         })
     }
 
-    /// What the key accepts, in words: `a number from 5 to 10000 nm`.
+    /// What the key accepts, in words: `a number from 5 to 10000 nm`; of an optional key also that it may be absent.
     pub fn accepts(&self) -> String {
+        let meaning = self.absent.map_or_else(String::new, |meaning| format!(", or none ({meaning})"));
+        self.accepts_if_given() + &meaning
+    }
+
+    /// What the key accepts if it is given, in words.
+    pub(super) fn accepts_if_given(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let mut words = match self.kind {
+        match self.kind {
             ParameterKind::Number { range, .. } => format!("a number from {range}{unit}"),
             ParameterKind::Whole { min, max, .. } => format!("a whole number from {min} to {max}{unit}"),
             ParameterKind::Flag { .. } => "true or false".to_owned(),
@@ -259,11 +270,7 @@ impl Parameter {
                 format!("tables with {}", keys.join(", "))
             }
             ParameterKind::CsvPath { .. } => "the path of a CSV file".to_owned(),
-        };
-        if let Some(meaning) = self.absent {
-            let _ = write!(words, ", or none ({meaning})");
         }
-        words
     }
 
     /// The default in words.

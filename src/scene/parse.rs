@@ -1,9 +1,9 @@
-//! TOML text to a scene. Reads the spanned tree rather than serde's types, so that every fault has its line and all of
-//! them are found in one reading.
+//! Reads a scene from TOML text. It walks the tree with its positions rather than using serde's types, so that every fault has its line,
+//! and all faults are found in one reading.
 
-use super::accept::{check_count, named};
-use super::compliance::{self, MOST_ROWS, check_row};
-use super::error::{Fault, SCHEMA, SceneError, What};
+use super::accept::{check_records, named};
+use super::compliance::{self, check_row, check_row_count, in_row, not_a_pair};
+use super::error::{Fault, SCHEMA, SceneError, What, did_you_mean};
 use super::keys::tables;
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
@@ -14,7 +14,7 @@ use std::collections::HashMap;
 use std::ops::Range as Bytes;
 use std::path::Path;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeTable, DeValue};
 
 /// Largest file read \[MB\]. The largest compliance table takes a third of it.
 const LARGEST_FILE: u64 = 16;
@@ -31,8 +31,7 @@ impl Scene {
         Self::from_toml(&text, path)
     }
 
-    /// Reads a preset from text. `origin` is the name faults are reported under; `rotor.compliance_csv` is looked for
-    /// in the folder it is in.
+    /// Reads a preset from text. `origin` is the path that messages name; CSV files are looked for in its folder.
     ///
     /// # Errors
     ///
@@ -41,13 +40,13 @@ impl Scene {
         let origin = origin.as_ref();
         let mut reader = Reader { text, origin, faults: SceneError::none(), spans: HashMap::new() };
         let scene = reader.read();
-        // A scene is missing only together with a fault.
+        // Without a fault there is a scene.
         reader.faults.or(())?;
         scene.ok_or_else(|| What::SchemaMissing.into())
     }
 }
 
-/// Reads the CSV file at `path`, which `parameter` names, for the rows of the key `of`; `given` is the value of the key, for the message.
+/// Reads the rows of the key `of` from the CSV file at `path`. `parameter` names the file, with the value `given`, which messages quote.
 /// `wavelength` in \[m\].
 pub(super) fn read_table(
     parameter: &'static Parameter,
@@ -60,33 +59,17 @@ pub(super) fn read_table(
     let ParameterKind::Rows { columns } = of.kind else {
         return Err(What::wrong_type(parameter, show_text(given)).into());
     };
-    let unreadable = |fault| What::Csv { key, given: show_text(given), path: path.to_owned(), fault };
-    let text = input::read_text(path, LARGEST_FILE).map_err(unreadable)?;
+    let text =
+        input::read_text(path, LARGEST_FILE).map_err(|fault| What::csv(key, given, path, format!(" {fault}")))?;
     compliance::read_csv(key, columns, &text, path, wavelength).map(Value::Rows)
 }
 
-/// The rows of a table from the text of `--set`, written as in TOML.
-pub(super) fn rows_from_text(
-    parameter: &'static Parameter,
-    columns: &'static [Parameter; 2],
-    text: &str,
-) -> Result<Value, SceneError> {
+/// The rows of a table, or an array of tables, from the text of `--set`, written as in TOML.
+pub(super) fn array_from_text(parameter: &'static Parameter, text: &str) -> Result<Value, SceneError> {
     let tree = DeValue::parse(text).map_err(|_| What::wrong_type(parameter, show_text(text)))?;
     let mut faults = SceneError::none();
-    let rows = rows_from_toml(parameter, columns, &tree, text, &mut |_, what| faults.push(what));
-    faults.or(Value::Rows(rows))
-}
-
-/// An array of tables from the text of `--set`, written as in TOML.
-pub(super) fn records_from_text(
-    parameter: &'static Parameter,
-    columns: &'static [Parameter],
-    text: &str,
-) -> Result<Value, SceneError> {
-    let tree = DeValue::parse(text).map_err(|_| What::wrong_type(parameter, show_text(text)))?;
-    let mut faults = SceneError::none();
-    let records = records_from_toml(parameter, columns, &tree, text, &mut |_, what| faults.push(what));
-    faults.or(Value::Records(records))
+    let value = array_from_toml(parameter, &tree, text, &mut |_, what| faults.push(what));
+    faults.or(value)
 }
 
 struct Reader<'t> {
@@ -115,7 +98,7 @@ impl Reader<'_> {
         }
         let mut scene = self.empty_scene(root)?;
         let mut entries = self.entries(root, &scene);
-        // A CSV file comes after the rows that it may be given beside.
+        // A CSV file comes after the rows, so that it is reported if both are given.
         entries.sort_by_cached_key(|(at, key, _)| {
             let parameter = Parameter::find(key);
             let file = parameter.is_some_and(|parameter| matches!(parameter.kind, ParameterKind::CsvPath { .. }));
@@ -135,7 +118,8 @@ impl Reader<'_> {
             Some(value) if integer(value.get_ref()) == Some(SCHEMA) => return true,
             Some(value) => {
                 let found = self.written(value.span());
-                self.fault(Some(value.span()), || What::SchemaUnsupported(found));
+                let message = format!("schema = {found} is not supported: this program reads schema = {SCHEMA}");
+                self.fault(Some(value.span()), || What::Rule { key: "schema", message });
             }
         }
         false
@@ -147,9 +131,10 @@ impl Reader<'_> {
         let name = value.get_ref().as_str().unwrap_or_default();
         let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name);
         if kind.is_none() {
-            let nearest = nearest(name, Kind::ALL.map(Kind::name)).map(str::to_owned);
+            let nearest = did_you_mean(nearest(name, Kind::ALL.map(Kind::name)));
             let found = self.written(value.span());
-            self.fault(Some(value.span()), || What::UnknownScene { found, nearest });
+            let message = format!("scene = {found} is not a scene: allowed \"motor\" or \"plate\"{nearest}");
+            self.fault(Some(value.span()), || What::Rule { key: "scene", message });
         }
         kind.map(Scene::new)
     }
@@ -172,7 +157,8 @@ impl Reader<'_> {
                 },
                 (Some(table), _) => {
                     let found = self.written(value.span());
-                    self.fault(Some(value.span()), || What::NotATable { table, found });
+                    let message = format!("{table} = {found} is not a table: write [{table}] with its keys below");
+                    self.fault(Some(value.span()), || What::Rule { key: table, message });
                 }
                 (None, DeValue::Table(_)) => self.fault(Some(at), || {
                     let siblings = scene.tables();
@@ -195,7 +181,7 @@ impl Reader<'_> {
         }
         self.spans.insert(parameter.key, span.clone());
         match scene.applies(parameter) {
-            // Which keys there are is not known where the model is at fault itself.
+            // If the model itself is at fault, it is not known which keys there are.
             Err(What::Elsewhere { selector, .. }) if self.at_fault(&[selector]) => return,
             Err(what) => return self.fault(Some(at), || what),
             Ok(()) => {}
@@ -203,19 +189,10 @@ impl Reader<'_> {
         let read = match parameter.kind {
             ParameterKind::Rows { .. } | ParameterKind::Records { .. } => {
                 let (mut in_order, text) = (true, self.text);
-                let mut fault = |span, what| {
+                let read = array_from_toml(parameter, value, text, &mut |span, what| {
                     in_order = false;
                     self.fault(Some(span), || what);
-                };
-                let read = match parameter.kind {
-                    ParameterKind::Records { columns, .. } => {
-                        Value::Records(records_from_toml(parameter, columns, value, text, &mut fault))
-                    }
-                    ParameterKind::Rows { columns } => {
-                        Value::Rows(rows_from_toml(parameter, columns, value, text, &mut fault))
-                    }
-                    _ => return,
-                };
+                });
                 if !in_order {
                     return;
                 }
@@ -228,14 +205,14 @@ impl Reader<'_> {
         if let Err(what) = read.and_then(|value| scene.assign(parameter, value)) {
             let found = self.written(span.clone());
             self.fault(Some(span), || match what {
-                // As it is written in the file, rather than as it was read.
+                // The message shows the value as it is written in the file.
                 What::Refused { parameter, why: "of the wrong type", .. } => What::wrong_type(parameter, found),
                 what => what,
             });
         }
     }
 
-    /// Reads what follows for the keys `fills` from the CSV file that a key names.
+    /// Sets the keys `fills` from the CSV file that a key names.
     fn csv(&mut self, scene: &mut Scene, parameter: &'static Parameter, fills: &[&str], value: &Spanned<DeValue<'_>>) {
         let span = Some(value.span());
         let Some(given) = value.get_ref().as_str() else {
@@ -253,17 +230,17 @@ impl Reader<'_> {
         let path = self.origin.parent().unwrap_or(Path::new("")).join(given);
         if let Err(error) = scene.take_csv(parameter, fills, given, &path) {
             match error.faults() {
-                // About the file as such, and not about a line of it.
+                // The fault is about the whole file, and not about a line of it.
                 [Fault { origin: None, what, .. }, ..] => self.fault(span, || what.clone()),
                 _ => self.faults.join(error),
             }
         }
     }
 
-    /// The rules between keys, for keys that are themselves in order.
+    /// Checks the rules between keys whose own values are in order.
     fn rules(&mut self, scene: &Scene) {
         for (keys, what) in scene.broken_rules() {
-            // A CSV file that was not read, as its wavelength is at fault, may be one.
+            // A CSV file that was not read, because its wavelength is at fault, would break a rule too.
             let unread = ["rotor.compliance_csv", "rotor.green_csv"]
                 .iter()
                 .any(|key| keys.contains(key) && self.spans.contains_key(key));
@@ -279,7 +256,7 @@ impl Reader<'_> {
         self.faults.faults().iter().any(|fault| fault.what.key().is_some_and(|key| keys.contains(&key)))
     }
 
-    /// Adds a fault. What is wrong is found out only if it will be told: a hostile file has a fault on every line.
+    /// Adds a fault. The message is composed only if it will be shown, because a hostile file may have a fault on every line.
     fn fault(&mut self, span: Option<Bytes<usize>>, what: impl FnOnce() -> What) {
         if self.faults.is_full() {
             return self.faults.count_one();
@@ -294,12 +271,12 @@ impl Reader<'_> {
     }
 }
 
-/// The value from TOML; `None` if it is of a type that no parameter has, or a fraction where whole numbers are meant.
+/// The value of a parameter from TOML; `None` if it is of a type that no parameter has, or a fraction where a whole number is expected.
 fn value_from_toml(parameter: &Parameter, value: &DeValue<'_>) -> Option<Value> {
     let whole = matches!(parameter.kind, ParameterKind::Whole { .. });
     match value {
         DeValue::Float(_) => number(value).filter(|number| !whole || !number.is_finite()).map(Value::Number),
-        // Beyond 64 bits, a number.
+        // A whole number of more than 64 bits is read as floating point.
         DeValue::Integer(_) => integer(value).map(Value::Whole).or_else(|| number(value).map(Value::Number)),
         DeValue::Boolean(flag) => Some(Value::Flag(*flag)),
         DeValue::String(text) => Some(Value::Text(text.clone().into_owned())),
@@ -307,61 +284,65 @@ fn value_from_toml(parameter: &Parameter, value: &DeValue<'_>) -> Option<Value> 
     }
 }
 
-/// Rows `[[wavenumber_per_m, compliance_m2_per_n], …]`, those that are in order; `fault` is told of the others, with the place
-/// of each.
-fn rows_from_toml(
-    parameter: &'static Parameter,
-    columns: &'static [Parameter; 2],
-    value: &Spanned<DeValue<'_>>,
-    text: &str,
-    fault: &mut dyn FnMut(Bytes<usize>, What),
-) -> Vec<(f64, f64)> {
-    let written = |span: Bytes<usize>| show_text(text.get(span).unwrap_or_default());
-    let key = parameter.key;
-    let mut rows: Vec<(f64, f64)> = Vec::new();
-    match value.get_ref().as_array() {
-        None => fault(value.span(), What::wrong_type(parameter, written(value.span()))),
-        Some(array) if array.is_empty() || array.len() > MOST_ROWS => {
-            fault(value.span(), What::TooManyRows { key, rows: array.len(), limit: MOST_ROWS });
+/// Takes a fault, and the bytes of the text that are at fault.
+type Told<'a> = &'a mut dyn FnMut(Bytes<usize>, What);
+
+/// The rows of a table, or an array of tables: those that are in order. `fault` is told of the others.
+fn array_from_toml(parameter: &'static Parameter, value: &Spanned<DeValue<'_>>, text: &str, fault: Told<'_>) -> Value {
+    let counted = |array: &DeArray<'_>| match parameter.kind {
+        ParameterKind::Records { fewest, .. } => check_records(parameter.key, array.len(), fewest),
+        _ => check_row_count(parameter.key, array.len()),
+    };
+    let wrong_type = || What::wrong_type(parameter, show_text(text.get(value.span()).unwrap_or_default()));
+    let array = value.get_ref().as_array().ok_or_else(wrong_type);
+    let array = array.and_then(|array| counted(array).map(|()| &array[..])).unwrap_or_else(|what| {
+        fault(value.span(), what);
+        &[]
+    });
+    match parameter.kind {
+        ParameterKind::Records { columns, .. } => {
+            Value::Records(records_from_toml(parameter, columns, array, text, fault))
         }
-        Some(array) => {
-            for (row, i) in array.iter().zip(1..) {
-                let numbers = row.get_ref().as_array().map(|pair| pair.iter().map(|value| number(value.get_ref())));
-                let checked = match numbers.map(Vec::from_iter).as_deref() {
-                    Some([Some(first), Some(second)]) => {
-                        let pair = (*first, *second);
-                        check_row(columns, pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
-                    }
-                    _ => Err(What::NotAPair { found: written(row.span()), columns }),
-                };
-                if let Err(wrong) = checked {
-                    fault(row.span(), What::Row { key, row: i, fault: wrong.into() });
-                }
+        ParameterKind::Rows { columns } => Value::Rows(rows_from_toml(parameter.key, columns, array, text, fault)),
+        _ => Value::Rows(Vec::new()),
+    }
+}
+
+/// Rows `[[wavenumber_per_m, compliance_m2_per_n], …]`.
+fn rows_from_toml(
+    key: &'static str,
+    columns: &'static [Parameter; 2],
+    array: &[Spanned<DeValue<'_>>],
+    text: &str,
+    fault: Told<'_>,
+) -> Vec<(f64, f64)> {
+    let mut rows: Vec<(f64, f64)> = Vec::new();
+    for (row, i) in array.iter().zip(1..) {
+        let numbers = row.get_ref().as_array().map(|pair| pair.iter().map(|value| number(value.get_ref())));
+        let checked = match numbers.map(Vec::from_iter).as_deref() {
+            Some([Some(first), Some(second)]) => {
+                let pair = (*first, *second);
+                check_row(columns, pair, rows.last().map(|row| row.0)).map(|()| rows.push(pair))
             }
+            _ => Err(not_a_pair(text.get(row.span()).unwrap_or_default(), columns)),
+        };
+        if let Err(wrong) = checked {
+            fault(row.span(), in_row(key, i, wrong));
         }
     }
     rows
 }
 
-/// An array of tables, those that are in order; `fault` is told of the others, with the place of each.
+/// An array of tables, each with a key for every column.
 fn records_from_toml(
     parameter: &'static Parameter,
     columns: &'static [Parameter],
-    value: &Spanned<DeValue<'_>>,
+    array: &[Spanned<DeValue<'_>>],
     text: &str,
-    fault: &mut dyn FnMut(Bytes<usize>, What),
+    fault: Told<'_>,
 ) -> Vec<Vec<Value>> {
     let written = |span: Bytes<usize>| show_text(text.get(span).unwrap_or_default());
     let key = parameter.key;
-    let ParameterKind::Records { fewest, .. } = parameter.kind else { return Vec::new() };
-    let Some(array) = value.get_ref().as_array() else {
-        fault(value.span(), What::wrong_type(parameter, written(value.span())));
-        return Vec::new();
-    };
-    if let Err(what) = check_count(key, array.len(), fewest) {
-        fault(value.span(), what);
-        return Vec::new();
-    }
     let mut records = Vec::new();
     for (table, number) in array.iter().zip(1..) {
         let Some(given) = table.get_ref().as_table() else {
@@ -371,7 +352,7 @@ fn records_from_toml(
         let name = columns.first().and_then(|column| given.get(column.key)).and_then(|value| value.get_ref().as_str());
         let which = named(&name.map(|name| Value::Text(name.to_owned())).into_iter().collect::<Vec<_>>(), number);
         let mut wrong = |span, what: What| {
-            fault(span, What::Record { key, which: which.clone(), fault: what.into() });
+            fault(span, What::Within { key, which: which.clone(), fault: what.into() });
         };
         let keys: Vec<&'static str> = columns.iter().map(|column| column.key).collect();
         for (unknown, _) in given.iter().filter(|(given, _)| !keys.contains(&given.get_ref().as_ref())) {
@@ -382,7 +363,8 @@ fn records_from_toml(
         let mut record = Vec::new();
         for column in columns {
             let Some(cell) = given.get(column.key) else {
-                wrong(table.span(), What::Missing(column));
+                let message = format!("{} is missing: expected {}", column.key, column.accepts());
+                wrong(table.span(), What::Rule { key: column.key, message });
                 continue;
             };
             let read = value_from_toml(column, cell.get_ref())
@@ -418,7 +400,7 @@ fn integer(value: &DeValue<'_>) -> Option<i64> {
 
 /// A message of the TOML reader on one line.
 fn syntax_message(message: &str) -> String {
-    // What the reader says of a bare word that starts like true or false, such as first-order.
+    // The reader's message for a word without quotes that starts like true or false, such as first-order.
     if message.starts_with("invalid boolean") {
         return "text must be in quotes; the only bare words are true and false".to_owned();
     }

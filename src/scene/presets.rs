@@ -9,11 +9,11 @@ use std::path::Path;
 /// A preset built into the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltIn {
-    /// The name to ask for it by.
+    /// Its name, as a PRESET argument gives it.
     pub name: &'static str,
-    /// What it is listed under.
+    /// The heading that it is listed under.
     pub group: &'static str,
-    /// The file.
+    /// The text of its file.
     pub toml: &'static str,
 }
 
@@ -34,7 +34,7 @@ macro_rules! built_in {
     };
 }
 
-/// All built-in presets, in the order of the lists: what is simple first. The rows of Table I are in the paper's order.
+/// All built-in presets in the order of the lists, simple ones first. The rows of Table I are in the paper's order.
 pub static BUILT_IN: &[BuiltIn] = built_in![
     "Plates: the film alone": [
         "plate-viscous",
@@ -79,7 +79,7 @@ pub fn find(name_or_path: &str) -> Result<Scene, SceneError> {
         return built_in.scene();
     }
     let path = Path::new(name_or_path);
-    // A path that is there but cannot be read says so itself.
+    // If the path exists but cannot be read, loading it gives the reason.
     if path.try_exists().unwrap_or(true) && !name_or_path.is_empty() {
         return Scene::load(path);
     }

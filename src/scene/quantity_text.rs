@@ -2,7 +2,7 @@
 
 use super::parameter::Parameter;
 
-/// Units of one kind: how they are written (with `u` for µ), and their size, relative to each other.
+/// Units of one kind: their symbols (with `u` for µ), and their sizes relative to each other.
 type Kind = &'static [(&'static str, f64)];
 
 const KINDS: &[Kind] = &[
@@ -29,16 +29,16 @@ const KINDS: &[Kind] = &[
     &[("1/um2", 1e12), ("1/mm2", 1e6), ("1/m2", 1.0)],
 ];
 
-/// Longest text that is read: no parameter needs more, and parentheses cannot be nested deeper.
+/// Longest text that is read \[bytes\]. It also limits how deep parentheses are nested.
 const LONGEST: usize = 200;
-/// Significant decimals of what was computed, without the last bits of the conversion.
+/// Decimals to which a computed number is rounded, so that the conversion of units leaves no stray last bits.
 const DECIMALS: usize = 13;
 
-/// The number that `text` is for `parameter`, in its unit: with a decimal point or comma, in any unit of the same kind, as a sum,
-/// difference, product or quotient with parentheses. What has no unit is in that of the key.
+/// Reads `text` as a number for `parameter`, in its unit. The text may have a decimal point or comma, any unit of the same kind, and sums,
+/// differences, products, quotients and parentheses. A number without a unit is in the unit of the key.
 ///
 /// # Errors
-/// Key, text and what is allowed.
+/// The text is not such a number; the message has the key, the text and what is allowed.
 pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
     let units = kind_of(parameter.unit);
     value(units, spelled(parameter.unit).as_str(), text).ok_or_else(|| {
@@ -47,14 +47,14 @@ pub fn read(parameter: &Parameter, text: &str) -> Result<f64, String> {
             if others.is_empty() { String::new() } else { format!(", in {}", others.join(", ").replace('u', "µ")) };
         let accepts = parameter.accepts();
         format!(
-            "{} = {} is no number here: expected {accepts}{others}, or a sum as (1 + 2) × 3",
+            "{} = {} is no number here: expected {accepts}{others}, or a calculation such as (1 + 2) × 3",
             parameter.key,
             text.trim()
         )
     })
 }
 
-/// The number that `text` is in `unit`, as [`read`] reads it; `None` if it is none.
+/// Reads `text` as a number in `unit`, as [`read`] does; `None` if it is not one.
 pub fn number(unit: &str, text: &str) -> Option<f64> {
     value(kind_of(unit), &spelled(unit), text)
 }
@@ -64,7 +64,7 @@ fn kind_of(unit: &str) -> Kind {
     KINDS.iter().find(|kind| kind.iter().any(|(name, _)| *name == unit)).copied().unwrap_or(&[])
 }
 
-/// Without spaces, and with one way of writing each sign.
+/// The text without spaces, and with the same character for each sign that can be written in several ways.
 fn spelled(text: &str) -> String {
     let sign = |c: char| match c {
         'µ' | 'μ' => 'u',
@@ -83,7 +83,7 @@ fn value(units: Kind, unit: &str, text: &str) -> Option<f64> {
         return None;
     }
     let parts: Vec<&str> = text.split_whitespace().collect();
-    // "1 2" is two numbers.
+    // "1 2" is two numbers, and not 12.
     let apart = |pair: &[&str]| {
         pair[0].ends_with(|c: char| c.is_ascii_digit()) && pair[1].starts_with(|c: char| c.is_ascii_digit())
     };
@@ -100,11 +100,11 @@ fn value(units: Kind, unit: &str, text: &str) -> Option<f64> {
     let power = i32::from(reader.with_unit);
     let number = if power == 1 { found.number / size } else { found.number };
     let good = reader.rest.is_empty() && found.power == power && number.is_finite();
-    // Through text, so that no stray bits are left.
+    // The text in between rounds the number.
     if good { format!("{number:.DECIMALS$e}").parse().ok() } else { None }
 }
 
-/// A number and how often its unit is a factor of it.
+/// A number and the power of its unit: 1 for a length in a sum of lengths.
 #[derive(Clone, Copy)]
 struct Term {
     number: f64,
@@ -116,7 +116,7 @@ struct Reader<'t> {
     units: Kind,
     /// Whether any number had a unit.
     with_unit: bool,
-    /// Size of the last one.
+    /// Size of the last unit that was read.
     unit: f64,
 }
 
@@ -158,7 +158,7 @@ impl Reader<'_> {
                 let next = self.factor()?;
                 product = Term { number: product.number / next.number, power: product.power - next.power };
                 if unitless && simple && next.power == 1 {
-                    // A quarter, in that unit: "1/4 um".
+                    // "1/4 um" is a quarter of a micrometre.
                     product = Term { number: product.number * self.unit * self.unit, power: 1 };
                 }
                 unitless &= next.power == 0;

@@ -1,5 +1,5 @@
-//! The rules between the keys of a scene. What a key accepts by itself is in [`super::PARAMETERS`], and is checked where
-//! it is set.
+//! The rules between the keys of a scene. The values that a key accepts by itself are in [`super::PARAMETERS`], and are checked when it is
+//! set.
 
 use super::error::{SceneError, What};
 use super::parameter::{Parameter, Range};
@@ -14,9 +14,9 @@ const WIDEST_HOLE: f64 = 0.99;
 
 /// A rule between keys.
 struct Rule {
-    /// What the rule is about. It holds where the first of them matters.
+    /// The keys that the rule is about. It is checked if the first of them can change the results of the scene.
     keys: &'static [&'static str],
-    /// What is wrong, if anything is.
+    /// Returns the fault, if the rule is broken.
     check: fn(&Scene) -> Result<(), What>,
 }
 
@@ -56,8 +56,8 @@ impl Scene {
         broken.chain(self.following_out_of_range())
     }
 
-    /// The range of a key in this scene: its own, narrowed by what the other keys leave. `None` for a key that is not a
-    /// number or does not apply. The upper end of `plate.amplitude_um` is itself not allowed.
+    /// The range of a key in this scene: its own, narrowed to what the other keys allow. `None` for a key that is not a
+    /// number or does not apply. The upper end of the range of `plate.amplitude_um` is itself not allowed.
     pub fn range(&self, key: &str) -> Option<Range> {
         let parameter = Parameter::find(key)?;
         self.applies(parameter).ok()?;
@@ -66,19 +66,15 @@ impl Scene {
             "stator.tooth_width_mm" => self.tooth_widths_mm().ok()?,
             "plate.inner_radius_mm" => Range::new(0.0, WIDEST_HOLE * self.number("plate.radius_mm").ok()?),
             "plate.amplitude_um" if !self.floats() => Range::new(0.0, self.number("plate.mean_gap_um").ok()?),
-            "motor.load_n" => self.as_many("motor.load_per_wave_n", self.number("motor.waves").ok()?)?,
-            "motor.rotor_speed_mm_per_s" => {
-                self.as_many("motor.rotor_speed_rpm", self.circumference_mm().ok()? / 60.0)?
-            }
-            _ => own,
+            _ => match (parameter.instead_of, self.factor(key)) {
+                (Some(replaced), Some(factor)) => {
+                    let ([factor, divisor], Range { min, max }) = (factor.ok()?, Parameter::find(replaced)?.range()?);
+                    Range::new(min * (factor / divisor), max * (factor / divisor))
+                }
+                _ => own,
+            },
         };
         Some(Range::new(narrower.min.max(own.min), narrower.max.min(own.max)))
-    }
-
-    /// The range of a key, times a factor.
-    fn as_many(&self, key: &str, factor: f64) -> Option<Range> {
-        let Range { min, max } = Parameter::find(key)?.range()?;
-        Some(Range::new(min * factor, max * factor))
     }
 
     /// Tooth widths the pitch allows \[mm\].
@@ -165,7 +161,7 @@ fn unless(broken: bool, key: &'static str, message: impl FnOnce() -> String) -> 
     if broken { Err(What::Rule { key, message: message() }) } else { Ok(()) }
 }
 
-/// The range to six digits, so rounded that what is shown is allowed.
+/// The range to six digits, rounded inwards, so that both ends as they are shown are allowed.
 fn rounded_inwards(range: Range) -> Range {
     let digits = |value: f64| 10f64.powi(5 - value.log10().floor() as i32);
     let (low, high) = (digits(range.min), digits(range.max));

@@ -20,7 +20,8 @@
 //! fixed = "axial"
 //! ```
 //!
-//! Radii are from the ring's axis, heights from wherever one likes, upwards from the stator: it touches the lowest faces.
+//! Radii are measured from the ring's axis. Heights grow away from the stator, which touches the lowest faces of the ring; their zero is
+//! arbitrary.
 
 use super::parameter::{Belongs, Cell, Parameter, ParameterKind, Range, Scale};
 use crate::rotor::ring::MATERIALS;
@@ -36,18 +37,28 @@ const NAMES: [&str; MATERIALS.len()] = {
     names
 };
 
-/// What a support may hold.
+/// The directions that a support may hold, and their combinations.
 const FIXED: [&str; 7] =
     ["axial", "radial", "circumferential", "axial-radial", "axial-circumferential", "radial-circumferential", "all"];
 
 /// The keys of a part.
 pub(super) static PART: [Parameter; 6] = [
-    column("name", "", ParameterKind::Text { default: "" }, "What messages and drawings call it"),
+    Parameter::new(
+        "name",
+        Belongs::Motor,
+        ParameterKind::Text { default: "" },
+        "The name that messages and drawings use",
+    ),
     length("r_inner_mm", 0.05, "Inner radius"),
     length("r_outer_mm", 0.05, "Outer radius"),
     length("z_bottom_mm", -1000.0, "Height of its lower face"),
     length("z_top_mm", -1000.0, "Height of its upper face"),
-    column("material", "", ParameterKind::Choice { options: &NAMES, default: "aluminium" }, "What it is made of"),
+    Parameter::new(
+        "material",
+        Belongs::Motor,
+        ParameterKind::Choice { options: &NAMES, default: "aluminium" },
+        "What it is made of",
+    ),
 ];
 
 /// The keys of a support.
@@ -56,16 +67,17 @@ pub(super) static SUPPORT: [Parameter; 5] = [
     length("r_outer_mm", 0.0, "Outer radius of the box"),
     length("z_bottom_mm", -1000.0, "Height of its lower edge"),
     length("z_top_mm", -1000.0, "Height of its upper edge"),
-    column(
+    Parameter::new(
         "fixed",
-        "",
+        Belongs::Motor,
         ParameterKind::Choice { options: &FIXED, default: "axial" },
         "Directions in which what lies in the box cannot move",
     ),
 ];
 
-/// A section plausible for the rotor of a camera lens: an aluminium ring with a rim on a thin flange, and on the rim a lining of plastic. Flange and
-/// lining are such that the compliance comes close to that of the beam fitted to Table I (docs/theory.md, section 4).
+/// The default parts: a section plausible for the rotor of a camera lens. It is an aluminium ring with a rim on a thin flange, and a plastic
+/// lining on the rim. Flange and lining are chosen so that the compliance is close to that of the beam fitted to Table I (docs/theory.md,
+/// section 4).
 pub(super) const PARTS: &[&[Cell]] = &[
     &part("lining", [28.85, 29.15, 0.0, 0.145], "peek"),
     &part("rim", [28.3, 29.7, 0.145, 1.2], "aluminium"),
@@ -73,7 +85,7 @@ pub(super) const PARTS: &[&[Cell]] = &[
     &part("body", [24.9, 26.9, 0.75, 5.75], "aluminium"),
 ];
 
-/// None: the load on it is balanced.
+/// The default supports: none, because the loads on the ring balance each other.
 pub(super) const SUPPORTS: &[&[Cell]] = &[];
 
 const fn part(name: &'static str, [inner, outer, bottom, top]: [f64; 4], material: &'static str) -> [Cell; 6] {
@@ -87,12 +99,8 @@ const fn part(name: &'static str, [inner, outer, bottom, top]: [f64; 4], materia
     ]
 }
 
-const fn column(key: &'static str, unit: &'static str, kind: ParameterKind, about: &'static str) -> Parameter {
-    Parameter { key, unit, belongs: Belongs::Motor, when: &[], instead_of: None, absent: None, kind, about }
-}
-
 const fn length(key: &'static str, min: f64, about: &'static str) -> Parameter {
     let (range, slider) = (Range::new(min, 1000.0), Range::new(if min < 0.0 { -20.0 } else { min }, 60.0));
     let kind = ParameterKind::Number { range, slider, scale: Scale::Linear, default: 1.0 };
-    column(key, "mm", kind, about)
+    Parameter { unit: "mm", ..Parameter::new(key, Belongs::Motor, kind, about) }
 }

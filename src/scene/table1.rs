@@ -6,41 +6,27 @@ use serde::Deserialize;
 pub const TABLE1_CSV: &str = include_str!("../../assets/table1.csv");
 
 /// One row of the published table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct PublishedRow {
     /// Name of the row: `tooth_width_1.16mm`.
     pub row: String,
-    /// The built-in preset of the row: `tooth-width-1.16mm`.
+    /// The built-in preset of the row, `tooth-width-1.16mm`. It is not in the file, because it follows from the name of the row.
+    #[serde(skip)]
     pub preset: String,
-    /// What differs from the fundamental case: `stator.tooth_width_mm=1.157`, or words, or nothing.
+    /// What differs from the fundamental case: a key and its value, `stator.tooth_width_mm=1.157`, or words; empty in the first row.
     pub change: String,
-    /// The film's load on one wavelength \[N\], cycle mean.
+    /// The film's load on one wavelength \[N\], mean over the cycle.
     pub published_load_n: f64,
     /// Ratio of the film's load to the axial load, α.
     pub published_alpha: f64,
-}
-
-#[derive(Deserialize)]
-struct Record {
-    row: String,
-    change: String,
-    published_load_n: f64,
-    published_alpha: f64,
 }
 
 /// The 14 rows, in the paper's order.
 pub fn published() -> Vec<PublishedRow> {
     let mut reader = csv::Reader::from_reader(TABLE1_CSV.as_bytes());
     // The file is part of the program, and a test counts its rows: none is dropped here.
-    let records = reader.deserialize::<Record>().filter_map(Result::ok);
-    let row = |record: Record| PublishedRow {
-        preset: record.row.replace('_', "-"),
-        row: record.row,
-        change: record.change,
-        published_load_n: record.published_load_n,
-        published_alpha: record.published_alpha,
-    };
-    records.map(row).collect()
+    let rows = reader.deserialize::<PublishedRow>().filter_map(Result::ok);
+    rows.map(|row| PublishedRow { preset: row.row.replace('_', "-"), ..row }).collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A value of one key, whatever its type, and how numbers are shown to people.
+//! The value of a key, of any type, and how values are shown to people.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -49,8 +49,8 @@ impl fmt::Display for Value {
     }
 }
 
-/// A number as a person would write it: plain digits in the middle of the scale, an exponent far out. Every digit that
-/// distinguishes the value is kept.
+/// A number as a person would write it: with plain digits from 1e-4 to 1e6, with an exponent outside of that. It has the fewest digits that
+/// distinguish it from every other number.
 pub(super) fn show_number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || !size.is_finite() || (1e-4..1e6).contains(&size) {
@@ -60,10 +60,10 @@ pub(super) fn show_number(value: f64) -> String {
     }
 }
 
-/// Most characters of a name in a title or a message.
+/// Most characters of a text that is shown in a title or a message.
 const LONGEST: usize = 60;
 
-/// Text safe for one line of a terminal: [`escaped`], the tail of a long text cut.
+/// A text that is safe to show on one line of a terminal: it is [`escaped`], and cut if it is long.
 pub(crate) fn show_text(text: &str) -> String {
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => escaped(&text[..end]) + "…",
@@ -71,8 +71,8 @@ pub(crate) fn show_text(text: &str) -> String {
     }
 }
 
-/// Text from a file as it is shown: control characters, and those that cannot be seen or that turn the direction of what
-/// follows, are written as escapes, as in `\u{202e}`.
+/// A text from a file as it is shown. Control characters, invisible ones, and those that change the direction of the text after them are
+/// written as escapes, such as `\u{202e}`.
 pub(crate) fn escaped(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {
@@ -85,12 +85,12 @@ pub(crate) fn escaped(text: &str) -> String {
     shown
 }
 
-/// Whether a character would act on the text round it instead of standing in it.
+/// Whether a character is invisible, or changes how the text around it is shown.
 pub(super) fn is_unseen(c: char) -> bool {
     c.is_control() || UNSEEN.iter().any(|range| range.contains(&c))
 }
 
-/// Marks of direction, separators of lines, joiners that no script needs, and what is no character.
+/// Marks of direction, separators of lines, joiners that no script needs, and code points that are not characters.
 const UNSEEN: [std::ops::RangeInclusive<char>; 9] = [
     '\u{61c}'..='\u{61c}',
     '\u{200b}'..='\u{200b}',

@@ -35,11 +35,11 @@ impl Kind {
 pub struct Scene {
     /// Name, shown with every result.
     pub name: String,
-    /// One line: what this scene is.
+    /// A description of the scene in one line.
     pub about: String,
     kind: Kind,
-    /// The values of all other keys, by dotted key: those that are not the key's default, of keys that this scene has. Each
-    /// has been accepted by its [`Parameter`], so that only the rules between keys can be broken.
+    /// The values of all other keys that this scene has, by dotted key, except for defaults. Each value was accepted by its
+    /// [`Parameter`], so that only rules between keys can be broken.
     values: BTreeMap<&'static str, Value>,
 }
 
@@ -71,8 +71,8 @@ impl Scene {
         self.kind.name()
     }
 
-    /// The value of a dotted key, in the key's unit. `None` for an optional key that is absent, a key of another scene
-    /// or rotor model, an unknown key, and a path to a table (the scene keeps its rows, under the key of those).
+    /// The value of a dotted key, in the key's unit. `None` for an optional key that is absent, for a key that this scene does not have, for
+    /// an unknown key, and for the path of a CSV file (the scene keeps what follows from the file, under other keys).
     pub fn get(&self, key: &str) -> Option<Value> {
         match key {
             "schema" => Some(Value::Whole(SCHEMA)),
@@ -93,16 +93,15 @@ impl Scene {
 
     /// Whether this scene has a key: its own kind and model do, and no other key replaces it.
     pub fn has(&self, parameter: &'static Parameter) -> bool {
-        // Most keys that it has not are known without the words of why.
+        // The cheap tests come first: `applies` also composes the reason.
         let other =
             matches!((parameter.belongs, self.kind), (Belongs::Motor, Kind::Plate) | (Belongs::Plate, Kind::Motor));
         let chosen = |(selector, needs): &Model| self.text(selector).is_ok_and(|model| needs.contains(&model));
         !other && (parameter.when.is_empty() || parameter.when.iter().any(chosen)) && self.applies(parameter).is_ok()
     }
 
-    /// Whether a key that applies to this scene can change its results. A plate's file may contain keys that only a motor uses;
-    /// setting or varying one of them is refused. The minimum spacing does matter for a plate under a load, which may come to rest
-    /// on its roughness.
+    /// Whether a key that this scene has can change its results. The file of a plate may have keys that only a motor uses; setting or varying
+    /// one of them is an error. A plate under a load uses the minimum spacing, because it may come to rest on its roughness.
     pub fn heeds(&self, key: &str) -> bool {
         let idle = |parameter: &Parameter| parameter.belongs == Belongs::IdleOnPlate;
         let rests = key == "film.min_spacing_nm" && self.floats();
@@ -125,7 +124,7 @@ impl Scene {
     pub fn numerics(&self) -> Numerics {
         let given = self.values.iter().filter_map(|(key, value)| Some((key.strip_prefix("numerics.")?, value)));
         let table = toml::Table::try_from(given.collect::<BTreeMap<_, _>>()).ok();
-        // Every key of the table is a field, of the same name and type: a test sets them all.
+        // Every key of the table is a field of the same name and type, which a test checks.
         table.and_then(|table| table.try_into().ok()).unwrap_or_default()
     }
 
@@ -200,12 +199,13 @@ impl Scene {
         unknown(nearest_key(key, &known), siblings)
     }
 
-    /// The tables this scene has.
+    /// The tables that this scene has.
     pub(super) fn tables(&self) -> Vec<&'static str> {
         tables().into_iter().filter(|table| self.parameters().any(|p| p.table() == *table)).collect()
     }
 
-    /// Whether this kind of scene has a table; if not, why, said of `key`. A table that does not exist is no fault here.
+    /// Whether this kind of scene has a table; if not, why, with `key` as the subject of the message. A table that does not exist is not a
+    /// fault here.
     pub(super) fn has_table(&self, table: &str, key: String) -> Result<(), What> {
         match PARAMETERS.iter().find(|p| p.table() == table).map(|p| self.applies(p)) {
             Some(Err(What::Elsewhere { selector, needs, chosen, .. })) if selector == "scene" => {
@@ -222,7 +222,7 @@ impl Scene {
             let (array, records) = array?;
             return self.assign(array, records);
         }
-        // A table that is given chooses the model that it belongs to.
+        // A table chooses the model that it belongs to.
         let table = matches!(parameter.kind, ParameterKind::Rows { .. } | ParameterKind::Records { .. });
         if let (true, Some((selector, model))) = (table, parameter.when.first()) {
             self.assign(self.parameter(selector)?, Value::Text(model.concat()))?;
@@ -233,14 +233,14 @@ impl Scene {
 
     /// Gives a key its default, or removes it if it is optional.
     pub(super) fn reset(&mut self, parameter: &'static Parameter) {
-        // A value of an array has no default of its own.
+        // A single value of an array has no default.
         if self.cell_value(parameter.key).is_none() {
             self.put(parameter, parameter.default());
         }
     }
 
-    /// Stores a value that has been accepted, or none. Where it chooses a model, the keys of the others are dropped; where it replaces
-    /// a key, that one is.
+    /// Stores a value that has been accepted, or removes it. If it chooses a model, the keys of other models are removed; if it is given in
+    /// place of another key, that key is removed.
     fn put(&mut self, parameter: &'static Parameter, value: Option<Value>) {
         if value.is_some() {
             for other in parameter.alternatives() {
@@ -265,12 +265,12 @@ impl Scene {
         }
     }
 
-    /// The parameter of a key that the program itself asks for.
+    /// The parameter of a key.
     pub(super) fn parameter(&self, key: &str) -> Result<&'static Parameter, What> {
         Parameter::find(key).ok_or_else(|| self.unknown_key(key))
     }
 
-    /// The number of a key, a whole one too, or what follows for it from other keys; `None` if it is absent.
+    /// The number of a key, also if it is a whole number, or if it follows from other keys; `None` if the key is absent.
     pub(super) fn optional_number(&self, parameter: &'static Parameter) -> Option<f64> {
         let stored = self.values.get(parameter.key).and_then(Value::as_number);
         stored.or_else(|| self.following(parameter.key)).or_else(|| parameter.default()?.as_number())
@@ -281,7 +281,7 @@ impl Scene {
         self.values.contains_key(key)
     }
 
-    /// The number that an optional key has in this scene.
+    /// The number of a key that differs from its default; `None` if it does not.
     pub(super) fn given(&self, key: &str) -> Option<f64> {
         self.values.get(key).and_then(Value::as_number)
     }
@@ -309,7 +309,7 @@ impl Scene {
         }
     }
 
-    /// The rows of a key; none of another model.
+    /// The rows of a table; empty if the scene has no such table.
     pub(super) fn rows(&self, key: &str) -> &[(f64, f64)] {
         match self.values.get(key) {
             Some(Value::Rows(rows)) => rows,

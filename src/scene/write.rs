@@ -1,5 +1,5 @@
-//! A scene as TOML text, and to disk. Every key is present, absent optional ones as comments; numbers are written with
-//! the fewest digits that read back to the same bits.
+//! Writes a scene as TOML text, and to disk. All keys are written, absent optional ones as comments. Numbers have the fewest digits that
+//! read back to the same bits.
 
 use super::error::{Fault, SCHEMA, SceneError, What};
 use super::parameter::{Parameter, ParameterKind};
@@ -29,7 +29,7 @@ impl Scene {
                 (None, Some(meaning)) => {
                     let _ = writeln!(text, "# {:<38} # {}; absent: {meaning}", parameter.leaf(), parameter.about);
                 }
-                // A path to a table: its rows are written instead.
+                // The path of a CSV file: the keys that follow from it are written instead.
                 (None, None) => {}
             }
         }
@@ -49,8 +49,8 @@ impl Scene {
         })
     }
 
-    /// Writes the scene to `path` by way of a temporary file in the same folder, so that a reader never sees half of
-    /// it and a failure leaves an older file as it was.
+    /// Writes the scene to `path`, by way of a temporary file in the same folder: no reader sees half a file, and if writing fails, an
+    /// older file stays as it was.
     ///
     /// # Errors
     ///
@@ -65,7 +65,7 @@ impl Scene {
     }
 }
 
-/// In bytes a scene is its file.
+/// A scene is serialized as the text of its file.
 impl Serialize for Scene {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         self.to_toml().serialize(to)
@@ -78,7 +78,7 @@ impl<'de> Deserialize<'de> for Scene {
     }
 }
 
-/// In bytes a parameter is its key.
+/// A parameter is serialized as its key.
 impl Serialize for Parameter {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         self.key.serialize(to)
@@ -86,19 +86,19 @@ impl Serialize for Parameter {
 }
 
 impl Parameter {
-    /// The parameter whose key is in bytes.
+    /// Deserializes a parameter from its key.
     ///
     /// # Errors
-    /// If there is none of that key.
+    /// There is no such key.
     pub fn from_key<'de, D: Deserializer<'de>>(from: D) -> Result<&'static Self, D::Error> {
         let key = String::deserialize(from)?;
         Self::find(&key).ok_or_else(|| D::Error::custom(key))
     }
 
-    /// The parameters whose keys are in bytes.
+    /// Deserializes parameters from their keys.
     ///
     /// # Errors
-    /// If there is none of one of the keys.
+    /// One of the keys does not exist.
     pub fn from_keys<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<&'static Self>, D::Error> {
         let keys = <Vec<String>>::deserialize(from)?;
         keys.into_iter().map(|key| Self::find(&key).ok_or_else(|| D::Error::custom(key))).collect()
@@ -143,7 +143,7 @@ fn write_key(text: &mut String, parameter: &Parameter, value: &Value) {
     let _ = writeln!(text, "{assignment:<40} # {}", parameter.about);
 }
 
-/// One of an array of tables, on a line.
+/// One of an array of tables, as an inline table.
 fn inline(columns: &[Parameter], record: &[Value]) -> String {
     let pair = |(column, value): (&Parameter, &Value)| {
         let value = match value {

@@ -1,29 +1,29 @@
-//! Names in a check: results, what is read off a tab, keys of the scene.
+//! Names in a check: results, numbers of tabs, keys of the scene.
 
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::lessons::live::{Live, Readings};
 use crate::problem::Problem;
-use crate::scene::{PARAMETERS, Parameter, Scene};
+use crate::scene::{PARAMETERS, Parameter, Scene, nearest};
 
-/// What a name in a check stands for.
+/// The meaning of a name in a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Name {
     /// A result.
     Quantity(Quantity),
-    /// What is read off a tab.
+    /// A number of a tab.
     Live(Live),
     /// A key of the scene.
     Key(&'static Parameter),
 }
 
-/// A run to check: what was solved, and its numbers.
+/// A run to check: its scene and its numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Ran<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Its results.
     pub numbers: &'a Numbers,
-    /// What is read off the tabs.
+    /// The numbers of the tabs.
     pub live: &'a Readings,
 }
 
@@ -47,10 +47,10 @@ fn suggestion(nearest: Option<&str>) -> String {
     )
 }
 
-/// The name of a result or a key.
+/// Finds a name: a result, a number of a tab, or a key.
 ///
 /// # Errors
-/// If there is none; with the nearest.
+/// There is none of this name; the error has the nearest one.
 pub fn name(text: &str) -> Result<Name, UnknownName> {
     if let Some(quantity) = Quantity::all().find(|quantity| quantity.name() == text) {
         return Ok(Name::Quantity(quantity));
@@ -63,14 +63,11 @@ pub fn name(text: &str) -> Result<Name, UnknownName> {
     }
     let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
     let known = results.chain(PARAMETERS.iter().map(|parameter| parameter.key));
-    let scored = known.map(|known| (strsim::jaro_winkler(text, known), known));
-    let best = scored.reduce(|best, next| if next.0 > best.0 { next } else { best });
-    let nearest = best.filter(|best| best.0 > 0.75).map(|best| best.1.to_owned());
-    Err(UnknownName { name: text.to_owned(), nearest })
+    Err(UnknownName { name: text.to_owned(), nearest: nearest(text, known).map(str::to_owned) })
 }
 
 impl Name {
-    /// As it is written in a check.
+    /// The name as it is written in a check.
     pub fn text(self) -> &'static str {
         match self {
             Self::Quantity(quantity) => quantity.name(),
@@ -79,7 +76,7 @@ impl Name {
         }
     }
 
-    /// In words.
+    /// What it stands for, in words.
     pub fn words(self) -> String {
         match self {
             Self::Quantity(quantity) => quantity.words().to_owned(),
