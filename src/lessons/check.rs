@@ -1,12 +1,12 @@
-//! What a lesson asks of the student's own run, as it is written in a lesson:
+//! The check of a student's run, as it is written in a lesson:
 //!
 //! ```text
 //! alpha > 1.5 * start.alpha and film.min_spacing_nm <= 100
 //! ```
 //!
-//! Comparisons joined by `and`. A comparison is `< <= > >= =` or `about` (within 5 %) between two sums of numbers, names
-//! of results (`Quantity::name`), what is read off a tab (`Live::name`) and keys of the scene; `start.` before a name is its
-//! value when the step began. A key that is a name or a flag is compared with `=`: `film.slip = "none"`.
+//! A check is one comparison, or several that are joined by `and`. A comparison has an operator, `< <= > >= =` or `about` (within 5 %),
+//! between two arithmetic expressions of numbers, names of results (`Quantity::name`), numbers of tabs (`Live::name`) and keys of the scene.
+//! `start.` before a name stands for its value when the step began. A key whose value is a word is compared by `=`: `film.slip = "none"`.
 
 mod comparison;
 mod name;
@@ -22,7 +22,7 @@ use crate::scene::Scene;
 use comparison::{Comparison, Expression};
 use parse::{comparisons, expression};
 
-/// A check, as it was written and as it is evaluated.
+/// A check: its source, and its comparisons.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
     /// As written.
@@ -34,12 +34,12 @@ impl Check {
     /// Reads a check for steps on `scene`.
     ///
     /// # Errors
-    /// Unknown names, names of another kind of scene, and what is no comparison.
+    /// A name is unknown or belongs to another kind of scene, or the text is not a comparison.
     pub fn parse(source: &str, scene: &Scene) -> Result<Self, CheckError> {
         Ok(Self { source: source.trim().to_owned(), comparisons: comparisons(source, scene)? })
     }
 
-    /// What it reads off tabs.
+    /// The numbers of tabs that it uses.
     pub fn live(&self) -> impl Iterator<Item = Live> {
         let mut found = Vec::new();
         for comparison in &self.comparisons {
@@ -49,14 +49,13 @@ impl Check {
         found.into_iter()
     }
 
-    /// What first does not hold for `now`, when the step began with `start`, in words; `None` if everything holds.
+    /// The first comparison that does not hold for the run `now`, in words; `None` if all hold. The step began with the run `start`.
     pub fn unmet(&self, now: Ran<'_>, start: Ran<'_>) -> Option<String> {
         self.comparisons.iter().find_map(|comparison| comparison.unmet(now, start))
     }
 }
 
-/// A number that a text quotes, as it was written and as it is evaluated: a sum as on one side of a comparison, and after a colon
-/// its digits.
+/// A number that a text quotes: an expression as in a comparison, and after a colon the number of significant digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// As written.
@@ -66,13 +65,13 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Digits unless the text says.
+    /// Significant digits, unless the text gives another number.
     const DIGITS: usize = 3;
 
     /// Reads a number for steps on `scene`.
     ///
     /// # Errors
-    /// Unknown names, names of another kind of scene, and what is no sum.
+    /// A name is unknown or belongs to another kind of scene, or the text is not an expression.
     pub fn parse(source: &str, scene: &Scene) -> Result<Self, CheckError> {
         let (sum, digits) = match source.rsplit_once(':') {
             None => (source, Self::DIGITS),
@@ -87,19 +86,19 @@ impl Reading {
         Ok(Self { source: source.trim().to_owned(), expression: expression(sum, scene)?, digits })
     }
 
-    /// Its value for `now`, when the step began with `start`; `None` while that is not known.
+    /// Its value for the run `now` of a step that began with the run `start`; `None` while that is not known.
     pub fn value(&self, now: Ran<'_>, start: Ran<'_>) -> Option<f64> {
         self.expression.value(now, start)
     }
 
-    /// What it reads off tabs.
+    /// The numbers of tabs that it uses.
     pub fn live(&self) -> Vec<Live> {
         let mut found = Vec::new();
         self.expression.live(&mut found);
         found
     }
 
-    /// A value of it in words: a result with its digits, a parameter as it was typed.
+    /// A value of it as text: a result with all its digits, a parameter as a person would type it.
     pub fn text(&self, value: f64) -> String {
         let text = match self.expression {
             Expression::Name { name: Name::Key(_), .. } => short(value, self.digits),

@@ -1,48 +1,48 @@
-//! Formulas as they are written in lessons and in the glossary: a part of LaTeX, read into a tree that the window sets.
+//! Formulas of lessons and of the glossary, in a part of LaTeX. They are read into a tree that the window draws.
 //!
-//! Fractions, roots, indices and exponents, Greek letters, a few operators, named functions, brackets that grow, dots and
-//! bars over a letter, and upright text. What is not known is refused with its name, so that no formula is shown wrong.
+//! There are fractions, roots, indices and exponents, Greek letters, some operators, named functions, brackets that grow, dots and
+//! bars over a letter, and upright text. An unknown command is an error that names it, so that no formula is drawn wrong.
 
 /// A part of a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// A letter that stands for a quantity: slanted.
+    /// A letter that stands for a quantity, in italics.
     Letter(char),
     /// Upright text: numbers, units, names of functions.
     Upright(String),
-    /// A sign with room at both sides: = + ≪.
+    /// A sign with space on both sides, such as = + ≪.
     Sign(char),
     /// A fraction.
     Fraction(Vec<Self>, Vec<Self>),
     /// A square root.
     Root(Vec<Self>),
-    /// Index and exponent of what they follow.
+    /// Nodes with an index, an exponent, or both.
     Script {
-        /// What carries them.
+        /// The nodes that carry them.
         base: Vec<Self>,
-        /// Below.
+        /// The index; may be empty.
         index: Vec<Self>,
-        /// Above.
+        /// The exponent; may be empty.
         exponent: Vec<Self>,
     },
-    /// Brackets as high as what is between them.
+    /// Brackets as high as the nodes between them.
     Bracketed(char, Vec<Self>, char),
     /// A mark over a letter.
     Marked(Mark, Vec<Self>),
-    /// Room, in heights of a letter.
+    /// A horizontal space, as a multiple of the font size.
     Space(f32),
 }
 
 /// A mark over a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// Its rate of change.
+    /// A dot: the rate of change.
     Dot,
-    /// Its mean.
+    /// A bar: the mean.
     Bar,
 }
 
-/// A formula, and what it was read from.
+/// A formula, and its source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
     /// As written, without the dollars.
@@ -62,27 +62,27 @@ pub enum FormulaError {
         /// Without its backslash.
         name: String,
     },
-    /// A character that the window cannot be sure to draw.
+    /// A character that is not known; the window's font may not have it.
     #[error("the character {0:?} is not allowed in formulas")]
     Character(char),
-    /// Something that was begun and not ended.
+    /// An opening brace or `\left` without its end.
     #[error("{0} is never closed")]
     Open(&'static str),
-    /// Something that ends what was not begun.
+    /// A closing brace or `\right` without its beginning.
     #[error("{0} closes nothing")]
     Stray(&'static str),
-    /// A command or a script without what it needs.
+    /// A command, index or exponent without its argument.
     #[error("nothing follows {0}")]
     Nothing(String),
-    /// Deeper than any formula of a lesson.
+    /// Groups are nested deeper than in any formula of a lesson.
     #[error("more than {0} levels of brackets and scripts")]
     TooDeep(usize),
 }
 
-/// A sum: on its own, what it is over stands below it.
+/// The sign of a sum. In a formula on its own line its index is set below it.
 pub const SUM: &str = "∑";
 
-/// Levels of groups.
+/// Most levels of nested groups.
 const DEEPEST: usize = 24;
 
 const LETTERS: &[(&str, char)] = &[
@@ -112,7 +112,7 @@ const LETTERS: &[(&str, char)] = &[
     ("ell", 'ℓ'),
 ];
 
-/// Upright: capitals, and what is no letter.
+/// Commands that stand for upright text: capitals, and signs that are not letters.
 const SYMBOLS: &[(&str, &str)] = &[
     ("Gamma", "Γ"),
     ("Delta", "Δ"),
@@ -165,14 +165,14 @@ impl Formula {
     /// Reads a formula; `source` is without its dollars.
     ///
     /// # Errors
-    /// What is not known or not closed.
+    /// A command or character is not known, or a group is not closed.
     pub fn parse(source: &str) -> Result<Self, FormulaError> {
         let mut reader = Reader { rest: source.chars().collect::<Vec<_>>(), at: 0 };
         let nodes = reader.row(End::Text, 0)?;
         Ok(Self { source: source.trim().to_owned(), nodes })
     }
 
-    /// In one line of plain text, for screen readers, search and messages.
+    /// The formula as one line of plain text, for screen readers, search and messages.
     pub fn plain(&self) -> String {
         plain(&self.nodes).trim().to_owned()
     }
@@ -187,7 +187,7 @@ fn plain(nodes: &[Node]) -> String {
         match node {
             Node::Letter(letter) => text.push(*letter),
             Node::Upright(upright) => text.push_str(upright),
-            // A minus that begins something belongs to what follows.
+            // A minus at the beginning belongs to the term that follows, without a space.
             Node::Sign(sign) if text.is_empty() || text.ends_with(' ') => text.push(*sign),
             Node::Sign(sign) => text.push_str(&format!(" {sign} ")),
             Node::Fraction(over, under) => text.push_str(&format!("{}/{}", group(over), group(under))),
@@ -211,7 +211,7 @@ fn plain(nodes: &[Node]) -> String {
     })
 }
 
-/// What ends a row.
+/// The end of a row: that of the text, `}` or `\right`.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     Text,
@@ -254,7 +254,7 @@ impl Reader {
         name
     }
 
-    /// Nodes until `end`, which is consumed.
+    /// The nodes until `end`. It is consumed, except for `\right`.
     fn row(&mut self, end: End, depth: usize) -> Result<Vec<Node>, FormulaError> {
         if depth > DEEPEST {
             return Err(FormulaError::TooDeep(DEEPEST));
@@ -298,7 +298,7 @@ impl Reader {
         }
     }
 
-    /// What follows `after`: a group in braces, or one item.
+    /// The argument of the command or script `after`: a group in braces, or one item.
     fn argument(&mut self, after: &str, depth: usize) -> Result<Vec<Node>, FormulaError> {
         if depth > DEEPEST {
             return Err(FormulaError::TooDeep(DEEPEST));
@@ -405,7 +405,7 @@ impl Reader {
             "left" => {
                 let left = self.bracket(&after)?;
                 let inside = self.row(End::Right, depth + 1)?;
-                // `\right` is still there.
+                // The row leaves `\right` to be skipped here.
                 self.at += "\\right".len();
                 let right = self.bracket("\\right")?;
                 Node::Bracketed(left, inside, right)

@@ -2,45 +2,43 @@
 
 use super::text::{self, Block};
 use serde::Deserialize;
+use serde::de::{Deserializer, Error};
 use std::sync::LazyLock;
 
 /// The file.
 const SOURCE: &str = include_str!("../../assets/glossary/glossary.toml");
 
 /// A term and what it means.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Term {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Its symbol; empty if it has none.
+    #[serde(default)]
     pub symbol: String,
-    /// What the window calls it besides: names of rows, headings, words.
+    /// Other names that the window uses for it: in rows, headings and texts.
+    #[serde(default)]
     pub also: Vec<String>,
     /// What it means.
+    #[serde(deserialize_with = "blocks")]
     pub text: Vec<Block>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
-    term: Vec<Entry>,
+    term: Vec<Term>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    name: String,
-    #[serde(default)]
-    symbol: String,
-    #[serde(default)]
-    also: Vec<String>,
-    text: String,
+fn blocks<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Block>, D::Error> {
+    text::blocks(&String::deserialize(from)?, None).map_err(|(_, error)| D::Error::custom(error))
 }
 
 /// All terms, in alphabetical order.
 pub fn terms() -> &'static [Term] {
     static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
-        // The file is built in; a test reads it and asks for its terms.
+        // The file is built in, and a test reads it: there is no error here.
         let mut terms = read(SOURCE).unwrap_or_default();
         terms.sort_by_key(|term| term.name.to_lowercase());
         terms
@@ -48,16 +46,11 @@ pub fn terms() -> &'static [Term] {
     &TERMS
 }
 
-fn read(source: &str) -> Result<Vec<Term>, String> {
-    let file: File = toml::from_str(source).map_err(|error| error.to_string())?;
-    let term = |entry: Entry| {
-        let text = text::blocks(&entry.text, None).map_err(|(_, error)| format!("{}: {error}", entry.name))?;
-        Ok(Term { name: entry.name, symbol: entry.symbol, also: entry.also, text })
-    };
-    file.term.into_iter().map(term).collect()
+fn read(source: &str) -> Result<Vec<Term>, toml::de::Error> {
+    toml::from_str(source).map(|file: File| file.term)
 }
 
-/// The term that the window calls `word`: by name, by symbol, or by what it is called besides.
+/// The term that the window calls `word`: by its name, its symbol or another name of it.
 pub fn find(word: &str) -> Option<&'static Term> {
     let word = word.trim();
     let by_name = terms().iter().find(|term| term.name.eq_ignore_ascii_case(word));

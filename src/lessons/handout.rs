@@ -1,4 +1,4 @@
-//! Lessons on paper: a sheet for each with room for predictions and axes to sketch in, and a sheet with the answers.
+//! Lessons on paper: for each lesson a worksheet with space for predictions and axes for sketches, and a sheet with the answers.
 
 use super::check::Reading;
 use super::lesson::{Answer, Kind, Lesson, Question, Step};
@@ -9,13 +9,14 @@ use crate::export::figure::{Axis, Figure, FigureError, Panel, Piece, sheets_to_p
 use crate::export::html::Page;
 use std::collections::BTreeMap;
 
-/// Lines to write a reason on, and to calculate on.
+/// Blank lines for a reason.
 const REASON: usize = 1;
+/// Blank lines for a calculation.
 const CALCULATION: usize = 3;
-/// Height of axes on a page of the web \[mm\].
+/// Height of axes on a web page \[mm\].
 const AXES: f64 = 38.0;
 
-/// What a student draws in a part of the window that a step looks at: along, and up.
+/// The axes for a sketch, by the part of the window that a step highlights: names of the horizontal and of the vertical axis.
 const SKETCHES: &[(&str, [&str; 2])] = &[
     ("loop", ["gap", "mean pressure"]),
     ("loads", ["time, one cycle", "force of the film"]),
@@ -25,10 +26,10 @@ const SKETCHES: &[(&str, [&str; 2])] = &[
     ("torque", ["speed", "torque"]),
 ];
 
-/// The sheet of a lesson: to write on, or with `answers`. Numbers of runs are computed where the answers quote them.
+/// The worksheet of a lesson, or the sheet with the answers. The numbers that its texts quote are computed.
 ///
 /// # Errors
-/// Why a scene of it was not solved.
+/// Why a scene of the lesson was not solved.
 pub fn sheet(lesson: &Lesson, answers: bool, cancel: &Cancel) -> Result<Vec<Piece>, String> {
     let kind = if answers { "Answers" } else { "Name ________________  Date _________" };
     let mut pieces = vec![Piece::Title(lesson.title.clone()), Piece::Text(kind.to_owned())];
@@ -86,7 +87,7 @@ fn choices(pieces: &mut Vec<Piece>, question: &Question, answers: bool) {
     }
 }
 
-/// Blocks as lines, with the numbers that they quote.
+/// Blocks as lines of text. `known` has the numbers that they quote.
 fn lines<'a>(blocks: &'a [Block], known: &'a BTreeMap<String, f64>) -> impl Iterator<Item = String> + 'a {
     blocks.iter().map(|block| match block {
         Block::Paragraph(parts) => with_numbers(parts, known),
@@ -106,7 +107,7 @@ fn on_a_line(parts: &[Inline]) -> String {
     lowered(&plain(parts))
 }
 
-/// Indices and exponents of one character, as figures have them.
+/// Indices and exponents of one character in braces, as in the texts of figures.
 fn lowered(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
@@ -128,7 +129,7 @@ pub fn to_pdf(title: &str, sheets: &[Vec<Piece>]) -> Result<Vec<u8>, FigureError
     sheets_to_pdf(title, sheets)
 }
 
-/// Sheets as one page of the web, which prints each on paper of its own.
+/// Sheets as one web page, which prints each sheet on a new page.
 pub fn to_html(title: &str, sheets: &[Vec<Piece>]) -> String {
     let mut page = Page::new("squeezefilm, lessons", title, "");
     for piece in sheets.iter().flatten() {
@@ -149,7 +150,7 @@ pub fn to_html(title: &str, sheets: &[Vec<Piece>]) -> String {
     page.finish("Printed by squeezefilm lessons print")
 }
 
-/// Without the braces of indices.
+/// A text without the braces of indices and exponents.
 fn flat(text: &str) -> String {
     text.replace(['{', '}'], "")
 }

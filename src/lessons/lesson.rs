@@ -5,23 +5,23 @@ use super::text::{Block, Inline};
 use crate::scene::{Parameter, Scene};
 use serde::{Deserialize, Serialize};
 
-/// What a lesson may name in the window.
+/// The names of the window that a lesson may use.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WindowNames<'a> {
-    /// Names of the tabs in the middle that a motor has, and that a plate has.
+    /// Names of the tabs of a motor, and of those of a plate.
     pub tabs: [&'a [&'a str]; 2],
-    /// Names of what can be lit.
+    /// Names of the parts of the window that can be highlighted.
     pub places: &'a [&'a str],
 }
 
 /// A lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lesson {
-    /// The name of its folder: what its progress is kept under.
+    /// The name of its folder, under which the student's progress is kept.
     pub id: String,
     /// Its title.
     pub title: String,
-    /// A line or two on what it is about.
+    /// Its subject, in a line or two.
     pub about: Vec<Block>,
     /// Its steps, at least one.
     pub steps: Vec<Step>,
@@ -32,93 +32,93 @@ pub struct Lesson {
 pub struct Step {
     /// Its heading.
     pub title: String,
-    /// What it says.
+    /// Its text.
     pub body: Vec<Block>,
-    /// The scene of a student who comes straight here.
+    /// The scene of a student who begins with this step.
     pub scene: Scene,
-    /// Whether the scene is set up anew; otherwise the step goes on with what is there.
+    /// Whether the step sets its scene. If not, it goes on with the scene of the student.
     pub sets: bool,
-    /// Parameters that are lit.
+    /// Parameters that are highlighted.
     pub light: Vec<&'static Parameter>,
-    /// Parts of the window that are lit.
+    /// Names of the parts of the window that are highlighted.
     pub look: Vec<String>,
-    /// The tab that is brought forward.
+    /// The tab that is shown.
     pub tab: Option<String>,
     /// Results and keys that are shown beside the text.
     pub show: Vec<Name>,
-    /// What is asked before anything is tried.
+    /// The question before the task.
     pub question: Option<Question>,
-    /// What is to be done.
+    /// The task.
     pub task: Option<Task>,
-    /// What is asked once it is done, before anything is explained.
+    /// The question about what was seen, after the task and before the explanation.
     pub observe: Option<Question>,
 }
 
 /// A question, answered before the answer is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// What the answer comes from.
+    /// How the answer is found.
     pub kind: Kind,
-    /// What is asked.
+    /// The text of the question.
     pub ask: Vec<Block>,
     /// The answer.
     pub answer: Answer,
-    /// Help after a first wrong calculation.
+    /// Help after the first wrong calculation.
     pub hint: Vec<Block>,
-    /// Why it is so.
+    /// The explanation of the answer.
     pub why: Vec<Block>,
 }
 
-/// What an answer comes from.
+/// How an answer is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A guess with reasons: made once, and not held against anyone.
+    /// By a reasoned guess. There is one try, and a wrong guess has no consequences.
     Predict,
-    /// Arithmetic: it has a second try.
+    /// By arithmetic. There are two tries.
     Calculate,
-    /// What was seen on the screen: one looks again until it is right.
+    /// By looking at the screen. The student looks again until the answer is right.
     Observe,
 }
 
 /// The answer to a question.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
-    /// One of several.
+    /// One of several choices.
     Choice {
-        /// All.
+        /// All choices.
         choices: Vec<Choice>,
-        /// The right one.
+        /// The index of the right one.
         right: usize,
     },
     /// A number.
     Number {
-        /// The right one.
+        /// The right number.
         value: f64,
         /// Its unit; empty for a pure number.
         unit: String,
-        /// How far a good answer may be off, relative.
+        /// Relative deviation up to which an answer counts as right.
         within: f64,
     },
 }
 
-/// One of several answers.
+/// One of the choices of a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// In words.
+    /// The choice in words.
     pub text: Vec<Inline>,
-    /// What is said to whoever chose it, although it is wrong; may be empty.
+    /// The reply to a student who made this choice although it is wrong; may be empty.
     pub reply: Vec<Block>,
 }
 
-/// Changes of a scene, by key, as after `--set`.
+/// Changes of a scene: keys and values, as `--set` takes them.
 pub type Changes = Vec<(String, String)>;
 
-/// What a student does in a tab, which leaves the scene as it is.
+/// An action in a tab, which does not change the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Act {
-    /// Moves the held plate to this gap \[µm\].
+    /// The held plate is moved to this gap \[µm\].
     Hold(f64),
-    /// Starts from rest.
+    /// The start-up from rest is started.
     StartUp,
 }
 
@@ -127,7 +127,7 @@ pub enum Act {
 pub struct Doing {
     /// Changes of the scene.
     pub changes: Changes,
-    /// And in a tab.
+    /// Actions in a tab.
     pub acts: Vec<Act>,
 }
 
@@ -138,22 +138,22 @@ impl Doing {
     }
 }
 
-/// What is to be done, and how it is seen that it was.
+/// A task, and the check that it is fulfilled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
-    /// In words.
+    /// The text of the task.
     pub ask: Vec<Block>,
-    /// What the student's run is checked for.
+    /// The check of the student's run.
     pub check: Check,
-    /// What goes beyond the aim although the check holds, and what is said then.
+    /// A check that holds for runs that go beyond the aim, and the text that is shown then.
     pub too_far: Option<(Check, Vec<Block>)>,
-    /// Help, given one after the other on request.
+    /// Hints, shown one after the other on request.
     pub hints: Vec<Vec<Block>>,
     /// Actions that fulfil the task, shown on request.
     pub example: Doing,
     /// Actions that must not fulfil the task, for tests.
     pub wrong: Doing,
-    /// What is said once it holds.
+    /// The text that is shown once the check holds.
     pub then: Vec<Block>,
 }
 
@@ -169,7 +169,7 @@ impl Answer {
         }
     }
 
-    /// Whether an answer is of this kind, and one of the choices.
+    /// Whether an answer is possible: a number where a number is asked for, or one of the choices.
     pub fn takes(&self, given: Prediction) -> bool {
         match (self, given) {
             (Self::Choice { choices, .. }, Prediction::Choice(choice)) => choice < choices.len(),
@@ -178,7 +178,7 @@ impl Answer {
         }
     }
 
-    /// What is said to whoever gave this wrong answer; empty if nothing is.
+    /// The reply to this answer; empty if there is none.
     pub fn reply(&self, given: Prediction) -> &[Block] {
         match (self, given) {
             (Self::Choice { choices, .. }, Prediction::Choice(choice)) => {
@@ -190,7 +190,7 @@ impl Answer {
 }
 
 impl Step {
-    /// What is said once everything is done: it may quote numbers of the run that did it.
+    /// The texts that are shown after the task: explanations and replies. They may quote numbers of the run that fulfilled it.
     pub fn told(&self) -> impl Iterator<Item = &Block> {
         let questions = [&self.question, &self.observe].into_iter().flatten();
         let said = questions.flat_map(|question| {
@@ -204,10 +204,10 @@ impl Step {
     }
 }
 
-/// What a student answers.
+/// A student's answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Prediction {
-    /// One of several.
+    /// The index of a choice.
     Choice(usize),
     /// A number, in the unit of the question.
     Number(f64),

@@ -1,5 +1,5 @@
-//! Numbers that are not of the run itself but read off a tab: of a plate in the hand, of a start-up, of a motor's curves over
-//! speed, of a plate beside its exact results. Whoever shows the tab hands them in.
+//! Numbers of tabs, which a run itself does not have: those of a plate held by hand, of a start-up, of a motor's curves over speed, and of a
+//! plate compared with exact results. The window, or [`super::trial`], fills them in.
 
 use crate::analysis::exact::{self, Harmonic};
 use crate::analysis::quantity::numbers;
@@ -10,9 +10,9 @@ use crate::scene::Belongs;
 use crate::solution::{Outcome, PlateResult};
 
 numbers! {
-    /// One number read off a tab, whose name is the last.
+    /// One number of a tab. In the table below, the last entry is the name of the tab.
     Live,
-    /// Those that are known.
+    /// The numbers of tabs that are known.
     Readings: &str;
     HeldGap "hold.gap_um" "held gap" "µm" Plate "Hold";
     HeldPressure "hold.pressure_kpa" "mean pressure" "kPa" Plate "Hold";
@@ -38,7 +38,7 @@ impl Live {
         TABLE[self as usize].3
     }
 
-    /// The tab it is read off.
+    /// The tab that shows it.
     pub fn tab(self) -> &'static str {
         TABLE[self as usize].5
     }
@@ -52,20 +52,20 @@ impl Live {
         }
     }
 
-    /// Whether the student makes it by doing something that leaves the scene as it is.
+    /// Whether the student gets it by an action that does not change the scene.
     pub fn is_done_by_hand(self) -> bool {
         matches!(self.tab(), "Hold" | "Start-up")
     }
 }
 
 impl Readings {
-    /// Reads off a plate in the hand: its gap \[m\] and the mean absolute pressure \[Pa\] below it.
+    /// Takes the numbers of a plate held by hand: its gap \[m\], and the mean absolute pressure \[Pa\] below it.
     pub fn read_held(&mut self, gap: f64, mean_pressure: f64) {
         self.set(Live::HeldGap, gap * 1e6);
         self.set(Live::HeldPressure, mean_pressure * 1e-3);
     }
 
-    /// Reads off a cycle of a start-up: its number, what is still to come, and what came of it.
+    /// Takes the numbers of a cycle of a start-up: its number, the change that is still to come, and its result.
     pub fn read_cycle(&mut self, number: usize, remaining: f64, outcome: &Outcome, scenario: &Scenario) {
         self.set(Live::Cycles, number as f64);
         self.set(Live::Remaining, remaining);
@@ -78,7 +78,7 @@ impl Readings {
         }
     }
 
-    /// Reads off the curves of a motor over speed.
+    /// Takes the numbers of a motor's curves over speed.
     pub fn read_torque(&mut self, curves: &TorqueCurves) {
         let (with, without) = (&curves.with_film, &curves.without_film);
         self.set(Live::Stall, with.stall_torque.value);
@@ -91,7 +91,7 @@ impl Readings {
         }
     }
 
-    /// Reads off a plate beside its exact results.
+    /// Takes the numbers of a plate that are compared with exact results.
     pub fn read_exact(&mut self, plate: &Plate, recording: &Recording) {
         if let Some(found) = exact::solved(plate, recording) {
             self.set(Live::Spring, found.spring.value);

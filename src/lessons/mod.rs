@@ -1,8 +1,8 @@
-//! Lessons and the glossary, without a window: what they say, what scene each step starts from, what it asks.
+//! Lessons and the glossary, without a window: their texts, the scene that each step starts from, and its questions and tasks.
 //!
-//! A lesson is a folder with a `lesson.md` and, beside it, any presets it uses. The format is described in
-//! `docs/lessons.md`; the built-in lessons are in `assets/lessons`. Tabs and parts of the window are names here: the window
-//! hands in those that it has.
+//! A lesson is a folder with a `lesson.md` and, beside it, the presets and pictures that it uses. The format is described in
+//! `docs/lessons.md`; the built-in lessons are in `assets/lessons`. This module knows tabs and parts of the window only by name: the window
+//! passes the names that it has.
 
 pub mod check;
 mod error;
@@ -18,7 +18,7 @@ pub mod text;
 pub mod trial;
 pub mod work;
 
-pub use error::{KeyFault, LessonError, LessonErrorKind};
+pub use error::{LessonError, LessonErrorKind};
 pub use lesson::{Act, Answer, Changes, Choice, Doing, Kind, Lesson, Prediction, Question, Step, Task, WindowNames};
 
 use crate::input::{self, ReadError};
@@ -65,10 +65,7 @@ pub static BUILT_IN: &[BuiltIn] = built_in![
     "10-accelerometers": ["accelerometer.toml"],
 ];
 
-/// The built-in lessons.
-///
-/// # Errors
-/// A fault in one of them; a test reads them all.
+/// The built-in lessons, and the faults in them. There are no faults if the window has the names that they use: a test reads them all.
 pub fn built_in(names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
     collect(BUILT_IN.iter().map(|lesson| {
         let preset = |name: &str| {
@@ -84,7 +81,7 @@ pub fn built_in(names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
 /// The file of a lesson.
 pub const FILE: &str = "lesson.md";
 
-/// The lessons of a folder: of each folder in it, in the order of their names, or of itself.
+/// The lessons of a folder, and the faults in them. The folder is a lesson itself, or each folder in it is one, in the order of their names.
 pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonError>) {
     let fault = |kind| (Vec::new(), vec![LessonError { origin: folder.to_owned(), line: None, kind }]);
     if folder.join(FILE).is_file() {
@@ -98,12 +95,13 @@ pub fn load(folder: &Path, names: WindowNames<'_>) -> (Vec<Lesson>, Vec<LessonEr
         entries.flatten().map(|entry| entry.path()).filter(|path| path.join(FILE).is_file()).collect();
     folders.sort_by_cached_key(|folder| in_order(folder));
     if folders.is_empty() {
-        return fault(LessonErrorKind::NoLessons);
+        let none = "holds no lesson: expected folders with a lesson.md in each, or a lesson.md itself";
+        return fault(LessonErrorKind::Layout(none.to_owned()));
     }
     collect(folders.iter().map(|folder| load_one(folder, names)))
 }
 
-/// By the number that a name begins with, then by the name: 2 comes before 10.
+/// The key by which folders are sorted: the number at the beginning of the name, then the name, so that 2 comes before 10.
 fn in_order(folder: &Path) -> (u64, PathBuf) {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let digits = name.len() - name.trim_start_matches(|c: char| c.is_ascii_digit()).len();
@@ -116,7 +114,7 @@ fn load_one(folder: &Path, names: WindowNames<'_>) -> Result<Lesson, Vec<LessonE
     let text = input::read_text(&path, LARGEST_FILE).map_err(|error| fault(LessonErrorKind::Unreadable(error)))?;
     let absolute = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let id = absolute.file_name().map_or_else(|| "lesson".to_owned(), |name| name.to_string_lossy().into_owned());
-    // A name stays in the lesson's folder.
+    // A name cannot lead out of the lesson's folder.
     let inside = |name: &str| {
         let inside = Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)));
         Some(folder.join(name)).filter(|path| inside && path.is_file())

@@ -5,16 +5,17 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Largest file \[MB\], and most pixels along a side.
+/// Largest file \[MB\].
 const LARGEST: u64 = 4;
+/// Most pixels along a side.
 const MOST: u32 = 4096;
 
-/// A picture and what it shows.
+/// A picture, with a description.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Picture {
-    /// What it shows, in words, for whoever cannot see it.
+    /// Its description in words, for screen readers and paper.
     pub alternative: String,
-    /// Pixels across and down.
+    /// Width and height \[pixels\].
     pub size: [usize; 2],
     /// Red, green, blue and opacity of each pixel, row by row from the top.
     pub rgba: Arc<[u8]>,
@@ -32,13 +33,13 @@ pub enum PictureError {
     /// It is not in the lesson's folder.
     #[error("there is no such file beside lesson.md")]
     Missing,
-    /// The file.
+    /// The file cannot be read.
     #[error("{0}")]
     Unreadable(ReadError),
-    /// What is in it.
+    /// The file is not a PNG picture; the reason.
     #[error("is not a PNG picture: {0}")]
     NoPicture(String),
-    /// Its size.
+    /// The picture has too many pixels: width and height.
     #[error("has {0} × {1} pixels: allowed are {MOST} along a side")]
     TooLarge(u32, u32),
 }

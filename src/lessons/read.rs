@@ -1,9 +1,9 @@
-//! `lesson.md` to a [`Lesson`]: headings, text, and blocks of TOML in fences. All faults of a file are found at once.
+//! Reads `lesson.md` into a [`Lesson`]: headings, text, and blocks of TOML in fences. All faults of a file are reported together.
 
 mod step;
 mod table;
 
-use super::error::{LessonError, LessonErrorKind};
+use super::error::LessonError;
 use super::lesson::{Lesson, Step, WindowNames};
 use std::path::Path;
 use step::{BLOCKS, Raw};
@@ -41,7 +41,7 @@ impl Reader<'_> {
         while let Some((number, line)) = lines.next() {
             if let Some(heading) = line.strip_prefix("## ").or_else(|| (line.trim() == "##").then_some("")) {
                 if heading.trim().is_empty() {
-                    self.fault(number, LessonErrorKind::EmptyHeading);
+                    self.layout(number, "the heading is empty");
                 }
                 let title = heading.trim().to_owned();
                 steps.push(Raw { line: number, title, body: Vec::new(), blocks: Vec::new() });
@@ -59,24 +59,26 @@ impl Reader<'_> {
                     piece.text.push('\n');
                 }
                 if !closed {
-                    self.fault(number, LessonErrorKind::OpenBlock(kind.trim().to_owned()));
+                    let kind = kind.trim();
+                    self.layout(number, format!("the block ```{kind} is never closed: expected a line ``` below it"));
                     continue;
                 }
                 let Some(kind) = BLOCKS.into_iter().find(|known| *known == kind.trim()) else {
-                    self.fault(number, LessonErrorKind::UnknownBlock { found: kind.trim().to_owned() });
+                    let expected = "expected setup, question, task or observe";
+                    self.layout(number, format!("a block ```{} is not known: {expected}", kind.trim()));
                     continue;
                 };
                 match steps.last_mut() {
-                    None => self.fault(number, LessonErrorKind::BlockOutside(kind)),
+                    None => self.layout(number, format!("a block ```{kind} stands before the first step")),
                     Some(step) if step.blocks.iter().any(|(other, _)| *other == kind) => {
-                        self.fault(number, LessonErrorKind::BlockTwice(kind));
+                        self.layout(number, format!("this step has two blocks ```{kind}: keep one"));
                     }
                     Some(step) => step.blocks.push((kind, piece)),
                 }
             } else {
                 let body = steps.last_mut().map_or(&mut about, |step| &mut step.body);
                 match body.last_mut() {
-                    // Lines that follow each other are one piece; a block between them splits it.
+                    // Consecutive lines are one piece; a block between them begins a new one.
                     Some(piece) if piece.line + piece.text.lines().count() == number => {
                         piece.text.push_str(line);
                         piece.text.push('\n');
@@ -86,10 +88,10 @@ impl Reader<'_> {
             }
         }
         if title.is_empty() {
-            self.fault(1, LessonErrorKind::NoTitle);
+            self.layout(1, "has no title: expected a line `# Title` before everything else");
         }
         if steps.is_empty() {
-            self.fault(1, LessonErrorKind::NoSteps);
+            self.layout(1, "has no steps: expected `## Step` below the title, once for each");
         }
         let about = self.text(&about);
         let steps: Vec<Option<Step>> = steps.iter().map(|step| self.step(step)).collect();

@@ -1,5 +1,4 @@
-//! A record of what a student answered, as a student saves it: CSV, or JSON lines with the verbs of xAPI; and what a class's records
-//! come to.
+//! The record of a student's answers as a file, CSV or JSON lines with the verbs of xAPI, and a summary of the records of a class.
 
 use super::lesson::{Answer, Kind, Lesson, Prediction, Question};
 use super::text::plain;
@@ -13,10 +12,10 @@ use std::path::{Path, PathBuf};
 
 /// Largest record read \[MB\].
 const LARGEST: u64 = 4;
-/// Wrong answers that a summary names.
+/// Most wrong answers of a question that a summary names.
 const NAMED: usize = 2;
 
-/// One thing that a student did: a row of the table.
+/// An answer, a task or a step that a student did: a row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// The name of the lesson's folder.
@@ -31,23 +30,23 @@ pub struct Record {
     pub verb: String,
     /// The answer, in words.
     pub response: String,
-    /// Whether it was right; of a task, whether it was done without being shown. Nothing where there is no right or wrong.
+    /// Whether the answer was right; of a task, whether the student did it without being shown how. `None` of a step.
     pub success: Option<bool>,
-    /// Tries that it took.
+    /// Number of tries.
     pub tries: usize,
     /// When it was done, ISO 8601 in UTC; empty if that is not known.
     #[serde(default)]
     pub time: String,
 }
 
-/// Names of verbs by the registry of xAPI.
+/// The verbs, with their identifiers in the xAPI registry.
 const VERBS: &[(&str, &str)] = &[
     ("answered", "http://adlnet.gov/expapi/verbs/answered"),
     ("completed", "http://adlnet.gov/expapi/verbs/completed"),
     ("skipped", "http://id.tincanapi.com/verb/skipped"),
 ];
 
-/// What a student did in a lesson.
+/// The record of a student's work in a lesson.
 pub fn of(lesson: &Lesson, work: &[StepWork]) -> Vec<Record> {
     let mut records = Vec::new();
     for (i, (step, work)) in lesson.steps.iter().zip(work).enumerate() {
@@ -80,8 +79,8 @@ pub fn of(lesson: &Lesson, work: &[StepWork]) -> Vec<Record> {
     records
 }
 
-/// The date and time so many seconds after the beginning of 1970, UTC. The Gregorian calendar repeats after 400 years, here those that
-/// begin in March, so that the day that may be missing is the last (H. Hinnant, "chrono-compatible low-level date algorithms", 2014).
+/// The date and time in UTC, `seconds` after the beginning of 1970. The Gregorian calendar repeats every 400 years. Years are counted from
+/// March here, so that a leap day is the last day of its year (H. Hinnant, "chrono-compatible low-level date algorithms", 2014).
 fn iso_8601(seconds: u64) -> String {
     let (days, of_day) = (seconds / 86_400 + 719_468, seconds % 86_400);
     let (era, day) = (days / 146_097, days % 146_097);
@@ -104,7 +103,7 @@ fn words(question: &Question, given: Prediction) -> String {
     }
 }
 
-/// Records as statements of xAPI, one on a line; `student`: whose.
+/// The records of `student` as statements of xAPI, one on each line.
 pub fn statements(student: &str, records: &[Record]) -> String {
     let line = |record: &Record| {
         let id = VERBS.iter().find(|(verb, _)| *verb == record.verb).map_or("", |(_, id)| *id);
@@ -131,7 +130,7 @@ pub fn statements(student: &str, records: &[Record]) -> String {
 /// A record that cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    /// The file.
+    /// The file cannot be read.
     #[error("{}: {error}", path.display())]
     Unreadable {
         /// Its path.
@@ -139,7 +138,7 @@ pub enum RecordError {
         /// Why.
         error: ReadError,
     },
-    /// What is in it.
+    /// The file is not a record.
     #[error("{}: is not a record of answers as the window saves it (CSV): {error}", path.display())]
     NoRecord {
         /// Its path.
@@ -159,7 +158,7 @@ pub fn read(path: &Path) -> Result<Vec<Record>, RecordError> {
     rows.map_err(|error| RecordError::NoRecord { path: path.to_owned(), error })
 }
 
-/// A page on the records of a class.
+/// A web page with the summary of the records of a class.
 pub fn summary(class: &[Vec<Record>]) -> String {
     let lead = format!("{} records. What few got right, or many skipped, is worth talking about.", class.len());
     let mut page = Page::new("squeezefilm, lessons", "What the class answered", &lead);
@@ -207,7 +206,7 @@ fn wrong(records: &[&Record]) -> String {
     named.collect::<Vec<_>>().join("; ")
 }
 
-/// The name of a student's file, without its extension: who it is from.
+/// The student of a record: the name of its file, without the extension.
 pub fn student(path: &Path) -> String {
     path.file_stem().map_or_else(|| "student".to_owned(), |name| name.to_string_lossy().into_owned())
 }

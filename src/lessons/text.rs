@@ -1,6 +1,6 @@
-//! The text of lessons and of the glossary: a part of Markdown. Paragraphs, lists, **strong**, *slanted*, `code`, formulas
-//! `$…$` in a line and `$$…$$` on their own, and `{…}`, a number of the run. pulldown-cmark would read the
-//! strong, the slanted and the lists for us; formulas, numbers and what is refused would stay ours.
+//! The text of lessons and of the glossary, in a part of Markdown: paragraphs, lists, **strong**, *slanted*, `code`, formulas
+//! `$…$` in a line and `$$…$$` on their own line, pictures, and `{…}`, a number of the run. A library such as pulldown-cmark would read
+//! emphasis and lists; formulas, numbers and messages would still have to be read here.
 
 use super::check::{CheckError, Reading};
 use super::formula::{Formula, FormulaError};
@@ -14,7 +14,7 @@ pub enum Inline {
     Text {
         /// The words.
         text: String,
-        /// How they look.
+        /// Their style.
         style: Style,
     },
     /// A formula.
@@ -23,13 +23,13 @@ pub enum Inline {
     Number(Reading),
 }
 
-/// Reads what is between the braces of a number.
+/// Reads the text between the braces of a number.
 pub type Numbers<'a> = &'a dyn Fn(&str) -> Result<Reading, CheckError>;
 
-/// Reads the picture in a file, with what it shows in words.
+/// Reads the picture in a file; the second argument describes it in words.
 pub type Pictures<'a> = &'a dyn Fn(&str, &str) -> Result<Picture, PictureError>;
 
-/// What a text takes from elsewhere.
+/// The functions that read numbers and pictures of a text.
 #[derive(Clone, Copy)]
 pub struct Outside<'a> {
     /// Numbers of the run.
@@ -38,10 +38,10 @@ pub struct Outside<'a> {
     pub pictures: Pictures<'a>,
 }
 
-/// How words look.
+/// The style of words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// As the rest.
+    /// Without emphasis.
     #[default]
     Plain,
     /// `**strong**`.
@@ -52,7 +52,7 @@ pub enum Style {
     Code,
 }
 
-/// A part of a text, below what comes before it.
+/// A part of a text. The parts are set below each other.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A paragraph.
@@ -65,7 +65,7 @@ pub enum Block {
     Picture(Picture),
 }
 
-/// Reads blocks from Markdown; a fault comes with its line, from 0. Without `outside` there are neither numbers of a run nor pictures.
+/// Reads blocks from Markdown. An error comes with its line, from 0. Without `outside` a text has neither numbers of a run nor pictures.
 ///
 /// # Errors
 /// A formula or a number that cannot be read, or a dollar without its partner.
@@ -112,7 +112,7 @@ pub fn blocks(source: &str, outside: Option<Outside<'_>>) -> Result<Vec<Block>, 
     Ok(blocks)
 }
 
-/// What a picture shows and its file, of a line `![what it shows](file.png)`.
+/// The description and the file of a picture, from a line `![description](file.png)`.
 fn picture(line: &str) -> Option<(&str, &str)> {
     line.strip_prefix("![")?.strip_suffix(')')?.split_once("](")
 }
@@ -120,19 +120,19 @@ fn picture(line: &str) -> Option<(&str, &str)> {
 /// Why a text cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TextError {
-    /// A formula.
+    /// A formula cannot be read.
     #[error("{0}")]
     Formula(#[from] FormulaError),
-    /// A formula without its end.
+    /// A formula has no closing dollar sign.
     #[error("a formula begins with $ and does not end; write \\$ for the sign itself")]
     Dollar,
-    /// A number of the run that cannot be read.
+    /// A number of the run cannot be read: the number as written, and the reason.
     #[error("{{{0}}}: {1}; write \\{{ for the brace itself")]
     Number(String, CheckError),
-    /// A picture that cannot be shown.
+    /// A picture cannot be shown: its file, and the reason.
     #[error("picture {0}: {1}")]
     Picture(String, PictureError),
-    /// A number without its end.
+    /// A number of the run has no closing brace.
     #[error("a number of the run begins with {{ and does not end; write \\{{ for the brace itself")]
     Brace,
 }
@@ -202,7 +202,7 @@ pub fn plain(parts: &[Inline]) -> String {
         .collect()
 }
 
-/// `parts` with what `value` makes of each number.
+/// `parts`, with each number replaced by the text that `value` returns for it.
 pub fn filled<'a>(parts: &'a [Inline], value: &dyn Fn(&Reading) -> String) -> Cow<'a, [Inline]> {
     if !parts.iter().any(|part| matches!(part, Inline::Number(_))) {
         return Cow::Borrowed(parts);
@@ -214,7 +214,7 @@ pub fn filled<'a>(parts: &'a [Inline], value: &dyn Fn(&Reading) -> String) -> Co
     Cow::Owned(parts.iter().map(fill).collect())
 }
 
-/// The numbers of the run in blocks.
+/// The numbers of the run that blocks quote.
 pub fn readings<'a>(blocks: impl IntoIterator<Item = &'a Block>) -> impl Iterator<Item = &'a Reading> {
     let parts = blocks.into_iter().flat_map(|block| match block {
         Block::Paragraph(parts) | Block::Item(parts) => parts.as_slice(),

@@ -1,4 +1,4 @@
-//! Tries the tasks of a lesson without a window: does what `try` and `wrong` say, and looks whether the check holds.
+//! Tries the tasks of a lesson without a window: carries out the actions in `try` and `wrong`, and evaluates the check after each of them.
 
 use super::check::{Check, Ran, Reading};
 use super::lesson::{Act, Answer, Doing, Lesson, Step, Task};
@@ -16,73 +16,67 @@ use crate::solution::{Status, settled};
 use crate::solve::{Settings, solve};
 use crate::startup::{self, startup};
 use std::collections::BTreeMap;
-use std::fmt;
 
-/// As a window judges by.
+/// The fidelity of the runs that are checked, the same as in the window.
 const FIDELITY: Fidelity = Fidelity::Standard;
-/// A push by hand, and how long the plate is then kept, in leak times; and how often it is looked at meanwhile.
+/// Duration of a push by hand, in leak times of the film.
 const PUSH: f64 = 0.1;
+/// How long the plate is then held where it is, in leak times.
 const KEPT: f64 = 8.0;
+/// How often the check is evaluated meanwhile.
 const LOOKS: usize = 80;
 
-/// What is wrong with a step, or looks as if it were.
+/// A fault of a step, or advice about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// Number of the step, from 1.
     pub step: usize,
     /// Its title.
     pub title: String,
-    /// What it is.
+    /// The fault.
     pub fault: StepFault,
 }
 
 /// What can be wrong with a step.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StepFault {
-    /// The task is done before anything was done.
+    /// The check holds for the scene that the step begins with.
+    #[error("the check holds from the start: there is nothing to do")]
     TrueFromStart,
-    /// What `try` does is not enough, and why.
+    /// The actions in `try` do not fulfil the check; the reason.
+    #[error("try does not fulfil the check: {0}")]
     TryFails(String),
-    /// What `try` does goes too far.
+    /// The actions in `try` fulfil `too_far`.
+    #[error("try goes too far: too_far holds")]
     TryTooFar,
-    /// What `wrong` does fulfils the task.
+    /// The actions in `wrong` fulfil the check.
+    #[error("wrong fulfils the check")]
     WrongPasses,
     /// There is no `try`.
+    #[error("no try: nobody can be shown how, and the check is not tried")]
     NoTry,
     /// There is no `wrong`.
+    #[error("no wrong: it is not tried whether the check can fail")]
     NoWrong,
-    /// A text quotes a number that the run does not have, as written.
+    /// A text quotes a number that the run does not have; the number as written.
+    #[error("{{{0}}} is not known in the run that does the task")]
     Unknown(String),
-    /// A wrong choice without a reply: which.
+    /// A wrong choice has no reply; which choice it is.
+    #[error("{0} is wrong and has no reply")]
     NoReply(String),
-    /// The scene could not be solved, and why.
+    /// The scene could not be solved; the reason.
+    #[error("the scene was not solved: {0}")]
     Unsolved(String),
 }
 
 impl StepFault {
-    /// Whether the step cannot be done as it is; anything else is advice.
+    /// Whether the step cannot be done as it is. Every other fault is advice.
     pub fn is_error(&self) -> bool {
         !matches!(self, Self::NoTry | Self::NoWrong | Self::NoReply(_))
     }
 }
 
-impl fmt::Display for StepFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TrueFromStart => f.write_str("the check holds from the start: there is nothing to do"),
-            Self::TryFails(unmet) => write!(f, "try does not fulfil the check: {unmet}"),
-            Self::TryTooFar => f.write_str("try goes too far: too_far holds"),
-            Self::WrongPasses => f.write_str("wrong fulfils the check"),
-            Self::NoTry => f.write_str("no try: nobody can be shown how, and the check is not tried"),
-            Self::NoWrong => f.write_str("no wrong: it is not tried whether the check can fail"),
-            Self::Unknown(source) => write!(f, "{{{source}}} is not known in the run that does the task"),
-            Self::NoReply(choice) => write!(f, "{choice} is wrong and has no reply"),
-            Self::Unsolved(why) => write!(f, "the scene was not solved: {why}"),
-        }
-    }
-}
-
-/// Tries every task of a lesson, until it is cancelled; `each` is told the number of each step before.
+/// Tries every task of a lesson, until it is cancelled. `each` is called with the index of a step before the step is tried.
 pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(usize), cancel: &Cancel) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (i, step) in lesson.steps.iter().enumerate() {
@@ -90,22 +84,26 @@ pub fn lesson(lesson: &Lesson, each: &mut dyn FnMut(usize), cancel: &Cancel) -> 
             break;
         }
         each(i);
-        let faults = replies(step).into_iter().chain(step.task.iter().flat_map(|task| task_faults(step, task, cancel)));
+        let tried = step
+            .task
+            .iter()
+            .flat_map(|task| try_task(step, task, cancel).unwrap_or_else(|why| vec![StepFault::Unsolved(why)]));
+        let faults = replies(step).into_iter().chain(tried);
         findings.extend(faults.map(|fault| Finding { step: i + 1, title: step.title.clone(), fault }));
     }
     findings
 }
 
-/// What the texts of a step quote: of the run that it begins with, and of the one that does the task.
+/// The numbers that the texts of a step quote, by what is written between the braces.
 #[derive(Clone, Debug, Default)]
 pub struct Quoted {
-    /// By what is written between the braces: above the task.
+    /// Numbers of the run that the step begins with, in the texts above the task.
     pub before: BTreeMap<String, f64>,
-    /// And once it is done.
+    /// Numbers of the run that fulfils the task, in the texts that are shown then.
     pub told: BTreeMap<String, f64>,
 }
 
-/// What the texts of a step quote, if its task is done as `try` says.
+/// The numbers that the texts of a step quote, if its task is done as `try` says.
 ///
 /// # Errors
 /// Why a scene of it was not solved.
@@ -126,7 +124,7 @@ pub fn quoted(step: &Step, cancel: &Cancel) -> Result<Quoted, String> {
     Ok(known)
 }
 
-/// What a step reads off tabs.
+/// The numbers of tabs that the check and the texts of a step use.
 fn wanted(step: &Step) -> Vec<Live> {
     let asked = step.question.iter().flat_map(|question| &question.ask);
     let quoted = readings(step.body.iter().chain(asked)).chain(readings(step.told()));
@@ -145,7 +143,7 @@ fn replies(step: &Step) -> Vec<StepFault> {
     faults
 }
 
-/// A run, and what is read off the tabs beside it.
+/// A run, and the numbers of the tabs that belong to it.
 struct Tried {
     scene: Scene,
     problem: Problem,
@@ -185,20 +183,13 @@ impl Tried {
     }
 }
 
-/// What came of doing something.
+/// The result of actions on a task.
 struct Outcome {
-    /// Why the check does not hold; nothing if it did, at any time.
+    /// Why the check does not hold; `None` if it held at any time.
     unmet: Option<String>,
     too_far: bool,
-    /// The numbers that texts quote, as they are once it holds.
+    /// The numbers that texts quote, at the time when the check held.
     known: BTreeMap<String, f64>,
-}
-
-fn task_faults(step: &Step, task: &Task, cancel: &Cancel) -> Vec<StepFault> {
-    match try_task(step, task, cancel) {
-        Ok(faults) => faults,
-        Err(why) => vec![StepFault::Unsolved(why)],
-    }
 }
 
 fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<StepFault>, String> {
@@ -231,7 +222,7 @@ fn try_task(step: &Step, task: &Task, cancel: &Cancel) -> Result<Vec<StepFault>,
     Ok(faults)
 }
 
-/// Does what is said, and looks at the check whenever something has changed.
+/// Carries out actions, and evaluates the check whenever something has changed.
 fn act(
     step: &Step,
     task: &Task,
@@ -256,13 +247,13 @@ fn act(
     Ok(look.outcome.unwrap_or(Outcome { unmet: None, too_far: false, known: BTreeMap::new() }))
 }
 
-/// Looks at the check while something goes on: what holds once, holds.
+/// Evaluates the check while actions go on. Once it has held, the task is fulfilled.
 struct Look<'a> {
     task: &'a Task,
     step: &'a Step,
     run: &'a Tried,
     start: &'a Tried,
-    /// What was read off the tabs at first.
+    /// The numbers of the tabs when the step began.
     began: Readings,
     outcome: Option<Outcome>,
 }
@@ -282,7 +273,7 @@ impl Look<'_> {
     }
 }
 
-/// Pushes the plate of a run to `gap` \[m\] and keeps it there.
+/// Pushes the plate of a run to the gap `gap` \[m\] and holds it there.
 fn hold(run: &Tried, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), String> {
     let Scenario::Plate(plate) = &run.problem.scenario else { return Err("a motor is not held".to_owned()) };
     let mut held = Hold::new(plate, &Plan::plate(plate, FIDELITY, &Numerics::default()));
@@ -302,7 +293,7 @@ fn hold(run: &Tried, gap: f64, look: &mut dyn FnMut(&Readings)) -> Result<(), St
 /// Starts a run from rest.
 fn start_up(run: &Tried, look: &mut Look<'_>, cancel: &Cancel) -> Result<(), String> {
     let settings = startup::Settings { fidelity: FIDELITY, ..startup::Settings::default() };
-    // A cycle that comes again, on finer grids, replaces the one before.
+    // A cycle may be computed again on finer grids: it then replaces the earlier one.
     let mut cycles = BTreeMap::new();
     let mut each = |cycle: startup::Cycle| {
         cycles.insert(cycle.number, (cycle.remaining, cycle.outcome));

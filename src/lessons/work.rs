@@ -1,34 +1,34 @@
-//! What a student did in a lesson, step by step: answers, tasks, what was skipped. It is kept from window to window.
+//! A student's work in a lesson, step by step: answers, tasks, and steps that were skipped. It is kept when the window is closed.
 
 use super::lesson::{Answer, Kind, Prediction, Question, Step};
 use super::text::plain;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Tries of a calculation.
+/// Most tries of a calculation.
 const TRIES: usize = 2;
 
-/// How far a lesson was followed.
+/// How far a student has come in a lesson.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Progress {
     /// The step that comes next.
     pub step: usize,
-    /// Whether everything in it was done, once.
+    /// Whether the whole lesson was completed at least once.
     pub done: bool,
-    /// What was done, by step.
+    /// The work in each step.
     pub work: Vec<StepWork>,
 }
 
-/// What a student did in one step.
+/// A student's work in one step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct StepWork {
-    /// What was answered, if anything yet.
+    /// The answer to the question, if there is one yet.
     pub prediction: Option<Prediction>,
-    /// Whether it was committed to.
+    /// Whether the answer is final.
     pub committed: bool,
-    /// Calculations that were wrong.
+    /// Number of wrong calculations.
     pub wrong: usize,
     /// Whether the task was fulfilled.
     pub fulfilled: bool,
@@ -36,59 +36,59 @@ pub struct StepWork {
     pub observed: Option<usize>,
     /// Number of wrong answers to the observation.
     pub misread: usize,
-    /// Hints that were asked for.
+    /// Number of hints that were shown.
     pub hints: usize,
-    /// Whether the program did the task.
+    /// Whether the program showed how to do the task.
     pub shown: bool,
-    /// Whether the student went on from here.
+    /// Whether the student has gone on to another step.
     pub left: bool,
-    /// Numbers of the run that fulfilled the task, as texts quote them.
+    /// Numbers of the run that fulfilled the task, by their source in the texts that quote them.
     pub readings: BTreeMap<String, f64>,
-    /// When it was done.
+    /// When the parts of the step were done.
     pub times: Times,
-    /// Why the task is not fulfilled, of the newest run.
+    /// Why the newest run does not fulfil the task.
     #[serde(skip)]
     pub unmet: Option<String>,
-    /// Whether anything was tried.
+    /// Whether the student has tried anything.
     #[serde(skip)]
     pub tried: bool,
     /// Whether the newest run goes beyond what the task is about.
     #[serde(skip)]
     pub too_far: bool,
-    /// Whether the answer is one that was found wrong already.
+    /// Whether the answer was already found to be wrong.
     #[serde(skip)]
     pub refused: bool,
 }
 
-/// When something was done in a step \[s since 1970, UTC\], as far as it was.
+/// When the parts of a step were done \[s since 1970, UTC\]; `None` if they were not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Times {
-    /// The answer was committed to.
+    /// The answer became final.
     pub question: Option<u64>,
     /// The task was fulfilled.
     pub task: Option<u64>,
-    /// It was said what was seen.
+    /// The observation was answered.
     pub observation: Option<u64>,
     /// The student went on.
     pub step: Option<u64>,
 }
 
-/// What a step waits for.
+/// The part of a step that comes next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// An answer.
+    /// The question.
     Question,
-    /// Its task.
+    /// The task.
     Task,
-    /// What was seen.
+    /// The question about what was seen.
     Observation,
-    /// Nothing: all of it is told.
+    /// Nothing is left: the explanation is shown.
     Told,
 }
 
 impl StepWork {
-    /// What the step waits for.
+    /// The part of the step that comes next.
     pub fn stage(&self, step: &Step) -> Stage {
         if step.question.is_some() && !self.committed {
             Stage::Question
@@ -110,7 +110,7 @@ impl StepWork {
         self.observed.is_some_and(|choice| observe.answer.is_right(Prediction::Choice(choice)))
     }
 
-    /// Notes that what is done, and was not when this was last asked for, was done at `now` \[s since 1970, UTC\].
+    /// Notes the time `now` \[s since 1970, UTC\] for every part that has been done since the last call.
     pub fn note_times(&mut self, now: u64) {
         let Times { question, task, observation, step } = &mut self.times;
         let observed = self.observed.is_some();
@@ -120,7 +120,7 @@ impl StepWork {
         }
     }
 
-    /// Gives the answer, for now.
+    /// Sets the answer, until it is final.
     pub fn predict(&mut self, prediction: Prediction) {
         if !self.committed {
             self.refused &= self.prediction == Some(prediction);
@@ -128,7 +128,7 @@ impl StepWork {
         }
     }
 
-    /// Keeps to the answer. A calculation that is wrong has another try, with another number.
+    /// Makes the answer final. After a first wrong calculation there is another try, with another number.
     pub fn commit(&mut self, question: &Question) {
         let Some(given) = self.prediction.filter(|_| !self.committed && !self.refused) else { return };
         let wrong = question.kind == Kind::Calculate && !question.answer.is_right(given);
@@ -137,7 +137,7 @@ impl StepWork {
         self.committed = !wrong || self.wrong >= TRIES;
     }
 
-    /// Says what was seen.
+    /// Answers the question about what was seen.
     pub fn observe(&mut self, observe: &Question, choice: usize) {
         if !self.has_seen(observe) {
             self.observed = Some(choice);
@@ -146,23 +146,23 @@ impl StepWork {
     }
 }
 
-/// What came of a lesson.
+/// The result of a lesson: of each kind of part, how many were good, and how many there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Score {
-    /// Predictions that came true, of all.
+    /// Right predictions, of all.
     pub predictions: [usize; 2],
-    /// Calculations that were right, of all.
+    /// Right calculations, of all.
     pub calculations: [usize; 2],
-    /// Observations that were right at the first look, of all.
+    /// Observations that were right at the first try, of all.
     pub observations: [usize; 2],
-    /// Tasks that the student did without being shown how, of all.
+    /// Tasks that were done without being shown how, of all.
     pub tasks: [usize; 2],
     /// Steps that were skipped, of all.
     pub skipped: [usize; 2],
 }
 
 impl Score {
-    /// Of all steps.
+    /// The score of steps.
     pub fn of<'a>(steps: impl IntoIterator<Item = (&'a Step, &'a StepWork)>) -> Self {
         let mut score = Self::default();
         let count = |[good, all]: &mut [usize; 2], is_good: bool| {
@@ -186,14 +186,14 @@ impl Score {
         score
     }
 
-    /// Points, of all that can be had.
+    /// Points, and the most that can be reached.
     pub fn points(&self) -> [usize; 2] {
         let parts = [self.predictions, self.calculations, self.observations, self.tasks];
         parts.into_iter().fold([0, 0], |[points, all], [good, of]| [points + good, all + of])
     }
 }
 
-/// The right answer in words: what a recap says of a step.
+/// The right answer in words, for the summary at the end of a lesson.
 pub fn answer_words(question: &Question) -> String {
     match &question.answer {
         Answer::Choice { choices, right } => choices.get(*right).map(|choice| plain(&choice.text)).unwrap_or_default(),

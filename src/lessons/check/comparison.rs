@@ -1,16 +1,17 @@
-//! Comparisons of a check, and what they say of a run.
+//! Comparisons of a check, and their evaluation for a run.
 
 use super::name::{Name, Ran};
 use crate::digits::{capitalised, short};
 use crate::lessons::live::Live;
 use crate::scene::Value;
 
-/// How near `about` is, relative, unless the check says.
+/// Relative tolerance of `about`, unless the check gives another one.
 pub const ABOUT: f64 = 0.05;
-/// How near `=` is for numbers, relative: what a person typed.
+/// Relative tolerance of `=`, `<=` and `>=` between numbers, so that a value that was typed passes.
 const SAME: f64 = 1e-9;
-/// Digits in a hint, and the most where fewer would not tell what is from what should be.
+/// Significant digits in a hint.
 const DIGITS: usize = 3;
+/// Most significant digits in a hint, where the value and the one that is asked for agree to fewer.
 const MOST_DIGITS: usize = 9;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +19,7 @@ pub(super) struct Comparison {
     pub(super) left: Expression,
     pub(super) operator: Operator,
     pub(super) right: Expression,
-    /// How near `about` is, relative.
+    /// Relative tolerance of `about`.
     pub(super) within: f64,
     /// The left side as written.
     pub(super) words: String,
@@ -45,7 +46,7 @@ pub(super) enum Expression {
 }
 
 impl Comparison {
-    /// In words why it does not hold.
+    /// Why it does not hold, in words; `None` if it holds.
     pub(super) fn unmet(&self, now: Ran<'_>, start: Ran<'_>) -> Option<String> {
         let subject = match &self.left {
             Expression::Name { name, start: false } => capitalised(&name.words()),
@@ -106,7 +107,7 @@ impl Comparison {
 }
 
 impl Expression {
-    /// What is read off tabs in it.
+    /// Adds the numbers of tabs that it uses to `found`.
     pub(super) fn live(&self, found: &mut Vec<Live>) {
         match self {
             Self::Number(_) | Self::Text(_) => {}
@@ -119,7 +120,7 @@ impl Expression {
         }
     }
 
-    /// Its value for `now`, when the step began with `begun`.
+    /// Its value for the run `now` of a step that began with the run `begun`.
     pub(super) fn value(&self, now: Ran<'_>, begun: Ran<'_>) -> Option<f64> {
         let value = match self {
             Self::Number(number) => *number,

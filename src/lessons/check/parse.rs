@@ -1,10 +1,10 @@
-//! From the words of a check to its comparisons.
+//! Reads the comparisons of a check.
 
 use super::comparison::{ABOUT, Comparison, Expression, Operator};
 use super::name::{Name, UnknownName, name};
 use crate::scene::{Parameter, ParameterKind, Scene};
 
-/// Levels of brackets.
+/// Most levels of nested brackets.
 const DEEPEST: usize = 32;
 const OPERATORS: &str = "expected one of < <= > >= = about";
 const VALUE: &str = "expected a number, the name of a result, a key of the scene, or a bracket";
@@ -31,7 +31,7 @@ pub enum CheckError {
         /// "motor" or "plate".
         scene: &'static str,
     },
-    /// A name or flag in a sum, or compared with a number.
+    /// A key whose value is a word is used in an expression, or compared with a number.
     #[error("{name} is no number: compare it with = and {expected}")]
     NoNumber {
         /// The key.
@@ -39,7 +39,7 @@ pub enum CheckError {
         /// What it accepts.
         expected: String,
     },
-    /// A text that is not one of the key's names.
+    /// A key is compared with a word that it cannot have.
     #[error("\"{value}\" is not a value of {name}: expected {expected}")]
     NoChoice {
         /// The key.
@@ -49,7 +49,7 @@ pub enum CheckError {
         /// What it accepts.
         expected: String,
     },
-    /// Deeper than any check.
+    /// Brackets are nested deeper than in any check.
     #[error("more than {0} levels of brackets")]
     TooDeep(usize),
 }
@@ -76,62 +76,58 @@ impl Token {
     }
 }
 
+/// Operators as they are written, and as they are shown in messages. Those of two characters come first.
+const WRITTEN: [(&str, Operator, &str); 6] = [
+    ("<=", Operator::AtMost, "<="),
+    (">=", Operator::AtLeast, ">="),
+    ("==", Operator::Equal, "="),
+    ("<", Operator::Less, "<"),
+    (">", Operator::More, ">"),
+    ("=", Operator::Equal, "="),
+];
+
 fn tokens(source: &str) -> Result<Vec<Token>, CheckError> {
-    let chars: Vec<char> = source.chars().collect();
+    let unexpected = |found: &str, expected| Err(CheckError::Unexpected { found: found.to_owned(), expected });
     let mut tokens = Vec::new();
-    let mut at = 0;
-    let run = |from: usize, inside: &dyn Fn(char, char) -> bool| {
-        let mut to = from + 1;
-        while to < chars.len() && inside(chars[to - 1], chars[to]) {
-            to += 1;
-        }
-        (chars[from..to].iter().collect::<String>(), to)
-    };
-    while at < chars.len() {
-        let first = chars[at];
-        let second = chars.get(at + 1).copied();
-        let mut length = 1;
-        match (first, second) {
-            (space, _) if space.is_whitespace() => {}
-            ('0'..='9', _) => {
-                let (text, to) = run(at, &|before, c| {
-                    c.is_ascii_alphanumeric() || c == '.' || (matches!(before, 'e' | 'E') && matches!(c, '+' | '-'))
-                });
-                let unexpected = || CheckError::Unexpected { found: text.clone(), expected: VALUE };
-                let number = text.parse().map_err(|_| unexpected())?;
-                tokens.push(Token::Number(number, text));
-                length = to - at;
-            }
-            (letter, _) if letter.is_ascii_alphabetic() || letter == '_' => {
-                let (text, to) = run(at, &|_, c| c.is_ascii_alphanumeric() || c == '_' || c == '.');
-                tokens.push(match text.as_str() {
-                    "and" => Token::And,
-                    "about" => Token::Operator(Operator::About, "about"),
-                    _ => Token::Name(text),
-                });
-                length = to - at;
-            }
-            ('"', _) => {
-                let end = chars[at + 1..].iter().position(|c| *c == '"');
-                let Some(end) = end else {
-                    let found: String = chars[at..].iter().collect();
-                    return Err(CheckError::Unexpected { found, expected: "expected a closing quote" });
-                };
-                tokens.push(Token::Text(chars[at + 1..at + 1 + end].iter().collect()));
-                length = end + 2;
-            }
-            ('<', Some('=')) => (tokens.push(Token::Operator(Operator::AtMost, "<=")), length = 2).1,
-            ('>', Some('=')) => (tokens.push(Token::Operator(Operator::AtLeast, ">=")), length = 2).1,
-            ('=', Some('=')) => (tokens.push(Token::Operator(Operator::Equal, "=")), length = 2).1,
-            ('<', _) => tokens.push(Token::Operator(Operator::Less, "<")),
-            ('>', _) => tokens.push(Token::Operator(Operator::More, ">")),
-            ('=', _) => tokens.push(Token::Operator(Operator::Equal, "=")),
-            ('+' | '-' | '*' | '/' | '(' | ')', _) => tokens.push(Token::Sign(first)),
-            _ => return Err(CheckError::Unexpected { found: first.to_string(), expected: VALUE }),
-        }
-        at += length;
+    let mut rest = source.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let (token, length) = if let Some((written, operator, shown)) =
+            WRITTEN.into_iter().find(|(written, ..)| rest.starts_with(written))
+        {
+            (Token::Operator(operator, shown), written.len())
+        } else if "+-*/()".contains(first) {
+            (Token::Sign(first), 1)
+        } else if first == '"' {
+            let Some(end) = rest[1..].find('"') else { return unexpected(rest, "expected a closing quote") };
+            (Token::Text(rest[1..=end].to_owned()), end + 2)
+        } else if first.is_ascii_digit() {
+            let mut before = first;
+            let text = leading(rest, |c| {
+                let signed = matches!(before, 'e' | 'E') && matches!(c, '+' | '-');
+                before = c;
+                signed || c.is_ascii_alphanumeric() || c == '.'
+            });
+            let Ok(number) = text.parse() else { return unexpected(text, VALUE) };
+            (Token::Number(number, text.to_owned()), text.len())
+        } else {
+            let token = match leading(rest, |c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.')) {
+                "and" => Token::And,
+                "about" => Token::Operator(Operator::About, "about"),
+                name if first.is_ascii_alphabetic() || first == '_' => Token::Name(name.to_owned()),
+                _ => return unexpected(&first.to_string(), VALUE),
+            };
+            let length = token.text().len();
+            (token, length)
+        };
+        tokens.push(token);
+        rest = rest[length..].trim_start();
     }
     Ok(tokens)
+}
+
+/// The characters at the beginning of a text that are `inside` a token.
+fn leading(text: &str, mut inside: impl FnMut(char) -> bool) -> &str {
+    &text[..text.find(|c: char| !inside(c)).unwrap_or(text.len())]
 }
 
 /// Reads the comparisons of a check for steps on `scene`.
@@ -148,7 +144,7 @@ pub(super) fn comparisons(source: &str, scene: &Scene) -> Result<Vec<Comparison>
     Ok(comparisons)
 }
 
-/// Reads a sum for steps on `scene`.
+/// Reads an expression for steps on `scene`.
 pub(super) fn expression(source: &str, scene: &Scene) -> Result<Expression, CheckError> {
     let tokens = tokens(source)?;
     let mut reader = Reader { tokens: &tokens, at: 0, scene, depth: 0 };
@@ -201,7 +197,7 @@ impl Reader<'_> {
         Ok(comparison)
     }
 
-    /// Names and flags are compared with `=` and one of their values; everything else with numbers.
+    /// Checks the types: a key whose value is a word is compared by `=` with one of its words, everything else with numbers.
     fn types(&self, comparison: &Comparison) -> Result<(), CheckError> {
         let accepted = |parameter: &Parameter| parameter.accepts();
         if let Expression::Name { name: Name::Key(parameter), start: false } = comparison.left {

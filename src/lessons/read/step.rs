@@ -1,14 +1,13 @@
-//! The blocks of a step: what is set up, asked, and to be done.
+//! The blocks of a step: its setup, its questions and its task.
 
 use super::table::{Piece, Reader, Table};
 use crate::analysis::quantity::Quantity;
 use crate::lessons::check::{Check, Name, name};
-use crate::lessons::error::{KeyFault, LessonErrorKind};
 use crate::lessons::lesson::{Act, Answer, Changes, Choice, Doing, Kind, Question, Step, Task};
 use crate::lessons::live::Live;
 use crate::scene::{Parameter, Scene, presets};
 
-/// The blocks of a step.
+/// The kinds of blocks.
 pub(super) const BLOCKS: [&str; 4] = [SETUP, QUESTION, TASK, OBSERVE];
 const SETUP: &str = "setup";
 const QUESTION: &str = "question";
@@ -18,14 +17,14 @@ const SETUP_KEYS: &[&str] = &["preset", "set", "light", "look", "tab", "show"];
 const QUESTION_KEYS: &[&str] = &["kind", "ask", "choices", "answer", "unit", "within", "replies", "hint", "why"];
 const OBSERVE_KEYS: &[&str] = &["ask", "choices", "answer", "replies"];
 const TASK_KEYS: &[&str] = &["ask", "check", "too_far", "too_far_says", "hints", "try", "wrong", "then"];
-/// In `try` and `wrong`: the start-up is started.
+/// The entry of `try` and `wrong` that starts the start-up.
 const START_UP: &str = "start-up";
-/// How far a good answer that is a number may be off, unless the lesson says.
+/// Relative deviation up to which a number counts as right, unless the lesson gives another one.
 const WITHIN: f64 = 0.2;
-/// What the kind of a question is called.
+/// The kinds of questions, and their names in a lesson.
 const KINDS: [(&str, Kind); 2] = [("predict", Kind::Predict), ("calculate", Kind::Calculate)];
 
-/// A step as it stands in the file.
+/// A step as it is in the file, before its text and its blocks are read.
 pub(super) struct Raw {
     pub(super) line: usize,
     pub(super) title: String,
@@ -44,7 +43,9 @@ impl Reader<'_> {
             if setup.faulty {
                 return None;
             }
-            self.fault(raw.line, LessonErrorKind::NoScene);
+            let missing =
+                "setup.preset is missing: the first step has to name a preset, built in or a file beside lesson.md";
+            self.layout(raw.line, missing);
             return None;
         }
         let scene = self.scene.clone()?;
@@ -57,7 +58,10 @@ impl Reader<'_> {
             self.table(TASK, TASK_KEYS, piece, |reader, table| task = reader.task(table, &scene));
         }
         match block(OBSERVE) {
-            Some(piece) if task.is_none() => self.fault(piece.line - 1, LessonErrorKind::ObserveWithoutTask),
+            Some(piece) if task.is_none() => {
+                let fault = "a block ```observe asks what was seen after a task, and this step has no ```task";
+                self.layout(piece.line - 1, fault);
+            }
             Some(piece) => {
                 self.table(OBSERVE, OBSERVE_KEYS, piece, |reader, table| observe = reader.question(table));
             }
@@ -78,13 +82,17 @@ impl Reader<'_> {
             let built_in = || presets::BUILT_IN.iter().find(|preset| preset.name == name).map(|preset| preset.scene());
             match (self.beside.preset)(&name).or_else(built_in) {
                 Some(Ok(scene)) => self.scene = Some(scene),
-                Some(Err(error)) => self.key_fault(line, SETUP, "preset", KeyFault::Scene(error)),
-                None => self.fault(line, LessonErrorKind::NoPreset { name }),
+                Some(Err(error)) => self.key_fault(line, SETUP, "preset", format!(": {error}")),
+                None => {
+                    let fault = "there is no such file beside lesson.md, and no such built-in preset";
+                    let fault = format!(" = \"{name}\": {fault}; squeezefilm presets lists those");
+                    self.key_fault(line, SETUP, "preset", fault);
+                }
             }
         }
         if let Some(mut scene) = self.scene.clone() {
             if let Err(error) = scene.set_all(changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
-                self.key_fault(table.line_of("set"), SETUP, "set", KeyFault::Scene(error));
+                self.key_fault(table.line_of("set"), SETUP, "set", format!(": {error}"));
             }
             self.scene = Some(scene);
         }
@@ -95,8 +103,7 @@ impl Reader<'_> {
                 }
                 (_, Some(scene)) => {
                     let allowed: Vec<&str> = scene.parameters().map(|parameter| parameter.key).collect();
-                    let allowed = allowed.join(", ");
-                    self.key_fault(line, SETUP, "light", KeyFault::NotOneOf(key, allowed));
+                    self.not_one_of(line, SETUP, "light", &key, &allowed);
                 }
                 (_, None) => {}
             }
@@ -105,8 +112,7 @@ impl Reader<'_> {
             if self.names.places.contains(&place.as_str()) {
                 setup.look.push(place);
             } else {
-                let allowed = self.names.places.join(", ");
-                self.key_fault(line, SETUP, "look", KeyFault::NotOneOf(place, allowed));
+                self.not_one_of(line, SETUP, "look", &place, self.names.places);
             }
         }
         if let Some((tab, line)) = self.string(table, "tab") {
@@ -115,8 +121,7 @@ impl Reader<'_> {
             if tabs.iter().any(|known| known.eq_ignore_ascii_case(&tab)) {
                 setup.tab = Some(tab);
             } else {
-                let allowed = tabs.join(", ");
-                self.key_fault(line, SETUP, "tab", KeyFault::NotOneOf(tab, allowed));
+                self.not_one_of(line, SETUP, "tab", &tab, tabs);
             }
         }
         for (shown, line) in self.strings(table, "show") {
@@ -125,9 +130,8 @@ impl Reader<'_> {
                 Some(name) => setup.show.push(name),
                 None => {
                     let results = Quantity::all().map(Quantity::name).chain(Live::all().map(Live::name));
-                    let allowed: Vec<&str> = results.collect();
-                    let allowed = format!("{}, or a key of this scene", allowed.join(", "));
-                    self.key_fault(line, SETUP, "show", KeyFault::NotOneOf(shown, allowed));
+                    let allowed: Vec<&str> = results.chain(["or a key of this scene"]).collect();
+                    self.not_one_of(line, SETUP, "show", &shown, &allowed);
                 }
             }
         }
@@ -135,7 +139,7 @@ impl Reader<'_> {
         setup
     }
 
-    /// A question, or what is asked about what was seen: that has choices, and is explained elsewhere.
+    /// The question of a block ```question or ```observe. The latter always has choices, and no explanation of its own.
     fn question(&mut self, table: &Table<'_>) -> Option<Question> {
         let observes = table.block == OBSERVE;
         let kind = if observes { Kind::Observe } else { self.kind(table) };
@@ -144,23 +148,19 @@ impl Reader<'_> {
         let hint = self.blocks(table, "hint", None);
         let answer = if table.get("choices").is_some() || observes {
             if kind == Kind::Calculate {
-                let line = table.line_of("choices");
-                let fault = KeyFault::NotWith("kind = \"calculate\": a calculation ends in a number");
-                self.key_fault(line, table.block, "choices", fault);
+                let fault = " does not go with kind = \"calculate\": a calculation ends in a number";
+                self.key_fault(table.line_of("choices"), table.block, "choices", fault);
                 return None;
             }
             self.choices(table)?
         } else {
-            if table.get("answer").is_none() {
-                let why = "a number, or with choices the number of the right one";
-                self.key_fault(table.first_line(), QUESTION, "answer", KeyFault::Missing(why));
-            }
+            self.needs(table, "answer", "a number, or with choices the number of the right one");
             let (value, _) = self.number(table, "answer")?;
             let unit = self.string(table, "unit").map_or_else(String::new, |(unit, _)| unit);
             let (within, line) = self.number(table, "within").unwrap_or((WITHIN, table.first_line()));
             if !(within > 0.0 && within <= 1.0) {
-                let (found, allowed) = (within.to_string(), "above 0 to 1, relative to the answer".to_owned());
-                self.key_fault(line, QUESTION, "within", KeyFault::OutOfRange(found, allowed));
+                let fault = format!(" = {within} is out of range: allowed above 0 to 1, relative to the answer");
+                self.key_fault(line, QUESTION, "within", fault);
             }
             Answer::Number { value, unit, within }
         };
@@ -170,37 +170,31 @@ impl Reader<'_> {
     fn kind(&mut self, table: &Table<'_>) -> Kind {
         let Some((name, line)) = self.string(table, "kind") else { return Kind::Predict };
         let found = KINDS.iter().find(|(known, _)| *known == name);
-        found.map_or_else(
-            || {
-                let allowed = KINDS.map(|(known, _)| known).join(", ");
-                self.key_fault(line, QUESTION, "kind", KeyFault::NotOneOf(name, allowed));
-                Kind::Predict
-            },
-            |(_, kind)| *kind,
-        )
+        if found.is_none() {
+            self.not_one_of(line, QUESTION, "kind", &name, &KINDS.map(|(known, _)| known));
+        }
+        found.map_or(Kind::Predict, |(_, kind)| *kind)
     }
 
     /// Choices with their replies, and which of them is right.
     fn choices(&mut self, table: &Table<'_>) -> Option<Answer> {
         let choices = self.lines(table, "choices");
-        for (key, why) in [("choices", "a list of answers"), ("answer", "the number of the right choice, from 1")] {
-            if table.get(key).is_none() {
-                self.key_fault(table.first_line(), table.block, key, KeyFault::Missing(why));
-            }
-        }
+        self.needs(table, "choices", "a list of answers");
+        self.needs(table, "answer", "the number of the right choice, from 1");
         let replies = self.texts(table, "replies");
         let (answer, line) = self.number(table, "answer")?;
         let choices = choices?;
         let right = answer.fract() == 0.0 && answer >= 1.0 && answer <= choices.len() as f64;
         if !right || choices.len() < 2 {
-            let allowed = format!("1 to {}, of at least 2 choices", choices.len());
-            self.key_fault(line, table.block, "answer", KeyFault::OutOfRange(answer.to_string(), allowed));
+            let fault = format!(" = {answer} is out of range: allowed 1 to {}, of at least 2 choices", choices.len());
+            self.key_fault(line, table.block, "answer", fault);
             return None;
         }
         if !replies.is_empty() && replies.len() != choices.len() {
-            let allowed = format!("{}, one for each choice, \"\" for the right one", choices.len());
-            let found = format!("{} texts", replies.len());
-            self.key_fault(table.line_of("replies"), table.block, "replies", KeyFault::OutOfRange(found, allowed));
+            let (found, wanted) = (replies.len(), choices.len());
+            let allowed = format!("allowed {wanted}, one for each choice, \"\" for the right one");
+            let fault = format!(" = {found} texts is out of range: {allowed}");
+            self.key_fault(table.line_of("replies"), table.block, "replies", fault);
         }
         let replies = replies.into_iter().chain(std::iter::repeat(Vec::new()));
         let choices = choices.into_iter().zip(replies).map(|(text, reply)| Choice { text, reply }).collect();
@@ -209,36 +203,25 @@ impl Reader<'_> {
 
     fn task(&mut self, table: &Table<'_>, scene: &Scene) -> Option<Task> {
         let ask = self.blocks(table, "ask", Some("what is to be done"));
-        if table.get("hints").is_none() {
-            let why = "texts that help, given one after the other on request";
-            self.key_fault(table.first_line(), TASK, "hints", KeyFault::Missing(why));
-        }
+        self.needs(table, "hints", "texts that help, given one after the other on request");
         let hints = self.texts(table, "hints");
         let then = self.blocks(table, "then", None);
         let example = self.doing(table, "try", scene);
         let wrong = self.doing(table, "wrong", scene);
         let limit = self.check(table, "too_far", scene);
         let says = limit.as_ref().map(|_| self.blocks(table, "too_far_says", Some("what is said beyond the aim")));
-        if table.get("check").is_none() {
-            let why = "what the run is checked for, as alpha > 1.5 * start.alpha";
-            self.key_fault(table.first_line(), TASK, "check", KeyFault::Missing(why));
-        }
+        self.needs(table, "check", "what the run is checked for, as alpha > 1.5 * start.alpha");
         let check = self.check(table, "check", scene)?;
         Some(Task { ask, check, too_far: limit.zip(says), hints, example, wrong, then })
     }
 
     fn check(&mut self, table: &Table<'_>, key: &'static str, scene: &Scene) -> Option<Check> {
         let (source, line) = self.string(table, key)?;
-        match Check::parse(&source, scene) {
-            Ok(check) => Some(check),
-            Err(error) => {
-                self.key_fault(line, TASK, key, KeyFault::Check(source, error));
-                None
-            }
-        }
+        let check = Check::parse(&source, scene);
+        check.map_err(|error| self.key_fault(line, TASK, key, format!(" = \"{source}\": {error}"))).ok()
     }
 
-    /// Changes that `scene` takes, and what is done in a tab.
+    /// Changes of `scene`, which have to be allowed, and actions in a tab.
     fn doing(&mut self, table: &Table<'_>, key: &'static str, scene: &Scene) -> Doing {
         let mut doing = Doing::default();
         for (text, line) in self.strings(table, key) {
@@ -256,7 +239,7 @@ impl Reader<'_> {
         }
         let mut changed = scene.clone();
         if let Err(error) = changed.set_all(doing.changes.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
-            self.key_fault(table.line_of(key), TASK, key, KeyFault::Scene(error));
+            self.key_fault(table.line_of(key), TASK, key, format!(": {error}"));
         }
         doing
     }
@@ -269,7 +252,8 @@ impl Reader<'_> {
     /// Reads `key = value`.
     fn change(&mut self, table: &Table<'_>, key: &'static str, text: &str, line: usize) -> Option<(String, String)> {
         let Some((name, value)) = text.split_once('=') else {
-            self.key_fault(line, table.block, key, KeyFault::NoChange(text.to_owned()));
+            let expected = "expected \"key = value\", as in \"film.min_spacing_nm = 100\"";
+            self.key_fault(line, table.block, key, format!(": \"{text}\" is no change: {expected}"));
             return None;
         };
         let value = value.trim();
@@ -278,7 +262,7 @@ impl Reader<'_> {
     }
 }
 
-/// What was predicted can be seen: the same choices once more.
+/// The question about what was seen, if the lesson gives none: the choices of the prediction again.
 fn same_choices(asked: &Question) -> Option<Question> {
     let Answer::Choice { choices, right } = &asked.answer else { return None };
     let choices = choices.iter().map(|choice| Choice { text: choice.text.clone(), reply: Vec::new() }).collect();

@@ -1,7 +1,7 @@
-//! What the reader of a lesson goes by: where it is, what it may name, the faults found so far; and how it reads the TOML of a block.
+//! The state of the reader of a lesson (its origin, the names it may use, the faults found so far), and how it reads the TOML of a block.
 
 use crate::lessons::check::Reading;
-use crate::lessons::error::{KeyFault, LessonError, LessonErrorKind};
+use crate::lessons::error::{LessonError, LessonErrorKind};
 use crate::lessons::lesson::WindowNames;
 use crate::lessons::text::{self, Block, Inline, Outside, Pictures, TextError};
 use crate::scene::{Scene, SceneError};
@@ -9,12 +9,12 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// What is beside the lesson.
+/// How files beside the lesson are found.
 #[derive(Clone, Copy)]
 pub(in crate::lessons) struct Beside<'a> {
-    /// Looks for a preset.
+    /// Finds a preset by the name of its file.
     pub(in crate::lessons) preset: &'a dyn Fn(&str) -> Option<Result<Scene, SceneError>>,
-    /// Looks for a picture.
+    /// Finds a picture by the name of its file.
     pub(in crate::lessons) pictures: Pictures<'a>,
 }
 
@@ -30,17 +30,40 @@ pub(super) struct Reader<'a> {
     pub(super) names: WindowNames<'a>,
     pub(super) beside: Beside<'a>,
     pub(super) faults: Vec<LessonError>,
-    /// The scene of a student who has come this far.
+    /// The scene at this point of the lesson; `None` before the first step has chosen one.
     pub(super) scene: Option<Scene>,
 }
 
 impl Reader<'_> {
-    pub(super) fn fault(&mut self, line: usize, kind: LessonErrorKind) {
+    fn fault(&mut self, line: usize, kind: LessonErrorKind) {
         self.faults.push(LessonError { origin: self.origin.to_owned(), line: Some(line), kind });
     }
 
-    pub(super) fn key_fault(&mut self, line: usize, block: &'static str, key: &str, fault: KeyFault) {
-        self.fault(line, LessonErrorKind::Key { block, key: key.to_owned(), fault });
+    /// Headings and blocks are not as a lesson has them.
+    pub(super) fn layout(&mut self, line: usize, message: impl Into<String>) {
+        self.fault(line, LessonErrorKind::Layout(message.into()));
+    }
+
+    /// Something is wrong with a key of a block. `fault` follows the key in the message.
+    pub(super) fn key_fault(&mut self, line: usize, block: &'static str, key: &str, fault: impl Into<String>) {
+        self.fault(line, LessonErrorKind::Key { block, key: key.to_owned(), fault: fault.into() });
+    }
+
+    /// The value `found` of a key is none of those that are `allowed`.
+    pub(super) fn not_one_of(&mut self, line: usize, block: &'static str, key: &str, found: &str, allowed: &[&str]) {
+        self.key_fault(
+            line,
+            block,
+            key,
+            format!(" = \"{found}\" is not known: expected one of {}", allowed.join(", ")),
+        );
+    }
+
+    /// Asks for a key that a block has to have; `what` says what it is.
+    pub(super) fn needs(&mut self, table: &Table<'_>, key: &str, what: &str) {
+        if table.get(key).is_none() {
+            self.key_fault(table.first_line(), table.block, key, format!(" is missing: {what}"));
+        }
     }
 
     /// Reads the TOML of a block and its keys.
@@ -57,15 +80,16 @@ impl Reader<'_> {
                 for key in tree.get_ref().keys() {
                     let name = key.get_ref().as_ref();
                     if !keys.contains(&name) {
-                        self.key_fault(table.line(key.span().start), block, name, KeyFault::Unknown(keys.join(", ")));
+                        let fault = format!(" is not known: expected one of {}", keys.join(", "));
+                        self.key_fault(table.line(key.span().start), block, name, fault);
                     }
                 }
                 read(self, &table);
             }
             Err(error) => {
                 let line = piece.line + error.span().map_or(0, |span| newlines(&piece.text, span.start));
-                let message = error.message().lines().next().unwrap_or_default().to_owned();
-                self.fault(line, LessonErrorKind::Syntax(message));
+                let message = error.message().lines().next().unwrap_or_default();
+                self.layout(line, format!("is not valid TOML: {message}"));
             }
         }
     }
@@ -93,49 +117,38 @@ impl Reader<'_> {
         }
     }
 
+    /// What was read of a text of a key; `None` if it cannot be read.
+    fn readable<T>(&mut self, table: &Table<'_>, key: &str, line: usize, read: Result<T, TextError>) -> Option<T> {
+        read.map_err(|error| self.key_fault(line, table.block, key, format!(": {error}"))).ok()
+    }
+
     /// A list of texts as lines; `None` if one cannot be read.
     pub(super) fn lines(&mut self, table: &Table<'_>, key: &'static str) -> Option<Vec<Vec<Inline>>> {
-        let mut lines = Vec::new();
-        for (text, line) in self.strings(table, key) {
-            match text::inline(&text, None) {
-                Ok(inline) => lines.push(Some(inline)),
-                Err(error) => {
-                    self.key_fault(line, table.block, key, KeyFault::Text(error));
-                    lines.push(None);
-                }
-            }
-        }
+        let strings = self.strings(table, key).into_iter();
+        let lines: Vec<_> =
+            strings.map(|(text, line)| self.readable(table, key, line, text::inline(&text, None))).collect();
         lines.into_iter().collect()
     }
 
-    /// A list of texts.
+    /// A list of texts; those that cannot be read are left out.
     pub(super) fn texts(&mut self, table: &Table<'_>, key: &'static str) -> Vec<Vec<Block>> {
-        let mut texts = Vec::new();
-        for (text, line) in self.strings(table, key) {
-            match self.formatted(&text) {
-                Ok(blocks) => texts.push(blocks),
-                Err((_, error)) => self.key_fault(line, table.block, key, KeyFault::Text(error)),
-            }
-        }
-        texts
+        let strings = self.strings(table, key).into_iter();
+        strings.filter_map(|(text, line)| self.block(table, key, &text, line)).collect()
     }
 
+    fn block(&mut self, table: &Table<'_>, key: &str, text: &str, line: usize) -> Option<Vec<Block>> {
+        let read = self.formatted(text).map_err(|(_, error)| error);
+        self.readable(table, key, line, read)
+    }
+
+    /// A text, empty if there is none; `needed` says what it is, if the block has to have it.
     pub(super) fn blocks(&mut self, table: &Table<'_>, key: &'static str, needed: Option<&'static str>) -> Vec<Block> {
-        let Some((text, line)) = self.string(table, key) else {
-            if let (Some(why), None) = (needed, table.get(key)) {
-                self.key_fault(table.first_line(), table.block, key, KeyFault::Missing(why));
-            }
-            return Vec::new();
-        };
-        match self.formatted(&text) {
-            Ok(blocks) => blocks,
-            Err((_, error)) => {
-                self.key_fault(line, table.block, key, KeyFault::Text(error));
-                Vec::new()
-            }
-        }
+        needed.into_iter().for_each(|what| self.needs(table, key, what));
+        let text = self.string(table, key);
+        text.and_then(|(text, line)| self.block(table, key, &text, line)).unwrap_or_default()
     }
 
+    /// A text as it is written, and its line.
     pub(super) fn string(&mut self, table: &Table<'_>, key: &'static str) -> Option<(String, usize)> {
         let value = table.get(key)?;
         let line = table.line(value.span().start);
@@ -148,6 +161,7 @@ impl Reader<'_> {
         }
     }
 
+    /// A finite number, and its line.
     pub(super) fn number(&mut self, table: &Table<'_>, key: &'static str) -> Option<(f64, usize)> {
         let value = table.get(key)?;
         let line = table.line(value.span().start);
@@ -184,7 +198,7 @@ impl Reader<'_> {
         strings
     }
 
-    pub(super) fn wrong_type(
+    fn wrong_type(
         &mut self,
         table: &Table<'_>,
         key: &'static str,
@@ -193,7 +207,8 @@ impl Reader<'_> {
     ) {
         const LONGEST: usize = 60;
         let found: String = table.piece.text[value.span()].chars().take(LONGEST).collect();
-        self.key_fault(table.line(value.span().start), table.block, key, KeyFault::WrongType(found, expected));
+        let fault = format!(" = {found} is of the wrong type: expected {expected}");
+        self.key_fault(table.line(value.span().start), table.block, key, fault);
     }
 }
 
@@ -214,6 +229,7 @@ impl<'a> Table<'a> {
         self.piece.line + newlines(&self.piece.text, byte)
     }
 
+    /// Line of the value of a key, or of the fence if there is no such key.
     pub(super) fn line_of(&self, key: &str) -> usize {
         self.get(key).map_or(self.first_line(), |value| self.line(value.span().start))
     }
