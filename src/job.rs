@@ -1,9 +1,9 @@
 //! The background solver: the newest request wins, results stream back as they improve.
 //!
-//! A request is a checked problem. It is solved at draft, then standard, then fine, and each result is sent; a newer request cancels the
-//! running solve. A panic in a solver becomes an event. No window in here: whoever owns the [`Solver`] passes a `wake` function, called
-//! after every event. In a process a named thread solves (`thread`), which is cancelled and joined on drop; on a page it is a worker
-//! (`page`), to which scenes are sent as bytes, and which is ended and replaced when it is cancelled.
+//! A request is a checked problem. It is solved at draft, then standard, then fine, and each result is sent. A newer request cancels the
+//! running solve, and a panic in a solver becomes an event. This module knows no window: the owner of the [`Solver`] passes a function
+//! `wake`, which is called after every event. In a process a named thread solves (`thread`), which is cancelled and joined on drop. On a
+//! page a worker does (`page`): scenes are sent to it as bytes, and it is ended and replaced when it is cancelled.
 
 pub mod drop;
 pub mod export;
@@ -34,51 +34,51 @@ pub use page::Solver;
 pub use thread::Solver;
 
 use crate::analysis::attempt::caught;
-use crate::analysis::validity::Excess;
+use crate::analysis::validity::{Excess, outside};
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
-use crate::platform::timed;
+use crate::platform::{Instant, timed};
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::solution::{Solution, Status};
+use crate::solution::{Solution, Status, settled};
 use crate::solve::{Settings, solve_from};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A scene and what came of solving it at one fidelity: immutable, shared.
+/// A scene and its solution at one fidelity. It is shared and does not change.
 #[derive(Debug)]
 pub struct SolvedScene {
     /// The request's number, ascending.
     pub number: u64,
-    /// What was solved.
+    /// The scene that was solved.
     pub scene: Scene,
     /// The same, checked and in SI units; a plate that floats is at the gap that was found.
     pub problem: Problem,
-    /// At which fidelity.
+    /// The fidelity it was solved at.
     pub fidelity: Fidelity,
     /// The result.
     pub solution: Solution,
-    /// Limits of the model that it exceeds.
+    /// The limits of the model that the scene exceeds.
     pub validity: Vec<Excess>,
     /// Wall time of this fidelity's solve \[s\].
     pub wall_s: f64,
-    /// Whether it was started from the fields of a scene before it: effort, not the result, then depends on that one.
+    /// Whether the solve started from the fields of an earlier scene. The effort, but not the result, then depends on that scene.
     pub warm: bool,
-    /// Residual of each round, all grids, in order: the convergence history.
+    /// The convergence history: the residual of each round, all grids, in order.
     pub history: Vec<Progress>,
 }
 
-/// What the worker tells.
+/// What the background solver sends.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A round of the running solve is done.
     Progress {
         /// The request's number.
         number: u64,
-        /// At which fidelity.
+        /// The fidelity that is being solved.
         fidelity: Fidelity,
-        /// How far it is.
+        /// The state of the solve after the round.
         progress: Progress,
     },
     /// A fidelity is solved; more may follow.
@@ -87,10 +87,10 @@ pub enum Event {
     Failed {
         /// The request's number.
         number: u64,
-        /// What the user is told.
+        /// The message for the user.
         message: String,
     },
-    /// Nothing more will come of this request.
+    /// No further event of this request will come.
     Done {
         /// The request's number.
         number: u64,
@@ -108,30 +108,61 @@ pub struct Request {
     pub problem: Problem,
     /// Fidelities, coarse to fine.
     pub fidelities: Vec<Fidelity>,
-    /// Time for each of them, if it is limited: then the best so far is the result.
+    /// The time limit of each solve, if there is one. After it, the best result so far is taken.
     pub budget: Option<Duration>,
 }
 
-/// One fidelity of a request, solved: what it came to, or what the user is told. `None` if it was cancelled.
+/// A solution, whether the solve started from the fields of an earlier scene, and its wall time \[s\].
+type Timed = (Solution, bool, f64);
+
+impl SolvedScene {
+    /// The result of request `number` at one fidelity, with the residual of each round.
+    fn of(
+        number: u64,
+        Request { scene, problem, .. }: &Request,
+        fidelity: Fidelity,
+        (solution, warm, wall_s): Timed,
+        history: Vec<Progress>,
+    ) -> Self {
+        Self {
+            number,
+            scene: scene.clone(),
+            problem: settled(problem, &solution.outcome).into_owned(),
+            fidelity,
+            validity: outside(problem, Some(&solution)),
+            solution,
+            wall_s,
+            warm,
+            history,
+        }
+    }
+}
+
+/// Solves a problem at one fidelity, timed by the clock `now`. Returns the solution, or the message for the user if it failed; `None` if it
+/// was cancelled.
 fn solved(
     problem: &Problem,
     (fidelity, budget): (Fidelity, Option<Duration>),
+    now: fn() -> Instant,
     warm: &mut Warm,
     cancel: &Cancel,
     mut listen: impl FnMut(&Progress),
-) -> Option<Result<Solution, String>> {
+) -> Option<Result<Timed, String>> {
     let settings = Settings { fidelity, ..Settings::default() };
     let limited = budget.map_or(cancel.clone(), |budget| timed(cancel, budget));
-    Some(match caught(|| solve_from(warm, problem, &settings, &mut listen, &limited)) {
+    let (started_warm, started) = (!warm.is_empty(), now());
+    let found = caught(|| solve_from(warm, problem, &settings, &mut listen, &limited));
+    let wall_s = now().duration_since(started).as_secs_f64();
+    Some(match found {
         Ok(Ok(solution)) if solution.status == Status::Cancelled => return None,
-        Ok(Ok(solution)) => Ok(solution),
+        Ok(Ok(solution)) => Ok((solution, started_warm, wall_s)),
         Ok(Err(_)) if cancel.is_cancelled() => return None,
         Ok(Err(error)) => Err(error.to_string()),
         Err(panic) => Err(failure(fidelity, &panic)),
     })
 }
 
-/// What the user is told of a panic.
+/// The message for the user after a panic.
 fn failure(fidelity: Fidelity, panic: &str) -> String {
     format!("the solver failed at {fidelity}: {panic}")
 }

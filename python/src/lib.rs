@@ -1,5 +1,5 @@
-//! The library, as Python calls it. What Python sees is in `squeezefilm/`; here is what that cannot do by itself. Objects go over as
-//! the JSON of the command line, tables as its CSV, fields as NumPy arrays.
+//! The native part of the Python package, which calls the library. The interface that users see is in `squeezefilm/`. Objects are passed to
+//! Python as the JSON of the command line, tables as its CSV, fields as NumPy arrays.
 
 mod many;
 mod run;
@@ -11,6 +11,7 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::{self, Fidelity};
+use squeezefilm::job::work::pooled;
 use squeezefilm::solve::{Method, Record, Settings};
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -34,12 +35,12 @@ fn solve_error(error: impl std::fmt::Display) -> PyErr {
     SolveError::new_err(error.to_string())
 }
 
-/// The error of bad input, or that of a solve.
+/// A [`SceneError`] for bad input, or else a [`SolveError`].
 fn error_of(bad_input: bool, error: impl std::fmt::Display) -> PyErr {
     if bad_input { scene_error(error) } else { solve_error(error) }
 }
 
-/// A number of a keyword, if it is within the bounds that the command line has for it.
+/// The number of a keyword argument, if it is within the bounds that the command line has for it.
 fn within<T: PartialOrd + std::fmt::Display>(name: &str, value: T, allowed: RangeInclusive<T>) -> PyResult<T> {
     if allowed.contains(&value) {
         return Ok(value);
@@ -51,10 +52,10 @@ fn within<T: PartialOrd + std::fmt::Display>(name: &str, value: T, allowed: Rang
 /// How often Python is asked whether Ctrl-C was pressed.
 const ASKED: Duration = Duration::from_millis(50);
 
-/// Tells how much is done, from any thread.
+/// Reports the share of the work that is done, 0 to 1, from any thread.
 type Tell<'a> = &'a (dyn Fn(f64) + Sync);
 
-/// How many of many are done, told in order from any thread.
+/// Counts how many of many parts are done, and reports the shares in ascending order, from any thread.
 #[derive(Default)]
 struct Counted(Mutex<usize>);
 
@@ -66,8 +67,8 @@ impl Counted {
     }
 }
 
-/// Does `work` on a thread of its own, without Python's lock, until it is done or Ctrl-C is pressed. What `work` reports is given
-/// to `told`, if there is one, in Python.
+/// Does `work` on a thread of its own, without Python's lock, until it is done or Ctrl-C is pressed. If there is a Python function `told`, it
+/// is called with the shares that `work` reports.
 fn apart<T: Send + 'static>(
     py: Python<'_>,
     told: Option<&Bound<'_, PyAny>>,
@@ -106,8 +107,8 @@ fn apart<T: Send + 'static>(
     }
 }
 
-/// Does `work` on this thread, without Python's lock, until it is done or Ctrl-C is pressed: Python is asked when `work` looks at its flag. For
-/// what is done in a millisecond, of which a thread of its own would be a tenth.
+/// Does `work` on this thread, without Python's lock, until it is done or Ctrl-C is pressed. Python is asked for Ctrl-C when `work` checks its
+/// flag. This is for work of about a millisecond, a tenth of which a thread of its own would cost.
 fn here<T: Send>(py: Python<'_>, work: impl FnOnce(&Cancel) -> T + Send) -> PyResult<T> {
     let pressed = Arc::new(OnceLock::new());
     let (started, asked) = (Instant::now(), AtomicU64::new(0));
@@ -133,15 +134,7 @@ fn here<T: Send>(py: Python<'_>, work: impl FnOnce(&Cancel) -> T + Send) -> PyRe
     }
 }
 
-/// Does `work` on threads of its own, one for each core: the pool that a process shares does not outlive its fork.
-fn pooled<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    match rayon::ThreadPoolBuilder::new().build() {
-        Ok(pool) => pool.install(work),
-        Err(_) => work(),
-    }
-}
-
-/// As [`apart`], on all cores.
+/// As [`apart`], on all cores, in a thread pool of its own, because the global pool of a process does not work after a fork.
 fn apart_on_all_cores<T: Send + 'static>(
     py: Python<'_>,
     told: Option<&Bound<'_, PyAny>>,
@@ -150,7 +143,7 @@ fn apart_on_all_cores<T: Send + 'static>(
     apart(py, told, |cancel, tell| pooled(|| work(cancel, tell)))
 }
 
-/// How to solve, as keywords of Python.
+/// How to solve, as keyword arguments of Python.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 struct How {
@@ -175,7 +168,7 @@ impl How {
         Ok(Settings { fidelity, method, record })
     }
 
-    /// Those of our own method, the only one that `what` is done with.
+    /// The settings, if they ask for our own method; the error message begins with `what`.
     fn own(&self, what: &str) -> PyResult<Settings> {
         let settings = self.settings(Record::Numbers)?;
         match settings.method {

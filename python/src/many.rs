@@ -19,7 +19,7 @@ fn sweep_of(scene: &Scene, axes: Axes, how: &How, part: Part) -> PyResult<Sweep>
     Sweep::of_part(&scene.0, &vary, &settings, part).map_err(scene_error)
 }
 
-/// The rows of a part; tells how much of it is done.
+/// Solves a part of a sweep, and returns its rows. Reports the share that is done.
 fn solved(sweep: &Sweep, part: Part, cancel: &Cancel, tell: crate::Tell<'_>) -> Vec<Row> {
     let (done, all) = (Counted::default(), sweep.points_of(part).len());
     sweep.run_part(part, &[], cancel, &|_| done.one_more(all, tell))
@@ -51,7 +51,7 @@ pub(crate) fn points(scene: &Scene, axes: Axes, how: How) -> PyResult<usize> {
     sweep_of(scene, axes, &how, Part::WHOLE).map(|sweep| sweep.len())
 }
 
-/// A part of a sweep, as text to be joined.
+/// A part of a sweep, as text that [`join`] takes.
 #[pyfunction]
 pub(crate) fn part(py: Python<'_>, scene: &Scene, axes: Axes, how: How, part: &str) -> PyResult<String> {
     let part: Part = part.parse().map_err(scene_error)?;

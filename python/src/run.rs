@@ -31,7 +31,7 @@ struct Inner {
     solution: Solution,
     history: Vec<Progress>,
     wall_s: f64,
-    /// With torque over speed, once it was asked for.
+    /// The summary with torque over speed, which is computed when it is first asked for.
     complete: OnceLock<Summary>,
 }
 
@@ -55,7 +55,7 @@ impl Inner {
         Summary::new(&self.problem, &self.solution, self.wall_s, &[])
     }
 
-    /// With torque over speed, for which the contact without film is solved.
+    /// The summary with torque over speed. The contact without film is solved for it.
     fn complete(&self, cancel: &Cancel) -> &Summary {
         self.complete.get_or_init(|| {
             let mut summary = self.summary();
@@ -64,7 +64,7 @@ impl Inner {
         })
     }
 
-    /// The figures by name. Torque over speed is among them if `torque` is.
+    /// The figures, with their names. With `torque` the figure of torque over speed is among them.
     fn figures(&self, torque: Option<&TorqueCurves>) -> Vec<(&'static str, Figure)> {
         let mut all = figures::of(&self.problem, &self.solution, &self.history);
         if let Some(curves) = torque {
@@ -75,12 +75,12 @@ impl Inner {
     }
 }
 
-/// The figure of torque over speed.
+/// Name of the figure of torque over speed.
 const TORQUE: &str = "torque";
-/// The film at every instant, among the formats of figures.
+/// Among the formats of figures, the name of the format for the film at every instant.
 const VTK: &str = "vtk";
 
-/// The format of this name. `others`: what else `what` can be.
+/// The format with the name `name`, which the keyword argument `what` has. The message of an error lists `others` too.
 fn known(what: &str, name: &str, others: &[&str]) -> PyResult<Format> {
     let found = Format::WRITTEN.iter().find(|format| format.name() == name).copied();
     let names = Format::WRITTEN.iter().map(|format| format.name()).chain(others.iter().copied());
@@ -89,7 +89,7 @@ fn known(what: &str, name: &str, others: &[&str]) -> PyResult<Format> {
     })
 }
 
-/// A value and its error, to the digits that the error leaves.
+/// A value with its error, rounded to the digits that the error allows.
 #[pyfunction]
 #[pyo3(signature = (value, error))]
 pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
@@ -103,7 +103,7 @@ impl Run {
         self.0.solution.status == Status::Converged
     }
 
-    /// The object of `solve --json`, as text. `torque`: with torque over speed.
+    /// The object of `solve --json`, as text; if `torque` is true, with torque over speed.
     fn summary(&self, py: Python<'_>, torque: bool) -> PyResult<String> {
         if !torque {
             return Ok(self.0.summary().to_text());

@@ -3,6 +3,7 @@
 use crate::run::Run;
 use crate::{How, here, scene_error, solve_error, within};
 use pyo3::prelude::*;
+use squeezefilm::platform::timed;
 use squeezefilm::problem::Problem;
 use squeezefilm::scene::presets::{self, BUILT_IN};
 use squeezefilm::scene::{PARAMETERS, Scene as Edited, Value};
@@ -10,7 +11,7 @@ use squeezefilm::solve::{Record, solve};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// A key, its value, its unit and what it is.
+/// A key, its value, its unit and its meaning.
 type Entry = (&'static str, Py<PyAny>, &'static str, String);
 
 /// A motor or a plate.
@@ -49,7 +50,7 @@ impl Scene {
         &self.0.name
     }
 
-    /// With keys changed as `--set` changes them.
+    /// A copy with changed keys, as `--set` changes them.
     fn changed(&self, pairs: Vec<(String, String)>) -> PyResult<Self> {
         let mut scene = self.0.clone();
         scene.set_all(pairs.iter().map(|(key, text)| (key.as_str(), text.as_str()))).map_err(scene_error)?;
@@ -57,7 +58,7 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// The keys, each with its value, its unit and what it is.
+    /// The keys, each with its value, its unit and its meaning.
     fn values(&self, py: Python<'_>) -> PyResult<Vec<Entry>> {
         let value = |value: Option<Value>| -> PyResult<Py<PyAny>> {
             Ok(match value {
@@ -76,21 +77,13 @@ impl Scene {
     #[pyo3(signature = (how, budget_ms=None))]
     fn solve(&self, py: Python<'_>, how: How, budget_ms: Option<f64>) -> PyResult<Run> {
         let settings = how.settings(Record::Everything)?;
-        let budget = match budget_ms {
-            Some(time) => Some(Duration::from_secs_f64(1e-3 * within("budget_ms", time, 0.001..=86_400_000.0)?)),
-            None => None,
-        };
+        let budget = budget_ms.map(|time| within("budget_ms", time, 0.001..=86_400_000.0)).transpose()?;
+        let budget = budget.map(|time| Duration::from_secs_f64(1e-3 * time));
         let scene = self.0.clone();
         let problem = Problem::try_from(&scene).map_err(scene_error)?;
         let (history, solution, wall_s) = here(py, |cancel| -> PyResult<_> {
             let started = Instant::now();
-            let cancel = match budget {
-                Some(budget) => cancel.with_budget(move || {
-                    let started = Instant::now();
-                    move || started.elapsed() >= budget
-                }),
-                None => cancel.clone(),
-            };
+            let cancel = budget.map_or(cancel.clone(), |budget| timed(cancel, budget));
             let mut history = Vec::new();
             let mut observer = |progress: &_| history.push(*progress);
             let solved = solve(&problem, &settings, &mut observer, &cancel);
@@ -107,13 +100,13 @@ pub(crate) fn built_in() -> Vec<&'static str> {
     BUILT_IN.iter().map(|built_in| built_in.name).collect()
 }
 
-/// Every key of a scene, with its unit and what it is.
+/// Every key of a scene, with its unit and its meaning.
 #[pyfunction]
 pub(crate) fn keys() -> Vec<(&'static str, &'static str, String)> {
     PARAMETERS.iter().map(|parameter| (parameter.key, parameter.unit, parameter.words())).collect()
 }
 
-/// Sweeps and the like: the scene, as the library has it.
+/// The checked problem of a scene.
 pub(crate) fn checked(scene: &Scene) -> PyResult<Problem> {
     Problem::try_from(&scene.0).map_err(scene_error)
 }

@@ -1,4 +1,4 @@
-//! What asks for many solves, or for a transient: the objects of `--json`, as text.
+//! Studies that need many solves, or a transient. They return the objects of `--json`, as text.
 
 use crate::scene::{Scene, cancelled, checked};
 use crate::{Counted, How, apart_on_all_cores, error_of, scene_error, solve_error, within};
@@ -69,7 +69,8 @@ fn fit_error(error: FitError) -> PyErr {
     error_of(error.is_bad_input(), error)
 }
 
-/// The object of `fit --json`, and the preset with the values found. `data`: `table1` or a path, or the text of a table and no path.
+/// The object of `fit --json`, and the scene with the values that were found. `data` is `table1` or a path, or else a name and the text of a
+/// table.
 #[pyfunction]
 #[pyo3(signature = (scene, data, vary, lists, starts, how, told=None))]
 pub(crate) fn fit(
@@ -100,7 +101,7 @@ pub(crate) fn fit(
     })?
 }
 
-/// The object of `fit --maximise --json`, and the preset with the values found.
+/// The object of `fit --maximise --json`, and the scene with the values that were found.
 #[pyfunction]
 #[pyo3(signature = (scene, goal, vary, limits, starts, how, told=None))]
 pub(crate) fn optimise(
@@ -166,7 +167,7 @@ pub(crate) fn startup(
     })?
 }
 
-/// Force and pressure under a plate that is moved from gap to gap \[µm\] in these instants \[s\]: names and columns.
+/// Force and pressure under a plate that is moved through gaps \[µm\] at given times \[s\]: the names and values of the columns.
 #[pyfunction]
 pub(crate) fn hold(
     py: Python<'_>,

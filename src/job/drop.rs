@@ -1,6 +1,6 @@
-//! A plate that is dropped on its vibration, in the background: cycles come as they are marched.
+//! A plate that is dropped on its vibration, in the background. Each cycle is sent when it has been computed.
 
-use super::task::Task;
+use super::task::{Started, Task, TaskOf, Wake};
 use super::work::{Posed, Work};
 use crate::control::Cancel;
 use crate::fall::{Cycle, Fall, fall};
@@ -9,22 +9,23 @@ use crate::solution::Status;
 use crate::startup::Settings;
 use serde::{Deserialize, Serialize};
 
-/// Cycles after which it is no longer waited for.
+/// Most cycles that are computed.
 const MOST_CYCLES: usize = 5000;
 
-/// A drop, as it is carried to where it is computed.
+/// A drop, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Dropping {
     posed: Posed,
     fidelity: Fidelity,
 }
 
-/// A drop in the background; it returns how it ended, or why there is no more.
-pub type DropTask = Task<Cycle, Result<Fall, String>>;
+/// A drop in the background.
+pub type DropTask = TaskOf<Dropping>;
 
 impl Work for Dropping {
     const NAME: &'static str = "drop";
     type Message = Cycle;
+    /// How the drop ended, or why it failed.
     type Found = Result<Fall, String>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
@@ -43,10 +44,6 @@ impl Work for Dropping {
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn start(
-    posed: Posed,
-    fidelity: Fidelity,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<DropTask> {
+pub fn start(posed: Posed, fidelity: Fidelity, wake: impl Wake) -> Started<Dropping> {
     Task::of(Dropping { posed, fidelity }, wake)
 }

@@ -2,7 +2,7 @@
 
 use super::fit;
 use super::pin::Found;
-use super::task::Task;
+use super::task::TaskOf;
 use super::work::{Posed, Work, shared};
 use crate::analysis::compare::ComparedRun;
 use crate::analysis::quantity::Quantity;
@@ -26,21 +26,21 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Formats of the figures beside data, as without `--figures`.
+/// Formats of the figures beside data: those of the command line without `--figures`.
 pub const BESIDE_DATA: &[Format] = if cfg!(feature = "render") { &[Format::Svg, Format::Png] } else { Format::WRITTEN };
 
-/// A run, with all that its files say of it.
+/// A run, with all that its files contain.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Ran {
     /// The scene.
     pub posed: Posed,
-    /// What it was solved at.
+    /// The fidelity that it was solved at.
     pub fidelity: Fidelity,
-    /// What came of it.
+    /// Its solution.
     pub solution: Solution,
     /// Wall time of the solve \[s\].
     pub wall_s: f64,
-    /// Its rounds.
+    /// Residual of each round, all grids, in order.
     pub history: Vec<Progress>,
 }
 
@@ -53,7 +53,7 @@ pub enum OfRun {
     Figures,
     /// Its fields, as an archive.
     Fields,
-    /// Its cycle in moving pictures.
+    /// Its cycle as an animation.
     Animation,
 }
 
@@ -62,9 +62,9 @@ pub enum OfRun {
 pub enum OfRuns {
     /// A report.
     Report,
-    /// What compares them, in a folder; `all`: with the parameters that do not differ.
+    /// The files of a comparison, in a folder.
     Comparison {
-        /// Whether those are listed, too.
+        /// Whether parameters that do not differ are listed, too.
         all: bool,
     },
 }
@@ -76,7 +76,7 @@ pub enum OfSweep {
     Data,
     /// Its table.
     Table,
-    /// A figure of this number.
+    /// A figure of this result.
     Figure(Quantity),
 }
 
@@ -99,7 +99,7 @@ pub struct Picture {
     pub rgb: Arc<Vec<u8>>,
 }
 
-/// What files are made of.
+/// The content of the files.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Content {
     /// One run.
@@ -108,15 +108,15 @@ pub enum Content {
     Runs(OfRuns, Vec<Found>),
     /// A sweep, and its rows.
     Sweep(OfSweep, #[serde(with = "shared")] Arc<Sweep>, Vec<Row>),
-    /// Sensitivities at a fidelity, how uncertain keys are, and random scenes.
+    /// Sensitivities, the uncertainties of keys, random scenes, and the fidelity of all of them.
     Sensitivity(#[serde(with = "shared")] Arc<Sensitivity>, Uncertainties, Option<MonteCarlo>, Fidelity),
-    /// A fit, or an optimum, of the scene of this name; and the scene that was found.
+    /// A fit or an optimum: the name of the scene, the scene that was found, and how it was found.
     Fit(String, Box<Posed>, #[serde(with = "shared")] Arc<fit::Found>),
     /// Error against time of the scene of this name.
     Tradeoff(OfTradeoff, String, Tradeoff),
-    /// What a student did.
+    /// The record of what a student did.
     Answers(Vec<Record>),
-    /// The window.
+    /// A picture of the window.
     Picture(Picture),
 }
 
@@ -127,7 +127,7 @@ impl Content {
     }
 }
 
-/// Files to be made, as they are carried to where that is done.
+/// Files to be made, as they are sent to the thread or worker that makes them.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Files {
     /// The file, or the folder.
@@ -136,13 +136,14 @@ pub struct Files {
     pub content: Content,
 }
 
-/// The work of an export: it tells how many pictures are drawn, of how many, and returns what was written, or why nothing
-/// was; nothing at all if it was cancelled.
-pub type ExportTask = Task<(usize, usize), Result<Vec<PathBuf>, Option<String>>>;
+/// An export in the background.
+pub type ExportTask = TaskOf<Files>;
 
 impl Work for Files {
     const NAME: &'static str = "files";
+    /// How many pictures of an animation are drawn, of how many.
     type Message = (usize, usize);
+    /// The paths of the files that were written, or why there are none; `Err(None)` if it was cancelled.
     type Found = Result<Vec<PathBuf>, Option<String>>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, usize)) + Sync)) -> Self::Found {
@@ -158,6 +159,7 @@ impl Work for Files {
     }
 }
 
+/// Writes the files of `content` into a folder, or to the file `path`. Returns the paths of what was written.
 fn write(path: &Path, content: Content, control: &Control<'_>) -> Result<Vec<PathBuf>, ExportError> {
     let one = || vec![path.to_owned()];
     Ok(match content {
@@ -228,7 +230,7 @@ fn of_run(what: OfRun, path: &Path, run: &Ran, control: &Control<'_>) -> Result<
             files::solve(path, &solved, &summary, BESIDE_DATA, control)
         }
         OfRun::Figures => {
-            // Without it the other figures are still worth having.
+            // If torque cannot be computed, the other figures are still worth having.
             let merit = merit().ok().flatten();
             files::solve_figures(path, &Solved { torque: merit.as_ref(), ..solved }, Format::WRITTEN, control)
         }

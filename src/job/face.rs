@@ -1,4 +1,4 @@
-//! A measured face, read and judged in the background.
+//! A measured face: its file is read, and its roughness computed, in the background.
 
 use super::work::Work;
 use crate::control::Cancel;
@@ -10,7 +10,7 @@ use crate::surface::texture::{Texture, measured};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// A file of heights, as it is carried to where it is read; with what is in it, if the user has handed it over.
+/// A file of heights, as it is sent to the thread or worker that reads it. In a page its content goes with it, because a worker has no files.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Heights {
     path: PathBuf,
@@ -18,7 +18,7 @@ pub struct Heights {
 }
 
 impl Heights {
-    /// Of the file of this path.
+    /// The file at this path.
     pub fn new(path: PathBuf) -> Self {
         Self { bytes: handed_over(&path), path }
     }
@@ -27,7 +27,7 @@ impl Heights {
 impl Work for Heights {
     const NAME: &'static str = "face";
     type Message = ();
-    /// The heights, level, and what they come to; or why they are no face.
+    /// The heights after levelling, with roughness and summits; or why the file has none.
     type Found = Result<(HeightMap, Texture), String>;
 
     fn run(self, _: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {

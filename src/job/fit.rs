@@ -1,7 +1,7 @@
 //! A fit to measurements, or the search for an optimum, in the background.
 
-use super::task::Task;
-use super::work::{Work, shared};
+use super::task::{Started, Task, TaskOf, Wake};
+use super::work::{Work, pooled, shared};
 use crate::analysis::fit::{Bounds, FitError, Fitted, Goal, Measured, Model, Optimum, fit, optimise};
 use crate::control::Cancel;
 use crate::scene::Scene;
@@ -9,17 +9,16 @@ use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Places that the search starts from.
+/// Points that the search starts from.
 const STARTS: usize = 16;
 
-/// A search under way: how many points were tried, with the least χ² or the best number so far; then what was found, nothing if it was
-/// cancelled, or why there is nothing.
-pub type FitTask = Task<(usize, f64), Result<Option<Found>, String>>;
+/// A search in the background.
+pub type FitTask = TaskOf<Asked>;
 
 /// What was found.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Found {
-    /// Of the measurements that were fitted.
+    /// A fit, and the measurements that were fitted.
     Fit(#[serde(with = "shared")] Arc<Measured>, Fitted),
     /// An optimum.
     Optimum(Optimum),
@@ -45,7 +44,8 @@ impl Found {
     }
 }
 
-/// What is looked for, as it is carried to where it is done: an optimum, if there is a goal, or agreement with what was measured.
+/// A search, as it is sent to the thread or worker that does it: for an optimum if there is a goal, or else for agreement with
+/// measurements.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Asked {
     scene: Scene,
@@ -57,7 +57,9 @@ pub struct Asked {
 
 impl Work for Asked {
     const NAME: &'static str = "fit";
+    /// How many points were tried, with the least χ² or the best number so far.
     type Message = (usize, f64);
+    /// What was found, or why there is nothing; `None` if it was cancelled.
     type Found = Result<Option<Found>, String>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn((usize, f64)) + Sync)) -> Self::Found {
@@ -73,12 +75,7 @@ impl Work for Asked {
             let found = fit(&model, &measured, STARTS, cancel, &told)?;
             Ok(found.map(|fitted| Found::Fit(Arc::new(measured), fitted)))
         };
-        // A pool of its own: an export or another task need not wait until this is done.
-        let found = match rayon::ThreadPoolBuilder::new().build() {
-            Ok(pool) => pool.install(solve),
-            Err(_) => solve(),
-        };
-        found.map_err(|error: FitError| error.to_string())
+        pooled(solve).map_err(|error: FitError| error.to_string())
     }
 
     fn ended() -> Self::Found {
@@ -86,7 +83,7 @@ impl Work for Asked {
     }
 }
 
-/// Starts to look for the `goal`, if there is one, or to fit `scene` to what was measured, its keys within `bounds`.
+/// Starts to search for the optimum of `goal`, if there is one, or else to fit `scene` to measurements. Keys stay within `bounds`.
 ///
 /// # Errors
 /// If it cannot be done in the background.
@@ -96,7 +93,7 @@ pub fn start(
     bounds: Vec<Bounds>,
     goal: Option<Goal>,
     settings: Settings,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<FitTask> {
+    wake: impl Wake,
+) -> Started<Asked> {
     Task::of(Asked { scene, measured, bounds, goal, settings }, wake)
 }

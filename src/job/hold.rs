@@ -1,8 +1,8 @@
-//! A plate held by hand, that follows the hand in slow motion.
+//! A plate held by hand, which follows the hand in slow motion.
 //!
-//! Its film is marched on while the plate moves or the pressure still relaxes, paced by the clock. Only the newest gap that is asked for
-//! counts. What is published is bounded: the newest snapshots since they were last taken. In a process a named thread marches
-//! (`thread`), and sleeps when nothing moves; a page marches before each redraw (`page`).
+//! Its film is marched, paced by the clock, while the plate moves or the pressure still relaxes. Only the newest gap that is asked for
+//! counts. The snapshots that wait to be taken are bounded: the oldest are dropped. In a process a named thread marches the film
+//! (`thread`), and sleeps when nothing moves. A page marches it before each redraw (`page`).
 
 mod follower;
 #[cfg(target_arch = "wasm32")]
@@ -19,30 +19,30 @@ pub use thread::HeldPlate;
 
 use crate::hold::Hold;
 
-/// What is asked of a held plate, wherever it is marched.
+/// What can be asked of a held plate, in a process as on a page.
 impl HeldPlate {
-    /// Moves the plate to `gap` \[m\], or as near as it may come.
+    /// Moves the plate to the gap `gap` \[m\], or to the nearest one that is allowed.
     pub fn move_to(&self, gap: f64) {
         let gap = Hold::within_reach(&self.plate, gap);
         self.ask(|target| *target = Target { gap, free: None, paused: false, ..*target });
     }
 
-    /// Stops plate, film and their clock, or lets them go on from where they are, and as fast.
+    /// Stops the plate, the film and their clock, or lets them go on from where they are, with the same speed.
     pub fn pause(&self, paused: bool) {
         self.ask(|target| target.paused = paused);
     }
 
-    /// Lets a plate under a load go, above a face that vibrates or stands still.
+    /// Lets go of a plate under a load. The face below it vibrates or stands still.
     pub fn let_go(&self, vibrates: bool) {
         self.ask(|target| (target.free, target.paused) = (Some(vibrates), false));
     }
 
-    /// Takes `slowed` seconds for a second of the film from now on.
+    /// Sets the slow motion: `slowed` seconds of the clock for a second of the film.
     pub fn slow(&self, slowed: f64) {
         self.ask(|target| target.slowed = slowed);
     }
 
-    /// Puts the film to rest at the mean gap.
+    /// Puts the plate and the film to rest at the mean gap.
     pub fn reset(&self) {
         self.ask(|target| *target = Target { reset: true, ..Target::first(&self.plate, target.slowed) });
     }

@@ -1,4 +1,4 @@
-//! The line between a page and a worker: which work is asked for, and what comes of it.
+//! The line between a page and a worker: the page sends work, the worker sends messages and the result.
 
 use super::work::Work;
 use crate::platform::worker::{News, Worker};
@@ -8,15 +8,15 @@ use std::cell::RefCell;
 use std::io;
 use std::rc::Rc;
 
-/// Workers that are kept for what comes next: to start one takes longer than most work.
+/// Idle workers that are kept, because starting one takes longer than most work.
 const SPARE: usize = 2;
 
-/// What a worker tells.
+/// What a worker sends.
 #[derive(Debug)]
 pub(super) enum Told<M, R> {
     Message(M),
     End(R),
-    /// It failed, with this text, and is gone.
+    /// The worker has failed, with this text, and has ended.
     Failed(String),
 }
 
@@ -25,7 +25,7 @@ const END: u8 = 1;
 
 type Listener = Box<dyn FnMut(News)>;
 
-/// A worker, and whoever listens to it. On drop it is ended.
+/// A worker, and the function that receives what it sends. On drop the worker is ended.
 pub(super) struct Line {
     worker: Worker,
     listener: Rc<RefCell<Option<Listener>>>,
@@ -42,7 +42,7 @@ thread_local! {
 }
 
 impl Line {
-    /// To a worker that has nothing to do.
+    /// A line to an idle worker.
     pub(super) fn open() -> io::Result<Self> {
         if let Some(line) = IDLE.with_borrow_mut(Vec::pop) {
             return Ok(line);
@@ -50,7 +50,7 @@ impl Line {
         let listener: Rc<RefCell<Option<Listener>>> = Rc::default();
         let theirs = Rc::clone(&listener);
         let worker = Worker::start(move |news| {
-            // Taken out, because it may ask for more.
+            // It is taken out, because it may ask for more work.
             let taken = theirs.borrow_mut().take();
             if let Some(mut listen) = taken {
                 listen(news);
@@ -60,7 +60,7 @@ impl Line {
         Ok(Self { worker, listener })
     }
 
-    /// Has the worker do `work`; `told` hears what comes of it.
+    /// Sends `work` to the worker. `told` is called with everything that the worker sends.
     pub(super) fn ask<W: Work>(
         &self,
         work: &W,
@@ -79,7 +79,7 @@ impl Line {
         self.worker.send(&bytes)
     }
 
-    /// The worker has nothing to do any more.
+    /// Returns a worker that has nothing to do any more.
     pub(super) fn give_back(self) {
         *self.listener.borrow_mut() = None;
         IDLE.with_borrow_mut(|idle| {
@@ -98,12 +98,12 @@ fn read<M: DeserializeOwned, R: DeserializeOwned>(bytes: &[u8]) -> Option<Told<M
     }
 }
 
-/// In a worker: what is sent to the page.
+/// In a worker: the bytes of a message to the page.
 pub(super) fn message(what: &impl Serialize) -> Option<Vec<u8>> {
     postcard::to_extend(what, vec![MESSAGE]).ok()
 }
 
-/// In a worker: the last that is sent of a work.
+/// In a worker: the bytes of the result of a work.
 pub(super) fn end(what: &impl Serialize) -> Option<Vec<u8>> {
     postcard::to_extend(what, vec![END]).ok()
 }

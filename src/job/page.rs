@@ -1,17 +1,15 @@
 //! The background solver of a page: a worker, which is sent one fidelity after the other.
 //!
-//! A request that comes while the worker solves waits until it has solved that fidelity, because another worker would have to be
-//! started first, and would know no fields to begin with. What takes too long for that is ended with its worker.
+//! A request that comes while the worker solves waits until that fidelity is solved, because a new worker takes time to start, and has no
+//! fields to start from. If this takes too long, the worker is ended, and a new one is started.
 
 use super::line::{Line, Told};
 use super::work::{Posed, Work};
-use super::{Event, Request, SolvedScene, failure, solved};
-use crate::analysis::validity::outside;
+use super::{Event, Request, SolvedScene, Timed, failure, solved};
 use crate::control::{Cancel, Progress};
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
 use crate::platform::Instant;
-use crate::solution::{Solution, settled};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::{HashMap, VecDeque};
@@ -19,11 +17,11 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A newer request waits so long for what is being solved: longer than a worker takes to start.
+/// How long a newer request waits for the solve that is running: longer than a worker takes to start.
 const PATIENCE: Duration = Duration::from_millis(150);
 
 thread_local! {
-    /// In the worker: a slider moves in small steps, and each solve starts from the last one of its fidelity.
+    /// In the worker: the fields of the last solve of each fidelity, from which the next one starts, because a slider moves in small steps.
     static WARM: RefCell<HashMap<Fidelity, Warm>> = RefCell::default();
 }
 
@@ -38,16 +36,14 @@ pub(super) struct Step {
 impl Work for Step {
     const NAME: &'static str = "solve";
     type Message = Progress;
-    /// The solution, whether it was started from the fields of a scene before it, and how long it took \[s\].
-    type Found = Result<(Solution, bool, f64), String>;
+    /// The solution, or the message for the user.
+    type Found = Result<Timed, String>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Self::Found {
         let found = WARM.with_borrow_mut(|warm| {
             let warm = warm.entry(self.fidelity).or_default();
-            let (started_warm, started) = (!warm.is_empty(), Instant::now());
             let effort = (self.fidelity, self.budget);
-            let found = solved(&self.posed.problem, effort, warm, cancel, |progress| tell(*progress))?;
-            Some(found.map(|solution| (solution, started_warm, started.elapsed().as_secs_f64())))
+            solved(&self.posed.problem, effort, Instant::now, warm, cancel, |progress| tell(*progress))
         });
         found.unwrap_or_else(Self::ended)
     }
@@ -62,9 +58,9 @@ impl Work for Step {
 struct Running {
     number: u64,
     request: Request,
-    /// The fidelity that the worker is at, and since when.
+    /// The fidelity that the worker solves, and the time when it was sent.
     at: (Fidelity, Instant),
-    /// Fidelities after it.
+    /// The fidelities that follow.
     left: VecDeque<Fidelity>,
     history: Vec<Progress>,
 }
@@ -125,7 +121,7 @@ impl Solver {
         shared.end();
     }
 
-    /// Events that have arrived.
+    /// The events since the last call, in order.
     pub fn drain(&self) -> impl Iterator<Item = Event> {
         advance(&self.shared);
         std::mem::take(&mut self.shared.borrow_mut().events).into_iter()
@@ -147,7 +143,7 @@ impl Shared {
     }
 }
 
-/// Goes on with what is waiting, if what is running is done or has had its time.
+/// Starts the request that is waiting, if the one that is running is done or has taken too long.
 fn advance(shared: &Rc<RefCell<Shared>>) {
     let mut this = shared.borrow_mut();
     if this.waiting.is_none() {
@@ -155,7 +151,7 @@ fn advance(shared: &Rc<RefCell<Shared>>) {
     }
     if let Some(running) = &this.running {
         if (this.now)().duration_since(running.at.1) < PATIENCE {
-            // Another look at the next redraw.
+            // This is checked again at the next redraw.
             (this.wake)();
             return;
         }
@@ -169,7 +165,7 @@ fn advance(shared: &Rc<RefCell<Shared>>) {
     step(shared);
 }
 
-/// Sends the next fidelity of what is running, or says that it is done.
+/// Sends the next fidelity of the running request to the worker, or reports that the request is done.
 fn step(shared: &Rc<RefCell<Shared>>) {
     let mut this = shared.borrow_mut();
     let now = (this.now)();
@@ -203,7 +199,7 @@ fn step(shared: &Rc<RefCell<Shared>>) {
     }
 }
 
-/// Takes what the worker tells of request `number`.
+/// Handles a message of the worker about request `number`.
 fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Told<Progress, <Step as Work>::Found>) {
     let mut this = shared.borrow_mut();
     let Some(running) = this.running.as_mut().filter(|running| running.number == number) else { return };
@@ -214,19 +210,9 @@ fn hear(shared: &Rc<RefCell<Shared>>, number: u64, told: Told<Progress, <Step as
             running.history.push(progress);
             return this.tell(Event::Progress { number, fidelity, progress });
         }
-        Told::End(Ok((solution, warm, wall_s))) => {
-            let Request { scene, problem, .. } = &running.request;
-            let run = SolvedScene {
-                number,
-                scene: scene.clone(),
-                problem: settled(problem, &solution.outcome).into_owned(),
-                fidelity,
-                validity: outside(problem, Some(&solution)),
-                solution,
-                wall_s,
-                warm,
-                history: std::mem::take(&mut running.history),
-            };
+        Told::End(Ok(timed)) => {
+            let history = std::mem::take(&mut running.history);
+            let run = SolvedScene::of(number, &running.request, fidelity, timed, history);
             this.tell(Event::Solved(Arc::new(run)));
         }
         Told::End(Err(message)) => {

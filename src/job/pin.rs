@@ -1,6 +1,6 @@
 //! A scene to be compared with others, solved in the background.
 
-use super::task::Task;
+use super::task::{Started, Task, TaskOf, Wake};
 use super::work::{Posed, Work};
 use crate::analysis::compare::{ComparedRun, runs};
 use crate::control::Cancel;
@@ -12,7 +12,7 @@ use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A scene to be compared, as it is carried to where it is solved.
+/// A scene to be compared, as it is sent to the thread or worker that solves it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Compared {
     posed: Posed,
@@ -26,7 +26,7 @@ impl Compared {
     }
 }
 
-/// What came of it: what it is called, and its solution or why there is none.
+/// A solved scene: its label, and its solution or why there is none.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Found {
     label: String,
@@ -35,7 +35,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// Of a run that is there.
+    /// That of a run of a comparison.
     pub(super) fn of(run: &ComparedRun) -> Self {
         let ComparedRun { label, scene, problem, solved } = run;
         let posed = Posed { scene: scene.clone(), problem: problem.clone() };
@@ -43,7 +43,7 @@ impl Found {
         Self { label: label.clone(), posed, solved }
     }
 
-    /// As a comparison has it.
+    /// As a run of a comparison.
     pub fn into_run(self) -> ComparedRun {
         let Self { label, posed: Posed { scene, problem }, solved } = self;
         ComparedRun { label, scene, problem, solved: solved.map(Arc::new) }
@@ -53,7 +53,7 @@ impl Found {
 impl Work for Compared {
     const NAME: &'static str = "pin";
     type Message = ();
-    /// Nothing if it was cancelled.
+    /// `None` if it was cancelled.
     type Found = Option<Found>;
 
     fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
@@ -70,17 +70,13 @@ impl Work for Compared {
 }
 
 /// The solve of a scene to be compared.
-pub type PinTask = Task<(), Option<Found>>;
+pub type PinTask = TaskOf<Compared>;
 
 /// Starts to solve a scene to be compared.
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn start(
-    scene: Scene,
-    fidelity: Fidelity,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<PinTask> {
+pub fn start(scene: Scene, fidelity: Fidelity, wake: impl Wake) -> Started<Compared> {
     let problem = Problem::try_from(&scene).map_err(std::io::Error::other)?;
     Task::of(Compared::new(Posed { scene, problem }, fidelity), wake)
 }

@@ -1,22 +1,23 @@
 //! A rotor by itself, in the background.
 
-use super::task::Task;
+use super::task::{Started, Task, TaskOf, Wake};
 use super::work::{Posed, Work};
 use crate::analysis::rotor::RotorCurves;
 use crate::control::Cancel;
 use crate::problem::Scenario;
 use serde::{Deserialize, Serialize};
 
-/// The computation: what was found, or why there is nothing; `None` if it was cancelled.
-pub type RotorTask = Task<(), Option<Result<RotorCurves, String>>>;
+/// The computation in the background.
+pub type RotorTask = TaskOf<Alone>;
 
-/// A motor, as it is carried to where its rotor is computed.
+/// A motor, as it is sent to the thread or worker that computes its rotor.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Alone(Posed);
 
 impl Work for Alone {
     const NAME: &'static str = "rotor";
     type Message = ();
+    /// The curves, or why there are none; `None` if it was cancelled.
     type Found = Option<Result<RotorCurves, String>>;
 
     fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
@@ -33,6 +34,6 @@ impl Work for Alone {
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn start(posed: Posed, wake: impl Fn(bool) + Send + Sync + 'static) -> std::io::Result<RotorTask> {
+pub fn start(posed: Posed, wake: impl Wake) -> Started<Alone> {
     Task::of(Alone(posed), wake)
 }

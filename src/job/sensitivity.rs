@@ -1,6 +1,6 @@
 //! Derivatives of the results, and random scenes, in the background.
 
-use super::task::Task;
+use super::task::{Started, Task, Wake};
 use super::work::{Work, shared};
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties};
 use crate::control::Cancel;
@@ -10,10 +10,15 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Work that tells the share that is done, 0 to 1, and returns what was found; `None` if it was cancelled.
+/// A task whose messages are the share that is done, 0 to 1. Its result is `None` if it was cancelled.
 pub type Finding<T> = Task<f64, Option<T>>;
 
-/// A scene, as it is carried to where its derivatives are computed.
+/// Counts one more solve. Returns the share of all that is done.
+fn one_more(count: &AtomicUsize, all: usize) -> f64 {
+    (count.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64
+}
+
+/// A scene, as it is sent to the thread or worker that computes its derivatives.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Derivatives {
     scene: Scene,
@@ -27,7 +32,7 @@ impl Work for Derivatives {
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
         let count = AtomicUsize::new(0);
-        let solved = |all: usize| tell((count.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all.max(1) as f64);
+        let solved = |all: usize| tell(one_more(&count, all));
         let none: [&str; 0] = [];
         match Sensitivity::of(&self.scene, &none, &self.settings, cancel, &solved) {
             Ok(found) => found.map(|found| Ok(Box::new(found))),
@@ -40,7 +45,7 @@ impl Work for Derivatives {
     }
 }
 
-/// Random scenes, as they are carried to where they are solved.
+/// Random scenes, as they are sent to the thread or worker that solves them.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Draws {
     #[serde(with = "shared")]
@@ -58,7 +63,7 @@ impl Work for Draws {
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Self::Found {
         let Self { sensitivity, uncertainties, draws, seed } = self;
         let count = AtomicUsize::new(0);
-        let solved = || tell((count.fetch_add(1, Ordering::Relaxed) + 1) as f64 / draws.max(1) as f64);
+        let solved = || tell(one_more(&count, draws));
         sensitivity.monte_carlo(&uncertainties, draws, seed, cancel, &solved)
     }
 
@@ -67,15 +72,11 @@ impl Work for Draws {
     }
 }
 
-/// Starts to compute the derivatives of the results of `scene` by every key that acts. It returns them, or why there are none.
+/// Starts to compute the derivatives of the results of `scene` by every key that they depend on.
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn sensitivity(
-    scene: Scene,
-    settings: Settings,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<Finding<Result<Box<Sensitivity>, String>>> {
+pub fn sensitivity(scene: Scene, settings: Settings, wake: impl Wake) -> Started<Derivatives> {
     Task::of(Derivatives { scene, settings }, wake)
 }
 
@@ -87,7 +88,7 @@ pub fn monte_carlo(
     sensitivity: Arc<Sensitivity>,
     uncertainties: Uncertainties,
     (draws, seed): (usize, u64),
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<Finding<MonteCarlo>> {
+    wake: impl Wake,
+) -> Started<Draws> {
     Task::of(Draws { sensitivity, uncertainties, draws, seed }, wake)
 }

@@ -1,4 +1,4 @@
-//! What a worker of a page does: the work that it is sent, by its name.
+//! The worker of a page: it receives work with its name, does it, and sends back messages and the result.
 
 use super::drop::Dropping;
 use super::export::Files;
@@ -17,7 +17,7 @@ use super::work::Work;
 use crate::control::Cancel;
 use crate::platform::worker::{reply, serve};
 
-/// Does from now on what the page asks for.
+/// Does the work that the page sends, from now on.
 pub fn start() {
     serve(|asked| {
         let Some(line) = asked.iter().position(|byte| *byte == b'\n') else { return };
@@ -32,7 +32,7 @@ pub fn start() {
 
 type Serve = fn(&[u8]);
 
-/// All that a worker can do.
+/// All kinds of work that a worker can do.
 const WORKS: &[(&str, Serve)] = &[
     (Step::NAME, run::<Step>),
     (Compared::NAME, run::<Compared>),
@@ -55,7 +55,7 @@ fn run<W: Work>(bytes: &[u8]) {
             let found = work.run(&Cancel::new(), &|told| message(&told).iter().for_each(|bytes| reply(bytes)));
             end(&found).iter().for_each(|bytes| reply(bytes));
         }
-        // The page hears of it as of any panic.
+        // The page receives the text as that of any panic.
         Err(error) => std::panic::panic_any(error.to_string()),
     }
 }

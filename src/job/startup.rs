@@ -1,15 +1,15 @@
-//! A start-up in the background: cycles come as they are completed.
+//! A start-up in the background. Each cycle is sent when it is complete.
 
-use super::task::Task;
+use super::task::{Started, Task, Wake};
 use super::work::{Posed, Work};
 use crate::control::Cancel;
 use crate::startup::{self, Cycle, Settings, Startup};
 use serde::{Deserialize, Serialize};
 
-/// Cycles that may wait to be taken, each with all its fields: a thread that is further ahead waits.
+/// Most cycles, each with all its fields, that wait to be taken. A thread that is further ahead waits.
 const AHEAD: usize = 4;
 
-/// A start-up, as it is carried to where it is computed.
+/// A start-up, as it is sent to the thread or worker that computes it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct FromRest {
     posed: Posed,
@@ -20,6 +20,7 @@ impl Work for FromRest {
     const NAME: &'static str = "startup";
     const AHEAD: Option<usize> = Some(AHEAD);
     type Message = Cycle;
+    /// How the start-up ended, or why it failed.
     type Found = Result<Startup, String>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Cycle) + Sync)) -> Self::Found {
@@ -32,23 +33,19 @@ impl Work for FromRest {
     }
 }
 
-/// Starts a scene from rest. It returns how the start-up ended, or why there is no more.
+/// Starts a scene from rest.
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn start(
-    posed: Posed,
-    settings: Settings,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<Task<Cycle, Result<Startup, String>>> {
-    // Those that wait, and the one that waits to wait.
+pub fn start(posed: Posed, settings: Settings, wake: impl Wake) -> Started<FromRest> {
+    // Those that wait to be taken, and the one that the thread holds while it waits for room.
     let settings = Settings { kept: settings.kept + AHEAD + 1, ..settings };
     Task::of(FromRest { posed, settings }, wake)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::task::to_the_end;
+    use super::super::task::{TaskOf, to_the_end};
     use super::*;
     use crate::fidelity::Fidelity;
     use crate::problem::{Problem, Scenario};
@@ -61,7 +58,7 @@ mod tests {
         Posed { problem: Problem::try_from(&scene).unwrap(), scene }
     }
 
-    fn draft(problem: Posed, cycles: usize) -> Task<Cycle, Result<Startup, String>> {
+    fn draft(problem: Posed, cycles: usize) -> TaskOf<FromRest> {
         let settings = Settings { fidelity: Fidelity::Draft, cycles, ..Settings::default() };
         start(problem, settings, |_| ()).unwrap()
     }

@@ -1,7 +1,7 @@
 //! A sweep, in the background.
 
-use super::task::Task;
-use super::work::{Work, shared};
+use super::task::{Started, Task, TaskOf, Wake};
+use super::work::{Work, pooled, shared};
 use crate::analysis::sweep::{Row, Sweep, Vary};
 use crate::control::Cancel;
 use crate::scene::Scene;
@@ -9,30 +9,31 @@ use crate::solve::Settings;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What a sweep tells on the way.
+/// A message of a sweep.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum SweepMessage {
-    /// Its points are known.
+    /// The points are built.
     Built(#[serde(with = "shared")] Arc<Sweep>),
     /// A point is solved.
     Solved(Box<Row>),
 }
 
-/// The work of a sweep: it builds the points, unless they are known, and solves them. It returns all rows in order, or why there are none.
-pub type SweepTask = Task<SweepMessage, Result<Vec<Row>, String>>;
+/// A sweep in the background.
+pub type SweepTask = TaskOf<Points>;
 
-/// A sweep, as it is carried to where it is computed.
+/// A sweep, as it is sent to the thread or worker that computes it. The points are built there, unless they are known, and solved.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Points {
-    /// To be built of a scene, what is varied, and how it is solved. There can be 100 000 points to look at.
+    /// Points to be built, at most 100 000: the scene, the keys that are varied, and how it is solved.
     New(Scene, Vec<Vary>, Settings),
-    /// Built, with the rows that are known.
+    /// A sweep whose points are built, and the rows that are solved already.
     Known(#[serde(with = "shared")] Arc<Sweep>, Vec<Row>),
 }
 
 impl Work for Points {
     const NAME: &'static str = "sweep";
     type Message = SweepMessage;
+    /// All rows in order, or why there are none.
     type Found = Result<Vec<Row>, String>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(SweepMessage) + Sync)) -> Self::Found {
@@ -45,11 +46,7 @@ impl Work for Points {
             Self::Known(sweep, done) => (sweep, done),
         };
         let solve = || sweep.run(&done, cancel, &|row| tell(SweepMessage::Solved(Box::new(row.clone()))));
-        // A pool of its own: an export or another task need not wait until this is done.
-        Ok(match rayon::ThreadPoolBuilder::new().build() {
-            Ok(pool) => pool.install(solve),
-            Err(_) => solve(),
-        })
+        Ok(pooled(solve))
     }
 
     fn ended() -> Self::Found {
@@ -61,23 +58,14 @@ impl Work for Points {
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn start(
-    scene: Scene,
-    vary: Vec<Vary>,
-    settings: Settings,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<SweepTask> {
+pub fn start(scene: Scene, vary: Vec<Vary>, settings: Settings, wake: impl Wake) -> Started<Points> {
     Task::of(Points::New(scene, vary, settings), wake)
 }
 
-/// Goes on with a sweep of which some rows are known.
+/// Continues a sweep of which some rows are solved already.
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn go_on(
-    sweep: &Arc<Sweep>,
-    done: Vec<Row>,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<SweepTask> {
+pub fn go_on(sweep: &Arc<Sweep>, done: Vec<Row>, wake: impl Wake) -> Started<Points> {
     Task::of(Points::Known(Arc::clone(sweep), done), wake)
 }

@@ -1,4 +1,4 @@
-//! Work in the background: what it tells on the way, and what comes of it in the end. In a process it is done on a thread of its own
+//! Work in the background: its messages on the way, and its result in the end. In a process it is done on a thread of its own
 //! (`thread`), on a page in a worker (`page`).
 
 #[cfg(target_arch = "wasm32")]
@@ -11,12 +11,25 @@ pub use page::Task;
 #[cfg(not(target_arch = "wasm32"))]
 pub use thread::Task;
 
-/// What a task has told since it was last asked.
+use super::work::Work;
+
+/// Called after every message of a task with `false`, and at its end with `true`; in a process, from the thread of the task.
+pub trait Wake: Fn(bool) + Send + Sync + 'static {}
+
+impl<F: Fn(bool) + Send + Sync + 'static> Wake for F {}
+
+/// The task that does the work `W`.
+pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
+
+/// A task that was started, or why it cannot be done in the background.
+pub type Started<W> = std::io::Result<TaskOf<W>>;
+
+/// What a task has sent since it was last asked.
 #[derive(Debug)]
 pub struct News<M, R> {
     /// Messages, in order.
     pub messages: Vec<M>,
-    /// Once nothing more will come: what the work returned, or the text of its panic.
+    /// The result of the work, or the text of its panic; `None` while more may come.
     pub end: Option<Result<R, String>>,
 }
 

@@ -1,12 +1,10 @@
 //! The background solver of a process: a named worker thread.
 
 use super::{Event, Request, SolvedScene, solved};
-use crate::analysis::validity::outside;
 use crate::control::Cancel;
 use crate::fidelity::Fidelity;
 use crate::motor::Warm;
 use crate::platform::Instant;
-use crate::solution::settled;
 use std::collections::HashMap;
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -27,7 +25,7 @@ struct Shared {
 
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, Slot> {
-        // The slot holds plain data that is never left half-changed.
+        // The slot is plain data, which a panic never leaves half-changed.
         self.slot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -84,7 +82,7 @@ impl Solver {
         }
     }
 
-    /// Events that have arrived.
+    /// The events since the last call, in order.
     pub fn drain(&self) -> impl Iterator<Item = Event> {
         self.events.iter().flat_map(Receiver::try_iter)
     }
@@ -103,14 +101,14 @@ impl Drop for Solver {
         }
         self.events = None;
         if let Some(worker) = self.worker.take() {
-            // A worker that panicked outside a solve has nothing left to tell.
+            // After a panic outside a solve nothing is left to report.
             let _ = worker.join();
         }
     }
 }
 
 fn work(shared: &Shared, now: fn() -> Instant, tell: &dyn Fn(Event) -> bool) {
-    // A slider moves in small steps: each solve starts from the last one of its fidelity.
+    // Each solve starts from the last one of its fidelity, because a slider moves in small steps.
     let mut warm = HashMap::new();
     loop {
         let (number, request, cancel) = {
@@ -144,34 +142,20 @@ fn refine(
     now: fn() -> Instant,
     tell: &dyn Fn(Event) -> bool,
 ) -> bool {
-    let Request { scene, problem, fidelities, budget } = request;
-    for &fidelity in fidelities {
+    for &fidelity in &request.fidelities {
         if cancel.is_cancelled() {
             return false;
         }
         let mut history = Vec::new();
-        let started = now();
         let warm = warm.entry(fidelity).or_default();
-        let started_warm = !warm.is_empty();
-        let found = solved(problem, (fidelity, *budget), warm, cancel, |progress| {
+        let found = solved(&request.problem, (fidelity, request.budget), now, warm, cancel, |progress| {
             history.push(*progress);
             tell(Event::Progress { number, fidelity, progress: *progress });
         });
-        let wall_s = now().duration_since(started).as_secs_f64();
         match found {
             None => return false,
-            Some(Ok(solution)) => {
-                tell(Event::Solved(Arc::new(SolvedScene {
-                    number,
-                    scene: scene.clone(),
-                    problem: settled(problem, &solution.outcome).into_owned(),
-                    fidelity,
-                    validity: outside(problem, Some(&solution)),
-                    solution,
-                    wall_s,
-                    warm: started_warm,
-                    history,
-                })));
+            Some(Ok(timed)) => {
+                tell(Event::Solved(Arc::new(SolvedScene::of(number, request, fidelity, timed, history))));
             }
             Some(Err(message)) => {
                 tell(Event::Failed { number, message });
@@ -249,7 +233,7 @@ mod tests {
     #[test]
     fn cancelling_and_dropping_end_a_long_solve() {
         let mut solver = Solver::start(|| ()).unwrap();
-        // Asked for what takes seconds.
+        // This accuracy takes seconds.
         let number = solver.submit(request("fundamental", &[Fidelity::to(1e-6)]));
         std::thread::sleep(Duration::from_millis(50));
         solver.cancel();

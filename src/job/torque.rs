@@ -1,7 +1,7 @@
 //! Torque over speed, in the background.
 
 use super::SolvedScene;
-use super::task::Task;
+use super::task::{Started, Task, TaskOf, Wake};
 use super::work::{Posed, Work};
 use crate::analysis::torque::TorqueCurves;
 use crate::control::Cancel;
@@ -10,7 +10,7 @@ use crate::fidelity::Fidelity;
 use crate::solution::{Performance, Solution};
 use serde::{Deserialize, Serialize};
 
-/// The curves of a run, as they are carried to where they are computed.
+/// The run whose curves are computed, as it is sent to the thread or worker that does it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Curves {
     posed: Posed,
@@ -19,17 +19,17 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// Of a solution of a scene at this fidelity.
+    /// The work for a solution of a scene at this fidelity.
     pub fn new(posed: Posed, fidelity: Fidelity, solution: Solution) -> Self {
         Self { posed, fidelity, solution }
     }
 }
 
-/// What was found, in bytes.
+/// The curves, in a form that can be sent as bytes.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Found(#[serde(with = "Parts")] pub TorqueCurves);
 
-/// The parts of [`TorqueCurves`]: as text they have other names.
+/// The fields of [`TorqueCurves`]. In JSON they have other names.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "TorqueCurves")]
 struct Parts {
@@ -43,12 +43,13 @@ struct Parts {
     speed_effect: f64,
 }
 
-/// The curves, or why there are none; nothing if it was cancelled.
-pub type TorqueTask = Task<(), Option<Result<Found, String>>>;
+/// The computation in the background.
+pub type TorqueTask = TaskOf<Curves>;
 
 impl Work for Curves {
     const NAME: &'static str = "torque";
     type Message = ();
+    /// The curves, or why there are none; `None` if it was cancelled.
     type Found = Option<Result<Found, String>>;
 
     fn run(self, cancel: &Cancel, _: &(dyn Fn(()) + Sync)) -> Self::Found {
@@ -67,7 +68,7 @@ impl Work for Curves {
 ///
 /// # Errors
 /// If it cannot be done in the background.
-pub fn start(run: &SolvedScene, wake: impl Fn(bool) + Send + Sync + 'static) -> std::io::Result<TorqueTask> {
+pub fn start(run: &SolvedScene, wake: impl Wake) -> Started<Curves> {
     let SolvedScene { scene, problem, fidelity, solution, .. } = run;
     let posed = Posed { scene: scene.clone(), problem: problem.clone() };
     Task::of(Curves::new(posed, *fidelity, solution.clone()), wake)

@@ -1,23 +1,22 @@
 //! The measurement of error against solve time, in the background.
 
-use super::task::Task;
+use super::task::{Started, Task, Wake};
 use super::work::{Posed, Work};
 use crate::analysis::tradeoff::{self, Candidate, Effort, MeasuredSetting};
 use crate::control::Cancel;
 use crate::platform::Instant;
 use serde::{Deserialize, Serialize};
 
-/// How far a measurement is: all settings with what was measured of them so far, and the share of the work that is done,
-/// 0 to 1.
+/// The state of a measurement: all settings with what was measured of them so far, and the share of the work that is done, 0 to 1.
 pub type Progress = (Vec<MeasuredSetting>, f64);
 
-/// A measurement, as it is carried to where it is made.
+/// A measurement, as it is sent to the thread or worker that makes it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Measurement {
     posed: Posed,
     candidates: Vec<Candidate>,
     effort: Effort,
-    /// The clock: where it is carried, that of the place.
+    /// The clock. It is not sent: a worker uses its own.
     #[serde(skip, default = "clock")]
     now: fn() -> Instant,
 }
@@ -29,6 +28,7 @@ fn clock() -> fn() -> Instant {
 impl Work for Measurement {
     const NAME: &'static str = "measure";
     type Message = Progress;
+    /// All settings with what was measured of them.
     type Found = Vec<MeasuredSetting>;
 
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Progress) + Sync)) -> Self::Found {
@@ -43,7 +43,7 @@ impl Work for Measurement {
     }
 }
 
-/// Starts to measure `candidates` by the clock `now`. It returns all settings with what was measured.
+/// Starts to measure `candidates` by the clock `now`.
 ///
 /// # Errors
 /// If it cannot be done in the background.
@@ -52,14 +52,14 @@ pub fn measure(
     candidates: Vec<Candidate>,
     effort: Effort,
     now: fn() -> Instant,
-    wake: impl Fn(bool) + Send + Sync + 'static,
-) -> std::io::Result<Task<Progress, Vec<MeasuredSetting>>> {
+    wake: impl Wake,
+) -> Started<Measurement> {
     Task::of(Measurement { posed, candidates, effort, now }, wake)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::task::to_the_end;
+    use super::super::task::{TaskOf, to_the_end};
     use super::*;
     use crate::analysis::attempt::RunStatus;
     use crate::analysis::tradeoff::candidates;
@@ -67,7 +67,7 @@ mod tests {
     use crate::problem::Problem;
     use crate::scene::presets;
 
-    fn start(fidelity: Fidelity, repeats: usize, now: fn() -> Instant) -> Task<Progress, Vec<MeasuredSetting>> {
+    fn start(fidelity: Fidelity, repeats: usize, now: fn() -> Instant) -> TaskOf<Measurement> {
         let scene = presets::find("fundamental").unwrap();
         let problem = Problem::try_from(&scene).unwrap();
         let mut all = candidates(&problem);

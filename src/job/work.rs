@@ -1,4 +1,4 @@
-//! Work that can be carried to where it is done: to a thread as it is, to a worker of a page as bytes.
+//! Work that is sent to where it is done: to a thread as it is, to a worker of a page as bytes.
 
 use crate::control::Cancel;
 use crate::problem::Problem;
@@ -6,28 +6,28 @@ use crate::scene::Scene;
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Work, with all that it needs.
+/// Work, with all data that it needs.
 pub trait Work: Serialize + DeserializeOwned + Send + 'static {
-    /// What it is called.
+    /// Its name, by which a worker knows it.
     const NAME: &'static str;
-    /// So many of its messages may wait to be taken; a thread that is further ahead waits, a worker does not.
+    /// Most messages that wait to be taken. A thread that is further ahead waits; a worker does not.
     const AHEAD: Option<usize> = None;
-    /// What it tells on the way.
+    /// A message on the way.
     type Message: Serialize + DeserializeOwned + Send + 'static;
-    /// What comes of it.
+    /// The result.
     type Found: Serialize + DeserializeOwned + Send + 'static;
 
-    /// Does it. It looks at the flag, and sends messages through the function that it is given.
+    /// Does the work. It checks `cancel`, and sends messages through `tell`.
     fn run(self, cancel: &Cancel, tell: &(dyn Fn(Self::Message) + Sync)) -> Self::Found;
 
-    /// What comes of it if it is ended before it has found anything.
+    /// The result if the work is ended before it has found anything.
     fn ended() -> Self::Found;
 }
 
-/// A scene and what it means. In bytes it is the scene as a file has it.
+/// A scene and the problem that it poses. As bytes it is the scene's file.
 #[derive(Clone, Debug)]
 pub struct Posed {
-    /// What a person has edited.
+    /// The scene, in the units of the field.
     pub scene: Scene,
     /// The same, checked and in SI units.
     pub problem: Problem,
@@ -47,7 +47,15 @@ impl<'de> Deserialize<'de> for Posed {
     }
 }
 
-/// What is shared, in bytes: as what is owned.
+/// Does `work` on a thread pool of its own, one thread for each core, so that an export or another task need not wait until it is done.
+pub fn pooled<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}
+
+/// An [`Arc`](std::sync::Arc) as bytes: those of the value in it.
 pub(super) mod shared {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
     use std::sync::Arc;
@@ -91,7 +99,7 @@ mod tests {
         Posed { problem: Problem::try_from(&scene).unwrap(), scene }
     }
 
-    /// Not a number equals nothing, itself included: what is printed is compared.
+    /// NaN does not equal itself: therefore the printed forms are compared.
     fn same<T: std::fmt::Debug>(one: &T, other: &T) {
         assert_eq!(format!("{one:?}"), format!("{other:?}"));
     }

@@ -1,4 +1,4 @@
-//! What marches the film of a held plate: the gap follows the hand, the film follows the gap.
+//! Marches the film of a held plate: the gap follows the hand, and the pressure follows the gap.
 
 use crate::analysis::attempt::caught;
 use crate::fidelity::Fidelity;
@@ -8,15 +8,17 @@ use crate::platform::Instant;
 use crate::problem::{Numerics, Plate};
 use std::time::Duration;
 
-/// How often the film is marched on, and how much time at most is made up for at once.
+/// How often the film is marched.
 pub(super) const TICK: Duration = Duration::from_millis(20);
+/// Longest time of the clock that is made up for at once.
 const MOST: Duration = Duration::from_millis(60);
-/// Snapshots that are kept at most: those of 10 s of the clock, and of some more where marching takes longer.
+/// Most snapshots that are kept: those of 10 s of the clock, or of a longer time if marching takes longer than a tick.
 pub const SNAPSHOTS: usize = 512;
-/// A hand is not faster than this \[s\]: the gap follows what is asked for with this time constant.
+/// Time constant \[s\] with which the gap follows the gap that is asked for: about that of a hand.
 const HAND: f64 = 0.03;
-/// Where the gap is what was asked for, a share of it, and |p/p_a − 1| below which the film is at rest.
+/// Relative difference below which the gap is the one that is asked for.
 const THERE: f64 = 1e-4;
+/// |p/p_a − 1| below which the film is at rest.
 const AT_REST: f64 = 1e-4;
 
 /// The film at one instant.
@@ -26,29 +28,28 @@ pub struct Snapshot {
     pub number: u64,
     /// Gap, force and what follows from them.
     pub reading: Reading,
-    /// Nodes along x ≥ 0, and across y ≥ 0 (of a strip or a round plate one), from the middle \[m\]; of a round plate,
-    /// those along x are radii.
+    /// Nodes along x ≥ 0, from the middle \[m\]; of a round plate, radii. There is one node across a strip or a round plate.
     pub x: Vec<f64>,
-    /// As `x`, across.
+    /// The same across.
     pub y: Vec<f64>,
     /// Absolute pressure \[Pa\], `[ix][iy]`.
     pub pressure: Vec<f64>,
-    /// How fast the film's time passes, over what was asked for: below 1 where marching takes longer than that.
+    /// Speed of the film's time over the speed that was asked for: below 1 if marching takes too long for it.
     pub pace: f64,
-    /// Why the film was put to rest.
+    /// Why the film was put to rest, if its march failed.
     pub failure: Option<String>,
 }
 
-/// What the hand asks for: the newest counts.
+/// What the hand asks for. Only the newest target counts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {
     pub(super) gap: f64,
     /// Seconds for a second of the film.
     pub(super) slowed: f64,
     pub(super) reset: bool,
-    /// It is let go, and whether the face below it vibrates.
+    /// `Some` if the plate was let go; whether the face below it vibrates.
     pub(super) free: Option<bool>,
-    /// Nothing moves, and no time passes.
+    /// Whether everything stands still, the film's time too.
     pub(super) paused: bool,
 }
 
@@ -59,11 +60,11 @@ impl Target {
     }
 }
 
-/// A plate, and how its film has been marched.
+/// A plate, and the state of its film.
 #[derive(Debug)]
 pub(super) struct Follower {
     pub(super) hold: Hold,
-    /// When it was last marched, if it has not rested since.
+    /// When the film was last marched; `None` if it has rested since.
     pub(super) last: Option<Instant>,
     number: u64,
     pace: f64,
@@ -76,7 +77,7 @@ impl Follower {
         Self { hold: Hold::new(plate, &plan), last: None, number: 0, pace: 1.0 }
     }
 
-    /// Whether neither the plate nor the pressure moves, or may.
+    /// Whether neither the plate nor the pressure moves, or neither may.
     pub(super) fn rests(&self, target: &Target) -> bool {
         let still = match target.free {
             Some(vibrates) => !vibrates && self.hold.is_still(),
@@ -85,7 +86,7 @@ impl Follower {
         !target.reset && (target.paused || still && self.hold.unrest() <= AT_REST)
     }
 
-    /// Marches the film on to the time `began`. Where that fails it is put to rest.
+    /// Marches the film to the time `began`. If that fails, the film is put to rest.
     pub(super) fn tick(&mut self, target: &Target, began: Instant) -> Snapshot {
         let hold = &mut self.hold;
         let passed = self.last.map_or(TICK, |last| began.saturating_duration_since(last));
@@ -121,7 +122,7 @@ impl Follower {
         }
         self.number += 1;
         let snapshot = self.snapshot(failure);
-        // Of a plate that shakes, what a slow eye sees.
+        // Of a plate that vibrates, the gap without the vibration and the mean force are shown.
         Snapshot { reading: mean.unwrap_or(snapshot.reading), ..snapshot }
     }
 
@@ -139,7 +140,7 @@ impl Follower {
     }
 }
 
-/// Slow motion in which the leak time of `plate` at its mean gap takes `seconds`.
+/// The slow motion in which the leak time of `plate` at its mean gap takes `seconds`.
 pub fn slowed(plate: &Plate, seconds: f64) -> f64 {
     seconds / leak_time(plate, plate.mean_gap)
 }

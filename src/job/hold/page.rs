@@ -1,4 +1,4 @@
-//! A held plate of a page: its film is marched on when it is looked at, before each redraw.
+//! A held plate of a page: its film is marched when its snapshots are taken, before each redraw.
 
 use super::follower::{Follower, Snapshot, TICK, Target};
 use crate::platform::Instant;
@@ -42,7 +42,7 @@ impl HeldPlate {
         (self.wake)();
     }
 
-    /// The newest snapshot, and all since the last time, oldest first.
+    /// The newest snapshot, and all since the last call, oldest first.
     pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Arc<Snapshot>>) {
         let (follower, target) = &mut *self.held.borrow_mut();
         if follower.rests(target) {

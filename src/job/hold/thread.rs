@@ -17,7 +17,7 @@ struct Shared {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Plain data, never left half-changed.
+    // The data is plain, and a panic never leaves it half-changed.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -57,7 +57,7 @@ impl HeldPlate {
         self.shared.changed.notify_all();
     }
 
-    /// The newest snapshot, and all since the last time, oldest first.
+    /// The newest snapshot, and all since the last call, oldest first.
     pub fn take(&self) -> (Arc<Snapshot>, VecDeque<Arc<Snapshot>>) {
         let mut published = lock(&self.shared.published);
         (Arc::clone(&published.0), std::mem::take(&mut published.1))
@@ -66,16 +66,16 @@ impl HeldPlate {
 
 impl Drop for HeldPlate {
     fn drop(&mut self) {
-        // Changed under the lock, so that a thread that is about to wait sees it.
+        // It is set under the lock, so that a thread that is about to wait sees it.
         self.ask(|_| self.shared.closed.store(true, Ordering::Relaxed));
         if let Some(worker) = self.worker.take() {
-            // What panics in the film is caught; another panic would have nothing left to tell.
+            // A panic in the film is caught. After any other panic nothing is left to report.
             let _ = worker.join();
         }
     }
 }
 
-/// Follows the hand until it is told to end.
+/// Marches the film until the plate is dropped.
 fn follow(shared: &Shared, mut follower: Follower, now: fn() -> Instant, wake: &dyn Fn()) {
     let closed = || shared.closed.load(Ordering::Relaxed);
     loop {

@@ -1,30 +1,27 @@
 //! Work of a page: in a worker.
 
-use super::News;
+use super::{News, Wake};
 use crate::job::line::{Line, Told};
 use crate::job::work::Work;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Work under way, or ended. `M` is what it tells on the way, `R` what it returns. Its worker is ended on drop.
+/// Work that is running or has ended. `M` is the type of its messages, `R` that of its result. On drop its worker is ended.
 #[derive(Debug)]
 pub struct Task<M, R> {
-    /// None once its worker has nothing to do any more.
+    /// `None` once the worker has nothing to do any more.
     line: Rc<RefCell<Option<Line>>>,
     told: Rc<RefCell<News<M, R>>>,
-    /// What comes of it if its worker is ended.
+    /// The result if the worker is ended.
     ended: fn() -> R,
 }
 
 impl<M: 'static, R: 'static> Task<M, R> {
-    /// Starts to do `work` in a worker. `wake` is called after every message and at the end, then with `true`.
+    /// Starts to do `work` in a worker.
     ///
     /// # Errors
     /// If there is no worker for it.
-    pub fn of<W: Work<Message = M, Found = R>>(
-        work: W,
-        wake: impl Fn(bool) + Send + Sync + 'static,
-    ) -> std::io::Result<Self> {
+    pub fn of<W: Work<Message = M, Found = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
         let told = Rc::new(RefCell::new(News { messages: Vec::new(), end: None }));
         let line = Rc::new(RefCell::new(Some(Line::open()?)));
         let (theirs, used) = (Rc::clone(&told), Rc::clone(&line));
@@ -49,7 +46,7 @@ impl<M: 'static, R: 'static> Task<M, R> {
         Ok(Self { line, told, ended: W::ended })
     }
 
-    /// What it has told since the last time.
+    /// What it has sent since the last time.
     pub fn drain(&self) -> News<M, R> {
         let mut told = self.told.borrow_mut();
         News { messages: std::mem::take(&mut told.messages), end: told.end.take() }

@@ -1,36 +1,36 @@
 //! Work of a process: on a thread of its own.
 
-use super::News;
+use super::{News, Wake};
 use crate::analysis::attempt::caught;
 use crate::control::Cancel;
 use crate::job::work::Work;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, TryRecvError, channel, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
-/// Work under way, or ended. `M` is what it tells on the way, `R` what it returns. It is cancelled and joined on drop.
+/// Work that is running or has ended. `M` is the type of its messages, `R` that of its result. On drop it is cancelled and joined.
 #[derive(Debug)]
 pub struct Task<M, R> {
     cancel: Cancel,
-    /// None only while it is dropped: a thread that waits to be listened to ends too.
+    /// `None` only during the drop, so that a thread that waits for its messages to be taken ends too.
     events: Option<Receiver<Event<M, R>>>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// What goes through the channel.
+/// An item of the channel.
 #[derive(Debug)]
 enum Event<M, R> {
     Message(M),
     End(Result<R, String>),
 }
 
-/// The way to whoever listens.
+/// The sender's side of the channel.
 enum Line<E> {
     Free(Sender<E>),
     Bounded(SyncSender<E>),
 }
 
 impl<E> Line<E> {
-    /// Nobody may be left to listen: then the owner has cancelled the work too.
+    /// Sends an event. If nobody is left to receive it, the owner has cancelled the work too.
     fn send(&self, event: E) {
         let _ = match self {
             Self::Free(sender) => sender.send(event),
@@ -40,50 +40,42 @@ impl<E> Line<E> {
 }
 
 impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
-    /// Starts to do `work`. `wake` is called after every message and at the end, then with `true`.
+    /// Starts to do `work` on a thread of its own.
     ///
     /// # Errors
     /// If no thread can be started.
-    pub fn of<W: Work<Message = M, Found = R>>(
-        work: W,
-        wake: impl Fn(bool) + Send + Sync + 'static,
-    ) -> std::io::Result<Self> {
-        let run = move |cancel: &Cancel, tell: &(dyn Fn(M) + Sync)| work.run(cancel, tell);
-        match W::AHEAD {
-            Some(most) => Self::start_bounded(W::NAME, most, wake, run),
-            None => Self::start(W::NAME, wake, run),
-        }
+    pub fn of<W: Work<Message = M, Found = R>>(work: W, wake: impl Wake) -> std::io::Result<Self> {
+        Self::bounded(W::NAME, W::AHEAD, wake, |cancel, tell| work.run(cancel, tell))
     }
 
-    /// Starts `work` on a thread `squeezefilm-name`. It looks at the flag, and sends messages through the function that it
-    /// is given. `wake` is called from that thread after every message and at the end, then with `true`.
+    /// Starts a function as [`Self::of`] starts a work, for tests.
+    #[cfg(test)]
     pub(crate) fn start(
         name: &str,
-        wake: impl Fn(bool) + Send + Sync + 'static,
+        wake: impl Wake,
         work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
     ) -> std::io::Result<Self> {
-        let (sender, events) = channel();
-        Self::on(name, Line::Free(sender), events, wake, work)
+        Self::bounded(name, None, wake, work)
     }
 
-    /// As [`Self::start`]; the work waits while `most` of its messages have not been taken.
-    fn start_bounded(
+    /// Starts `work` on a thread `squeezefilm-name`. It looks at the flag, and sends messages through the function that it is given; where
+    /// `ahead` is given, it waits while so many of its messages have not been taken.
+    fn bounded(
         name: &str,
-        most: usize,
-        wake: impl Fn(bool) + Send + Sync + 'static,
+        ahead: Option<usize>,
+        wake: impl Wake,
         work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
     ) -> std::io::Result<Self> {
-        let (sender, events) = sync_channel(most);
-        Self::on(name, Line::Bounded(sender), events, wake, work)
-    }
-
-    fn on(
-        name: &str,
-        line: Line<Event<M, R>>,
-        events: Receiver<Event<M, R>>,
-        wake: impl Fn(bool) + Send + Sync + 'static,
-        work: impl FnOnce(&Cancel, &(dyn Fn(M) + Sync)) -> R + Send + 'static,
-    ) -> std::io::Result<Self> {
+        let (line, events) = match ahead {
+            Some(most) => {
+                let (sender, events) = sync_channel(most);
+                (Line::Bounded(sender), events)
+            }
+            None => {
+                let (sender, events) = channel();
+                (Line::Free(sender), events)
+            }
+        };
         let cancel = Cancel::new();
         let theirs = cancel.clone();
         let thread = Builder::new().name(format!("squeezefilm-{name}")).spawn(move || {
@@ -98,7 +90,7 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
         Ok(Self { cancel, events: Some(events), thread: Some(thread) })
     }
 
-    /// What it has told since the last time.
+    /// What it has sent since the last time.
     pub fn drain(&self) -> News<M, R> {
         let mut news = News { messages: Vec::new(), end: None };
         while let (Some(events), None) = (&self.events, &news.end) {
@@ -114,7 +106,7 @@ impl<M: Send + 'static, R: Send + 'static> Task<M, R> {
 }
 
 impl<M, R> Task<M, R> {
-    /// Asks it to end; it tells when it has.
+    /// Asks the work to end. Its result then comes like any other.
     pub fn cancel(&self) {
         self.cancel.cancel();
     }
@@ -125,7 +117,7 @@ impl<M, R> Drop for Task<M, R> {
         self.cancel.cancel();
         self.events = None;
         if let Some(thread) = self.thread.take() {
-            // A panic of the work is caught there; another would have nothing left to tell.
+            // A panic of the work was caught in the thread. After any other panic nothing is left to report.
             let _ = thread.join();
         }
     }
@@ -186,9 +178,9 @@ mod tests {
     fn bounded_work_waits_and_still_ends_on_drop() {
         let sent = Arc::new(std::sync::atomic::AtomicUsize::new(0));
         let theirs = Arc::clone(&sent);
-        let task: Task<usize, ()> = Task::start_bounded(
+        let task: Task<usize, ()> = Task::bounded(
             "test",
-            2,
+            Some(2),
             |_| (),
             move |cancel, tell| {
                 for i in 0.. {
