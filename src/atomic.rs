@@ -1,9 +1,8 @@
-//! Files that appear whole or not at all, and locks between processes.
+//! Files that appear complete or not at all, and locks between processes.
 //!
-//! What is to be written goes first into a scratch folder beside its target, `.squeezefilm-….tmp`. Only when all of it is
-//! on the disk do the files get their names, and if one of them cannot have its name, those before it become what they
-//! were. The scratch folder holds a lock while its writer lives. A folder whose lock nobody holds is what a killed run left,
-//! and the next run that writes there removes it.
+//! Files are first written into a scratch folder beside their targets, `.squeezefilm-….tmp`. They get their names only when all of them are
+//! on the disk. If one of them cannot have its name, those before it are put back as they were. The writer holds a lock on the scratch
+//! folder. A scratch folder whose lock nobody holds was left by a run that was killed, and the next run that writes there removes it.
 
 use crate::platform::{HAS_FILES, hand_out};
 use same_file::Handle;
@@ -47,7 +46,10 @@ pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
     staged.commit().map(|_| ())
 }
 
-/// Finds out whether files can be written into a folder, or the folder made, before any work is done for them.
+/// Checks whether files can be written into a folder, or the folder created, before any work is done for them.
+///
+/// # Errors
+/// [`WriteError`] if they cannot.
 pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
     Staged::new(folder)?.add("check", |_| Ok(()))
 }
@@ -56,21 +58,21 @@ pub fn check_writable(folder: &Path) -> Result<(), WriteError> {
 #[derive(Debug)]
 pub struct Staged {
     folder: PathBuf,
-    /// The folder was made by us, and is removed if nothing is committed into it.
+    /// Whether the folder was created for these files. It is then removed if nothing is committed into it.
     made: bool,
     /// The final path of each file; the nth is the file `n` of the scratch folder.
     targets: Vec<PathBuf>,
-    /// Their contents, where there are no files.
+    /// Their contents, where they are offered as downloads.
     contents: Vec<Vec<u8>>,
-    /// Only dropping takes them out. The lock goes first.
+    /// The scratch folder and its lock; `None` where files are offered as downloads. On drop the lock is released first.
     scratch: Option<(Lock, TempDir)>,
 }
 
 impl Staged {
-    /// Begins; makes the folder, and those above it, if they are not there.
+    /// Begins to stage files for a folder. Creates it, and the folders above it, if they do not exist.
     ///
     /// # Errors
-    /// [`WriteError`] if it cannot be made, or is a file.
+    /// [`WriteError`] if the folder cannot be created, or is a file.
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
         let failed = |source| WriteError { path: folder.to_owned(), source };
         if HAS_FILES && folder.is_file() {
@@ -92,7 +94,7 @@ impl Staged {
         remove_leftovers(folder);
         while staged.scratch.is_none() {
             let scratch = tempfile::Builder::new().prefix(PREFIX).suffix(SCRATCH).tempdir_in(folder)?;
-            // Before it is locked another run may take the folder for one that was left, and remove it.
+            // Until it is locked, another run may take the folder for one that was left, and remove it: then it is created again.
             match Lock::take(&scratch.path().join(LOCK)) {
                 Ok(lock) => staged.scratch = lock.map(|lock| (lock, scratch)),
                 Err(error) if error.kind() == ErrorKind::NotFound && folder.exists() => {}
@@ -102,7 +104,7 @@ impl Staged {
         Ok(staged)
     }
 
-    /// Where the new content of a target waits, or what the target was.
+    /// The path in the scratch folder of the new content of a target, or of its older file.
     fn scratch(&self, index: usize, what: &str) -> PathBuf {
         let folder = self.scratch.as_ref().map(|(_, folder)| folder.path());
         folder.unwrap_or(Path::new("")).join(format!("{index}{what}"))
@@ -133,10 +135,10 @@ impl Staged {
             write(&mut buffered)?;
             let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
             if let Ok(older) = fs::metadata(&path) {
-                // Some disks have no permissions to set.
+                // Some file systems have no permissions.
                 let _ = file.set_permissions(older.permissions());
             }
-            // Some disks tell only now that they are full.
+            // Some file systems report only now that the disk is full.
             file.sync_data()
         })();
         match written {
@@ -156,7 +158,7 @@ impl Staged {
             hand_out(&self.folder, files).map_err(|source| WriteError { path: self.folder.clone(), source })?;
             return Ok(std::mem::take(&mut self.targets));
         }
-        // They may have become so since they were staged.
+        // A target may have become impossible to replace since it was staged.
         for path in &self.targets {
             replaceable(path).map_err(|source| WriteError { path: path.clone(), source })?;
         }
@@ -174,7 +176,7 @@ impl Staged {
     /// Undoes what a commit has done to a target.
     fn put_back(&self, index: usize) {
         let (target, old) = (&self.targets[index], self.scratch(index, OLD));
-        // There is nobody to tell: the caller is told of what went wrong first.
+        // A fault here is not reported: the caller gets the first one.
         let _ = if old.symlink_metadata().is_ok() {
             fs::rename(old, target)
         } else if self.scratch(index, NEW).exists() {
@@ -189,7 +191,7 @@ impl Drop for Staged {
     fn drop(&mut self) {
         self.scratch.take();
         if self.made {
-            // Only an empty folder is removed: what others put there stays.
+            // This removes only an empty folder: files of others stay.
             let _ = fs::remove_dir(&self.folder);
         }
     }
@@ -198,7 +200,8 @@ impl Drop for Staged {
 const NEW: &str = ".new";
 const OLD: &str = ".old";
 
-/// Whether a file may have this name: none has it yet, or one that can be replaced. A file that is read-only stays, on every system.
+/// Checks whether a file can get this name: there is none of this name yet, or one that can be replaced. A read-only file is not replaced, on
+/// any system.
 fn replaceable(path: &Path) -> io::Result<()> {
     let Ok(older) = fs::metadata(path) else { return Ok(()) };
     if older.is_dir() {
@@ -210,7 +213,7 @@ fn replaceable(path: &Path) -> io::Result<()> {
     not_held(path)
 }
 
-/// Whether no other program holds the file open in such a way that it cannot be replaced, as spreadsheets do on Windows.
+/// Checks that no other program holds the file open in such a way that it cannot be replaced, as spreadsheets do on Windows.
 #[cfg(windows)]
 fn not_held(path: &Path) -> io::Result<()> {
     use std::os::windows::fs::OpenOptionsExt;
@@ -218,13 +221,13 @@ fn not_held(path: &Path) -> io::Result<()> {
     OpenOptions::new().access_mode(DELETE).open(path).map(|_| ())
 }
 
-/// Elsewhere a file that is open can be replaced.
+/// On other systems a file that is open can be replaced.
 #[cfg(not(windows))]
 fn not_held(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Keeps the file that is to be replaced under another name: by a link, so that its name is never missing, or by renaming.
+/// Keeps the file that is to be replaced under another name: by a hard link, so that its name is never missing, or else by renaming.
 fn set_aside(path: &Path, old: &Path) -> io::Result<()> {
     match fs::hard_link(path, old).or_else(|_| fs::rename(path, old)) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
@@ -240,7 +243,7 @@ fn remove_leftovers(folder: &Path) {
         if name.starts_with(PREFIX) && (name.ends_with(SCRATCH) || name.ends_with(LOCK)) {
             let path = entry.path();
             let lock = if path.is_dir() { path.join(LOCK) } else { path.clone() };
-            // What cannot be removed is in nobody's way. A lock goes with its file when it is dropped.
+            // If it cannot be removed, it does no harm. The file of a lock is removed when the lock is dropped.
             if let Ok(Some(lock)) = Lock::take(&lock)
                 && lock.held
             {
@@ -253,22 +256,21 @@ fn remove_leftovers(folder: &Path) {
     }
 }
 
-/// A lock that one process at a time can have. The system takes it from a process that ends, however it ends. Its file is
-/// removed when it is dropped.
+/// A lock that one process at a time can hold. The system releases it when its process ends, in whatever way. On drop its file is removed.
 #[derive(Debug)]
 pub struct Lock {
     /// Keeps the file open, and with it the lock.
     _file: Handle,
     path: PathBuf,
-    /// False on a disk without locks.
+    /// False on a file system without locks.
     held: bool,
 }
 
 impl Lock {
-    /// The lock `name` of a folder, which has to be there; `None` while another process has it.
+    /// The lock `name` of a folder, which has to exist; `None` while another process holds it.
     ///
     /// # Errors
-    /// The file of the lock cannot be made.
+    /// The file of the lock cannot be created.
     pub fn of(folder: &Path, name: &str) -> io::Result<Option<Self>> {
         Self::take(&folder.join(format!("{PREFIX}{name}{LOCK}")))
     }
@@ -282,7 +284,7 @@ impl Lock {
                 Err(TryLockError::Error(_)) => false,
             };
             let file = Handle::from_file(file)?;
-            // Whoever had the lock may have removed its file after we opened it.
+            // The process that held the lock may have removed its file after it was opened here.
             if Handle::from_path(path).is_ok_and(|named| named == file) {
                 return Ok(Some(Self { _file: file, path: path.to_owned(), held }));
             }

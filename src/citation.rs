@@ -1,12 +1,12 @@
-//! How the program is cited.
+//! The citation of the program.
 
-/// The version, and the commit it stands for in a citation.
+/// The version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// What the program may be used under.
+/// The licence, as an SPDX expression.
 pub const LICENCE: &str = env!("CARGO_PKG_LICENSE");
 
-/// The program as an entry of BibTeX. `CITATION.cff` says the same.
+/// The citation as an entry of BibTeX. `CITATION.cff` has the same content.
 pub fn bibtex() -> String {
     format!(
         "@software{{squeezefilm,\n  title   = {{squeezefilm: {TITLE}}},\n  author  = {{{{The squeezefilm developers}}}},\n  \
@@ -15,9 +15,9 @@ pub fn bibtex() -> String {
     )
 }
 
-/// What it is, in a citation.
+/// The subtitle of the program in a citation.
 const TITLE: &str = "the squeezed air film of ultrasonic motors";
-/// Day of the version.
+/// The release date of the version, ISO 8601.
 pub const RELEASED: &str = "2026-11-22";
 
 #[cfg(test)]

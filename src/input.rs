@@ -1,4 +1,4 @@
-//! Files from outside: presets, compliance tables, lessons and their pictures. Nothing else in the program opens one.
+//! Reads files from outside: presets, tables, lessons and their pictures. No other module opens such files.
 
 use crate::platform::handed_over;
 use std::io::Read;
@@ -9,25 +9,25 @@ const MEGABYTE: u64 = 1_000_000;
 /// Why a file is not read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReadError {
-    /// The system refuses.
+    /// The operating system refuses; its reason.
     #[error("cannot be read: {0}")]
     System(String),
-    /// A folder, or something that may never end: a pipe, a device, a socket.
+    /// It is a folder, or something that may never end, such as a pipe, a device or a socket.
     #[error("cannot be read: it is {0}, not a regular file")]
     NotAFile(&'static str),
-    /// Larger than anything of its kind.
+    /// It is larger than the limit for files of its kind \[MB\].
     #[error("cannot be read: it is larger than {0} MB")]
     TooLarge(u64),
-    /// Not UTF-8.
+    /// It is neither UTF-8 nor UTF-16 with a byte order mark.
     #[error("cannot be read: it is not UTF-8 text")]
     NotText,
 }
 
-/// The bytes of a regular file of up to `limit` \[MB\]. Whatever else the path names is refused without being opened.
+/// The bytes of a regular file of up to `limit` \[MB\]. If the path names anything else, it is not opened.
 ///
 /// # Errors
 ///
-/// [`ReadError`]: there is no such file, it is something else than a file, or too large.
+/// [`ReadError`]: there is no such file, it is not a regular file, or it is too large.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let system = |error: std::io::Error| ReadError::System(error.to_string());
     if let Some(bytes) = handed_over(path) {
@@ -40,7 +40,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     if about.len() > limit * MEGABYTE {
         return Err(ReadError::TooLarge(limit));
     }
-    // Its length may be none, as under /proc, or change while it is read.
+    // The limit is checked again, because the length may be zero, as under /proc, or change while the file is read.
     bytes_of(std::fs::File::open(path).map_err(system)?, limit)
 }
 
@@ -51,25 +51,25 @@ fn bytes_of(source: impl Read, limit: u64) -> Result<Vec<u8>, ReadError> {
     if bytes.len() as u64 > limit * MEGABYTE { Err(ReadError::TooLarge(limit)) } else { Ok(bytes) }
 }
 
-/// The text of a regular file of up to `limit` \[MB\]. Whatever else the path names is refused without being opened.
+/// The text of a regular file of up to `limit` \[MB\]. If the path names anything else, it is not opened.
 ///
 /// # Errors
 ///
-/// [`ReadError`]: there is no such file, it is something else than a file, too large, or no text.
+/// [`ReadError`]: there is no such file, it is not a regular file, it is too large, or it is not text.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, ReadError> {
     text(read_bytes(path, limit)?)
 }
 
-/// The text of up to `limit` \[MB\] that standard input, or another stream, holds.
+/// The text of standard input or another stream, of up to `limit` \[MB\].
 ///
 /// # Errors
 ///
-/// [`ReadError`]: it cannot be read, is too large, or no text.
+/// [`ReadError`]: it cannot be read, is too large, or is not text.
 pub fn read_stream(source: impl Read, limit: u64) -> Result<String, ReadError> {
     text(bytes_of(source, limit)?)
 }
 
-/// The text of a file: UTF-8, or UTF-16 behind its byte order mark, as `>` of PowerShell 5 writes it.
+/// The text in the bytes of a file: UTF-8, or UTF-16 after a byte order mark, as `>` in PowerShell 5 writes it.
 ///
 /// # Errors
 ///

@@ -32,10 +32,10 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`platform`] | where the program runs: a process or a page |
-//! | [`atomic`], [`input`] | files that appear whole or not at all, locks between processes; files from outside |
+//! | [`atomic`], [`input`] | files that appear complete or not at all, locks between processes; files from outside |
 //! | [`ticks`] | round numbers on axes |
-//! | [`citation`] | how the program is cited |
-//! | [`scene`] | what a person edits: files, units, ranges, presets |
+//! | [`citation`] | the citation of the program |
+//! | [`scene`] | scenes, which a person edits: files, units, ranges, presets |
 //! | [`analysis`], [`export`] | several solves; CSV, JSON, NumPy, figures, animations, reports |
 //! | [`lessons`] | lessons and the glossary: their texts, scenes, questions and checks |
 //! | [`job`] | solves and all other work in the background |

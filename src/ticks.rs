@@ -12,18 +12,18 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// About `about` steps of 1, 2 or 5 times a power of ten over `range`.
+    /// About `about` steps over `range`, each 1, 2 or 5 times a power of ten.
     pub fn new(range: [f64; 2], about: usize) -> Self {
         Self::apart(range, (range[1] - range[0]) / about.max(1) as f64)
     }
 
-    /// As [`Self::new`], with more steps if only one number would be there: it alone says nothing about the scale.
+    /// As [`Self::new`], with more steps if there would be only one number, which does not show the scale of the axis.
     pub fn several(range: [f64; 2], about: usize) -> Self {
         let mut more = (about..about + 3).map(|about| Self::new(range, about));
         more.find(|steps| steps.values().count() > 1).unwrap_or_else(|| Self::new(range, about))
     }
 
-    /// Steps of 1, 2 or 5 times a power of ten over `range`, of `least` or more.
+    /// Steps over `range` of at least `least`, each 1, 2 or 5 times a power of ten.
     pub fn apart(range: [f64; 2], least: f64) -> Self {
         Self::of(range, round_up(least))
     }
@@ -34,14 +34,14 @@ impl Steps {
         Self { step, first, last: (range[1] / step + 1e-6).floor() as i64 }
     }
 
-    /// Each step divided into 4 or 5, so that numbers stay round; and which of the two.
+    /// Minor steps: each step is divided into 4 or 5, so that numbers stay round. Returns also which of the two.
     pub fn divided(self, range: [f64; 2]) -> (Self, i64) {
         let lead = self.step / 10f64.powf((self.step.log10() + 1e-9).floor());
         let every = if (1.5..3.0).contains(&lead) { 4 } else { 5 };
         (Self::of(range, self.step / every as f64), every)
     }
 
-    /// Which multiples of the step they are, ascending; at most 101.
+    /// The round numbers as multiples of the step, ascending; at most 101.
     pub fn numbers(self) -> RangeInclusive<i64> {
         self.first..=self.last.min(self.first.saturating_add(100))
     }
@@ -51,12 +51,12 @@ impl Steps {
         self.numbers().map(move |number| number as f64 * self.step)
     }
 
-    /// Decimals that tell numbers apart which are divided by ten to this power.
+    /// Decimals that distinguish neighbouring numbers after division by ten to the power `power`.
     pub fn decimals(&self, power: i32) -> usize {
         (f64::from(power) - self.step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize
     }
 
-    /// From one to the next.
+    /// The step from one number to the next.
     pub fn step(&self) -> f64 {
         self.step
     }
@@ -67,11 +67,11 @@ impl Steps {
     }
 }
 
-/// Fewer decades than this have ticks at 2 and 5 too.
+/// An axis of fewer decades than this has ticks at 2 and 5 too.
 const FEW_DECADES: f64 = 2.5;
 
-/// Ticks of an axis of log₁₀, ascending: the powers of ten, thinned to about `most`; if they are few and `between` is asked for,
-/// 2 and 5 times them as well.
+/// Ticks of a logarithmic axis, as log₁₀ and ascending: about `most` powers of ten, and, if these are few and `between` is true, 2 and 5
+/// times each of them.
 pub fn decades(range: [f64; 2], most: f64, between: bool) -> Vec<f64> {
     let count = range[1] - range[0];
     if !count.is_finite() || count <= 0.0 {

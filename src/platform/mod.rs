@@ -1,5 +1,5 @@
-//! Where the program runs: a process of an operating system, or a page in a browser. Both offer the same names, and nothing else in
-//! the program asks which of them it is, apart from how background work is carried to where it is done ([`crate::job`]).
+//! Where the program runs: in a process of an operating system, or in a page of a browser. Both modules have the same functions and types.
+//! No other module distinguishes the two, except for the files of [`crate::job`] that send background work to a thread or a worker.
 
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
@@ -15,7 +15,7 @@ pub use web_time::{Instant, SystemTime};
 use crate::control::Cancel;
 use std::time::Duration;
 
-/// `cancel`, with so much time for each solve: when it is spent, the best so far is the result.
+/// `cancel`, with a time limit `budget` for each solve. After it, the best result so far is taken.
 pub fn timed(cancel: &Cancel, budget: Duration) -> Cancel {
     cancel.with_budget(move || {
         let started = Instant::now();
@@ -23,26 +23,26 @@ pub fn timed(cancel: &Cancel, budget: Duration) -> Cancel {
     })
 }
 
-/// What a file dialog asks for.
+/// The kind of file that a dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// A file that is there.
+    /// A file that exists.
     File,
     /// A folder.
     Folder,
-    /// A file to write.
+    /// A file to be written.
     NewFile,
 }
 
 /// A file dialog.
 #[derive(Clone, Copy, Debug)]
 pub struct FileDialog<'a> {
-    /// What it asks for.
+    /// The kind of file that it asks for.
     pub asked: Asked,
     /// Its title.
     pub title: &'a str,
-    /// Kind of file, and its extensions.
+    /// The name of a file format, and its extensions.
     pub filter: Option<(&'a str, &'a [&'a str])>,
-    /// What is written is called this at first.
+    /// The name that is suggested for a new file.
     pub name: &'a str,
 }

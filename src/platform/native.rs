@@ -4,20 +4,22 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
+/// Whether there are files and folders. Without them the program offers what it writes as downloads, and reads only files that the user has
+/// opened or dropped on the page.
 pub const HAS_FILES: bool = true;
 
-/// Where it is solved, as the window says it: nothing, in a process.
+/// The words by which the window says where scenes are solved; empty in a process.
 pub const SOLVED_HERE: &str = "";
 
-/// The font of figures: Liberation Sans 2.1.5, with the widths of Arial and Helvetica, so that an SVG looks alike where only those are.
+/// The font of figures: Liberation Sans 2.1.5. It has the widths of Arial and Helvetica, so that an SVG looks alike where only those are
+/// installed.
 pub fn liberation() -> &'static [u8] {
     static FONT: LazyLock<Vec<u8>> =
         LazyLock::new(|| unpacked(include_bytes!("../../assets/fonts/LiberationSans-Regular.ttf.gz")));
     &FONT
 }
 
-/// DejaVu Sans, for the glyphs that other fonts lack: most alphabets, but no pictures (emoji).
+/// DejaVu Sans, for glyphs that other fonts lack. It has most alphabets, but no emoji.
 pub fn dejavu() -> &'static [u8] {
     static FONT: LazyLock<Vec<u8>> = LazyLock::new(|| unpacked(include_bytes!("../../assets/fonts/DejaVuSans.ttf.gz")));
     &FONT
@@ -25,18 +27,18 @@ pub fn dejavu() -> &'static [u8] {
 
 fn unpacked(packed: &[u8]) -> Vec<u8> {
     let mut font = Vec::new();
-    // What is built in can be unpacked: a test does.
+    // The fonts are built in, and a test unpacks them: there is no error here.
     let _ = flate2::read::GzDecoder::new(packed).read_to_end(&mut font);
     font
 }
 
 /// Calls `handler` at every Ctrl-C, and whenever the program is asked to end.
 pub fn on_interrupt(handler: impl FnMut() + Send + 'static) {
-    // Without a handler Ctrl-C ends the program at once, which is all that would be lost.
+    // If there can be no handler, Ctrl-C ends the program at once.
     let _ = ctrlc::set_handler(handler);
 }
 
-/// Does what may block, on a thread of its own.
+/// Does work that may block on a thread of its own.
 ///
 /// # Errors
 /// If no thread can be started.
@@ -44,12 +46,12 @@ pub fn aside(name: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()>
     std::thread::Builder::new().name(format!("squeezefilm-{name}")).spawn(work).map(|_| ())
 }
 
-/// What the user has handed over under this name: never anything where there are files.
+/// The content of the file that the user has opened or dropped under this name: `None` in a process, where files are read from disk.
 pub fn handed_over(_: &Path) -> Option<Vec<u8>> {
     None
 }
 
-/// Hands files to the user: not needed where they can be written.
+/// Offers files as downloads. This is an error in a process, where they are written to disk.
 pub fn hand_out(_: &Path, _: Vec<(PathBuf, Vec<u8>)>) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
@@ -63,9 +65,10 @@ pub mod window {
     use std::path::PathBuf;
     use std::rc::Rc;
 
-    /// Opens the window and returns when it is closed. `storage`: the file in which it keeps what the next one begins with.
+    /// Opens the window and returns when it is closed. In the file `storage` it keeps the state that the next window begins with.
     ///
-    /// It is drawn by OpenGL; where that is refused, by what else there is: on Windows, and where the feature `wgpu` is built in.
+    /// It is drawn by OpenGL. Where there is no OpenGL, it is drawn by Direct3D on Windows, and elsewhere by Vulkan or Metal if the feature
+    /// `wgpu` is built in.
     ///
     /// # Errors
     /// If there is no display, or no way to draw on it.
@@ -93,18 +96,18 @@ pub mod window {
         let icon = eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default();
         eframe::NativeOptions {
             renderer,
-            // Costs a software renderer more than it is worth: nothing in here is a gradient over many pixels.
+            // No dithering: it costs a software renderer much time, and the window has no gradients over many pixels.
             dithering: false,
             viewport: egui::ViewportBuilder::default()
                 .with_title("squeezefilm")
                 .with_app_id("squeezefilm")
                 .with_icon(icon)
                 .with_inner_size([1400.0, 900.0])
-                // Fits a screen of 1366 × 768 at 125 %, with its bars.
+                // This fits on a screen of 1366 × 768 at 125 %, beside the bars of the system.
                 .with_min_inner_size([800.0, 520.0])
                 .with_drag_and_drop(true),
             persistence_path: storage,
-            // The menu that winit makes on macOS ends the program at ⌘Q and asks nobody: without it ⌘Q is a shortcut of the window.
+            // With the menu that winit makes on macOS, ⌘Q ends the program without a question. Without it ⌘Q is a shortcut of the window.
             #[cfg(target_os = "macos")]
             event_loop_builder: Some(Box::new(|builder| {
                 use winit::platform::macos::EventLoopBuilderExtMacOS;
@@ -114,29 +117,31 @@ pub mod window {
         }
     }
 
-    /// Has glibc keep what a redraw frees for the next one. It gives the end of the heap back to the system whenever 128 kB of it are free,
-    /// dozens of times in a redraw, and every page of it is then paid for again: with software rendering a sixth of all time. A large piece that is
-    /// freed raises that limit to twice its size (`mallopt`, dynamic threshold); the largest that does is 32 MiB. None of it is ever touched.
+    /// Makes glibc keep the memory that a redraw frees for the next redraw. By default it returns the end of the heap to the system whenever
+    /// 128 kB there are free, which happens dozens of times in a redraw; the system then has to map every page again, which takes a sixth of the
+    /// time with software rendering. Freeing a large block raises this limit to twice its size (`mallopt`, dynamic threshold), for blocks of up
+    /// to 32 MiB. The memory of the block is never touched.
     fn keep_freed_memory() {
         drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
     }
 
-    /// Whether the system asks for dark colours, if what that is is asked at all: a window begins dark, and stays as it was left.
+    /// Whether the system prefers dark colours: `None`, because a process does not ask. The first window is dark, later ones are as the last one
+    /// was.
     pub fn prefers_dark() -> Option<bool> {
         None
     }
 
-    /// The address that links begin with: none, there is no page.
+    /// The address that links begin with: empty, because there is no page.
     pub fn page() -> String {
         String::new()
     }
 
-    /// What follows the `#` of the page's address.
+    /// The part of the page's address after `#`: empty, because there is no page.
     pub fn fragment() -> String {
         String::new()
     }
 
-    /// The folder for what windows keep.
+    /// The folder in which windows keep their state.
     pub fn storage_folder() -> Option<PathBuf> {
         eframe::storage_dir("squeezefilm")
     }
@@ -148,23 +153,23 @@ pub mod window {
         paths.into_iter().filter(|path| !path.as_os_str().is_empty()).collect()
     }
 
-    /// Tells the page what is shown: there is none, and screen readers are told by the system.
+    /// Gives the page the content of the window, for screen readers. In a process the system does this.
     pub fn mirror(_: &egui::Context) {}
 
-    /// Tells the page of the run on screen: there is none.
+    /// Gives the page the run on screen. In a process there is no page.
     pub fn publish(_: serde_json::Value) {}
 
-    /// What file dialogs are shown over.
+    /// The window over which file dialogs are shown.
     #[derive(Clone, Debug)]
     pub struct Parent(rfd::FileDialog);
 
     impl Parent {
-        /// The window.
+        /// That of a new window.
         pub fn of(context: &eframe::CreationContext<'_>) -> Self {
             Self(rfd::FileDialog::new().set_parent(context))
         }
 
-        /// Shows the system's own dialog; blocks until there is an answer. `None`: it was closed, or there is none.
+        /// Shows the system's own dialog, and blocks until there is an answer. `None` if the dialog was closed, or if there is none.
         pub fn ask(&self, dialog: &FileDialog<'_>) -> Option<PathBuf> {
             let native = self.0.clone().set_title(dialog.title);
             let native = match dialog.filter {

@@ -1,8 +1,8 @@
 //! A page in a browser, or one of its workers.
 //!
-//! There are no files: what the user opens or drops is kept in memory under its name, and what is written becomes a download. There are no
-//! threads that share memory either, because the headers that they need are not those of a plain file host: [`worker`] carries bytes to
-//! workers and back.
+//! There are no files. A file that the user opens or drops is kept in memory under its name, and files that are written become downloads.
+//! There are no threads that share memory either, because they need HTTP headers that a plain file host does not send. [`worker`] sends bytes
+//! to workers and back.
 
 use js_sys::{Array, Uint8Array};
 use std::cell::RefCell;
@@ -12,18 +12,19 @@ use std::path::{Path, PathBuf};
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, Url};
 
-/// Whether there are files and folders. Without them what is written is handed to the user, and what is read was handed over by the user.
+/// Whether there are files and folders. Without them the program offers what it writes as downloads, and reads only files that the user has
+/// opened or dropped on the page.
 pub const HAS_FILES: bool = false;
 
-/// Where it is solved, as the window says it.
+/// The words by which the window says where scenes are solved.
 pub const SOLVED_HERE: &str = " in this browser";
 
-/// The font of figures, with the glyphs that texts of the program use.
+/// The font of figures, reduced to the glyphs that texts of the program use.
 pub fn liberation() -> &'static [u8] {
     include_bytes!("../../assets/fonts/reduced/LiberationSans-Regular.ttf")
 }
 
-/// DejaVu Sans, for the glyphs that other fonts lack: those that texts of the program use, since a browser has to load them.
+/// DejaVu Sans, for glyphs that other fonts lack. It is reduced to the glyphs that texts of the program use, because a browser has to load it.
 pub fn dejavu() -> &'static [u8] {
     include_bytes!("../../assets/fonts/reduced/DejaVuSans.ttf")
 }
@@ -31,14 +32,14 @@ pub fn dejavu() -> &'static [u8] {
 thread_local! {
     /// Files that the user has opened or dropped, under their names.
     static HANDED_OVER: RefCell<HashMap<PathBuf, Vec<u8>>> = RefCell::default();
-    /// The names of those that nothing was done with yet.
+    /// The names of those that have not been handled yet.
     static ARRIVED: RefCell<Vec<PathBuf>> = RefCell::default();
 }
 
-/// Calls `handler` at every Ctrl-C: there is none.
+/// Calls `handler` at every Ctrl-C. On a page there is no Ctrl-C.
 pub fn on_interrupt(_: impl FnMut() + Send + 'static) {}
 
-/// Does what may block: nothing does.
+/// Does work that may block. On a page nothing blocks, and it is done at once.
 ///
 /// # Errors
 /// None.
@@ -47,15 +48,15 @@ pub fn aside(_: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// What the user has handed over under this name.
+/// The content of the file that the user has opened or dropped under this name.
 pub fn handed_over(path: &Path) -> Option<Vec<u8>> {
     HANDED_OVER.with_borrow(|files| files.get(path).cloned())
 }
 
-/// Hands files to the user: one as it is, several in an archive that is called as their folder.
+/// Offers files as downloads: one file as it is, several in an archive with the name of their folder.
 ///
 /// # Errors
-/// If the browser refuses, or an archive cannot be made.
+/// The browser refuses, or an archive cannot be made.
 pub fn hand_out(folder: &Path, files: Vec<(PathBuf, Vec<u8>)>) -> io::Result<()> {
     let (name, bytes) = match <[_; 1]>::try_from(files) {
         Ok([(path, bytes)]) => (path, bytes),
@@ -90,8 +91,7 @@ fn download(name: &str, bytes: &[u8]) -> Result<(), JsValue> {
     Url::revoke_object_url(&url)
 }
 
-/// Workers: each is this same program in an instance of its own, which does what it is sent and sends what comes of it. Messages are
-/// bytes.
+/// Workers. Each is another instance of this program, which receives work and sends back its result. Messages are bytes.
 pub mod worker {
     use super::{Uint8Array, io, refused};
     use wasm_bindgen::prelude::Closure;
@@ -106,11 +106,11 @@ pub mod worker {
     pub enum News {
         /// A message.
         Message(Vec<u8>),
-        /// It has failed, and does nothing any more.
+        /// The worker has failed, and has stopped.
         Failed(String),
     }
 
-    /// A worker. It is ended on drop, whatever it does.
+    /// A worker. On drop it is ended at once.
     #[derive(Debug)]
     pub struct Worker {
         worker: web_sys::Worker,
@@ -119,7 +119,7 @@ pub mod worker {
     }
 
     impl Worker {
-        /// Starts one. `told` is called with what it sends.
+        /// Starts a worker. `told` is called with everything that it sends.
         ///
         /// # Errors
         /// If the browser refuses.
@@ -133,12 +133,12 @@ pub mod worker {
                 if let Some(bytes) = data.dyn_ref::<Uint8Array>() {
                     told(News::Message(bytes.to_vec()));
                 } else if let Some(text) = data.as_string() {
-                    // Told by what handles its panics.
+                    // Sent by the worker's panic hook.
                     told(News::Failed(text));
                 } else if let Some(file) = data.dyn_ref::<js_sys::Array>() {
                     let (name, bytes) = (file.get(0).as_string(), file.get(1).dyn_into::<Uint8Array>());
                     if let (Some(name), Ok(bytes)) = (name, bytes) {
-                        // A browser that refuses a download says so itself.
+                        // If the browser refuses a download, it tells the user itself.
                         let _ = super::download(&name, &bytes.to_vec());
                     }
                 }
@@ -148,7 +148,7 @@ pub mod worker {
             });
             worker.set_onmessage(Some(message.as_ref().unchecked_ref()));
             worker.set_onerror(Some(error.as_ref().unchecked_ref()));
-            // The page has compiled the program already.
+            // The worker gets the program that the page has compiled.
             worker.post_message(&wasm_bindgen::module()).map_err(refused)?;
             Ok(Self { worker, _message: message, _error: error })
         }
@@ -178,7 +178,7 @@ pub mod worker {
             }
         });
         here().set_onmessage(Some(message.as_ref().unchecked_ref()));
-        // As long as the worker.
+        // It lives as long as the worker.
         message.forget();
         std::panic::set_hook(Box::new(|panic| post(&JsValue::from_str(&panic.to_string()))));
     }
@@ -188,7 +188,7 @@ pub mod worker {
         post(&Uint8Array::from(bytes));
     }
 
-    /// In a worker: has the page hand a file to the user.
+    /// In a worker: makes the page offer a file as a download.
     pub(super) fn hand_out(name: &str, bytes: &[u8]) -> io::Result<()> {
         post(&js_sys::Array::of2(&JsValue::from_str(name), &Uint8Array::from(bytes)));
         Ok(())
@@ -199,12 +199,12 @@ pub mod worker {
     }
 
     fn post(message: &JsValue) {
-        // A page that is gone hears nothing.
+        // If the page is gone, nobody receives the message.
         let _ = here().post_message(message);
     }
 }
 
-/// The window: all of the page.
+/// The window, which fills the page.
 #[cfg(feature = "gui")]
 pub mod window {
     use super::super::{Asked, FileDialog};
@@ -218,21 +218,21 @@ pub mod window {
     use wasm_bindgen_futures::spawn_local;
     use web_sys::HtmlCanvasElement;
 
-    /// The element that is drawn into.
+    /// The identifier of the canvas that the window is drawn on.
     const CANVAS: &str = "squeezefilm";
 
     thread_local! {
         static RUNNER: RefCell<Option<eframe::WebRunner>> = const { RefCell::new(None) };
-        /// What the last frame told screen readers, and how much larger than usual it was drawn.
+        /// The tree for screen readers of the last frame, and its zoom factor.
         static SHOWN: RefCell<Option<(egui::accesskit::TreeUpdate, f64)>> = const { RefCell::new(None) };
         static RUN: RefCell<serde_json::Value> = const { RefCell::new(serde_json::Value::Null) };
     }
 
-    /// Opens the window in the page. What it keeps is in the browser's storage. The page is told by an event, `squeezefilm`, whose
-    /// detail is empty or says why there is no window.
+    /// Opens the window in the page. It keeps its state in the browser's storage. When the window is open, or cannot be opened, the page gets an
+    /// event `squeezefilm`, whose detail is empty or the reason.
     ///
     /// # Errors
-    /// If the page has no canvas.
+    /// The page has no canvas.
     pub fn run(_: Option<PathBuf>, start: eframe::AppCreator<'static>) -> Result<(), eframe::Error> {
         let document = web_sys::window().and_then(|window| window.document());
         let canvas =
@@ -256,12 +256,12 @@ pub mod window {
         if let (Some(window), Ok(event)) =
             (web_sys::window(), web_sys::CustomEvent::new_with_event_init_dict(name, &about))
         {
-            // Whoever listens cannot prevent it.
+            // The result only says whether a listener cancelled the event, which has no effect.
             let _ = window.dispatch_event(&event);
         }
     }
 
-    /// Whether the system asks for dark colours.
+    /// Whether the system prefers dark colours.
     pub fn prefers_dark() -> Option<bool> {
         let asked = web_sys::window()?.match_media("(prefers-color-scheme: dark)").ok()??;
         Some(asked.matches())
@@ -277,12 +277,12 @@ pub mod window {
         address.split('#').next().unwrap_or_default().to_owned()
     }
 
-    /// What follows the `#` of the page's address.
+    /// The part of the page's address after `#`.
     pub fn fragment() -> String {
         location().and_then(|location| location.hash().ok()).unwrap_or_default()
     }
 
-    /// The folder for what windows keep: the browser has a storage of its own.
+    /// The folder in which windows keep their state: `None`, because the browser has a storage of its own.
     pub fn storage_folder() -> Option<PathBuf> {
         None
     }
@@ -292,7 +292,7 @@ pub mod window {
         HANDED_OVER.with_borrow_mut(|files| files.insert(name, bytes));
     }
 
-    /// Files that have been dropped on the page or chosen, and are read.
+    /// Files that were dropped on the page or chosen in a dialog, and that have been read.
     pub fn dropped(ctx: &egui::Context) -> Vec<PathBuf> {
         for file in ctx.input(|input| input.raw.dropped_files.clone()) {
             let ctx = ctx.clone();
@@ -306,7 +306,7 @@ pub mod window {
         ARRIVED.take()
     }
 
-    /// What the window tells screen readers, kept for the page: eframe drops it there.
+    /// Keeps the tree for screen readers for the page, where eframe does not use it.
     struct Mirror;
 
     impl egui::Plugin for Mirror {
@@ -325,18 +325,18 @@ pub mod window {
         }
     }
 
-    /// Tells the page from now on what is shown.
+    /// Gives the page the content of the window, for screen readers, from now on.
     pub fn mirror(ctx: &egui::Context) {
         ctx.add_plugin(Mirror);
     }
 
-    /// Tells the page of the run on screen.
+    /// Gives the page the run on screen.
     pub fn publish(run: serde_json::Value) {
         RUN.set(run);
     }
 
-    /// What is shown, as JSON: the run on screen, what has the keyboard, and of each thing in the window what it is, what it is called, its
-    /// value and state, and where it is \[CSS pixels\], in the order in which it is read.
+    /// The content of the window as JSON: the run on screen, the element that has the keyboard focus, and all elements in reading order, each
+    /// with its role, label, value, state and position \[CSS pixels\].
     pub fn told() -> String {
         let (focus, nodes) = SHOWN.with_borrow(|shown| {
             let Some((tree, zoom)) = shown else { return (None, Vec::new()) };
@@ -344,7 +344,7 @@ pub mod window {
             let mut left: Vec<_> = tree.tree.iter().map(|tree| tree.root).collect();
             let mut told = Vec::new();
             while let Some(id) = left.pop() {
-                // Lines of a text are parts of what has the whole of it.
+                // Lines of a text are left out, because the element around them has the whole text.
                 let Some(node) = known.get(&id).filter(|node| node.role() != Role::TextRun) else { continue };
                 left.extend(node.children().iter().rev());
                 let said = |id| known.get(id).and_then(|node| node.label().or(node.value()));
@@ -352,7 +352,7 @@ pub mod window {
                 if label.is_some() || node.value().is_some() {
                     let place = node.bounds().map(|b| [b.x0, b.y0, b.x1, b.y1].map(|length| length * zoom));
                     told.push(serde_json::json!({
-                        // Too many digits for a number in JavaScript.
+                        // A text, because a number in JavaScript has too few digits.
                         "id": id.0.to_string(),
                         "role": format!("{:?}", node.role()),
                         "label": label,
@@ -370,7 +370,7 @@ pub mod window {
         RUN.with_borrow(|run| serde_json::json!({ "run": run, "focus": focus, "nodes": nodes }).to_string())
     }
 
-    /// What file dialogs are shown over.
+    /// The window over which file dialogs are shown.
     #[derive(Clone, Debug)]
     pub struct Parent(egui::Context);
 
@@ -380,7 +380,8 @@ pub mod window {
             Self(context.egui_ctx.clone())
         }
 
-        /// What is written goes where the browser puts downloads. A file that is chosen arrives as one that is dropped on the page.
+        /// The answer to a file dialog. Files that are written become downloads, and need no dialog. A file that is chosen arrives later, like
+        /// one that is dropped on the page.
         pub fn ask(&self, dialog: &FileDialog<'_>) -> Option<PathBuf> {
             match dialog.asked {
                 Asked::NewFile | Asked::Folder => Some(PathBuf::from(dialog.name)),

@@ -1,4 +1,4 @@
-//! The window in a page, and the workers of that page: what `page/index.html` and `page/worker.js` call.
+//! The functions that `page/index.html` and `page/worker.js` call: the window in a page, and the workers of that page.
 #![cfg(target_arch = "wasm32")]
 
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -9,13 +9,13 @@ pub fn open() -> Result<(), String> {
     squeezefilm::gui::open(None, None, None, (None, None)).map_err(|error| error.to_string())
 }
 
-/// What the window shows, as JSON.
+/// The content of the window, as JSON.
 #[wasm_bindgen]
 pub fn told() -> String {
     squeezefilm::platform::window::told()
 }
 
-/// Makes this worker do what its page asks for.
+/// Makes this worker do the work that its page sends.
 #[wasm_bindgen]
 pub fn serve() {
     squeezefilm::job::serve::start();

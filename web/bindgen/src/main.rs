@@ -1,5 +1,5 @@
-//! `squeezefilm-bindgen PROGRAM.wasm FOLDER NAME`: writes the program as a page wants it, with the JavaScript that loads it. The same as
-//! `wasm-bindgen --target web`, without a program to install whose version has to fit.
+//! `squeezefilm-bindgen PROGRAM.wasm FOLDER NAME` writes the program for a page, with the JavaScript that loads it. It does the same as
+//! `wasm-bindgen --target web`, which would have to be installed in the matching version.
 //!
 //! `squeezefilm-bindgen pack FILE PACKED`: packs a file for `squeezefilm-unpack`.
 

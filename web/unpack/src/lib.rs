@@ -1,26 +1,26 @@
-//! Unpacks the program of the page while it is loaded: LZMA makes it a third smaller than what browsers unpack themselves.
+//! Unpacks the program of the page while it is loaded. Packed by LZMA it is a third smaller than in a format that browsers unpack themselves.
 #![cfg(target_arch = "wasm32")]
 
 use lzma_rust2::{Action, LzmaStream, Status};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// What is set aside for a piece that is unpacked \[bytes\].
+/// The buffer for unpacked bytes grows by this much at a time \[bytes\].
 const PIECE: usize = 1 << 18;
 
-/// Unpacks what `squeezefilm-bindgen` packed, piece by piece.
+/// Unpacks a file that `squeezefilm-bindgen` has packed, piece by piece.
 #[wasm_bindgen]
 pub struct Unpacker(LzmaStream);
 
 #[wasm_bindgen]
 impl Unpacker {
-    /// Before the first piece.
+    /// An unpacker that has not received any bytes yet.
     #[wasm_bindgen(constructor)]
     #[allow(clippy::new_without_default)]
     pub fn new() -> Self {
         Self(LzmaStream::new_mem_limit(u32::MAX, None))
     }
 
-    /// The bytes that the next piece of a packed file leads to.
+    /// Takes the next piece of the packed file, and returns the bytes that are unpacked then.
     pub fn push(&mut self, mut packed: &[u8]) -> Result<Vec<u8>, String> {
         let mut unpacked = Vec::new();
         loop {
@@ -37,7 +37,7 @@ impl Unpacker {
         }
     }
 
-    /// Whether all of the file has been unpacked.
+    /// Whether the whole file has been unpacked.
     pub fn is_finished(&self) -> bool {
         self.0.is_finished()
     }
