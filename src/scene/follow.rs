@@ -14,8 +14,8 @@ struct Following {
     key: &'static str,
     /// The key that it follows from: the one that is given instead, or the one that chooses a model.
     source: &'static str,
-    /// The value in the unit of `key`; `None` if the scene gives it.
-    value: fn(&Scene) -> Result<Option<f64>, What>,
+    /// The value in the unit of `key`, from the scene and `source`; `None` if the scene gives it.
+    value: fn(&Scene, &str) -> Result<Option<f64>, What>,
 }
 
 /// Keys that replace another key which they are proportional to, and the factor between the two: the key is that number of times the other
@@ -32,21 +32,9 @@ static FOLLOWING: &[Following] = &[
     Following { key: "film.ambient_pressure_kpa", source: "film.altitude_m", value: pressure_at_altitude },
     Following { key: "film.viscosity_upa_s", source: "film.gas", value: viscosity },
     Following { key: "film.mean_free_path_nm", source: "film.gas", value: mean_free_path },
-    Following {
-        key: "motor.load_per_wave_n",
-        source: "motor.load_n",
-        value: |scene| scene.replaced_by("motor.load_n"),
-    },
-    Following {
-        key: "motor.rotor_speed_rpm",
-        source: "motor.rotor_speed_mm_per_s",
-        value: |scene| scene.replaced_by("motor.rotor_speed_mm_per_s"),
-    },
-    Following {
-        key: "stator.tooth_width_mm",
-        source: "stator.tooth_share",
-        value: |scene| scene.replaced_by("stator.tooth_share"),
-    },
+    Following { key: "motor.load_per_wave_n", source: "motor.load_n", value: Scene::replaced_by },
+    Following { key: "motor.rotor_speed_rpm", source: "motor.rotor_speed_mm_per_s", value: Scene::replaced_by },
+    Following { key: "stator.tooth_width_mm", source: "stator.tooth_share", value: Scene::replaced_by },
     Following { key: "rotor.point_compliance_um_per_n", source: "rotor.model", value: point_compliance },
 ];
 
@@ -54,7 +42,7 @@ impl Scene {
     /// The value of a key that is not given in this scene, and that follows from others; in the unit of the key.
     pub fn following(&self, key: &str) -> Option<f64> {
         let following = FOLLOWING.iter().find(|following| following.key == key && self.is_set(following.source))?;
-        (following.value)(self).ok().flatten()
+        (following.value)(self, following.source).ok().flatten()
     }
 
     /// The value \[in its own unit\] that an optional key would have, where the scene gives the key that it could replace; `None` if the scene
@@ -74,7 +62,7 @@ impl Scene {
     pub(super) fn following_out_of_range(&self) -> impl Iterator<Item = (&'static [&'static str], What)> + '_ {
         FOLLOWING.iter().filter(|following| self.is_set(following.source)).filter_map(
             |Following { key, source, value }| {
-                let (parameter, value) = (Parameter::find(key)?, value(self).ok()??);
+                let (parameter, value) = (Parameter::find(key)?, value(self, source).ok()??);
                 // To ten digits, as a person would write it.
                 let value = as_given(value);
                 let range = parameter.range().filter(|range| !range.contains(value))?;
@@ -112,7 +100,7 @@ impl Scene {
 }
 
 /// C_p = ℓ³/(8 EI) of a beam on a foundation that lets its deflection die out over ℓ, with I = w t³/12.
-fn point_compliance(scene: &Scene) -> Result<Option<f64>, What> {
+fn point_compliance(scene: &Scene, _: &str) -> Result<Option<f64>, What> {
     if scene.text("rotor.model")? != "section" {
         return Ok(None);
     }
@@ -121,16 +109,16 @@ fn point_compliance(scene: &Scene) -> Result<Option<f64>, What> {
     Ok(Some(scene.si("rotor.decay_length_mm")?.powi(3) / (8.0 * bending) * 1e6))
 }
 
-fn pressure_at_altitude(scene: &Scene) -> Result<Option<f64>, What> {
-    Ok(scene.given("film.altitude_m").map(|altitude| atmosphere::pressure(altitude) / 1e3))
+fn pressure_at_altitude(scene: &Scene, altitude: &str) -> Result<Option<f64>, What> {
+    Ok(scene.given(altitude).map(|altitude| atmosphere::pressure(altitude) / 1e3))
 }
 
-fn viscosity(scene: &Scene) -> Result<Option<f64>, What> {
+fn viscosity(scene: &Scene, _: &str) -> Result<Option<f64>, What> {
     let Some(gas) = scene.species()? else { return Ok(None) };
     Ok(Some((gas.viscosity)(scene.si("film.temperature_c")?) * 1e6))
 }
 
-fn mean_free_path(scene: &Scene) -> Result<Option<f64>, What> {
+fn mean_free_path(scene: &Scene, _: &str) -> Result<Option<f64>, What> {
     let Some(gas) = scene.species()? else { return Ok(None) };
     let (pressure, temperature) = (scene.si("film.ambient_pressure_kpa")?, scene.si("film.temperature_c")?);
     Ok(Some(gas.mean_free_path(pressure, temperature) * 1e9))
