@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[np.float64]
 
-#: What needs a solve of its own.
+#: Keys of the summary that need a solve of their own.
 _TORQUE = frozenset({"merit"})
 #: Numbers that a notebook shows, with their error and their unit.
 _HEADLINES = {
@@ -213,7 +213,7 @@ class Run:
         return xarray.Dataset(variables, located, {key: self.summary()[key] for key in ("preset", "version")})
 
     def figures(self) -> list[str]:
-        """Names of the figures that there are of it."""
+        """Names of the figures of this run."""
         return self._inner.figures()
 
     def figure(self, name: str | os.PathLike[str], format: str | None = None) -> Figure:
@@ -238,7 +238,7 @@ class Run:
         return f"<squeezefilm.Run {self.preset!r}: {name} = {value}>"
 
     def _headlines(self) -> Iterator[tuple[str, tuple[str, str, str]]]:
-        """In words, and by name, the numbers that there are of `_HEADLINES`, with their errors and units."""
+        """The numbers of `_HEADLINES` that this run has: for each its words, and its name, its value with error, and its unit."""
         numbers = {**self.summary(), **(self.floating or {})}
         for words, (name, error, unit) in _HEADLINES.items():
             if numbers.get(name) is not None:
@@ -253,7 +253,7 @@ class Run:
 
 
 class Plot:
-    """Drawings of a run in Matplotlib, which has to be installed. Each takes the axes to draw into, `ax`, and returns them."""
+    """Drawings of a run in Matplotlib, which has to be installed. Each draws into the axes `ax`, or into new ones, and returns them."""
 
     def __init__(self, run: Run) -> None:
         self._run = run

@@ -17,7 +17,7 @@ def presets() -> list[str]:
 
 
 def keys() -> dict[str, tuple[str, str]]:
-    """Every key that a scene can have: its unit, and what it is."""
+    """Every key that a scene can have, with its unit and its meaning."""
     return {key: (unit, words) for key, unit, words in _squeezefilm.keys()}
 
 

@@ -1,4 +1,4 @@
-"""What asks for many solves, or follows a film in time."""
+"""Studies that need many solves, and transients of a film."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ._table import Table, rows_html
 
 
 class Found(dict[str, Any]):
-    """An object of ``--json``: its keys are attributes too."""
+    """An object as ``--json`` prints it. Its keys are also attributes."""
 
     #: The scene with the values found, of a fit or an optimum.
     scene_found: Scene | None = None
@@ -163,9 +163,9 @@ def startup(
     fidelity: str | None = None,
     progress: Progress = None,
 ) -> Found:
-    """Starts a scene from rest and follows it until the cycle repeats, `cycles` at most; a plate under a load is dropped.
+    """Starts a scene from rest and follows it until the cycle repeats, for at most `cycles` cycles; a plate under a load is dropped.
 
-    tolerance: what ln(p h) may still change. Returns the object of ``squeezefilm startup --json``; ``table()`` has a row for each cycle.
+    tolerance: the change of ln(p h) that may still come when the cycle counts as repeating. Returns the object of ``squeezefilm startup --json``; ``table()`` has a row for each cycle.
     """
     how = _text.how(accuracy, fidelity)
     with told(progress, "start-up") as tell:
@@ -180,7 +180,8 @@ def hold(
     accuracy: float | str | None = None,
     fidelity: str | None = None,
 ) -> Table:
-    """Force of the film under a plate that is held, and moved evenly from gap to gap: at rest at the first, with gas at ambient pressure.
+    """Force of the film under a plate that is moved through given gaps, at constant speed between two of them. It begins at rest at the first
+    gap, with the gas at ambient pressure.
 
     time_s: ascending instants [s]. gap_um: the gap at each of them [µm], 0.2 to 3 times the scene's mean gap.
 

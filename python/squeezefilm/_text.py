@@ -37,7 +37,7 @@ def toml(given: Any) -> str:
 
 
 def several(given: Iterable[str]) -> list[str]:
-    """Words, of which a single one may be given as it is."""
+    """A list of texts. A single text stands for a list of one."""
     return [given] if isinstance(given, str) else list(given)
 
 
