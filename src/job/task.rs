@@ -12,26 +12,13 @@ pub use page::Task;
 pub use thread::Task;
 
 use super::work::Work;
-
-/// Called after every message of a task with `false`, and at its end with `true`; in a process, from the thread of the task.
-pub trait Wake: Fn(bool) + Send + Sync + 'static {}
-
-impl<F: Fn(bool) + Send + Sync + 'static> Wake for F {}
+pub use super::work::{News, Wake};
 
 /// The task that does the work `W`.
 pub type TaskOf<W> = Task<<W as Work>::Message, <W as Work>::Found>;
 
 /// A task that was started, or why it cannot be done in the background.
 pub type Started<W> = std::io::Result<TaskOf<W>>;
-
-/// What a task has sent since it was last asked.
-#[derive(Debug)]
-pub struct News<M, R> {
-    /// Messages, in order.
-    pub messages: Vec<M>,
-    /// The result of the work, or the text of its panic; `None` while more may come.
-    pub end: Option<Result<R, String>>,
-}
 
 /// All messages of a task and its end, for tests.
 #[cfg(test)]

@@ -24,6 +24,20 @@ pub trait Work: Serialize + DeserializeOwned + Send + 'static {
     fn ended() -> Self::Found;
 }
 
+/// Called after every message of a task with `false`, and at its end with `true`; in a process, from the thread of the task.
+pub trait Wake: Fn(bool) + Send + Sync + 'static {}
+
+impl<F: Fn(bool) + Send + Sync + 'static> Wake for F {}
+
+/// What a task has sent since it was last asked.
+#[derive(Debug)]
+pub struct News<M, R> {
+    /// Messages, in order.
+    pub messages: Vec<M>,
+    /// The result of the work, or the text of its panic; `None` while more may come.
+    pub end: Option<Result<R, String>>,
+}
+
 /// A scene and the problem that it poses. As bytes it is the scene's file.
 #[derive(Clone, Debug)]
 pub struct Posed {

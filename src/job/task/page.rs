@@ -1,8 +1,7 @@
 //! Work of a page: in a worker.
 
-use super::{News, Wake};
 use crate::job::line::{Line, Told};
-use crate::job::work::Work;
+use crate::job::work::{News, Wake, Work};
 use std::cell::RefCell;
 use std::rc::Rc;
 

@@ -1,9 +1,8 @@
 //! Work of a process: on a thread of its own.
 
-use super::{News, Wake};
 use crate::analysis::attempt::caught;
 use crate::control::Cancel;
-use crate::job::work::Work;
+use crate::job::work::{News, Wake, Work};
 use std::sync::mpsc::{Receiver, Sender, SyncSender, TryRecvError, channel, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
