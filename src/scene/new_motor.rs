@@ -146,7 +146,7 @@ pub struct Assumption {
     /// The value that it was given, with its unit.
     pub value: String,
     /// Why it was given that value.
-    pub why: &'static str,
+    pub why: String,
 }
 
 /// A motor from answers.
@@ -183,18 +183,19 @@ impl Draft<'_> {
         self.pairs.push((key, show_number(as_given(value))));
     }
 
-    fn assume(&mut self, key: &'static str, value: f64, why: &'static str) {
+    fn assume(&mut self, key: &'static str, value: f64, why: &str) {
         self.assume_text(key, show_number(as_given(value)), why);
     }
 
-    fn assume_text(&mut self, key: &'static str, value: String, why: &'static str) {
+    fn assume_text(&mut self, key: &'static str, value: String, why: &str) {
         let unit = Parameter::find(key).map_or("", |parameter| parameter.unit);
-        self.assumed.push(Assumption { key, value: format!("{value} {unit}").trim_end().to_owned(), why });
+        let shown = format!("{value} {unit}").trim_end().to_owned();
+        self.assumed.push(Assumption { key, value: shown, why: why.to_owned() });
         self.pairs.push((key, value));
     }
 
     /// Gives a key the answer to `name` as it is, or else assumes `otherwise`.
-    fn take(&mut self, key: &'static str, name: &str, otherwise: f64, why: &'static str) {
+    fn take(&mut self, key: &'static str, name: &str, otherwise: f64, why: &str) {
         match self.number(name) {
             Some(value) => self.give(key, value),
             None => self.assume(key, otherwise, why),
