@@ -7,7 +7,6 @@ mod window;
 use eframe::egui::accesskit::Role;
 use eframe::egui::epaint::{Primitive, Shape};
 use eframe::egui::{Key, Modifiers, Vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::attempt::RunStatus;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
@@ -23,7 +22,7 @@ use squeezefilm::problem::Problem;
 use squeezefilm::scene::{Scene, Value, presets};
 use squeezefilm::solution::{Outcome, StoppedBy};
 use std::time::Duration;
-use window::{Memory, Window, answer, await_path, drop_file, open, solved, until};
+use window::{Memory, User, Window, answer, await_path, drop_file, left, open, reopen, solved, until};
 
 fn window(preset: &str) -> Window {
     window_asking(preset, |_, _| Answer::Cancelled)
@@ -35,8 +34,7 @@ fn window_asking(preset: &str, ask: fn(Purpose, &DialogStart) -> Answer) -> Wind
 }
 
 fn window_in(preset: &str, height: f32, platform: Platform) -> Window {
-    let scene = presets::find(preset).unwrap();
-    open(Document::opened(scene, None), height, platform)
+    window::preset(preset, height, platform)
 }
 
 fn alpha(run: Option<&SolvedScene>) -> f64 {
@@ -54,44 +52,37 @@ fn spacing(app: &App) -> Value {
 fn it_opens_solved_and_moving() {
     let mut window = window("fundamental");
     solved(&mut window);
-    assert!((alpha(window.state().state().run.as_deref()) - 0.24586).abs() < 1e-4);
-    let before = window.state().state().view.phase;
+    assert!((alpha(window.known().run.as_deref()) - 0.24586).abs() < 1e-4);
+    let before = window.known().view.phase;
     for _ in 0..3 {
         std::thread::sleep(Duration::from_millis(30));
         window.step();
     }
-    assert_ne!(window.state().state().view.phase, before);
+    assert_ne!(window.known().view.phase, before);
 }
 
 #[test]
 fn play_step_and_scrub_by_key_and_button() {
     let mut window = window("fundamental");
     solved(&mut window);
-    window.get_by_label("Pause").click();
-    window.step();
-    window.step();
-    assert!(!window.state().state().view.playing);
-    let frames = window.state().state().run.as_deref().unwrap().solution.recording.frames;
+    window.click_on("Pause");
+    assert!(!window.known().view.playing);
+    let frames = window.known().run.as_deref().unwrap().solution.recording.frames;
     let place = |window: &Window| {
         let app = window.state();
         app.state().view.place(&app.state().run.as_deref().unwrap().solution.recording)
     };
-    window.key_press(Key::Home);
-    window.step();
+    window.press(Key::Home);
     assert_eq!(place(&window), 0.0);
-    window.key_press(Key::ArrowLeft);
-    window.step();
+    window.press(Key::ArrowLeft);
     assert_eq!(place(&window), (frames - 1) as f64);
     window.key_press(Key::ArrowRight);
-    window.key_press(Key::ArrowRight);
-    window.step();
+    window.press(Key::ArrowRight);
     assert_eq!(place(&window), 1.0);
-    window.key_press(Key::CloseBracket);
-    window.step();
-    assert_eq!(window.state().state().view.tooth, 1);
-    window.key_press(Key::Space);
-    window.step();
-    assert!(window.state().state().view.playing);
+    window.press(Key::CloseBracket);
+    assert_eq!(window.known().view.tooth, 1);
+    window.press(Key::Space);
+    assert!(window.known().view.playing);
 }
 
 #[test]
@@ -124,9 +115,8 @@ fn without_a_file_dialog_the_path_is_typed() {
     await_path(&mut window);
     window.get_by_label("Save the preset");
     type_path(&mut window, path.to_str().unwrap());
-    window.key_press(Key::Enter);
-    window.run_steps(3);
-    assert_eq!(window.state().state().document.path(), Some(path.as_path()));
+    window.press(Key::Enter);
+    assert_eq!(window.known().document.path(), Some(path.as_path()));
 
     // What is there already is not replaced by Enter, only by the button that says so.
     let other = folder.path().join("other.toml");
@@ -135,55 +125,48 @@ fn without_a_file_dialog_the_path_is_typed() {
     await_path(&mut window);
     type_path(&mut window, other.to_str().unwrap());
     window.get_by_label("There is such a file already");
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    window.press(Key::Enter);
     assert_eq!(std::fs::read_to_string(&other).unwrap(), "not a preset");
-    window.get_by_label("Replace").click();
-    window.run_steps(3);
+    window.click_on("Replace");
     assert!(Scene::load(&other).is_ok());
 
     // Opening: a bad file is explained, a good one is opened.
     std::fs::write(&other, "not a preset").unwrap();
     edit_spacing(&mut window, "90");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    window.run_steps(2);
+    window.ctrl(Key::S);
     for (file, good) in [("absent.toml", false), ("typed.toml", true)] {
         window.key_press_modifiers(Modifiers::COMMAND, Key::O);
         await_path(&mut window);
         window.get_by_label("Open a preset");
         // The path that could not be opened is there to be mended.
-        let Some(Modal::Path(prompt)) = &window.state().state().modal else { panic!("no path is asked for") };
+        let Some(Modal::Path(prompt)) = &window.known().modal else { panic!("no path is asked for") };
         assert_eq!(prompt.path.ends_with("absent.toml"), good, "{}", prompt.path);
         type_path(&mut window, folder.path().join(file).to_str().unwrap());
-        window.key_press(Key::Enter);
-        window.run_steps(3);
+        window.press(Key::Enter);
         assert_eq!(window.query_by_label("This did not work").is_none(), good, "{file}");
-        window.key_press(Key::Escape);
-        window.run_steps(3);
+        window.press(Key::Escape);
     }
-    assert_eq!(window.state().state().document.path(), Some(path.as_path()));
+    assert_eq!(window.known().document.path(), Some(path.as_path()));
     assert_eq!(spacing(window.state()), Value::Number(200.0));
 }
 
 #[test]
 fn a_refusal_goes_with_its_cause() {
     let mut window = window("fundamental");
-    type_into(&mut window, "Contact radius in mm", "5");
+    window.type_into("Contact radius in mm", "5");
     window.get_by_label_contains("of the tooth pitch");
-    type_into(&mut window, "Tooth width in mm", "0.3");
+    window.type_into("Tooth width in mm", "0.3");
     assert!(window.query_by_label_contains("of the tooth pitch").is_none());
-    assert_eq!(window.state().state().document.scene().get("motor.contact_radius_mm"), Some(Value::Number(29.0)));
+    assert_eq!(window.known().document.scene().get("motor.contact_radius_mm"), Some(Value::Number(29.0)));
 }
 
 #[test]
 fn escape_closes_a_menu_and_leaves_the_solver_alone() {
     let mut window = window("fundamental");
     solved(&mut window);
-    window.get_by_label("Presets").click();
-    window.run_steps(2);
+    window.click_on("Presets");
     window.get_by_label_contains("Levitating");
-    window.key_press(Key::Escape);
-    window.run_steps(3);
+    window.press(Key::Escape);
     assert!(window.query_by_label_contains("Levitating").is_none());
 }
 
@@ -199,8 +182,7 @@ fn the_views_can_have_the_whole_window() {
     window.run_steps(2);
     assert!(window.query_all_by_label(label).next().is_none());
     assert!(window.query_by_label("share of the load carried by air").is_none());
-    window.key_press(Key::F2);
-    window.run_steps(2);
+    window.press(Key::F2);
     assert!(window.query_all_by_label(label).next().is_some());
 }
 
@@ -208,36 +190,29 @@ fn the_views_can_have_the_whole_window() {
 fn a_preset_of_the_menu_is_opened_and_solved() {
     let mut window = window("fundamental");
     solved(&mut window);
-    window.get_by_label("Presets").click();
-    window.step();
-    window.step();
+    window.click_on("Presets");
     let name = presets::find("levitating").unwrap().name;
-    window.get_by_label_contains(&name).click();
-    window.step();
-    window.step();
-    assert_eq!(window.state().state().document.scene().name, name);
+    window.click_part(&name);
+    assert_eq!(window.known().document.scene().name, name);
     solved(&mut window);
-    assert!((alpha(window.state().state().run.as_deref()) - 1.0).abs() < 1e-5);
+    assert!((alpha(window.known().run.as_deref()) - 1.0).abs() < 1e-5);
 }
 
 #[test]
 fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     let mut window = window("fundamental");
     solved(&mut window);
-    let steps = |window: &mut Harness<'static, App>| (0..8).for_each(|_| window.step());
-    window.get_by_label("File").click();
-    steps(&mut window);
-    window.get_by_label_contains("New motor…").click();
-    steps(&mut window);
-    let make = |window: &Harness<'static, App>| window.get_by_label("Make this motor").accesskit_node().is_disabled();
+    window.click_on("File");
+    window.run_steps(5);
+    window.click_part("New motor…");
+    window.run_steps(5);
+    let make = |window: &Window| window.get_by_label("Make this motor").accesskit_node().is_disabled();
     assert!(make(&window));
     for (field, text) in
         [("Outer diameter of the stator, mm", "60"), ("Frequency, kHz", "40"), ("Axial load on the rotor, N", "150")]
     {
-        window.get_by_role_and_label(Role::TextInput, field).click();
-        steps(&mut window);
-        window.get_by_role_and_label(Role::TextInput, field).type_text(text);
-        steps(&mut window);
+        window.type_over(Role::TextInput, field, text);
+        window.run_steps(5);
     }
     window.get_by_label_contains("Assumed: Minimum spacing H_m 200 nm: as in the motor of Maeno and Bogy");
     assert!(!make(&window));
@@ -245,9 +220,9 @@ fn a_new_motor_is_made_of_the_answers_of_a_data_sheet() {
     until(&mut window, "the new motor", |app| {
         app.state().document.scene().get("motor.load_n") == Some(Value::Number(150.0))
     });
-    let document = &window.state().state().document;
+    let document = &window.known().document;
     assert!(document.is_dirty() && document.path().is_none() && document.scene().name == "My motor");
-    assert!(window.state().state().modal.is_none());
+    assert!(window.known().modal.is_none());
 }
 
 #[test]
@@ -256,14 +231,12 @@ fn a_bad_file_is_explained_and_changes_nothing() {
     let path = folder.path().join("bad.toml");
     std::fs::write(&path, "schema = 1\n[film]\nmin_spacing_nm = 3\n").unwrap();
     let mut window = window("fundamental");
-    let before = window.state().state().document.scene().clone();
+    let before = window.known().document.scene().clone();
     drop_file(&mut window, path);
     window.get_by_label("This did not work");
     window.get_by_label_contains("film.min_spacing_nm = 3");
-    assert_eq!(window.state().state().document.scene(), &before);
-    window.get_by_label("Close").click();
-    window.step();
-    window.step();
+    assert_eq!(window.known().document.scene(), &before);
+    window.click_on("Close");
     assert!(window.query_by_label("This did not work").is_none());
 }
 
@@ -278,36 +251,31 @@ fn a_dropped_preset_is_opened_and_unsaved_changes_are_asked_about() {
     let mut window = window("fundamental");
     drop_file(&mut window, path.clone());
     assert_eq!(spacing(window.state()), Value::Number(150.0));
-    assert_eq!(window.state().state().document.path(), Some(path.as_path()));
-    assert!(!window.state().state().document.is_dirty());
+    assert_eq!(window.known().document.path(), Some(path.as_path()));
+    assert!(!window.known().document.is_dirty());
 
     // An edit, undone and redone by the keyboard, then a file over it: the question, and "Cancel" keeps everything.
     edit_spacing(&mut window, "120");
     assert_eq!(spacing(window.state()), Value::Number(120.0));
-    assert!(window.state().state().document.is_dirty());
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    window.step();
+    assert!(window.known().document.is_dirty());
+    window.ctrl(Key::Z);
     assert_eq!(spacing(window.state()), Value::Number(150.0));
-    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    window.step();
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(spacing(window.state()), Value::Number(120.0));
     drop_file(&mut window, path.clone());
     window.get_by_label_contains("Save the changes");
-    window.get_by_label("Keep editing").click();
-    window.step();
-    window.step();
+    window.click_on("Keep editing");
     assert_eq!(spacing(window.state()), Value::Number(120.0));
 
     // Saved by the keyboard, the file holds the edit.
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    window.step();
-    assert!(!window.state().state().document.is_dirty());
-    assert_eq!(&Scene::load(&path).unwrap(), window.state().state().document.scene());
+    window.ctrl(Key::S);
+    assert!(!window.known().document.is_dirty());
+    assert_eq!(&Scene::load(&path).unwrap(), window.known().document.scene());
 }
 
 /// Types a minimum spacing.
 fn edit_spacing(window: &mut Window, text: &str) {
-    type_into(window, "Minimum spacing H_m in nm", text);
+    window.type_into("Minimum spacing H_m in nm", text);
 }
 
 /// Presses the keys of a tab.
@@ -317,18 +285,6 @@ fn show(window: &mut Window, tab: Tab) {
     window.key_press_modifiers(Modifiers::COMMAND, keys[place]);
 }
 
-/// Types into the field of a parameter.
-fn type_into(window: &mut Window, field: &str, text: &str) {
-    window.get_by_role_and_label(Role::TextInput, field).click();
-    window.step();
-    window.step();
-    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
-    window.step();
-    window.key_press(Key::Enter);
-    window.step();
-    window.step();
-}
-
 #[test]
 fn an_edit_is_solved_again_and_the_headline_follows() {
     let mut window = window("fundamental");
@@ -336,7 +292,7 @@ fn an_edit_is_solved_again_and_the_headline_follows() {
     window.get_by_label_contains("0.2458");
     edit_spacing(&mut window, "100");
     solved(&mut window);
-    assert!((alpha(window.state().state().run.as_deref()) - 0.4988).abs() < 1e-3);
+    assert!((alpha(window.known().run.as_deref()) - 0.4988).abs() < 1e-3);
     window.step();
     window.get_by_label_contains("0.4987");
     // What is out of range is refused in place; nothing changes.
@@ -361,9 +317,7 @@ fn nothing_is_redrawn_while_nothing_moves() {
     eframe::App::save(window.state_mut(), &mut Memory::default());
     window.step();
     assert!(delay(&window) > Duration::from_secs(3), "{:?}", delay(&window));
-    window.key_press(Key::Space);
-    window.step();
-    window.step();
+    window.press(Key::Space);
     assert!(delay(&window) < Duration::from_millis(50), "{:?}", delay(&window));
 }
 
@@ -373,7 +327,6 @@ fn a_redraw_paints_the_ground_once_and_less_than_the_window_besides() {
     for preset in ["fundamental", "plate-trapped"] {
         let mut window = window(preset);
         solved(&mut window);
-        window.run_steps(3);
         let whole = window.ctx.content_rect();
         let ground = window.ctx.global_style().visuals.panel_fill;
         let grounds = window.output().shapes.iter().filter(|shape| match &shape.shape {
@@ -401,15 +354,10 @@ fn a_redraw_paints_the_ground_once_and_less_than_the_window_besides() {
 fn unsaved_work_survives_a_crash() {
     let mut window = window("tooth-radius-3m");
     edit_spacing(&mut window, "123");
-    let mut memory = Memory::default();
-    eframe::App::save(window.state_mut(), &mut memory);
+    let memory = left(&mut window);
     drop(window);
-    let memory: &'static Memory = Box::leak(Box::new(memory));
-    let window = Harness::builder().with_size(Vec2::new(1024.0, 700.0)).build_eframe(move |context| {
-        context.storage = Some(memory);
-        App::new(context, None).unwrap()
-    });
-    let document = &window.state().state().document;
+    let window = reopen(memory, 700.0, Platform::default());
+    let document = &window.known().document;
     assert_eq!(spacing(window.state()), Value::Number(123.0));
     assert_eq!(document.scene().get("stator.tooth_radius_m"), Some(Value::Number(3.0)));
     assert!(document.is_dirty());
@@ -425,21 +373,15 @@ fn a_window_left_with_a_scene_too_large_for_memory_opens_and_says_so() {
     ];
     let mut scene = presets::find("fundamental").unwrap();
     scene.set_all(large).unwrap();
-    let mut first =
-        Harness::builder().build_eframe(move |context| App::new(context, Some(Document::opened(scene, None))).unwrap());
+    let mut first = open(Document::opened(scene, None), 900.0, Platform::default());
     until(&mut first, "the refusal", |app| app.state().activity.failure.is_some());
-    let mut memory = Memory::default();
-    eframe::App::save(first.state_mut(), &mut memory);
+    let memory = left(&mut first);
     drop(first);
-    let memory: &'static Memory = Box::leak(Box::new(memory));
-    let mut window = Harness::builder().with_size(Vec2::new(1400.0, 900.0)).build_eframe(move |context| {
-        context.storage = Some(memory);
-        App::new(context, None).unwrap()
-    });
+    let mut window = reopen(memory, 900.0, Platform::default());
     until(&mut window, "the refusal", |app| {
         app.state().activity.failure.is_some() && app.state().activity.running.is_none()
     });
-    let steps = window.state().state().document.scene().get("numerics.steps_per_cycle");
+    let steps = window.known().document.scene().get("numerics.steps_per_cycle");
     assert_eq!(steps, Some(Value::Whole(100_000)));
     window.step();
     window.get_by_label_contains("2001 × 501 film nodes on 9 teeth and 100008 steps a cycle need");
@@ -455,14 +397,10 @@ fn the_sheet_of_shortcuts_opens_and_closes() {
     window.get_by_role_and_label(Role::Slider, "Frequency").hover();
     window.run_steps(120);
     assert!(explained(&window));
-    window.key_press(Key::F1);
-    window.step();
-    window.step();
+    window.press(Key::F1);
     window.get_by_label("Keyboard shortcuts");
     assert!(!explained(&window));
-    window.key_press(Key::Escape);
-    window.step();
-    window.step();
+    window.press(Key::Escape);
     assert!(window.query_by_label("Keyboard shortcuts").is_none());
 }
 
@@ -504,22 +442,18 @@ fn a_term_is_switched_and_the_window_says_what_it_changed() {
     let key = "numerics.wedge";
     let mut window = tall_window(little);
     solved(&mut window);
-    window.run_steps(3);
     let decision = |app: &App| {
         let decisions = &app.state().run.as_deref().unwrap().solution.model.decisions;
         *decisions.iter().find(|decision| decision.key() == Some(key)).unwrap()
     };
     let other = if decision(window.state()).value() == "off" { "Solved" } else { "Left out" };
-    window.get_by_role_and_label(Role::ComboBox, "Wedge term").click();
-    window.run_steps(3);
-    let before = window.state().state().activity.number;
-    window.get_by_label(other).click();
-    window.run_steps(2);
-    assert!(window.state().state().activity.number > before, "it is solved anew at once");
-    assert!(window.state().state().document.can_undo());
+    window.open_list("Wedge term");
+    let before = window.known().activity.number;
+    window.click_on(other);
+    assert!(window.known().activity.number > before, "it is solved anew at once");
+    assert!(window.known().document.can_undo());
     solved(&mut window);
-    window.run_steps(3);
-    let change = window.state().state().switches.effect().unwrap();
+    let change = window.known().switches.effect().unwrap();
     assert_eq!((change.key, change.fidelity), (key, Fidelity::Fine));
     assert!(change.before != change.after && change.bound > 0.0 && change.held(), "{change:?}");
     window.get_by_label("Wedge term switched");
@@ -528,11 +462,9 @@ fn a_term_is_switched_and_the_window_says_what_it_changed() {
     window.get_by_label("Overruled");
 
     // One click and it is the plan's again, bit for bit what it was; an edit of something else ends the comparison.
-    window.get_by_label("Wedge term back to auto").click();
-    window.run_steps(2);
-    assert_eq!(window.state().state().document.scene().get(key), Some(Value::Text("auto".to_owned())));
+    window.click_on("Wedge term back to auto");
+    assert_eq!(window.known().document.scene().get(key), Some(Value::Text("auto".to_owned())));
     solved(&mut window);
-    window.run_steps(3);
     assert!(window.query_by_label("Overruled").is_none());
     edit_spacing(&mut window, "150");
     assert!(window.query_by_label("Wedge term switched").is_none());
@@ -545,17 +477,16 @@ fn tabs_are_changed_by_the_keyboard_and_the_timeline_is_the_motions() {
     window.get_by_label("Pause");
     show(&mut window, Tab::Tradeoff);
     window.run_steps(3);
-    assert_eq!(window.state().state().view.tab, Tab::Tradeoff);
+    assert_eq!(window.known().view.tab, Tab::Tradeoff);
     assert!(window.query_by_label("Pause").is_none() && window.query_by_label("Time in the cycle").is_none());
-    assert!(window.state().state().tradeoff.as_ref().is_none(), "nothing is measured before it is asked for");
-    let phase = window.state().state().view.phase;
+    assert!(window.known().tradeoff.as_ref().is_none(), "nothing is measured before it is asked for");
+    let phase = window.known().view.phase;
     window.key_press(Key::Space);
     std::thread::sleep(Duration::from_millis(30));
     window.run_steps(3);
-    assert!(window.state().state().view.playing && window.state().state().view.phase == phase);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
-    window.run_steps(3);
-    assert_eq!(window.state().state().view.tab, Tab::Motion);
+    assert!(window.known().view.playing && window.known().view.phase == phase);
+    window.ctrl(Key::Num1);
+    assert_eq!(window.known().view.tab, Tab::Motion);
     window.get_by_label("Pause");
 }
 
@@ -566,30 +497,22 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
     solved(&mut window);
     show(&mut window, Tab::Tradeoff);
     window.run_steps(2);
-    window.get_by_label("Measure").click();
-    window.run_steps(2);
+    window.click_on("Measure");
     until(&mut window, "the measurement ends", |app| {
         app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running())
     });
-    window.run_steps(2);
-    let points = &window.state().state().tradeoff.as_ref().unwrap().tradeoff().points;
+    let points = &window.known().tradeoff.as_ref().unwrap().tradeoff.points;
     let names: Vec<&str> = points.iter().map(|point| point.run.candidate.name.as_str()).collect();
     assert_eq!(names, ["draft", "standard", "present setting"]);
     assert!(points.iter().all(|point| point.run.status == RunStatus::Converged && point.error.is_some()));
 
     // The cheapest that serves is used, which is one edit.
-    let aim = |window: &Window| window.state().state().document.target();
+    let aim = |window: &Window| window.known().document.target();
     assert_eq!(aim(&window), Fidelity::Fine);
-    window.get_by_role_and_label(Role::SpinButton, "Accuracy").click();
-    window.run_steps(2);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::SpinButton, "Accuracy").type_text("30");
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(2);
-    assert!((window.state().state().view.accuracy - 0.3).abs() < 1e-12);
-    window.get_by_label("Use it for the accuracy").click();
-    window.run_steps(3);
+    window.type_over(Role::SpinButton, "Accuracy", "30");
+    window.press(Key::Enter);
+    assert!((window.known().view.accuracy - 0.3).abs() < 1e-12);
+    window.click_on("Use it for the accuracy");
     assert!(aim(&window) < Fidelity::Fine);
     until(&mut window, "solved as asked", |app| {
         let number = app.state().activity.number;
@@ -598,8 +521,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
             .as_deref()
             .is_some_and(|run| run.number == number && run.fidelity == app.state().document.target())
     });
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    window.run_steps(2);
+    window.ctrl(Key::Z);
     assert_eq!(aim(&window), Fidelity::Fine);
 
     // The table and the figure, as the command line writes them.
@@ -607,7 +529,7 @@ fn error_against_time_is_measured_and_a_setting_is_used() {
         let path = folder.path().join(file);
         window.get_by_label(button).click();
         answer(&mut window, &path);
-        until(&mut window, "written", |app| app.state().exports.written().is_some());
+        until(&mut window, "written", |app| app.state().exports.written.is_some());
         assert!(std::fs::read_to_string(&path).unwrap().starts_with(begins), "{file}");
     }
 
@@ -622,24 +544,19 @@ fn a_measurement_is_cancelled_by_its_button_and_by_closing_the_window() {
     let mut window = tall_window(endless);
     show(&mut window, Tab::Tradeoff);
     window.run_steps(2);
-    window.get_by_label("Measure").click();
-    window.run_steps(2);
+    window.click_on("Measure");
     until(&mut window, "points appear", |app| {
         app.state()
             .tradeoff
             .as_ref()
-            .is_some_and(|measured| measured.tradeoff().points.iter().any(|point| point.median.is_finite()))
+            .is_some_and(|measured| measured.tradeoff.points.iter().any(|point| point.median.is_finite()))
     });
-    window.run_steps(2);
-    window.get_by_label("Cancel the measurement").click();
-    window.run_steps(2);
+    window.click_on("Cancel the measurement");
     until(&mut window, "it ends", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
-    window.run_steps(2);
     window.get_by_label_contains("Cancelled");
     // What was measured stays, another can begin, and the window does not wait for it.
-    window.get_by_label("Measure").click();
-    window.run_steps(2);
-    assert!(window.state().state().tradeoff.as_ref().unwrap().running());
+    window.click_on("Measure");
+    assert!(window.known().tradeoff.as_ref().unwrap().running());
     drop(window);
 }
 
@@ -652,12 +569,11 @@ fn has_torque(app: &App) -> bool {
 fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
     let mut window = tall_window(little);
     solved(&mut window);
-    assert!(window.state().state().torque.found().is_none(), "nothing is computed for a tab that is not shown");
+    assert!(window.known().torque.found().is_none(), "nothing is computed for a tab that is not shown");
     show(&mut window, Tab::Torque);
     window.run_steps(2);
     until(&mut window, "torque over speed", has_torque);
-    window.run_steps(2);
-    let merit = |window: &Window| window.state().state().torque.found().unwrap().as_ref().unwrap().clone();
+    let merit = |window: &Window| window.known().torque.found().unwrap().as_ref().unwrap().clone();
     let before = merit(&window);
     for name in ["Torque of the ring, N·m", "Power, W", "Efficiency, %"] {
         window.get_by_role_and_label(Role::Image, name);
@@ -684,7 +600,6 @@ fn torque_over_speed_is_computed_when_its_tab_is_shown_and_follows_edits() {
     show(&mut window, Tab::Motion);
     edit_spacing(&mut window, "150");
     solved(&mut window);
-    window.run_steps(2);
     assert!(!has_torque(window.state()));
 }
 
@@ -695,12 +610,10 @@ fn a_floating_rotor_and_a_still_stator_have_a_torque_tab_too() {
     show(&mut window, Tab::Torque);
     window.run_steps(2);
     until(&mut window, "torque over speed", has_torque);
-    window.run_steps(2);
     assert!(window.query_all_by_label("none").next().is_some());
-    type_into(&mut window, "Tangential amplitude in µm", "0");
+    window.type_into("Tangential amplitude in µm", "0");
     solved(&mut window);
     until(&mut window, "torque over speed", has_torque);
-    window.run_steps(2);
     window.get_by_label_contains("it drives nothing");
 }
 
@@ -723,7 +636,7 @@ fn a_plate_has_exact_results_in_place_of_torque() {
         for formula in ["κ^2 = (iσ)/Q", "⟨P⟩ = √(", "= ⟨H^3/2 + 6mH^2⟩"] {
             window.get_by_label_contains(formula);
         }
-        assert!(window.state().state().torque.found().is_none());
+        assert!(window.known().torque.found().is_none());
     }
 }
 
@@ -734,19 +647,18 @@ fn an_accuracy_is_typed_in_place_of_a_name() {
     let type_in = |window: &mut Window, text: &str| into_target(window, "Accuracy", text);
     type_in(&mut window, "0,7 %");
     let asked = Fidelity::to(0.007);
-    assert_eq!(window.state().state().document.target(), asked);
+    assert_eq!(window.known().document.target(), asked);
     until(&mut window, "it is solved for", |app| app.state().run.as_deref().is_some_and(|run| run.fidelity == asked));
     window.get_by_label("0.7%");
     type_in(&mut window, "70%");
     window.get_by_label_contains("a relative error from 0.0001% to 50%");
-    assert_eq!(window.state().state().document.target(), asked);
+    assert_eq!(window.known().document.target(), asked);
 }
 
 /// Types into a field of the list of fidelities, and presses Enter.
 fn into_target(window: &mut Window, field: &str, text: &str) {
     if window.query_by_role_and_label(Role::TextInput, field).is_none() {
-        window.get_by_role_and_label(Role::ComboBox, "Solved up to").click();
-        window.run_steps(3);
+        window.open_list("Solved up to");
     }
     window.get_by_role_and_label(Role::TextInput, field).focus();
     window.run_steps(2);
@@ -754,8 +666,7 @@ fn into_target(window: &mut Window, field: &str, text: &str) {
     window.key_press(Key::Delete);
     window.get_by_role_and_label(Role::TextInput, field).type_text(text);
     window.run_steps(2);
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    window.press(Key::Enter);
 }
 
 #[test]
@@ -765,7 +676,7 @@ fn a_solve_takes_no_longer_than_was_allowed() {
     into_target(&mut window, "Accuracy", "0.0001%");
     // So short that the coarsest grids are all there is time for.
     into_target(&mut window, "Time for a solve", "0,1 ms");
-    assert_eq!(window.state().state().budget, Some(Duration::from_micros(100)));
+    assert_eq!(window.known().budget, Some(Duration::from_micros(100)));
     let list = window.get_by_role_and_label(Role::ComboBox, "Solved up to");
     assert_eq!(list.accesskit_node().value().as_deref(), Some("0.0001%, within 100µs"));
     let asked = Fidelity::to(1e-6);
@@ -777,7 +688,7 @@ fn a_solve_takes_no_longer_than_was_allowed() {
                 && run.solution.accuracy.stopped_by == StoppedBy::Budget
         })
     });
-    let within = window.state().state().run.clone().unwrap();
+    let within = window.known().run.clone().unwrap();
     assert!(
         within.solution.accuracy.stated > 1e-6 && within.solution.stats.film_steps < 1000,
         "{:?}",
@@ -786,12 +697,11 @@ fn a_solve_takes_no_longer_than_was_allowed() {
     window.get_by_label("The time allowed was up before the error was as small as asked for");
     into_target(&mut window, "Time for a solve", "soon");
     window.get_by_label_contains("soon has none of the units µs, ms, s and min");
-    assert_eq!(window.state().state().budget, Some(Duration::from_micros(100)));
-    window.key_press(Key::Escape);
-    window.run_steps(3);
+    assert_eq!(window.known().budget, Some(Duration::from_micros(100)));
+    window.press(Key::Escape);
     into_target(&mut window, "Accuracy", "2%");
     into_target(&mut window, "Time for a solve", "");
-    assert_eq!(window.state().state().budget, None);
+    assert_eq!(window.known().budget, None);
     until(&mut window, "it is solved for as long as it takes", |app| {
         app.state().run.as_deref().is_some_and(|run| run.solution.accuracy.stopped_by == StoppedBy::Accuracy)
     });
@@ -804,8 +714,7 @@ fn light_and_dark_leave_the_zoom_alone() {
     window.ctx.set_zoom_factor(1.2);
     window.run_steps(2);
     for (key, zoom) in [(Key::T, 1.2), (Key::L, 1.2 * 1.35), (Key::T, 1.2 * 1.35), (Key::L, 1.2)] {
-        window.key_press_modifiers(Modifiers::COMMAND, key);
-        window.run_steps(2);
+        window.ctrl(key);
         assert!((window.ctx.zoom_factor() - zoom).abs() < 1e-4, "{key:?}: {}", window.ctx.zoom_factor());
     }
 }

@@ -16,7 +16,7 @@ use squeezefilm::scene::{Scene, Value, presets};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
-use window::{Memory, Window, begin_export, drop_file, open, until};
+use window::{Memory, User, Window, begin_export, drop_file, open, reopen, until};
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SPACING: &str = "film.min_spacing_nm";
@@ -32,19 +32,6 @@ fn plate() -> Window {
     window(|_, _| Answer::Cancelled, (presets::find("plate-crossover").unwrap(), None))
 }
 
-/// Types into the field of a parameter, and leaves the cursor there.
-fn start_typing(window: &mut Window, field: &str, text: &str) {
-    window.get_by_role_and_label(Role::TextInput, field).click();
-    window.run_steps(2);
-    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
-    window.step();
-}
-
-fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
-    window.key_press_modifiers(modifiers, key);
-    window.run_steps(3);
-}
-
 fn value(app: &App, key: &str) -> Value {
     app.state().document.scene().get(key).unwrap()
 }
@@ -56,14 +43,14 @@ fn what_is_being_typed_is_saved_too() {
     let scene = presets::find("fundamental").unwrap();
     scene.save(&path).unwrap();
     let mut window = window(|_, _| Answer::Cancelled, (scene, Some(path.clone())));
-    start_typing(&mut window, FIELD, "120");
-    press(&mut window, CTRL, Key::S);
+    window.type_over(Role::TextInput, FIELD, "120");
+    window.ctrl(Key::S);
     assert_eq!(Scene::load(&path).unwrap().get(SPACING), Some(Value::Number(120.0)));
-    assert!(!window.state().state().document.is_dirty());
+    assert!(!window.known().document.is_dirty());
     // What is refused is not taken for saved: the field says why, and the file is as it was.
     let before = std::fs::metadata(&path).unwrap().modified().unwrap();
-    start_typing(&mut window, FIELD, "3");
-    press(&mut window, CTRL, Key::S);
+    window.type_over(Role::TextInput, FIELD, "3");
+    window.ctrl(Key::S);
     window.get_by_label_contains("allowed 5 to 10000 nm");
     assert_eq!(std::fs::metadata(&path).unwrap().modified().unwrap(), before);
 }
@@ -72,13 +59,13 @@ fn what_is_being_typed_is_saved_too() {
 fn what_is_being_typed_is_asked_about_before_the_window_closes() {
     for by_key in [true, false] {
         let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
-        start_typing(&mut window, FIELD, "120");
+        window.type_over(Role::TextInput, FIELD, "120");
         if by_key {
-            press(&mut window, CTRL, Key::Q);
+            window.ctrl(Key::Q);
         } else {
             close(&mut window);
         }
-        assert!(!window.state().state().quitting, "by key: {by_key}");
+        assert!(!window.known().quitting, "by key: {by_key}");
         window.get_by_label_contains("Save the changes");
         assert_eq!(value(window.state(), SPACING), Value::Number(120.0));
     }
@@ -97,33 +84,29 @@ fn close(window: &mut Window) {
 fn shortcuts_do_not_act_behind_a_question_or_in_a_text() {
     let mut window = plate();
     let key = "plate.frequency_khz";
-    start_typing(&mut window, "Frequency in kHz", "12");
-    window.key_press(Key::Enter);
-    window.run_steps(2);
+    window.type_into("Frequency in kHz", "12");
     assert_eq!(value(window.state(), key), Value::Number(12.0));
     // A text has an undo of its own.
-    start_typing(&mut window, "Frequency in kHz", "13");
-    press(&mut window, CTRL, Key::Z);
+    window.type_over(Role::TextInput, "Frequency in kHz", "13");
+    window.ctrl(Key::Z);
     assert_eq!(value(window.state(), key), Value::Number(12.0));
-    window.key_press(Key::Escape);
-    window.run_steps(2);
+    window.press(Key::Escape);
     // Behind the question nothing is undone, pinned or opened; the theme may be changed.
-    press(&mut window, CTRL, Key::Q);
+    window.ctrl(Key::Q);
     window.get_by_label_contains("Save the changes");
-    let tab = window.state().state().view.tab;
+    let tab = window.known().view.tab;
     for asked in [Key::Z, Key::D, Key::Num3] {
-        press(&mut window, CTRL, asked);
+        window.ctrl(asked);
     }
-    let state = window.state().state();
+    let state = window.known();
     assert_eq!(value(window.state(), key), Value::Number(12.0));
     assert!(state.pins.runs().is_empty() && state.view.tab == tab && state.dark);
-    press(&mut window, CTRL, Key::T);
-    assert!(!window.state().state().dark);
-    window.get_by_label("Keep editing").click();
-    window.run_steps(2);
-    press(&mut window, CTRL, Key::Z);
+    window.ctrl(Key::T);
+    assert!(!window.known().dark);
+    window.click_on("Keep editing");
+    window.ctrl(Key::Z);
     assert_ne!(value(window.state(), key), Value::Number(12.0));
-    press(&mut window, CTRL, Key::Y);
+    window.ctrl(Key::Y);
     assert_eq!(value(window.state(), key), Value::Number(12.0));
 }
 
@@ -132,9 +115,8 @@ fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
     let mut window = window(|_, _| Answer::Cancelled, (presets::find("fundamental").unwrap(), None));
     let torque = |app: &App| app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run));
     until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
-    press(&mut window, CTRL, Key::Num4);
+    window.ctrl(Key::Num4);
     until(&mut window, "torque over speed", torque);
-    window.run_steps(2);
     window.get_by_label_contains("✔ Converged");
     assert!(window.query_by_label_contains("Of the scene before this edit").is_none());
     // A scene that no memory holds is refused at once: what is shown is of the one before.
@@ -147,7 +129,6 @@ fn results_of_an_earlier_scene_are_not_shown_as_present_ones() {
     large.save(&path).unwrap();
     drop_file(&mut window, path);
     until(&mut window, "the refusal", |app| app.state().activity.failure.is_some());
-    window.run_steps(2);
     assert!(window.query_by_label_contains("✔ Converged").is_none());
     assert_eq!(window.query_all_by_label_contains("Of the scene before this edit; the present one has no").count(), 2);
 }
@@ -170,18 +151,17 @@ fn cancelling_one_dialog_leaves_the_others_alone_and_none_is_there_twice() {
         }
     }
     let mut window = window(ask, (presets::find("plate-crossover").unwrap(), None));
-    start_typing(&mut window, "Frequency in kHz", "12");
-    press(&mut window, CTRL, Key::Q);
-    window.get_by_label("Save").click();
-    window.run_steps(2);
-    press(&mut window, CTRL | Modifiers::SHIFT, Key::S);
-    press(&mut window, CTRL, Key::O);
+    window.type_over(Role::TextInput, "Frequency in kHz", "12");
+    window.ctrl(Key::Q);
+    window.click_on("Save");
+    window.press_with(CTRL | Modifiers::SHIFT, Key::S);
+    window.ctrl(Key::O);
     std::thread::sleep(Duration::from_millis(50));
     window.run_steps(3);
     CANCELLED.store(true, Ordering::SeqCst);
     until(&mut window, "saved, and closed as asked", |app| app.state().quitting);
     assert_eq!(SHOWN.load(Ordering::SeqCst), 1);
-    let path = window.state().state().document.path().unwrap().to_owned();
+    let path = window.known().document.path().unwrap().to_owned();
     assert_eq!(Scene::load(&path).unwrap().get("plate.frequency_khz"), Some(Value::Number(12.0)));
     std::fs::remove_file(path).unwrap();
 }
@@ -190,7 +170,7 @@ fn cancelling_one_dialog_leaves_the_others_alone_and_none_is_there_twice() {
 fn a_path_is_kept_in_full() {
     let path = PathBuf::from("presets/plate-crossover.toml");
     let window = window(|_, _| Answer::Cancelled, (Scene::load(&path).unwrap(), Some(path.clone())));
-    let state = window.state().state();
+    let state = window.known();
     assert_eq!(state.document.path(), Some(std::env::current_dir().unwrap().join(&path).as_path()));
 }
 
@@ -202,20 +182,18 @@ fn a_file_holds_what_its_name_says() {
     // Another kind of file is refused, and nothing is written.
     begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x.jpg"));
     window.get_by_label_contains("allowed .npz");
-    window.get_by_label("Close").click();
-    window.run_steps(2);
+    window.click_on("Close");
     assert!(!folder.path().join("x.jpg").exists());
     // Without an extension it gets its own, but replaces nothing that nobody was asked about.
     begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
-    until(&mut window, "written", |app| app.state().exports.written().is_some());
+    until(&mut window, "written", |app| app.state().exports.written.is_some());
     assert!(folder.path().join("x.npz").is_file() && !folder.path().join("x").exists());
     begin_export(&mut window, "Fields as NumPy archive…", &folder.path().join("x"));
     window.get_by_label_contains("give its whole name");
-    window.get_by_label("Close").click();
-    window.run_steps(2);
+    window.click_on("Close");
     begin_export(&mut window, "Animation…", &folder.path().join("cycle"));
     until(&mut window, "the animation is under way or done", |app| {
-        app.state().exports.running().is_some() || app.state().exports.written().is_some()
+        app.state().exports.running().is_some() || app.state().exports.written.is_some()
     });
     until(&mut window, "the animation", |app| app.state().exports.running().is_none());
     assert!(folder.path().join("cycle.gif").is_file() && !folder.path().join("cycle").exists());
@@ -225,24 +203,19 @@ fn a_file_holds_what_its_name_says() {
 fn quitting_asks_about_work_that_goes_on() {
     let mut window = plate();
     until(&mut window, "solved", |app| app.state().activity.running.is_none() && !app.state().awaits_result());
-    press(&mut window, CTRL, Key::Num3);
-    window.get_by_role_and_label(Role::TextInput, "Values along x").click();
-    window.run_steps(2);
-    window.key_press_modifiers(CTRL, Key::A);
-    window.get_by_role_and_label(Role::TextInput, "Values along x").type_text("2000");
-    window.run_steps(2);
+    window.ctrl(Key::Num3);
+    window.type_over(Role::TextInput, "Values along x", "2000");
+    window.step();
     window.get_by_label("Start the sweep").click();
-    until(&mut window, "the sweep", |app| app.state().sweep.swept().is_some_and(|swept| swept.running()));
+    until(&mut window, "the sweep", |app| app.state().sweep.swept().is_some_and(|swept| swept.running));
     close(&mut window);
-    assert!(!window.state().state().quitting);
+    assert!(!window.known().quitting);
     window.get_by_label_contains("of 2000 points");
-    window.get_by_label("Keep the window open").click();
-    window.run_steps(2);
-    assert!(window.state().state().sweep.swept().is_some_and(|swept| swept.running()));
-    press(&mut window, CTRL, Key::Q);
-    window.get_by_label("Quit anyway").click();
-    window.run_steps(2);
-    assert!(window.state().state().quitting);
+    window.click_on("Keep the window open");
+    assert!(window.known().sweep.swept().is_some_and(|swept| swept.running));
+    window.ctrl(Key::Q);
+    window.click_on("Quit anyway");
+    assert!(window.known().quitting);
 }
 
 #[test]
@@ -250,20 +223,16 @@ fn pins_that_were_removed_together_come_back() {
     let mut window = plate();
     let waits = |app: &App| app.state().activity.running.is_some() || app.state().awaits_result();
     for frequency in ["12", "13"] {
-        start_typing(&mut window, "Frequency in kHz", frequency);
-        window.key_press(Key::Enter);
-        window.run_steps(2);
+        window.type_into("Frequency in kHz", frequency);
         until(&mut window, "solved", |app| !waits(app));
-        press(&mut window, CTRL, Key::D);
+        window.ctrl(Key::D);
     }
-    press(&mut window, CTRL, Key::Num2);
-    assert_eq!(window.state().state().pins.runs().len(), 2);
-    window.get_by_label("Remove all").click();
-    window.run_steps(3);
-    assert!(window.state().state().pins.runs().is_empty());
-    window.get_by_label("Bring the pins back").click();
-    window.run_steps(3);
-    assert_eq!(window.state().state().pins.runs().len(), 2);
+    window.ctrl(Key::Num2);
+    assert_eq!(window.known().pins.runs().len(), 2);
+    window.click_on("Remove all");
+    assert!(window.known().pins.runs().is_empty());
+    window.click_on("Bring the pins back");
+    assert_eq!(window.known().pins.runs().len(), 2);
 }
 
 #[test]
@@ -271,12 +240,8 @@ fn what_the_last_window_left_and_cannot_be_read_is_told_and_kept() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("app.ron");
     let open = |memory: Memory, file: PathBuf| {
-        let memory: &'static Memory = Box::leak(Box::new(memory));
         let platform = Platform { storage: Some(file), ask: |_, _| Answer::Cancelled, ..Platform::default() };
-        Harness::builder().with_size(Vec2::new(1400.0, 900.0)).build_eframe(move |context| {
-            context.storage = Some(memory);
-            App::on_platform(context, None, platform).unwrap()
-        })
+        reopen(memory, 900.0, platform)
     };
     let kept = || std::fs::read_dir(folder.path()).unwrap().count();
     // A scene of a later version.

@@ -5,15 +5,13 @@
 mod window;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, vec2};
+use eframe::egui::{Key, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use squeezefilm::analysis::quantity::{Numbers, Quantity};
 use squeezefilm::fidelity::Fidelity;
-use squeezefilm::gui::app::App;
 use squeezefilm::gui::command::Command;
 use squeezefilm::gui::derived::words as labels;
 use squeezefilm::gui::state::dialogs::Answer;
-use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::link::Link;
 use squeezefilm::gui::state::tour;
 use squeezefilm::gui::state::view::Tab;
@@ -21,12 +19,12 @@ use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::job::SolvedScene;
 use squeezefilm::lessons::work::{Score, Stage, StepWork};
 use squeezefilm::lessons::{self, Act, Doing, Kind, Prediction, Question, Step, WindowNames, text};
-use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value, presets};
+use squeezefilm::scene::{Parameter, ParameterKind, Scene, Value};
 use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::{Duration, Instant};
-use window::{Memory, Window, await_path, click, drop_file, reopen};
+use window::{Memory, User, Window, answer, drop_file, left, reopen, until};
 
 fn platform() -> Platform {
     Platform { ask: |_, _| Answer::NoDialog, ..Platform::default() }
@@ -34,19 +32,12 @@ fn platform() -> Platform {
 
 /// A window tall enough that nothing has to be scrolled.
 fn window(preset: &str) -> Window {
-    let scene = presets::find(preset).unwrap();
-    window::open(Document::opened(scene, None), 1700.0, platform())
+    window::preset(preset, 1700.0, platform())
 }
 
 /// A window that was there before, or never, and opens no file.
 fn window_with(memory: Memory) -> Window {
     reopen(memory, 1700.0, platform())
-}
-
-/// Steps until `ready`, and a little more.
-fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
-    window::until(window, what, ready);
-    window.run_steps(2);
 }
 
 /// Until the scene on the table is solved well enough to judge by.
@@ -59,41 +50,22 @@ fn solved(window: &mut Window) {
     });
 }
 
-/// An entry of a menu: its name has its keys behind it.
-fn choose(window: &mut Window, entry: &str) {
-    window.get_by_label_contains(entry).click();
-    window.run_steps(3);
-}
-
-fn shows(window: &Window, part: &str) -> bool {
-    window.query_all_by_label_contains(part).next().is_some()
-}
-
 /// Opens a lesson from the menu.
 fn open(window: &mut Window, title: &str) {
-    click(window, "Lessons");
+    window.click_on("Lessons");
     window.get_by_label_contains(title).click();
     window.run_steps(20);
-    assert!(window.state().state().lessons.running().is_some(), "{title}");
+    assert!(window.known().lessons.running().is_some(), "{title}");
 }
 
 fn step(window: &Window) -> (usize, Step) {
-    let teaching = &window.state().state().lessons;
+    let teaching = &window.known().lessons;
     (teaching.running().unwrap().step, teaching.step().unwrap().1.clone())
 }
 
 fn work(window: &Window) -> StepWork {
-    let running = window.state().state().lessons.running().unwrap();
+    let running = window.known().lessons.running().unwrap();
     running.work[running.step].clone()
-}
-
-fn type_into(window: &mut Window, field: &str, text: &str) {
-    window.get_by_role_and_label(Role::TextInput, field).click();
-    window.run_steps(2);
-    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(2);
 }
 
 /// Changes a parameter as a student does: types a number, or chooses a name.
@@ -101,25 +73,24 @@ fn change(window: &mut Window, key: &str, value: &str) {
     let parameter = Parameter::find(key).unwrap();
     match parameter.kind {
         ParameterKind::Choice { .. } => {
-            window.get_by_role_and_label(Role::ComboBox, labels::label(parameter)).click();
-            window.run_steps(3);
-            click(window, labels::choice(key, value));
+            window.open_list(labels::label(parameter));
+            window.click_on(&labels::choice(key, value));
         }
         _ => {
-            if window.state().state().document.scene().get(key).is_none() {
-                click(window, labels::switch(parameter));
+            if window.known().document.scene().get(key).is_none() {
+                window.click_on(labels::switch(parameter));
             }
-            type_into(window, &labels::field_name(parameter), value);
+            window.type_into(&labels::field_name(parameter), value);
         }
     }
-    let set = window.state().state().document.scene().get(key).unwrap();
+    let set = window.known().document.scene().get(key).unwrap();
     assert_eq!(set.to_string().trim_matches('"'), value, "{key}");
 }
 
 /// Drags the held plate to a gap \[µm\], in a few frames.
 fn drag_plate(window: &mut Window, gap: f64) {
     let rect = window.get_by_label("Held plate: drag it up and down").rect();
-    let holding = window.state().state().hold.as_ref().unwrap();
+    let holding = window.known().hold.as_ref().unwrap();
     let (from, reach) = (holding.now().reading.gap * 1e6, holding.reach()[1] * 1e6);
     // Its reach is seven tenths of the drawing.
     let way = 0.7 * rect.height() * ((from - gap) / reach) as f32;
@@ -149,9 +120,9 @@ fn act(window: &mut Window, doing: &Doing) {
         match act {
             Act::Hold(gap) => drag_plate(window, *gap),
             Act::StartUp => {
-                click(window, "Start from rest");
+                window.click_on("Start from rest");
                 until(window, "the start-up ends", |app| {
-                    app.state().startup.as_ref().is_some_and(|starting| starting.ended().is_some())
+                    app.state().startup.as_ref().is_some_and(|starting| starting.ended.is_some())
                 });
             }
         }
@@ -171,7 +142,7 @@ fn read_off(window: &mut Window) {
 
 /// Text of the first block, with the numbers of the run as the window shows them.
 fn first_line(window: &Window, blocks: &[text::Block], told: bool) -> String {
-    let state = window.state().state();
+    let state = window.known();
     let quoted = |reading: &_| state.lessons.quoted(reading, state.document.scene(), told);
     match &blocks[0] {
         text::Block::Paragraph(parts) | text::Block::Item(parts) => text::plain(&text::filled(parts, &quoted)),
@@ -190,14 +161,13 @@ fn radio(window: &mut Window, choice: &lessons::Choice) {
 
 /// Goes to the next step, whatever is still to be done in this one.
 fn go_on(window: &mut Window) {
-    window.key_press(Key::PageDown);
-    window.run_steps(3);
+    window.press(Key::PageDown);
 }
 
 /// Asks for all hints, and then to be shown how.
 fn show_me(window: &mut Window) {
     for button in ["Give me a hint", "One more hint", "Show me"] {
-        click(window, button);
+        window.click_on(button);
     }
 }
 
@@ -206,7 +176,7 @@ fn predict(window: &mut Window, step: &Step) {
     let Some(question) = &step.question else { return };
     let why = first_line(window, &question.why, true);
     let button = if question.kind == Kind::Calculate { "This is my result" } else { "This is my prediction" };
-    assert!(!shows(window, &why) && !shows(window, "Your turn"), "{}: shown before the prediction", step.title);
+    assert!(!window.shows(&why) && !window.shows("Your turn"), "{}: shown before the prediction", step.title);
     let disabled = window.get_by_label(button).accesskit_node().is_disabled();
     assert!(disabled, "{}: nothing is predicted yet", step.title);
     match &question.answer {
@@ -220,43 +190,37 @@ fn predict(window: &mut Window, step: &Step) {
         lessons::Answer::Number { value, .. } => {
             // A calculation that is wrong is not told: it has a second try.
             calculate(window, 7.0 * value);
-            click(window, button);
-            assert!(!work(window).committed && work(window).wrong == 1 && shows(window, "Once more"), "{}", step.title);
-            assert!(!shows(window, &why), "{}: told after the first try", step.title);
+            window.click_on(button);
+            assert!(!work(window).committed && work(window).wrong == 1 && window.shows("Once more"), "{}", step.title);
+            assert!(!window.shows(&why), "{}: told after the first try", step.title);
             // The same number again is no second try.
-            window.key_press(Key::Enter);
-            window.run_steps(3);
+            window.press(Key::Enter);
             assert!(!work(window).committed && work(window).wrong == 1, "{}", step.title);
             calculate(window, *value);
         }
     }
-    assert!(!shows(window, &why), "{}: shown before the prediction was made", step.title);
-    click(window, button);
+    assert!(!window.shows(&why), "{}: shown before the prediction was made", step.title);
+    window.click_on(button);
     assert!(work(window).committed);
     let why = first_line(window, &question.why, true);
-    assert_eq!(shows(window, &why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
+    assert_eq!(window.shows(&why), step.task.is_none(), "{}: the answer comes after the trial", step.title);
 }
 
 /// Types a number into the field of a calculation.
 fn calculate(window: &mut Window, value: f64) {
-    window.get_by_role_and_label(Role::SpinButton, "Your number").click();
-    window.run_steps(3);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::SpinButton, "Your number").type_text(&value.to_string());
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    window.type_over(Role::SpinButton, "Your number", &value.to_string());
+    window.press(Key::Enter);
     let Some(Prediction::Number(given)) = work(window).prediction else { panic!("no number was given") };
     assert!((given - value).abs() < 1e-6);
 }
 
 /// Says what was seen: first something else, which is told to be wrong.
 fn look(window: &mut Window, observe: &Question, title: &str) {
-    assert!(shows(window, "What did you see?"), "{title}");
+    assert!(window.shows("What did you see?"), "{title}");
     assert_eq!(stage(window), Stage::Observation, "{title}: nothing is told before it was looked at");
     let lessons::Answer::Choice { choices, right } = &observe.answer else { panic!("{title}: it has choices") };
     radio(window, &choices[(right + 1) % choices.len()]);
-    assert!(stage(window) == Stage::Observation && shows(window, "not what your run shows"), "{title}");
+    assert!(stage(window) == Stage::Observation && window.shows("not what your run shows"), "{title}");
     radio(window, &choices[*right]);
     assert_eq!((stage(window), work(window).misread), (Stage::Told, 1), "{title}");
 }
@@ -264,15 +228,15 @@ fn look(window: &mut Window, observe: &Question, title: &str) {
 /// Walks a lesson: at each task first what does not do, then what does.
 fn walk(lesson: usize) {
     let mut window = window("fundamental");
-    let title = window.state().state().lessons.lessons()[lesson].title.clone();
-    let before = window.state().state().document.scene().clone();
+    let title = window.known().lessons.lessons()[lesson].title.clone();
+    let before = window.known().document.scene().clone();
     open(&mut window, &title);
-    let steps = window.state().state().lessons.lessons()[lesson].steps.len();
+    let steps = window.known().lessons.lessons()[lesson].steps.len();
     for number in 0..steps {
         let (at, step) = step(&window);
         assert_eq!(at, number);
         window.get_by_label(&step.title);
-        assert_eq!(window.state().state().document.scene(), &step.scene, "{}", step.title);
+        assert_eq!(window.known().document.scene(), &step.scene, "{}", step.title);
         solved(&mut window);
         read_off(&mut window);
         window.run_steps(2);
@@ -284,32 +248,32 @@ fn walk(lesson: usize) {
         predict(&mut window, &step);
         if let Some(task) = &step.task {
             let name = &step.title;
-            assert!(shows(&window, "Your turn"), "{name}");
+            assert!(window.shows("Your turn"), "{name}");
             solved(&mut window);
             read_off(&mut window);
             assert!(!work(&window).fulfilled, "{name}: done before anything was done");
             assert!(!task.wrong.is_empty() && !task.example.is_empty(), "{name}");
             act(&mut window, &task.wrong);
             assert!(!work(&window).fulfilled, "{name}: the wrong thing does it");
-            assert!(shows(&window, "Not yet."), "{name}");
+            assert!(window.shows("Not yet."), "{name}");
             // Help comes on request, one hint after the other; only then is the task shown.
             assert_eq!(task.hints.len(), 2, "{name}");
             for (asked, button) in ["Give me a hint", "One more hint"].into_iter().enumerate() {
                 let hint = first_line(&window, &task.hints[asked], false);
-                assert!(!shows(&window, &hint) && !shows(&window, "Show me"), "{name}");
-                click(&mut window, button);
-                assert!(shows(&window, &hint), "{name}");
+                assert!(!window.shows(&hint) && !window.shows("Show me"), "{name}");
+                window.click_on(button);
+                assert!(window.shows(&hint), "{name}");
             }
             window.get_by_label("Show me");
-            click(&mut window, "Start over");
+            window.click_on("Start over");
             solved(&mut window);
-            assert_eq!(window.state().state().document.scene(), &step.scene, "{name}");
+            assert_eq!(window.known().document.scene(), &step.scene, "{name}");
             if step.tab.as_deref() == Some("Hold") {
                 until(&mut window, "the plate is at rest again", |app| {
                     app.state().hold.as_ref().is_some_and(|holding| holding.now().reading.time == 0.0)
                 });
             }
-            let started = step.tab.as_deref() == Some("Start-up") && window.state().state().startup.as_ref().is_some();
+            let started = step.tab.as_deref() == Some("Start-up") && window.known().startup.as_ref().is_some();
             assert!(!started, "{name}: nothing is started yet");
             // What does it, by hand; gas needs time to leave.
             act(&mut window, &task.example);
@@ -320,7 +284,7 @@ fn walk(lesson: usize) {
                 });
             }
             assert!(work(&window).fulfilled, "{name}: {:?}", work(&window).unmet);
-            assert!(shows(&window, "✔ Done"), "{name}");
+            assert!(window.shows("✔ Done"), "{name}");
             // Every number that is quoted from here on is known.
             for reading in text::readings(step.told()) {
                 assert!(work(&window).readings.contains_key(&reading.source), "{name}: {}", reading.source);
@@ -331,23 +295,23 @@ fn walk(lesson: usize) {
             if let Some(question) = &step.question {
                 let why = first_line(&window, &question.why, true);
                 let title = if question.kind == Kind::Calculate { "✔ Right" } else { "As you expected" };
-                assert!(shows(&window, &why) && shows(&window, title), "{name}");
+                assert!(window.shows(&why) && window.shows(title), "{name}");
             }
         }
         assert_eq!(stage(&window), Stage::Told);
-        click(&mut window, if number + 1 == steps { "Finish" } else { "Next" });
+        window.click_on(if number + 1 == steps { "Finish" } else { "Next" });
         window.run_steps(20);
     }
     // The recap: everything was right but the first looks.
-    let lesson_state = &window.state().state().lessons;
+    let lesson_state = &window.known().lessons;
     let (running, followed) = (lesson_state.running().unwrap(), &lesson_state.lessons()[lesson]);
     assert_eq!(running.step, steps);
     let score = Score::of(followed.steps.iter().zip(&running.work));
     assert_eq!((score.observations[0], score.skipped[0]), (0, 0));
     let [points, all] = score.points();
     assert_eq!(points, all - score.observations[1]);
-    assert!(shows(&window, &format!("{points} of {all} points")) && lesson_state.progress(followed).done);
-    click(&mut window, "Close");
+    assert!(window.shows(&format!("{points} of {all} points")) && lesson_state.progress(followed).done);
+    window.click_on("Close");
     window.run_steps(20);
     solved(&mut window);
     let app = window.state();
@@ -404,91 +368,82 @@ fn what_is_lit_is_seen_and_its_group_opens() {
     }
     window.get_by_role_and_label(Role::ComboBox, "Slip at the walls");
     // The tab that a lesson needs comes forward, and goes back after it.
-    window.key_press(Key::F3);
-    window.run_steps(2);
-    assert!(!shows(&window, "Lesson ·"));
-    window.key_press(Key::PageDown);
-    window.run_steps(4);
-    assert!(shows(&window, "Lesson ·"), "a new step is seen");
+    window.press(Key::F3);
+    assert!(!window.shows("Lesson ·"));
+    window.press(Key::PageDown);
+    assert!(window.shows("Lesson ·"), "a new step is seen");
     assert_eq!(step(&window).0, 3);
-    window.key_press(Key::PageUp);
-    window.run_steps(4);
+    window.press(Key::PageUp);
     assert_eq!(step(&window).0, 2);
     // All results, and back to the lesson.
-    click(&mut window, "All results");
-    assert!(shows(&window, "Squeeze number σ") && !shows(&window, "Lesson ·"));
-    click(&mut window, "Back to the lesson");
-    assert!(shows(&window, "Lesson ·"));
+    window.click_on("All results");
+    assert!(window.shows("Squeeze number σ") && !window.shows("Lesson ·"));
+    window.click_on("Back to the lesson");
+    assert!(window.shows("Lesson ·"));
 }
 
 #[test]
 fn leaving_brings_the_students_scene_back_with_its_history() {
     let mut window = window("tooth-radius-3m");
     solved(&mut window);
-    type_into(&mut window, "Minimum spacing H_m in nm", "123");
-    let own = window.state().state().document.scene().clone();
+    window.type_into("Minimum spacing H_m in nm", "123");
+    let own = window.known().document.scene().clone();
     open(&mut window, "The squeeze number");
-    assert_ne!(window.state().state().document.scene(), &own);
-    type_into(&mut window, "Frequency in kHz", "3");
-    assert!(!window.state().state().document.is_dirty(), "what a lesson lends is never unsaved");
+    assert_ne!(window.known().document.scene(), &own);
+    window.type_into("Frequency in kHz", "3");
+    assert!(!window.known().document.is_dirty(), "what a lesson lends is never unsaved");
     go_on(&mut window);
-    click(&mut window, "Leave");
-    assert_eq!(window.state().state().document.scene(), &own);
-    assert!(window.state().state().document.is_dirty());
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    window.run_steps(2);
-    assert_eq!(window.state().state().document.scene().get("film.min_spacing_nm"), Some(Value::Number(200.0)));
-    assert!(!window.state().state().document.is_dirty());
+    window.click_on("Leave");
+    assert_eq!(window.known().document.scene(), &own);
+    assert!(window.known().document.is_dirty());
+    window.ctrl(Key::Z);
+    assert_eq!(window.known().document.scene().get("film.min_spacing_nm"), Some(Value::Number(200.0)));
+    assert!(!window.known().document.is_dirty());
 }
 
 #[test]
 fn unsaved_changes_are_asked_about_from_within_a_lesson_too() {
     let mut window = window("fundamental");
-    type_into(&mut window, "Minimum spacing H_m in nm", "123");
-    let own = window.state().state().document.scene().clone();
+    window.type_into("Minimum spacing H_m in nm", "123");
+    let own = window.known().document.scene().clone();
     open(&mut window, "Pushing on trapped air");
-    click(&mut window, "Presets");
-    window.get_by_label_contains("Levitating").click();
-    window.run_steps(3);
+    window.click_on("Presets");
+    window.click_part("Levitating");
     window.get_by_label_contains("Save the changes");
-    click(&mut window, "Keep editing");
-    assert_eq!(window.state().state().document.scene(), &own);
+    window.click_on("Keep editing");
+    assert_eq!(window.known().document.scene(), &own);
     // Nothing unsaved: no question, and the preset is opened.
     open(&mut window, "Pushing on trapped air");
-    click(&mut window, "Leave");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    window.run_steps(2);
+    window.click_on("Leave");
+    window.ctrl(Key::Z);
     open(&mut window, "Pushing on trapped air");
-    click(&mut window, "Presets");
-    window.get_by_label_contains("Levitating").click();
-    window.run_steps(3);
-    assert!(window.state().state().document.scene().name.starts_with("Levitating"));
-    assert!(window.state().state().lessons.running().is_none());
+    window.click_on("Presets");
+    window.click_part("Levitating");
+    assert!(window.known().document.scene().name.starts_with("Levitating"));
+    assert!(window.known().lessons.running().is_none());
 }
 
 #[test]
 fn progress_and_the_own_scene_survive_a_restart() {
     let mut window = window_with(Memory::default());
     window.step();
-    click(&mut window, "Skip the tour");
-    type_into(&mut window, "Minimum spacing H_m in nm", "123");
+    window.click_on("Skip the tour");
+    window.type_into("Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
     go_on(&mut window);
     go_on(&mut window);
-    let mut memory = Memory::default();
-    eframe::App::save(window.state_mut(), &mut memory);
+    let memory = left(&mut window);
     drop(window);
     let mut window = window_with(memory);
     window.run_steps(2);
     let app = window.state();
     assert!(app.state().lessons.running().is_none());
     assert_eq!(app.state().document.scene().get("film.min_spacing_nm"), Some(Value::Number(123.0)));
-    click(&mut window, "Lessons");
+    window.click_on("Lessons");
     window.get_by_label_contains("at step 3 of 6");
-    window.get_by_label_contains("The squeeze number").click();
-    window.run_steps(4);
+    window.click_part("The squeeze number");
     assert_eq!(step(&window).0, 2, "it goes on where it was left");
-    assert_eq!(window.state().state().document.scene(), &step(&window).1.scene);
+    assert_eq!(window.known().document.scene(), &step(&window).1.scene);
 }
 
 #[test]
@@ -498,7 +453,7 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     // Over a file that was asked for: no.
     let mut asked = window("fundamental");
     asked.run_steps(3);
-    assert!(asked.state().state().lessons.tour.is_none());
+    assert!(asked.known().lessons.tour.is_none());
     drop(asked);
 
     let mut window = window_with(Memory::default());
@@ -512,17 +467,15 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
         assert!(!spot.unwrap().intersects(callout), "{}: covered", stop.title);
         // Enter goes on as the button does, and the last card starts the first lesson.
         if i == 1 {
-            window.key_press(Key::Enter);
-            window.run_steps(3);
+            window.press(Key::Enter);
         } else {
-            click(&mut window, if i == 3 { "Start lesson 1" } else { "Next" });
+            window.click_on(if i == 3 { "Start lesson 1" } else { "Next" });
         }
     }
-    assert!(window.state().state().lessons.tour.is_none());
-    assert_eq!((window.state().state().lessons.running().unwrap().lesson, step(&window).0), (0, 0));
-    click(&mut window, "Leave");
-    let mut memory = Memory::default();
-    eframe::App::save(window.state_mut(), &mut memory);
+    assert!(window.known().lessons.tour.is_none());
+    assert_eq!((window.known().lessons.running().unwrap().lesson, step(&window).0), (0, 0));
+    window.click_on("Leave");
+    let memory = left(&mut window);
     drop(window);
 
     let mut window = window_with(memory);
@@ -531,19 +484,15 @@ fn the_tour_is_for_the_first_start_and_can_be_found_again() {
     // Where the callout stands depends on what is there to be shown.
     solved(&mut window);
     // Found again, with hidden panels brought back; skipped.
-    window.key_press(Key::F2);
-    window.run_steps(2);
-    click(&mut window, "Help");
-    choose(&mut window, "Take the tour");
-    window.run_steps(3);
+    window.press(Key::F2);
+    window.click_on("Help");
+    window.click_part("Take the tour");
     window.get_by_label(titles[0]);
-    assert!(window.state().state().view.parameters);
-    click(&mut window, "Next");
-    window.run_steps(2);
-    click(&mut window, "Back");
-    window.run_steps(2);
+    assert!(window.known().view.parameters);
+    window.click_on("Next");
+    window.click_on("Back");
     window.get_by_label(titles[0]);
-    click(&mut window, "Skip the tour");
+    window.click_on("Skip the tour");
     assert!(window.query_by_label(titles[0]).is_none());
 }
 
@@ -561,7 +510,6 @@ fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
         let key = "plate.amplitude_um";
         window.state_mut().carry_out(Command::Set { key, value: Value::Number(value), dragging });
         solved(window);
-        window.run_steps(3);
     };
     // Past the aim and back, with the pointer down: nothing was reached.
     for value in [0.6, 0.8, 0.7] {
@@ -569,10 +517,10 @@ fn a_drag_counts_when_it_ends_and_an_extreme_is_no_success() {
         assert!(!work(&window).fulfilled, "{value}");
     }
     drag(&mut window, 0.7, false);
-    assert!(!work(&window).fulfilled && shows(&window, "Not yet."));
+    assert!(!work(&window).fulfilled && window.shows("Not yet."));
     // The end of the slider is told to be absurd.
     drag(&mut window, 0.999, false);
-    assert!(!work(&window).fulfilled && work(&window).too_far && shows(&window, "Too far."));
+    assert!(!work(&window).fulfilled && work(&window).too_far && window.shows("Too far."));
     drag(&mut window, 0.8, true);
     assert!(!work(&window).fulfilled, "still held");
     drag(&mut window, 0.8, false);
@@ -588,16 +536,15 @@ fn a_lesson_compares_on_one_scale_and_shows_the_first_run() {
     }
     solved(&mut window);
     let compared = |window: &Window| {
-        let state = window.state().state();
+        let state = window.known();
         state.lessons.compared(state.document.scene()).map(|run| run.scene.clone())
     };
     assert_eq!(compared(&window), None, "nothing has changed yet");
-    let first = window.state().state().document.scene().clone();
+    let first = window.known().document.scene().clone();
     change(&mut window, "stator.normal_amplitude_um", "0.65");
     solved(&mut window);
-    window.run_steps(2);
     assert_eq!(compared(&window), Some(first));
-    assert!(shows(&window, "About: at first"));
+    assert!(window.shows("About: at first"));
     // The next step begins anew.
     go_on(&mut window);
     solved(&mut window);
@@ -608,43 +555,39 @@ fn a_lesson_compares_on_one_scale_and_shows_the_first_run() {
 fn skipped_steps_are_shown_as_skipped_and_answers_come_back() {
     let mut window = window_with(Memory::default());
     window.step();
-    click(&mut window, "Skip the tour");
+    window.click_on("Skip the tour");
     open(&mut window, "Pushing on trapped air");
     // Answered, not tried, and left.
     let (_, first) = step(&window);
     predict(&mut window, &first);
-    click(&mut window, "Skip");
-    let lessons_state = &window.state().state().lessons;
+    window.click_on("Skip");
+    let lessons_state = &window.known().lessons;
     assert!(lessons_state.running().unwrap().work[0].is_skipped(&first));
     for _ in 0..5 {
         go_on(&mut window);
     }
-    assert!(shows(&window, "What you found") && shows(&window, "4 steps were skipped"));
-    assert!(shows(&window, "1 of 10 points"));
-    let mut memory = Memory::default();
-    eframe::App::save(window.state_mut(), &mut memory);
+    assert!(window.shows("What you found") && window.shows("4 steps were skipped"));
+    assert!(window.shows("1 of 10 points"));
+    let memory = left(&mut window);
     drop(window);
     let mut window = window_with(memory);
     window.run_steps(2);
-    click(&mut window, "Lessons");
+    window.click_on("Lessons");
     window.get_by_label_contains("2 of 6 done");
-    window.get_by_label_contains("Pushing on trapped air").click();
-    window.run_steps(4);
-    assert!(work(&window).committed && !work(&window).fulfilled && shows(&window, "Prediction made"));
+    window.click_part("Pushing on trapped air");
+    assert!(work(&window).committed && !work(&window).fulfilled && window.shows("Prediction made"));
     // Once more from the start, with nothing answered.
     for _ in 0..6 {
         go_on(&mut window);
     }
-    click(&mut window, "Take it again");
-    window.run_steps(3);
+    window.click_on("Take it again");
     assert_eq!((step(&window).0, work(&window)), (0, StepWork::default()));
     // The next lesson is what is lit at the end.
     for _ in 0..6 {
         go_on(&mut window);
     }
-    window.key_press(Key::Enter);
-    window.run_steps(4);
-    assert_eq!(window.state().state().lessons.running().unwrap().lesson, 1);
+    window.press(Key::Enter);
+    assert_eq!(window.known().lessons.running().unwrap().lesson, 1);
 }
 
 /// Seconds that the clock of a test has been put forward.
@@ -659,16 +602,14 @@ fn slow_clock() -> Instant {
 
 #[test]
 fn the_keyboard_alone_walks_the_first_lesson() {
-    let scene = presets::find("fundamental").unwrap();
-    let mut window = window::open(Document::opened(scene, None), 1700.0, Platform { now: slow_clock, ..platform() });
+    let mut window = window::preset("fundamental", 1700.0, Platform { now: slow_clock, ..platform() });
     window.state_mut().follow(Link::Lesson { lesson: 1, step: 1 });
     solved(&mut window);
     let press = |window: &mut Window, key: Key| {
-        window.key_press(key);
-        window.run_steps(3);
+        window.press(key);
     };
     let keys = [Key::Num1, Key::Num2, Key::Num3, Key::Num4];
-    while window.state().state().lessons.step().is_some() {
+    while window.known().lessons.step().is_some() {
         let (number, step) = step(&window);
         solved(&mut window);
         if let Some(question) = &step.question {
@@ -698,8 +639,7 @@ fn the_keyboard_alone_walks_the_first_lesson() {
                 // The plate in the hand goes down a step with each press.
                 [] => {
                     for _ in 0..10 {
-                        window.key_press(Key::ArrowDown);
-                        window.step();
+                        window.press(Key::ArrowDown);
                     }
                 }
                 [(_, value), ..] => {
@@ -720,21 +660,20 @@ fn the_keyboard_alone_walks_the_first_lesson() {
             press(&mut window, keys[*right]);
             // Whoever presses Enter after every answer reads what is told all the same.
             press(&mut window, Key::Enter);
-            assert_eq!(window.state().state().lessons.running().unwrap().step, number, "{}", step.title);
+            assert_eq!(window.known().lessons.running().unwrap().step, number, "{}", step.title);
             SKIPPED.store(SKIPPED.load(Relaxed) + 1, Relaxed);
         }
         assert_eq!(stage(&window), Stage::Told, "{}", step.title);
         press(&mut window, Key::Enter);
         window.run_steps(5);
     }
-    let running = window.state().state().lessons.running().unwrap();
-    assert_eq!(running.step, window.state().state().lessons.lessons()[0].steps.len());
+    let running = window.known().lessons.running().unwrap();
+    assert_eq!(running.step, window.known().lessons.lessons()[0].steps.len());
 }
 
 #[test]
 fn the_answer_button_is_in_sight_in_lecture_size() {
-    let scene = presets::find("fundamental").unwrap();
-    let mut window = window::open(Document::opened(scene, None), 768.0, platform());
+    let mut window = window::preset("fundamental", 768.0, platform());
     window.state_mut().follow(Link::Lesson { lesson: 1, step: 3 });
     window.state_mut().carry_out(Command::ToggleLecture);
     window.run_steps(10);
@@ -764,14 +703,14 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     write(folder.path(), "mine", &two);
     let mut window = window("fundamental");
     window.state_mut().load_lessons(folder.path());
-    let place = window.state().state().lessons.lessons().len() - 1;
+    let place = window.known().lessons.lessons().len() - 1;
     window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 2 });
     window.run_steps(4);
-    assert!(shows(&window, "As it was."));
+    assert!(window.shows("As it was."));
     write(folder.path(), "mine", &two.replace("As it was.", "As it is."));
     window.key_press(Key::F5);
     window.run_steps(6);
-    assert!(step(&window).0 == 1 && shows(&window, "As it is."));
+    assert!(step(&window).0 == 1 && window.shows("As it is."));
     // A picture beside the text, and one that is not there.
     let mut encoder = png::Encoder::new(std::fs::File::create(folder.path().join("mine/a.png")).unwrap(), 3, 2);
     encoder.set_color(png::ColorType::Rgb);
@@ -784,7 +723,7 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
     window.key_press(Key::F5);
     window.run_steps(6);
     window.get_by_label_contains("picture b.png: there is no such file beside lesson.md");
-    click(&mut window, "Close");
+    window.click_on("Close");
     // A place that is not there is named.
     window.state_mut().follow(Link::Lesson { lesson: place + 1, step: 8 });
     window.run_steps(3);
@@ -794,9 +733,8 @@ fn lessons_of_a_folder_are_read_again_and_go_on_where_they_were() {
 #[test]
 fn the_glossary_is_searched() {
     let mut window = window("plate-crossover");
-    click(&mut window, "Help");
-    choose(&mut window, "Glossary");
-    window.run_steps(3);
+    window.click_on("Help");
+    window.click_part("Glossary");
     window.get_by_label_contains("Knudsen number  Kn");
     let count = |window: &Window| window.query_all_by_label_contains("mean free path").count();
     assert!(count(&window) > 0);
@@ -812,23 +750,21 @@ fn the_glossary_is_searched() {
 #[test]
 fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
     let escape = |window: &mut Window| {
-        window.key_press(Key::Escape);
-        window.run_steps(3);
+        window.press(Key::Escape);
     };
     let mut window = window("plate-crossover");
     solved(&mut window);
     let glossary = |window: &mut Window| {
-        click(window, "Help");
-        choose(window, "Glossary");
-        window.run_steps(3);
-        assert!(window.state().state().lessons.glossary.is_some());
+        window.click_on("Help");
+        window.click_part("Glossary");
+        assert!(window.known().lessons.glossary.is_some());
     };
     // While what is looked for is being typed too.
     glossary(&mut window);
     window.get_by_role_and_label(Role::TextInput, "Search").type_text("spring");
     window.run_steps(3);
     escape(&mut window);
-    assert!(window.state().state().lessons.glossary.is_none());
+    assert!(window.known().lessons.glossary.is_none());
 
     // A text that is being typed elsewhere goes first, and so does a menu.
     glossary(&mut window);
@@ -837,36 +773,33 @@ fn escape_closes_the_tour_the_glossary_and_whatever_is_over_them() {
     window.get_by_role_and_label(Role::TextInput, "Frequency in kHz").type_text("7");
     window.run_steps(2);
     escape(&mut window);
-    assert!(window.state().state().lessons.glossary.is_some());
+    assert!(window.known().lessons.glossary.is_some());
     for (menu, entry) in [("Lessons", "Open a folder of lessons"), ("Presets", "Plate, viscous")] {
-        click(&mut window, menu);
+        window.click_on(menu);
         window.run_steps(5);
-        assert!(shows(&window, entry), "{menu}");
+        assert!(window.shows(entry), "{menu}");
         escape(&mut window);
         window.run_steps(10);
-        assert!(!shows(&window, entry), "{menu}");
-        assert!(window.state().state().lessons.glossary.is_some(), "{menu}");
+        assert!(!window.shows(entry), "{menu}");
+        assert!(window.known().lessons.glossary.is_some(), "{menu}");
     }
 
     // The tour before the glossary, the sheet of shortcuts before both.
-    click(&mut window, "Help");
-    choose(&mut window, "Take the tour");
-    window.run_steps(3);
-    window.key_press(Key::F1);
-    window.run_steps(3);
+    window.click_on("Help");
+    window.click_part("Take the tour");
+    window.press(Key::F1);
     window.get_by_label("Keyboard shortcuts");
     escape(&mut window);
     assert!(window.query_by_label("Keyboard shortcuts").is_none());
-    assert!(window.state().state().lessons.tour.is_some());
+    assert!(window.known().lessons.tour.is_some());
     escape(&mut window);
-    assert!(window.state().state().lessons.tour.is_none() && window.state().state().lessons.glossary.is_some());
+    assert!(window.known().lessons.tour.is_none() && window.known().lessons.glossary.is_some());
     escape(&mut window);
-    assert!(window.state().state().lessons.glossary.is_none());
+    assert!(window.known().lessons.glossary.is_none());
 
     // A question, an error, a path to type.
-    click(&mut window, "File");
-    choose(&mut window, "Open or save by path");
-    window.run_steps(3);
+    window.click_on("File");
+    window.click_part("Open or save by path");
     window.get_by_role_and_label(Role::TextInput, "Path");
     escape(&mut window);
     assert!(window.query_by_role_and_label(Role::TextInput, "Path").is_none());
@@ -877,7 +810,6 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
     for preset in ["fundamental", "levitating", "plate-crossover", "plate-trapped", "floating-disc"] {
         let mut window = window(preset);
         solved(&mut window);
-        window.run_steps(3);
         let missing = squeezefilm::gui::ui::glossary::unexplained(&window.ctx);
         assert!(missing.is_empty(), "{preset}: {missing:?}");
     }
@@ -891,10 +823,10 @@ fn every_term_of_the_results_is_in_the_glossary_and_shown_on_hover() {
     let mut window = window("fundamental");
     solved(&mut window);
     let meaning = "turns the rotor";
-    assert!(!shows(&window, meaning));
+    assert!(!window.shows(meaning));
     window.get_by_label("Contact load").hover();
     window.run_steps(30);
-    assert!(shows(&window, meaning));
+    assert!(window.shows(meaning));
 }
 
 /// Names of the tabs of a motor, and of a plate.
@@ -947,7 +879,7 @@ fn what_is_told_after_a_task_is_as_exact_as_the_run_on_screen() {
         let done = |run: &SolvedScene| run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine;
         app.state().run.as_deref().is_some_and(done)
     });
-    let run = window.state().state().run.clone().unwrap();
+    let run = window.known().run.clone().unwrap();
     let finest = Numbers::of(&run.problem, &run.solution).get(Quantity::LoadRatio).unwrap();
     assert_eq!(work(&window).readings["mean_load_ratio:2"], finest);
 }
@@ -961,12 +893,12 @@ fn why_there_is_no_result_is_told_where_the_task_is() {
     solved(&mut window);
     change(&mut window, "plate.mass_g", "300");
     solved(&mut window);
-    assert!(shows(&window, "Not yet. Mass is 300 g"));
+    assert!(window.shows("Not yet. Mass is 300 g"));
     change(&mut window, "plate.mass_g", "4000");
     until(&mut window, "it does not float", |app| app.state().activity.failure.is_some());
     // In the line of the window and in the box of the task, where nothing is left of the run before.
     assert_eq!(window.query_all_by_label_contains("does not float").count(), 2);
-    assert!(!shows(&window, "Not yet."));
+    assert!(!window.shows("Not yet."));
 }
 
 #[test]
@@ -978,24 +910,19 @@ fn a_folder_of_lessons_is_opened_from_the_menu() {
     std::fs::copy(folder.path().join("my-lesson/mine.toml"), folder.path().join("second/mine.toml")).unwrap();
     write(folder.path(), "third", &GOOD.replace("check = ", "chek = "));
     let mut window = window("fundamental");
-    click(&mut window, "Lessons");
-    choose(&mut window, "Open a folder of lessons…");
-    await_path(&mut window);
-    window.get_by_role_and_label(Role::TextInput, "Path").type_text(folder.path().to_str().unwrap());
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(4);
+    window.click_on("Lessons");
+    window.click_part("Open a folder of lessons…");
+    answer(&mut window, folder.path());
     // The bad one is reported, the others are there.
     window.get_by_label("This did not work");
     window.get_by_label_contains("task.chek is not known");
-    click(&mut window, "Close");
-    let titles: Vec<&str> =
-        window.state().state().lessons.lessons().iter().map(|lesson| lesson.title.as_str()).collect();
+    window.click_on("Close");
+    let titles: Vec<&str> = window.known().lessons.lessons().iter().map(|lesson| lesson.title.as_str()).collect();
     assert_eq!(&titles[lessons::BUILT_IN.len()..], ["A lesson of my own", "Another of my own"]);
     open(&mut window, "Another of my own");
-    assert_eq!(window.state().state().document.scene().scene(), "plate");
-    click(&mut window, "Lessons");
-    choose(&mut window, "What was wrong with lessons…");
+    assert_eq!(window.known().document.scene().scene(), "plate");
+    window.click_on("Lessons");
+    window.click_part("What was wrong with lessons…");
     window.get_by_label_contains("task.chek is not known");
 }
 
@@ -1148,15 +1075,15 @@ fn what_the_window_lights_and_lessons_name_is_drawn() {
     let mut missing: Vec<&str> = squeezefilm::gui::state::lessons::PLACES.to_vec();
     missing.retain(|place| !drawn(&motor, place) && !drawn(&plate, place));
     // The rest is in other tabs.
-    click(&mut motor, "Torque");
+    motor.click_on("Torque");
     read_off(&mut motor);
-    click(&mut plate, "Hold");
+    plate.click_on("Hold");
     missing.retain(|place| !drawn(&motor, place) && !drawn(&plate, place));
-    click(&mut plate, "Start-up");
+    plate.click_on("Start-up");
     missing.retain(|place| !drawn(&plate, place));
-    click(&mut plate, "Start from rest");
+    plate.click_on("Start from rest");
     until(&mut plate, "a cycle", |app| {
-        app.state().startup.as_ref().is_some_and(|starting| !starting.points().is_empty())
+        app.state().startup.as_ref().is_some_and(|starting| !starting.points.is_empty())
     });
     missing.retain(|place| !drawn(&plate, place));
     assert!(missing.is_empty(), "{missing:?} are drawn nowhere");
@@ -1169,40 +1096,40 @@ fn a_file_that_cannot_be_opened_leaves_a_lesson_as_it_is() {
     std::fs::write(&bad, "schema = 1\n[film]\nmin_spacing_nm = 3\n").unwrap();
     std::fs::write(&good, "schema = 1\nscene = \"plate\"\nname = \"Good\"\n").unwrap();
     let mut window = window("fundamental");
-    type_into(&mut window, "Minimum spacing H_m in nm", "123");
+    window.type_into("Minimum spacing H_m in nm", "123");
     open(&mut window, "The squeeze number");
     go_on(&mut window);
     solved(&mut window);
-    type_into(&mut window, "Frequency in kHz", "0.5");
-    let lent = window.state().state().document.scene().clone();
+    window.type_into("Frequency in kHz", "0.5");
+    let lent = window.known().document.scene().clone();
     for path in [bad.clone(), folder.path().join("absent.toml")] {
         drop_file(&mut window, &path);
         window.get_by_label("This did not work");
-        click(&mut window, "Close");
+        window.click_on("Close");
         assert_eq!(step(&window).0, 1);
-        assert_eq!(window.state().state().document.scene(), &lent);
-        assert!(shows(&window, "Lesson ·"));
+        assert_eq!(window.known().document.scene(), &lent);
+        assert!(window.shows("Lesson ·"));
     }
     // So does a folder without lessons; and one with lessons adds them.
     window.state_mut().load_lessons(&folder.path().join("absent"));
     window.run_steps(3);
-    click(&mut window, "Close");
+    window.click_on("Close");
     write(folder.path(), "mine", GOOD);
     window.state_mut().load_lessons(folder.path());
     window.run_steps(3);
-    assert_eq!((step(&window).0, window.state().state().document.scene()), (1, &lent));
+    assert_eq!((step(&window).0, window.known().document.scene()), (1, &lent));
     // Another text of the lesson that is followed ends it.
     write(folder.path(), "3-squeeze-number", GOOD);
     window.state_mut().load_lessons(folder.path());
     window.run_steps(3);
-    assert!(window.state().state().lessons.running().is_none());
+    assert!(window.known().lessons.running().is_none());
     // A good file ends a lesson; what is unsaved is asked about.
     open(&mut window, "Pushing on trapped air");
     drop_file(&mut window, &good);
     window.get_by_label_contains("Save the changes");
-    click(&mut window, "Don't save");
-    assert_eq!(window.state().state().document.scene().name, "Good");
-    assert!(window.state().state().lessons.running().is_none());
+    window.click_on("Don't save");
+    assert_eq!(window.known().document.scene().name, "Good");
+    assert!(window.known().lessons.running().is_none());
 }
 
 #[test]
@@ -1213,30 +1140,30 @@ fn what_a_lesson_shows_in_a_tab_it_does_itself() {
         go_on(&mut window);
     }
     let (_, step) = step(&window);
-    assert_eq!(window.state().state().view.tab, Tab::Startup);
+    assert_eq!(window.known().view.tab, Tab::Startup);
     solved(&mut window);
     predict(&mut window, &step);
     // In another tab, too.
-    click(&mut window, "Motion");
+    window.click_on("Motion");
     show_me(&mut window);
-    assert_eq!(window.state().state().view.tab, Tab::Startup);
+    assert_eq!(window.known().view.tab, Tab::Startup);
     until(&mut window, "it comes to its end", |app| {
         let running = app.state().lessons.running().unwrap();
         running.work[running.step].fulfilled
     });
     // A start-up of before does not count when the step begins again.
-    click(&mut window, "Back");
+    window.click_on("Back");
     go_on(&mut window);
-    assert!(window.state().state().startup.as_ref().is_none());
-    click(&mut window, "Leave");
-    assert_eq!(window.state().state().view.tab, Tab::Motion);
+    assert!(window.known().startup.as_ref().is_none());
+    window.click_on("Leave");
+    assert_eq!(window.known().view.tab, Tab::Motion);
 
     open(&mut window, "Pushing on trapped air");
     let (_, step) = self::step(&window);
-    assert_eq!(window.state().state().view.tab, Tab::Hold);
+    assert_eq!(window.known().view.tab, Tab::Hold);
     solved(&mut window);
     predict(&mut window, &step);
-    click(&mut window, "Motion");
+    window.click_on("Motion");
     show_me(&mut window);
     until(&mut window, "the plate is pushed", |app| app.state().lessons.running().unwrap().work[0].fulfilled);
 }
@@ -1246,18 +1173,13 @@ fn a_preset_that_a_lesson_lends_can_be_saved_as_a_copy() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("copy.toml");
     let mut window = window("fundamental");
-    let own = window.state().state().document.scene().clone();
+    let own = window.known().document.scene().clone();
     open(&mut window, "The squeeze number");
-    let lent = window.state().state().document.scene().clone();
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    await_path(&mut window);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    let lent = window.known().document.scene().clone();
+    window.ctrl(Key::S);
+    answer(&mut window, &path);
     assert_eq!(Scene::load(&path).unwrap(), lent);
-    click(&mut window, "Leave");
-    assert_eq!(window.state().state().document.scene(), &own);
-    assert!(window.state().state().document.path().is_none(), "the own scene has no file by that");
+    window.click_on("Leave");
+    assert_eq!(window.known().document.scene(), &own);
+    assert!(window.known().document.path().is_none(), "the own scene has no file by that");
 }

@@ -9,26 +9,22 @@ use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;
-use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::state::hold::HoldState;
 use squeezefilm::gui::state::startup::StartupState;
 use squeezefilm::gui::state::view::Tab;
 use squeezefilm::gui::update::platform::Platform;
 use squeezefilm::hold::Reading;
 use squeezefilm::problem::Scenario;
-use squeezefilm::scene::presets;
 use squeezefilm::solution::{Outcome, Status};
 use std::time::Duration;
-use window::{Window, click, open, solved, until};
+use window::{User, Window, solved, until};
 
 const STARTUP: Key = Key::Num6;
 const HOLD: Key = Key::Num7;
 
 fn window(preset: &str, tab: Key) -> Window {
-    let scene = presets::find(preset).unwrap();
-    let platform = Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() };
-    let mut window = open(Document::opened(scene, None), 900.0, platform);
-    window.key_press_modifiers(Modifiers::COMMAND, tab);
-    window.run_steps(3);
+    let mut window = window::preset(preset, 900.0, Platform { ask: |_, _| Answer::Cancelled, ..Platform::default() });
+    window.ctrl(tab);
     window
 }
 
@@ -37,7 +33,7 @@ fn starting(app: &App) -> &StartupState {
 }
 
 fn cycles(app: &App) -> usize {
-    app.state().startup.as_ref().map_or(0, |starting| starting.points().len())
+    app.state().startup.as_ref().map_or(0, |starting| starting.points.len())
 }
 
 fn share(outcome: &Outcome) -> (f64, f64) {
@@ -50,7 +46,7 @@ fn share(outcome: &Outcome) -> (f64, f64) {
 /// The last cycle agrees with the periodic solve: within both estimated errors, and what the trapped gas may still change,
 /// times the force of that gas.
 fn agrees(app: &App) {
-    let last = starting(app).points().last().unwrap();
+    let last = starting(app).points.last().unwrap();
     let (ours, our_error) = share(&last.outcome);
     let run = app.state().run.as_deref().unwrap();
     let (periodic, error) = share(&run.solution.outcome);
@@ -72,16 +68,14 @@ fn agrees(app: &App) {
 fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     let mut window = window("fundamental", STARTUP);
     solved(&mut window);
-    assert!(window.state().state().startup.as_ref().is_none(), "nothing is computed before it is asked for");
+    assert!(window.known().startup.as_ref().is_none(), "nothing is computed before it is asked for");
     assert!(window.query_by_label("Pause").is_none());
-    click(&mut window, "Start from rest");
+    window.click_on("Start from rest");
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
-    window.run_steps(2);
     window.get_by_label("Cancel the start-up");
-    let first = share(&starting(window.state()).points()[0].outcome).0;
-    until(&mut window, "it repeats", |app| starting(app).ended().is_some());
-    window.run_steps(3);
-    assert_eq!(starting(window.state()).ended().unwrap().as_ref().unwrap().status, Status::Converged);
+    let first = share(&starting(window.state()).points[0].outcome).0;
+    until(&mut window, "it repeats", |app| starting(app).ended.is_some());
+    assert_eq!(starting(window.state()).ended.as_ref().unwrap().as_ref().unwrap().status, Status::Converged);
     window.get_by_label_contains("repeats to");
     agrees(window.state());
     // Every tooth, and from rest: the first cycle carries less than the last.
@@ -105,38 +99,30 @@ fn a_motor_starts_from_rest_and_comes_to_its_periodic_state() {
     window.get_by_label_contains("Shown is cycle 1:");
     window.get_by_role_and_label(Role::Slider, "Speed").click();
     window.run_steps(3);
-    window.get_by_label_contains("one cycle in 0.5 s").click();
-    window.run_steps(3);
-    click(&mut window, "Play from rest");
+    window.click_part("one cycle in 0.5 s");
+    window.click_on("Play from rest");
     until(&mut window, "the third cycle is played", |app| starting(app).chosen() == 3);
-    click(&mut window, "Follow the newest cycle");
+    window.click_on("Follow the newest cycle");
     assert_eq!(starting(window.state()).chosen(), cycles(window.state()));
 }
 
 #[test]
 fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
     let mut window = window("fundamental", STARTUP);
-    click(&mut window, "Start from rest");
+    window.click_on("Start from rest");
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
-    let field = "Minimum spacing H_m in nm";
-    window.get_by_role_and_label(Role::TextInput, field).click();
-    window.run_steps(2);
-    window.get_by_role_and_label(Role::TextInput, field).type_text("150");
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    window.type_into("Minimum spacing H_m in nm", "150");
     window.get_by_label_contains("before the scene changed; start again");
     until(&mut window, "it has ended", |app| !starting(app).running());
 
-    click(&mut window, "Start from rest");
+    window.click_on("Start from rest");
     assert!(window.query_by_label_contains("before the scene changed; start again").is_none());
     until(&mut window, "a cycle arrives", |app| cycles(app) >= 1);
-    click(&mut window, "Cancel the start-up");
+    window.click_on("Cancel the start-up");
     until(&mut window, "it has ended", |app| !starting(app).running());
-    window.run_steps(2);
     window.get_by_label_contains("Cancelled after cycle");
     // One that goes on does not keep the window open.
-    click(&mut window, "Start from rest");
+    window.click_on("Start from rest");
     drop(window);
 }
 
@@ -144,11 +130,10 @@ fn an_edit_ends_it_and_marks_it_stale_and_a_button_cancels_it() {
 fn a_plate_starts_from_rest_too() {
     let mut window = window("plate-crossover", STARTUP);
     solved(&mut window);
-    click(&mut window, "Start from rest");
+    window.click_on("Start from rest");
     until(&mut window, "it repeats", |app| {
-        app.state().startup.as_ref().is_some_and(|starting| starting.ended().is_some())
+        app.state().startup.as_ref().is_some_and(|starting| starting.ended.is_some())
     });
-    window.run_steps(3);
     window.get_by_label_contains("repeats to");
     window.get_by_label_contains("load ratio");
     // (That of a plate at standard is half of what a finer grid shows.)
@@ -157,18 +142,21 @@ fn a_plate_starts_from_rest_too() {
     assert_eq!(kept, cycles(window.state()), "a plate's recordings are small");
 }
 
+fn held(app: &App) -> &HoldState {
+    app.state().hold.as_ref().unwrap()
+}
+
 fn ratio(app: &App) -> f64 {
-    app.state().hold.as_ref().unwrap().now().reading.ratio
+    held(app).now().reading.ratio
 }
 
 fn gap(app: &App) -> f64 {
-    let holding = app.state().hold.as_ref().unwrap();
-    holding.now().reading.gap / holding.plate().mean_gap
+    held(app).now().reading.gap / held(app).plate().mean_gap
 }
 
 fn at_rest(window: &mut Window) {
     until(window, "the film is at rest", |app| ratio(app).abs() < 2e-4);
-    let number = |window: &Window| window.state().state().hold.as_ref().unwrap().now().number;
+    let number = |window: &Window| held(window.state()).now().number;
     for _ in 0..200 {
         let before = number(window);
         std::thread::sleep(Duration::from_millis(200));
@@ -183,11 +171,11 @@ fn at_rest(window: &mut Window) {
 #[test]
 fn a_motor_cannot_be_held_but_a_plate_is_offered() {
     let mut window = window("fundamental", HOLD);
-    assert!(window.state().state().hold.as_ref().is_none());
+    assert!(window.known().hold.as_ref().is_none());
     window.get_by_label_contains("Only a plate can be held");
-    click(&mut window, "Open the plate at its crossover");
-    assert_eq!(window.state().state().view.tab, Tab::Hold);
-    assert!(window.state().state().hold.as_ref().is_some());
+    window.click_on("Open the plate at its crossover");
+    assert_eq!(window.known().view.tab, Tab::Hold);
+    assert!(window.known().hold.as_ref().is_some());
     window.get_by_label_contains("slowed 6");
 }
 
@@ -211,10 +199,7 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     }
     until(&mut window, "it pushes back", |app| ratio(app) > 0.2);
     let app = window.state();
-    assert!(
-        gap(app) < 0.9
-            && app.state().hold.as_ref().unwrap().target() < 0.8 * app.state().hold.as_ref().unwrap().plate().mean_gap
-    );
+    assert!(gap(app) < 0.9 && held(app).target() < 0.8 * held(app).plate().mean_gap);
     // Held there, the pressure falls though nothing moves.
     until(&mut window, "it relaxes", |app| ratio(app) < 0.02);
     let held = gap(window.state());
@@ -222,23 +207,23 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     at_rest(&mut window);
     assert!((gap(window.state()) - held).abs() < 1e-3, "it stays where the hand left it");
     // At rest nothing is computed, and nothing is drawn again.
-    let number = window.state().state().hold.as_ref().unwrap().now().number;
+    let number = held(window.state()).now().number;
     std::thread::sleep(Duration::from_millis(200));
     window.run();
-    assert_eq!(window.state().state().hold.as_ref().unwrap().now().number, number);
+    assert_eq!(held(window.state()).now().number, number);
 
     // Let go, it flies back and sucks.
-    click(&mut window, "Let go");
+    window.click_on("Let go");
     until(&mut window, "it sucks", |app| ratio(app) < -0.05);
     until(&mut window, "it is back", |app| (gap(app) - 1.0).abs() < 1e-3);
-    click(&mut window, "Reset");
-    until(&mut window, "it is at rest", |app| app.state().hold.as_ref().unwrap().now().reading.time == 0.0);
+    window.click_on("Reset");
+    until(&mut window, "it is at rest", |app| held(app).now().reading.time == 0.0);
     assert_eq!(ratio(window.state()), 0.0);
 }
 
 /// What is read off the held plate now, and as it is shown.
 fn readings(window: &Window) -> [Reading; 2] {
-    let hold = window.state().state().hold.as_ref().unwrap();
+    let hold = held(window.state());
     [hold.now().reading, hold.shown().reading]
 }
 
@@ -256,11 +241,10 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     solved(&mut window);
     window.get_by_role_and_label(Role::Slider, "Recorded time");
     for _ in 0..12 {
-        window.key_press(Key::ArrowDown);
-        window.step();
+        window.press(Key::ArrowDown);
     }
     until(&mut window, "it is pushed down", |app| gap(app) < 0.45);
-    click(&mut window, "Let go");
+    window.click_on("Let go");
     until(&mut window, "it rises", |app| {
         gap(app) > 0.5 && app.state().hold.as_ref().is_some_and(|hold| hold.trail().len() > 30)
     });
@@ -274,37 +258,33 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     assert_eq!(readings(&window), [paused; 2], "nothing goes on");
 
     // Back to what was recorded, and step by step.
-    window.key_press(Key::Home);
-    window.run_steps(2);
+    window.press(Key::Home);
     let [now, first] = readings(&window);
     assert_eq!(now, paused);
-    let recorded: Vec<Reading> = window.state().state().hold.as_ref().unwrap().trail().copied().collect();
+    let recorded: Vec<Reading> = held(window.state()).trail().copied().collect();
     assert!(recorded.len() > 30 && first == recorded[0], "{first:?}");
     window.get_by_label_contains(" ago");
-    window.key_press(Key::ArrowRight);
-    window.run_steps(2);
+    window.press(Key::ArrowRight);
     assert_eq!(readings(&window), [paused, recorded[1]]);
-    window.key_press(Key::ArrowLeft);
-    window.run_steps(2);
+    window.press(Key::ArrowLeft);
     assert_eq!(readings(&window), [paused, first]);
 
     // Played to its end, it is paused where it was.
-    click(&mut window, "Replay");
+    window.click_on("Replay");
     until(&mut window, "it is played", |app| {
-        let shown = app.state().hold.as_ref().unwrap().shown().reading.time;
+        let shown = held(app).shown().reading.time;
         shown > recorded[5].time && shown < paused.time
     });
     window.get_by_label("Pause");
-    until(&mut window, "it is played to the end", |app| !app.state().hold.as_ref().unwrap().plays());
-    window.run_steps(2);
+    until(&mut window, "it is played to the end", |app| !held(app).plays());
     assert_eq!(readings(&window), [paused; 2]);
     window.get_by_label("paused");
 
     // It goes on from there: neither held nor at rest, and no time is missed.
-    click(&mut window, "Play");
-    until(&mut window, "it goes on", |app| app.state().hold.as_ref().unwrap().now().reading.time > paused.time);
+    window.click_on("Play");
+    until(&mut window, "it goes on", |app| held(app).now().reading.time > paused.time);
     window.get_by_label("Stop");
-    let hold = window.state().state().hold.as_ref().unwrap();
+    let hold = held(window.state());
     let next = hold.trail().find(|reading| reading.time > paused.time).unwrap();
     // The first reading is 20 ms of the clock later, however long it was paused.
     assert!((next.time - paused.time) * hold.slowed() < 0.0201, "{next:?} after {paused:?}");
@@ -314,9 +294,9 @@ fn a_plate_that_was_let_go_is_paused_goes_on_from_there_and_is_replayed() {
     window.key_press(Key::Space);
     wait(&mut window);
     window.key_press(Key::ArrowDown);
-    until(&mut window, "it follows the hand", |app| app.state().hold.as_ref().unwrap().plays());
+    until(&mut window, "it follows the hand", |app| held(app).plays());
     until(&mut window, "it is there", |app| {
-        let hold = app.state().hold.as_ref().unwrap();
+        let hold = held(app);
         (hold.now().reading.gap / hold.target() - 1.0).abs() < 1e-3
     });
 }
@@ -326,31 +306,27 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
     let mut window = window("floating-disc", HOLD);
     solved(&mut window);
     window.get_by_label("Load / (p_a · area)");
-    click(&mut window, "Let go");
-    until(&mut window, "it floats by itself", |app| app.state().hold.as_ref().unwrap().now().reading.time > 1e-4);
+    window.click_on("Let go");
+    until(&mut window, "it floats by itself", |app| held(app).now().reading.time > 1e-4);
     assert!(gap(window.state()) > 0.9);
-    click(&mut window, "Stop");
+    window.click_on("Stop");
     until(&mut window, "it sinks", |app| gap(app) < 0.8);
-    click(&mut window, "Vibrate");
+    window.click_on("Vibrate");
     until(&mut window, "it rises", |app| gap(app) > 0.85);
     window.get_by_label("Stop");
     // In the start-up it falls from twice that height.
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num6);
-    window.run_steps(2);
-    click(&mut window, "Drop it");
-    until(&mut window, "it falls", |app| {
-        app.state().dropped.as_ref().is_some_and(|dropped| dropped.cycles().len() > 60)
-    });
+    window.ctrl(Key::Num6);
+    window.click_on("Drop it");
+    until(&mut window, "it falls", |app| app.state().dropped.as_ref().is_some_and(|dropped| dropped.cycles.len() > 60));
     let heights: Vec<f64> =
-        window.state().state().dropped.as_ref().unwrap().cycles().iter().map(|cycle| cycle.height.value).collect();
+        window.known().dropped.as_ref().unwrap().cycles.iter().map(|cycle| cycle.height.value).collect();
     assert!(heights[0] > 9.9e-6 && heights[60] < 0.8 * heights[0], "{heights:?}");
     window.run_steps(2);
-    assert!(window.state().state().dropped.as_ref().unwrap().running());
+    assert!(window.known().dropped.as_ref().unwrap().running());
     window.get_by_label_contains("; the periodic solve has 4.96");
     window.get_by_role_and_label(Role::Image, "Height of the plate over time");
-    click(&mut window, "Cancel");
+    window.click_on("Cancel");
     until(&mut window, "it ends", |app| app.state().dropped.as_ref().is_some_and(|dropped| !dropped.running()));
-    window.run_steps(2);
     window.get_by_label_contains("Cancelled at");
     window.get_by_label("Drop it");
 }
@@ -359,31 +335,20 @@ fn a_plate_under_a_load_is_let_go_stops_and_is_dropped() {
 fn keys_and_slider_move_it_within_its_reach_only() {
     let mut window = window("plate-crossover", HOLD);
     for _ in 0..4 {
-        window.key_press(Key::ArrowDown);
-        window.step();
+        window.press(Key::ArrowDown);
     }
     until(&mut window, "it is lower", |app| (gap(app) - 0.8).abs() < 1e-3);
     assert!(ratio(window.state()) > 0.01);
-    window.key_press(Key::ArrowUp);
-    window.step();
+    window.press(Key::ArrowUp);
     until(&mut window, "it is higher", |app| (gap(app) - 0.85).abs() < 1e-3);
     for _ in 0..60 {
-        window.key_press(Key::ArrowUp);
-        window.step();
+        window.press(Key::ArrowUp);
     }
     until(&mut window, "it is as high as it goes", |app| (gap(app) - 3.0).abs() < 1e-3);
     window.get_by_role_and_label(Role::Slider, "Gap");
     window.get_by_role_and_label(Role::Slider, "Leak time takes");
     // Elsewhere the same keys do nothing to it.
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
-    window.run_steps(2);
-    window.key_press(Key::ArrowDown);
-    window.run_steps(2);
-    assert!(
-        (window.state().state().hold.as_ref().unwrap().target()
-            / window.state().state().hold.as_ref().unwrap().plate().mean_gap
-            - 3.0)
-            .abs()
-            < 1e-9
-    );
+    window.ctrl(Key::Num1);
+    window.press(Key::ArrowDown);
+    assert!((held(window.state()).target() / held(window.state()).plate().mean_gap - 3.0).abs() < 1e-9);
 }

@@ -160,12 +160,31 @@ fn every_parameter_has_a_named_widget() {
     }
 }
 
-fn type_into(harness: &mut Harness<'_, Edited>, name: &str, text: &str) {
-    harness.get_by_role_and_label(Role::TextInput, name).click();
+fn click(harness: &mut Harness<'_, Edited>, label: &str) {
+    harness.get_by_label(label).click();
     harness.run();
+}
+
+fn click_a(harness: &mut Harness<'_, Edited>, role: Role, name: &str) {
+    harness.get_by_role_and_label(role, name).click();
+    harness.run();
+}
+
+fn press(harness: &mut Harness<'_, Edited>, key: Key) {
+    harness.key_press(key);
+    harness.run();
+}
+
+fn type_into(harness: &mut Harness<'_, Edited>, name: &str, text: &str) {
+    click_a(harness, Role::TextInput, name);
     // The old text is selected, so typing replaces it.
     harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
     harness.run();
+}
+
+fn enter(harness: &mut Harness<'_, Edited>, name: &str, text: &str) {
+    type_into(harness, name, text);
+    press(harness, Key::Enter);
 }
 
 #[test]
@@ -173,8 +192,7 @@ fn a_typed_spacing_is_set() {
     let mut harness = panel(Edited::of(Scene::motor()));
     type_into(&mut harness, "Minimum spacing H_m in nm", "120");
     assert_eq!(harness.state().pushed, [], "nothing happens before Enter");
-    harness.key_press(Key::Enter);
-    harness.run();
+    press(&mut harness, Key::Enter);
     assert_eq!(harness.state().pushed, [Command::SetText { key: "film.min_spacing_nm", text: "120".into() }]);
     let field = harness.get_by_role_and_label(Role::TextInput, "Minimum spacing H_m in nm");
     assert_eq!(field.value().as_deref(), Some("120"));
@@ -184,8 +202,7 @@ fn a_typed_spacing_is_set() {
 fn leaving_the_field_sets_it_once() {
     let mut harness = panel(Edited::of(Scene::motor()));
     type_into(&mut harness, "Tooth width in mm", "1.5");
-    harness.key_press(Key::Tab);
-    harness.run();
+    press(&mut harness, Key::Tab);
     harness.run_steps(5);
     assert_eq!(harness.state().pushed, [Command::SetText { key: "stator.tooth_width_mm", text: "1.5".into() }]);
 }
@@ -195,8 +212,7 @@ fn a_slider_moves_by_keys_and_by_the_pointer() {
     let mut harness = panel(Edited::of(Scene::motor()));
     harness.get_by_role_and_label(Role::Slider, "Waves round the ring").focus();
     harness.run();
-    harness.key_press(Key::ArrowRight);
-    harness.run();
+    press(&mut harness, Key::ArrowRight);
     let set = |value, dragging| Command::Set { key: "motor.waves", value: Value::Whole(value), dragging };
     assert_eq!(harness.state().pushed, [set(8, false)]);
 
@@ -227,49 +243,37 @@ fn what_is_refused_stays_until_it_is_corrected_or_escaped() {
     let mut harness = panel(Edited::of(Scene::motor()));
     let name = "Minimum spacing H_m in nm";
     let shown = |harness: &Harness<'_, Edited>| harness.get_by_role_and_label(Role::TextInput, name).value();
-    type_into(&mut harness, name, "3");
-    harness.key_press(Key::Enter);
-    harness.run();
+    enter(&mut harness, name, "3");
     harness.get_by_label("3 is out of range: allowed 5 to 10000 nm");
     harness.get_by_label_contains("Still 200 nm");
     assert_eq!(shown(&harness).as_deref(), Some("3"));
     assert!(harness.get_by_role_and_label(Role::TextInput, name).is_focused(), "the next key corrects");
 
-    harness.key_press(Key::Escape);
-    harness.run();
+    press(&mut harness, Key::Escape);
     assert_eq!(shown(&harness).as_deref(), Some("200"));
     assert!(harness.query_by_label_contains("out of range").is_none());
     assert_eq!(harness.state().scene(), &Scene::motor());
 
     type_into(&mut harness, name, "thick");
-    harness.key_press(Key::Tab);
-    harness.run();
+    press(&mut harness, Key::Tab);
     harness.get_by_label_contains("expected a number from 5 to 10000 nm, in nm, µm, mm, cm, m");
     assert_eq!(shown(&harness).as_deref(), Some("thick"));
-    type_into(&mut harness, name, "150");
-    harness.key_press(Key::Enter);
-    harness.run();
+    enter(&mut harness, name, "150");
     assert_eq!(shown(&harness).as_deref(), Some("150"));
     assert!(harness.query_by_label_contains("expected a number").is_none());
     // Units, decimal commas and sums.
     for (text, nanometres) in [("0,25 µm", "250"), ("(0.1 + 0.02) um", "120")] {
-        type_into(&mut harness, name, text);
-        harness.key_press(Key::Enter);
-        harness.run();
+        enter(&mut harness, name, text);
         assert_eq!(shown(&harness).as_deref(), Some(nanometres));
     }
     // More digits than anyone reads are there when the cursor is, and stay in the scene when it leaves.
-    type_into(&mut harness, name, "500/3");
-    harness.key_press(Key::Enter);
-    harness.run();
+    enter(&mut harness, name, "500/3");
     assert_eq!(shown(&harness).as_deref(), Some("166.667"));
-    harness.get_by_role_and_label(Role::TextInput, name).click();
-    harness.run();
+    click_a(&mut harness, Role::TextInput, name);
     let spacing = harness.state().scene().get("film.min_spacing_nm").unwrap();
     assert!((spacing.as_number().unwrap() - 500.0 / 3.0).abs() < 1e-6);
     assert_eq!(shown(&harness), Some(spacing.to_string()));
-    harness.key_press(Key::Tab);
-    harness.run();
+    press(&mut harness, Key::Tab);
     assert_eq!(
         (shown(&harness).as_deref(), harness.state().scene().get("film.min_spacing_nm")),
         (Some("166.667"), Some(spacing))
@@ -283,10 +287,8 @@ fn a_refused_slider_says_why_and_escape_takes_the_message_away() {
     let mut harness = panel(edited);
     harness.get_by_label_contains("of the tooth pitch");
     harness.get_by_label("Still 29 mm");
-    harness.get_by_role_and_label(Role::TextInput, "Contact radius in mm").click();
-    harness.run();
-    harness.key_press(Key::Escape);
-    harness.run();
+    click_a(&mut harness, Role::TextInput, "Contact radius in mm");
+    press(&mut harness, Key::Escape);
     assert!(harness.query_by_label_contains("of the tooth pitch").is_none());
 }
 
@@ -308,8 +310,7 @@ fn one_click_brings_back_what_was_opened() {
     edited.state.document.edit(changed, "motor.load_per_wave_n", false);
     let mut harness = panel(edited);
     assert!(harness.query_by_label("Reset tooth width").is_none(), "it is as it was");
-    harness.get_by_label("Reset load on one wave").click();
-    harness.run();
+    click(&mut harness, "Reset load on one wave");
     let (key, value) = ("motor.load_per_wave_n", Value::Number(1.0));
     assert_eq!(harness.state().pushed, [Command::Set { key, value, dragging: false }]);
     assert_eq!(harness.state().scene(), &opened);
@@ -320,8 +321,7 @@ fn one_click_brings_back_what_was_opened() {
 fn an_optional_parameter_is_switched() {
     let mut harness = panel(Edited::of(Scene::plate()));
     for on in [true, false] {
-        harness.get_by_label("Finite width").click();
-        harness.run();
+        click(&mut harness, "Finite width");
         assert_eq!(harness.state().scene().get("plate.width_mm").is_some(), on);
         assert_eq!(harness.query_by_role_and_label(Role::Slider, "Width").is_some(), on);
     }
@@ -332,12 +332,9 @@ fn an_optional_parameter_is_switched() {
 fn choices_and_flags_are_set() {
     let mut harness = panel(Edited::of(Scene::motor()));
     open_all(&mut harness);
-    harness.get_by_role_and_label(Role::CheckBox, "Sliding drags gas along").click();
-    harness.run();
-    harness.get_by_role_and_label(Role::ComboBox, "Slip at the walls").click();
-    harness.run();
-    harness.get_by_label("Fukui and Kaneko").click();
-    harness.run();
+    click_a(&mut harness, Role::CheckBox, "Sliding drags gas along");
+    click_a(&mut harness, Role::ComboBox, "Slip at the walls");
+    click(&mut harness, "Fukui and Kaneko");
     let set = |key, value| Command::Set { key, value, dragging: false };
     let expected = [set("film.shear", Value::Flag(false)), set("film.slip", Value::Text("fukui-kaneko".into()))];
     assert_eq!(harness.state().pushed, expected);
@@ -347,27 +344,20 @@ fn choices_and_flags_are_set() {
 fn what_follows_from_the_gas_is_shown_and_not_edited() {
     let mut harness = panel(Edited::of(Scene::motor()));
     open_all(&mut harness);
-    harness.get_by_role_and_label(Role::ComboBox, "Gas").click();
-    harness.run();
-    harness.get_by_label("Helium").click();
-    harness.run();
+    click_a(&mut harness, Role::ComboBox, "Gas");
+    click(&mut harness, "Helium");
     for (name, value) in [("Viscosity", "19.61 µPa s"), ("Mean free path", "189.3 nm")] {
         assert!(harness.query_by_role_and_label(Role::Slider, name).is_none(), "{name}");
         harness.get_by_label(value);
     }
-    harness.get_by_label("Pressure of an altitude").click();
-    harness.run();
-    type_into(&mut harness, "Altitude in m", "2000");
-    harness.key_press(Key::Enter);
-    harness.run();
+    click(&mut harness, "Pressure of an altitude");
+    enter(&mut harness, "Altitude in m", "2000");
     assert!(harness.query_by_role_and_label(Role::Slider, "Ambient pressure").is_none());
     harness.get_by_label("79.50 kPa");
     harness.get_by_label("241.3 nm");
     // Custom again: what was given before it had a name is gone, and the defaults are back.
-    harness.get_by_role_and_label(Role::ComboBox, "Gas").click();
-    harness.run();
-    harness.get_by_label("Custom").click();
-    harness.run();
+    click_a(&mut harness, Role::ComboBox, "Gas");
+    click(&mut harness, "Custom");
     assert_eq!(*harness.state().scene(), Scene::motor());
 }
 
@@ -375,15 +365,11 @@ fn what_follows_from_the_gas_is_shown_and_not_edited() {
 fn one_of_two_ways_to_say_a_thing_is_edited_and_shows_the_other() {
     let mut harness = panel(Edited::of(Scene::motor()));
     harness.get_by_label("Now 17.15 N");
-    harness.get_by_label("Load on the whole ring").click();
-    harness.run();
-    type_into(&mut harness, "Load on the ring in N", "70");
-    harness.key_press(Key::Enter);
-    harness.run();
+    click(&mut harness, "Load on the whole ring");
+    enter(&mut harness, "Load on the ring in N", "70");
     harness.get_by_label("10.00 N");
     assert!(harness.query_by_role_and_label(Role::Slider, "Load on one wave").is_none());
-    harness.get_by_label("Tooth width as a share of the pitch").click();
-    harness.run();
+    click(&mut harness, "Tooth width as a share of the pitch");
     // 0.6 of 2π · 29 mm/63.
     harness.get_by_label("1.735 mm");
     assert_eq!(harness.state().scene().get("stator.tooth_width_mm"), None);
@@ -396,9 +382,7 @@ fn a_table_comes_from_its_file() {
     std::fs::write(&path, "wavenumber_per_m,compliance_m2_per_n\n100,1e-9\n200,5e-10\n").unwrap();
     let mut harness = panel(Edited::of(Scene::motor()));
     open_all(&mut harness);
-    type_into(&mut harness, "Compliance from a CSV file", path.to_str().unwrap());
-    harness.key_press(Key::Enter);
-    harness.run();
+    enter(&mut harness, "Compliance from a CSV file", path.to_str().unwrap());
     assert_eq!(
         harness.state().scene().get("rotor.model"),
         Some(Value::Text("table".into())),
@@ -411,11 +395,9 @@ fn a_table_comes_from_its_file() {
 #[test]
 fn names_are_kept_on_one_line() {
     let mut harness = panel(Edited::of(Scene::motor()));
-    harness.get_by_role_and_label(Role::MultilineTextInput, "Name").click();
-    harness.run();
+    click_a(&mut harness, Role::MultilineTextInput, "Name");
     harness.get_by_role_and_label(Role::MultilineTextInput, "Name").type_text("Mine, 2nd");
-    harness.key_press(Key::Enter);
-    harness.run();
+    press(&mut harness, Key::Enter);
     assert_eq!(harness.state().scene().name, "Mine, 2nd");
 }
 

@@ -30,7 +30,7 @@ use squeezefilm::solve::Method;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
-use window::{drop_file, face};
+use window::{User, Window, await_path, drop_file, face};
 
 const USUAL: [f32; 2] = [1400.0, 900.0];
 const SMALL: [f32; 2] = [1024.0, 700.0];
@@ -103,7 +103,7 @@ fn pollster_wait<T>(future: impl std::future::Future<Output = T>) -> T {
 }
 
 /// The window on a preset, solved, standing at a phase in which several teeth touch.
-fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
+fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Window {
     let scene = presets::find(preset).unwrap();
     let platform = Platform { now: measuring, ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
     let mut window = Harness::builder()
@@ -114,99 +114,61 @@ fn window(preset: &str, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'s
     // How long the solver takes decides how long a cursor has been blinking.
     window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
     window.key_press(Key::Space);
-    for _ in 0..6000 {
-        window.step();
-        let app = window.state();
+    until(&mut window, "solved", |app| {
         let fine = app.state().run.as_deref().is_some_and(|run| run.fidelity == Fidelity::Fine);
-        if fine && app.state().activity.running.is_none() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    window.key_press(Key::Home);
-    window.step();
+        fine && app.state().activity.running.is_none()
+    });
+    window.press(Key::Home);
     for _ in 0..7 {
-        window.key_press(Key::ArrowRight);
-        window.step();
+        window.press(Key::ArrowRight);
     }
     for _ in 0..2 {
-        window.key_press(Key::CloseBracket);
-        window.step();
+        window.press(Key::CloseBracket);
     }
     for (modifiers, key) in keys {
         window.key_press_modifiers(*modifiers, *key);
         settle(&mut window);
     }
-    // What a tab computes in the background.
-    for _ in 0..1000 {
-        let app = window.state();
-        let waits =
-            app.state().view.tab == Tab::Torque && app.state().run.as_deref().is_some_and(|run| needs_torque(app, run));
-        if !waits {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-        window.step();
-    }
-    settle(&mut window);
+    until(&mut window, "what a tab computes in the background", |app| {
+        app.state().view.tab != Tab::Torque || app.state().run.as_deref().is_some_and(|run| !needs_torque(app, run))
+    });
     window
 }
 
-/// Presses a key with Ctrl.
-fn ctrl(window: &mut Harness<'static, App>, key: Key) {
-    window.key_press_modifiers(Modifiers::COMMAND, key);
+/// Steps until `ready`, and until nothing moves any more.
+fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
+    window::until(window, what, ready);
     settle(window);
 }
 
-/// Steps until `ready`.
-fn until(window: &mut Harness<'static, App>, what: &str, ready: impl Fn(&App) -> bool) {
-    for _ in 0..12_000 {
-        window.step();
-        if ready(window.state()) {
-            settle(window);
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("{what}: did not happen");
-}
-
 /// Two pinned runs of a preset that differ in one key, and a preset beside them.
-fn compared(
-    preset: &str,
-    (field, text): (&str, &str),
-    size: [f32; 2],
-    keys: &[(Modifiers, Key)],
-) -> Harness<'static, App> {
+fn compared(preset: &str, (field, text): (&str, &str), size: [f32; 2], keys: &[(Modifiers, Key)]) -> Window {
     let mut window = window(preset, size, keys);
-    ctrl(&mut window, Key::D);
-    window.get_by_role_and_label(Role::TextInput, field).click();
-    window.run_steps(2);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(2);
+    window.ctrl(Key::D);
+    settle(&mut window);
+    window.type_into(field, text);
     until(&mut window, "solved", |app| {
         let number = app.state().activity.number;
         app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
     });
-    ctrl(&mut window, Key::D);
-    ctrl(&mut window, Key::Num2);
+    window.ctrl(Key::D);
+    settle(&mut window);
+    window.ctrl(Key::Num2);
+    settle(&mut window);
     window
 }
 
 /// A sweep that has ended.
-fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Harness<'static, App> {
+fn swept(preset: &str, two: bool, size: [f32; 2], keys: &[(Modifiers, Key)]) -> Window {
     let mut window = window(preset, size, keys);
-    ctrl(&mut window, Key::Num3);
+    window.ctrl(Key::Num3);
+    settle(&mut window);
     if two {
         window.get_by_label("Add a second…").click();
         settle(&mut window);
     }
-    window.get_by_label("Start the sweep").click();
-    window.run_steps(2);
-    until(&mut window, "swept", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
+    window.click_on("Start the sweep");
+    until(&mut window, "swept", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
     window
 }
 
@@ -216,7 +178,7 @@ fn needs_torque(app: &App, run: &SolvedScene) -> bool {
 }
 
 /// Until panels have their sizes and nothing fades in any more.
-fn settle(window: &mut Harness<'static, App>) {
+fn settle(window: &mut Window) {
     window.run_steps(20);
 }
 
@@ -230,14 +192,9 @@ fn live(results: &mut SnapshotResults) {
     ] {
         let mut window = window(preset, size, keys);
         window.get_by_label("Start from rest").click();
-        for _ in 0..6000 {
-            window.step();
-            if window.state().state().startup.as_ref().is_some_and(|starting| starting.ended().is_some()) {
-                break;
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        settle(&mut window);
+        until(&mut window, "the start-up ends", |app| {
+            app.state().startup.as_ref().is_some_and(|starting| starting.ended.is_some())
+        });
         window.snapshot(name);
         results.extend_harness(&mut window);
     }
@@ -287,8 +244,7 @@ fn the_window_looks_as_it_did() {
         results.extend_harness(&mut window);
     }
     let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num5)]);
-    window.get_by_label("Measure").click();
-    window.run_steps(2);
+    window.click_on("Measure");
     until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
     window.snapshot("trade-off");
     results.extend_harness(&mut window);
@@ -309,19 +265,15 @@ fn sensitivities_look_as_they_did() {
     }
     let mut results = SnapshotResults::new();
     let mut window = window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num9)]);
-    window.get_by_label("Compute sensitivities").click();
-    window.run_steps(2);
-    until(&mut window, "sensitivities", |app| app.state().sensitivity.found().is_some());
+    window.click_on("Compute sensitivities");
+    until(&mut window, "sensitivities", |app| app.state().sensitivity.found.is_some());
     window.snapshot("sensitivity");
     for (parameter, amount) in [("Minimum spacing H_m", "20%"), ("Load on one wave", "±10%")] {
-        window.get_by_role_and_label(Role::TextInput, &format!("Uncertainty of {parameter}")).click();
-        window.run_steps(2);
-        window.get_by_role_and_label(Role::TextInput, &format!("Uncertainty of {parameter}")).type_text(amount);
+        window.type_over(Role::TextInput, &format!("Uncertainty of {parameter}"), amount);
         window.run_steps(2);
     }
-    window.get_by_label("Draw and solve").click();
-    window.run_steps(2);
-    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo().is_some());
+    window.click_on("Draw and solve");
+    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo.is_some());
     window.get_by_label("Draw and solve").scroll_to_me();
     settle(&mut window);
     window.snapshot("sensitivity-uncertain");
@@ -361,7 +313,7 @@ fn a_rotor_looks_as_it_did() {
     let path = folder.path().join("face.csv");
     std::fs::write(&path, face()).unwrap();
     drop_file(&mut window, &path);
-    until(&mut window, "the heights are read", |app| app.state().face.found().is_some());
+    until(&mut window, "the heights are read", |app| app.state().face.found.is_some());
     window.get_by_role_and_label(Role::Image, "Profile along x, nm").scroll_to_me();
     settle(&mut window);
     window.snapshot("rotor-measured-face");
@@ -387,8 +339,7 @@ fn measurements_look_as_they_did() {
         window.get_by_label("Add a key…").click();
         settle(&mut window);
         window.get_by_label("Fit the scene").click();
-        window::until(&mut window, "the fit", |app| app.state().fit.found().is_some());
-        settle(&mut window);
+        until(&mut window, "the fit", |app| app.state().fit.found.is_some());
         window.snapshot(name);
         results.extend_harness(&mut window);
     }
@@ -402,13 +353,7 @@ fn measurements_look_as_they_did() {
 /// A path to type, and what cannot be opened, in a small window with large text.
 fn open_by_path(results: &mut SnapshotResults) {
     let mut window = window("fundamental", SMALL, &[LECTURE, OPEN]);
-    for _ in 0..200 {
-        if window.query_all_by_label("Path").next().is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-        window.step();
-    }
+    await_path(&mut window);
     settle(&mut window);
     window.snapshot("open-by-path");
     window.get_by_role_and_label(Role::TextInput, "Path").type_text("/absent.toml");
@@ -420,7 +365,7 @@ fn open_by_path(results: &mut SnapshotResults) {
 }
 
 /// Clicks these one after the other, by their names.
-fn click(window: &mut Harness<'static, App>, labels: &[&str]) {
+fn click(window: &mut Window, labels: &[&str]) {
     for label in labels {
         // A choice is there twice: its mark, and its words.
         window.query_all_by_label_contains(label).next().unwrap().click();
@@ -429,18 +374,11 @@ fn click(window: &mut Harness<'static, App>, labels: &[&str]) {
 }
 
 /// Until the scene of a lesson's step is solved as far as it will be, and its motion stands at its start.
-fn solved(window: &mut Harness<'static, App>) {
-    for _ in 0..6000 {
-        window.step();
-        let app = window.state();
-        let done = |run: &squeezefilm::job::SolvedScene| {
-            run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine
-        };
-        if app.state().activity.running.is_none() && app.state().run.as_deref().is_some_and(done) {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
+fn solved(window: &mut Window) {
+    until(window, "the step is solved", |app| {
+        let done = |run: &SolvedScene| run.scene == *app.state().document.scene() && run.fidelity == Fidelity::Fine;
+        app.state().activity.running.is_none() && app.state().run.as_deref().is_some_and(done)
+    });
     window.hover_at(eframe::egui::pos2(700.0, 1.0));
     settle(window);
 }

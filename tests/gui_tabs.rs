@@ -18,7 +18,6 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::derived::format::{digits, uncertain};
 use squeezefilm::gui::state::dialogs::Answer;
-use squeezefilm::gui::state::document::Document;
 use squeezefilm::gui::state::fit::Found;
 use squeezefilm::gui::state::pins::Page;
 use squeezefilm::gui::state::sweep::Swept;
@@ -33,7 +32,7 @@ use squeezefilm::solution::Outcome;
 use squeezefilm::solve::Settings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use window::{Memory, Window, begin_export, click, drop_file, face, open, reopen, solved};
+use window::{Memory, User, Window, begin_export, drop_file, face, left, reopen, solved, until};
 
 /// One of each family, twice each.
 fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
@@ -48,36 +47,12 @@ fn few(problem: &Problem) -> (Vec<Candidate>, Effort) {
 
 /// A window whose paths are typed.
 fn window(preset: &str) -> Window {
-    let scene = presets::find(preset).unwrap();
     let platform = Platform { ask: |_, _| Answer::NoDialog, measure: few, ..Platform::default() };
-    open(Document::opened(scene, None), 1000.0, platform)
-}
-
-/// Steps until `ready`, and a little more.
-fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
-    window::until(window, what, ready);
-    window.run_steps(3);
-}
-
-fn ctrl(window: &mut Window, key: Key) {
-    window.key_press_modifiers(Modifiers::COMMAND, key);
-    window.run_steps(3);
-}
-
-/// Types into a field, over what is there.
-fn type_into(window: &mut Window, field: &str, text: &str) {
-    window.get_by_role_and_label(Role::TextInput, field).click();
-    window.run_steps(2);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::TextInput, field).type_text(text);
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    window::preset(preset, 1000.0, platform)
 }
 
 fn show_fit(window: &mut Window) {
-    window.key_press_modifiers(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
-    window.run_steps(3);
+    window.press_with(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::F);
 }
 
 fn labels(app: &App) -> Vec<String> {
@@ -88,11 +63,11 @@ fn labels(app: &App) -> Vec<String> {
 fn two_pinned() -> Window {
     let mut window = window("fundamental");
     solved(&mut window);
-    ctrl(&mut window, Key::D);
-    type_into(&mut window, "Minimum spacing H_m in nm", "100");
+    window.ctrl(Key::D);
+    window.type_into("Minimum spacing H_m in nm", "100");
     solved(&mut window);
-    click(&mut window, "Pin");
-    ctrl(&mut window, Key::Num2);
+    window.click_on("Pin");
+    window.ctrl(Key::Num2);
     window
 }
 
@@ -104,18 +79,18 @@ fn two_runs_are_pinned_and_the_table_has_their_difference() {
     window.get_by_label("Compare (2)");
 
     // The numbers are those of the analysis, of runs that were solved by themselves.
-    let scenes: Vec<_> = window.state().state().pins.runs().iter().map(|run| run.scene.clone()).collect();
+    let scenes: Vec<_> = window.known().pins.runs().iter().map(|run| run.scene.clone()).collect();
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let alone = compare::runs(&scenes, &settings, &Cancel::new(), &|_| ()).unwrap();
     let rows = compare::results(&alone);
     let alpha = rows.iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
-    let shown = window.state().state().pins.results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
+    let shown = window.known().pins.results().iter().find(|row| row.quantity == Quantity::Alpha).unwrap();
     let (ours, theirs) = (&shown.cells[1], &alpha.cells[1]);
     // The window starts from the last solve: the same to a fraction of the stated error.
     let within = theirs.difference_error_percent.unwrap();
     assert!((ours.difference_percent.unwrap() - theirs.difference_percent.unwrap()).abs() < within);
     let texts = [value_text(shown, ours), difference_text(shown, ours)];
-    click(&mut window, "Numbers");
+    window.click_on("Numbers");
     for text in &texts {
         assert!(!text.is_empty() && window.query_all_by_label(text).next().is_some(), "{text}");
     }
@@ -123,20 +98,19 @@ fn two_runs_are_pinned_and_the_table_has_their_difference() {
     let tooth = "Tooth width, mm";
     window.get_by_label("Minimum spacing H_m, nm");
     assert!(window.query_by_label(tooth).is_none());
-    click(&mut window, "Only those that differ");
+    window.click_on("Only those that differ");
     window.get_by_label(tooth);
-    assert_eq!(window.state().state().pins.page, Page::Numbers);
+    assert_eq!(window.known().pins.page, Page::Numbers);
     assert!(window.query_by_label("Time in the cycle").is_none(), "numbers do not move");
 }
 
 #[test]
 fn fields_move_in_phase_and_maps_share_one_scale() {
     let mut window = two_pinned();
-    let pressure =
-        window.state().state().pins.runs().iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
+    let pressure = window.known().pins.runs().iter().map(|run| &run.solved.as_ref().unwrap().recording.pressure);
     let all: Vec<f64> = pressure.flatten().copied().collect();
     let (low, high) = all.iter().fold((f64::INFINITY, 0.0f64), |(low, high), p| (low.min(*p), high.max(*p)));
-    let own: Vec<f64> = window.state().state().pins.pins().iter().map(|pin| pin.curves.scales.pressure[1]).collect();
+    let own: Vec<f64> = window.known().pins.pins().iter().map(|pin| pin.curves.scales.pressure[1]).collect();
     assert!(own[0] != own[1], "each alone would have another scale");
     for label in labels(window.state()) {
         let about = format!("Pressure map of {label}, colours from ");
@@ -151,61 +125,57 @@ fn fields_move_in_phase_and_maps_share_one_scale() {
     // The timeline is the one of the motion.
     window.get_by_label("Pause");
     window.get_by_label_contains("t = ");
-    let phase = window.state().state().view.phase;
+    let phase = window.known().view.phase;
     std::thread::sleep(Duration::from_millis(30));
     window.run_steps(2);
-    assert_ne!(window.state().state().view.phase, phase);
+    assert_ne!(window.known().view.phase, phase);
     window.key_press(Key::Home);
-    window.key_press(Key::ArrowRight);
-    window.run_steps(2);
-    let frames = window.state().state().pins.runs()[0].solved.as_ref().unwrap().recording.frames;
-    assert!((window.state().state().view.phase - 1.0 / frames as f64).abs() < 1e-12);
+    window.press(Key::ArrowRight);
+    let frames = window.known().pins.runs()[0].solved.as_ref().unwrap().recording.frames;
+    assert!((window.known().view.phase - 1.0 / frames as f64).abs() < 1e-12);
 }
 
 #[test]
 fn pins_are_renamed_opened_and_removed() {
     let mut window = two_pinned();
     let first = labels(window.state())[0].clone();
-    type_into(&mut window, &format!("Label of {first}"), "as published");
+    window.type_into(&format!("Label of {first}"), "as published");
     assert_eq!(labels(window.state())[0], "as published");
-    let spacing = |window: &Window| window.state().state().document.scene().get("film.min_spacing_nm").unwrap();
+    let spacing = |window: &Window| window.known().document.scene().get("film.min_spacing_nm").unwrap();
     assert_eq!(spacing(&window), Value::Number(100.0));
-    click(&mut window, "Open as published");
+    window.click_on("Open as published");
     assert_eq!(spacing(&window), Value::Number(200.0));
-    ctrl(&mut window, Key::Z);
+    window.ctrl(Key::Z);
     assert_eq!(spacing(&window), Value::Number(100.0));
-    click(&mut window, "Remove as published");
-    assert_eq!(window.state().state().pins.runs().len(), 1);
+    window.click_on("Remove as published");
+    assert_eq!(window.known().pins.runs().len(), 1);
     // What is left is what differences are from.
-    assert!(window.state().state().pins.results().iter().all(|row| row.cells[0].difference_percent.is_none()));
+    assert!(window.known().pins.results().iter().all(|row| row.cells[0].difference_percent.is_none()));
     window.get_by_label("Compare (1)");
 }
 
 #[test]
 fn a_preset_is_solved_in_the_background_and_a_plate_is_told_from_a_motor() {
     let mut window = window("fundamental");
-    ctrl(&mut window, Key::Num2);
-    assert!(window.state().state().pins.runs().is_empty());
+    window.ctrl(Key::Num2);
+    assert!(window.known().pins.runs().is_empty());
     window.get_by_label_contains("Pin a run, change the scene");
     let plate = presets::find("plate-crossover").unwrap().name;
     for preset in [&plate, &presets::find("levitating").unwrap().name] {
-        window.get_by_label_contains("Pin a preset").click();
-        window.run_steps(3);
-        window.get_by_label_contains(preset).click();
-        window.run_steps(2);
+        window.click_part("Pin a preset");
+        window.click_part(preset);
         until(&mut window, preset, |app| app.state().pins.waiting().is_empty() && labels(app).contains(preset));
     }
-    let fidelities =
-        window.state().state().pins.runs().iter().map(|run| run.solved.as_ref().unwrap().model.fidelity.clone());
-    assert!(fidelities.into_iter().all(|fidelity| fidelity == window.state().state().document.target().name()));
+    let fidelities = window.known().pins.runs().iter().map(|run| run.solved.as_ref().unwrap().model.fidelity.clone());
+    assert!(fidelities.into_iter().all(|fidelity| fidelity == window.known().document.target().name()));
     window.get_by_label_contains("Motors and plates cannot be laid over each other");
     // Each has its own period: no time is that of all.
     window.get_by_label_contains("° of each cycle");
     assert!(window.query_by_label_contains("t = ").is_none());
     // The scene being edited is as it was.
-    assert_eq!(window.state().state().document.scene(), &presets::find("fundamental").unwrap());
-    click(&mut window, "Remove all");
-    assert!(window.state().state().pins.runs().is_empty());
+    assert_eq!(window.known().document.scene(), &presets::find("fundamental").unwrap());
+    window.click_on("Remove all");
+    assert!(window.known().pins.runs().is_empty());
 }
 
 fn swept(app: &App) -> &Swept {
@@ -216,48 +186,47 @@ fn swept(app: &App) -> &Swept {
 fn a_sweep_arrives_in_part_is_cancelled_gone_on_with_and_equals_an_unbroken_one() {
     let mut window = window("fundamental");
     solved(&mut window);
-    ctrl(&mut window, Key::Num3);
-    assert_eq!(window.state().state().view.tab, Tab::Sweep);
-    assert!(window.state().state().sweep.swept().is_none(), "nothing is solved before it is asked for");
+    window.ctrl(Key::Num3);
+    assert_eq!(window.known().view.tab, Tab::Sweep);
+    assert!(window.known().sweep.swept().is_none(), "nothing is solved before it is asked for");
     // So many that the sweep is still at work when it is cancelled, whatever else the machine does.
-    type_into(&mut window, "Values along x", "1000");
-    click(&mut window, "Start the sweep");
-    until(&mut window, "some points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.rows().is_empty()));
+    window.type_into("Values along x", "1000");
+    window.click_on("Start the sweep");
+    until(&mut window, "some points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.rows.is_empty()));
     window.get_by_label("Cancel the sweep").click();
-    until(&mut window, "the end", |app| !swept(app).running());
-    let part = swept(window.state()).rows().len();
+    until(&mut window, "the end", |app| !swept(app).running);
+    let part = swept(window.state()).rows.len();
     assert!(part > 0 && part < 1000, "{part}");
     window.get_by_label_contains("Cancelled");
-    click(&mut window, "Continue");
-    until(&mut window, "all points", |app| swept(app).complete() && !swept(app).running());
+    window.click_on("Continue");
+    until(&mut window, "all points", |app| swept(app).complete() && !swept(app).running);
 
-    let sweep = swept(window.state()).sweep();
+    let sweep = &swept(window.state()).sweep;
     let vary = ["film.min_spacing_nm=50:800:1000:log".parse().unwrap()];
     let unbroken = Sweep::new(&presets::find("fundamental").unwrap(), &vary, sweep.settings()).unwrap();
     assert_eq!(sweep.fingerprint(), unbroken.fingerprint(), "the range asked for by default");
-    assert_eq!(swept(window.state()).rows(), unbroken.run(&[], &Cancel::new(), &|_| ()));
+    assert_eq!(swept(window.state()).rows, unbroken.run(&[], &Cancel::new(), &|_| ()));
 
     // Another quantity solves nothing.
-    let before = swept(window.state()).rows().to_vec();
-    window.get_by_role_and_label(Role::ComboBox, "Result shown").click();
-    window.run_steps(3);
-    click(&mut window, "Film load, N");
-    assert_eq!(window.state().state().sweep.quantity(&sweep_quantities(&window)), Quantity::FilmLoad);
-    assert!(!swept(window.state()).running() && swept(window.state()).rows() == before);
+    let before = swept(window.state()).rows.to_vec();
+    window.open_list("Result shown");
+    window.click_on("Film load, N");
+    assert_eq!(window.known().sweep.quantity(&sweep_quantities(&window)), Quantity::FilmLoad);
+    assert!(!swept(window.state()).running && swept(window.state()).rows == before);
 }
 
 fn sweep_quantities(window: &Window) -> Vec<Quantity> {
-    swept(window.state()).sweep().quantities()
+    swept(window.state()).sweep.quantities()
 }
 
 #[test]
 fn a_point_is_read_and_opened_as_one_edit() {
     let mut window = window("plate-crossover");
     solved(&mut window);
-    ctrl(&mut window, Key::Num3);
-    type_into(&mut window, "Values along x", "5");
-    click(&mut window, "Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
+    window.ctrl(Key::Num3);
+    window.type_into("Values along x", "5");
+    window.click_on("Start the sweep");
+    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
     let drawing = "Sweep: point to read a value, click to make its scene the present one";
     let rect = window.get_by_label(drawing).rect();
     // Right of the middle: the fourth of five.
@@ -265,64 +234,61 @@ fn a_point_is_read_and_opened_as_one_edit() {
     window.hover_at(at);
     window.run_steps(20);
     window.get_by_label_contains("Click to make this the present scene");
-    let before = window.state().state().document.scene().clone();
+    let before = window.known().document.scene().clone();
     window.drag_at(at);
     window.step();
     window.drop_at(at);
     window.run_steps(3);
-    let opened = window.state().state().document.scene().clone();
-    assert_eq!(opened, swept(window.state()).sweep().scene_at(3).unwrap());
+    let opened = window.known().document.scene().clone();
+    assert_eq!(opened, swept(window.state()).sweep.scene_at(3).unwrap());
     assert!(window.query_by_label_contains("before the scene changed").is_none(), "it is a point of the sweep");
-    ctrl(&mut window, Key::Z);
-    assert_eq!(window.state().state().document.scene(), &before);
+    window.ctrl(Key::Z);
+    assert_eq!(window.known().document.scene(), &before);
 }
 
 #[test]
 fn two_parameters_make_a_map_and_bad_input_is_refused_in_place() {
     let mut window = window("plate-trapped");
-    ctrl(&mut window, Key::Num3);
-    click(&mut window, "Add a second…");
-    type_into(&mut window, "Values along x", "4");
-    type_into(&mut window, "Values along y", "1");
+    window.ctrl(Key::Num3);
+    window.click_on("Add a second…");
+    window.type_into("Values along x", "4");
+    window.type_into("Values along y", "1");
     window.get_by_label_contains("allowed 2 to 10000");
-    click(&mut window, "Start the sweep");
-    assert!(window.state().state().sweep.swept().is_none());
-    type_into(&mut window, "Values along y", "3");
+    window.click_on("Start the sweep");
+    assert!(window.known().sweep.swept().is_none());
+    window.type_into("Values along y", "3");
     assert!(window.query_by_label_contains("allowed 2 to 10000").is_none());
-    type_into(&mut window, "From along x", "-1");
+    window.type_into("From along x", "-1");
     window.get_by_label_contains("plate.frequency_khz = -1");
-    type_into(&mut window, "From along x", "1");
+    window.type_into("From along x", "1");
     // A fault that only both keys together have is told when it begins.
-    click(&mut window, "Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
-    assert_eq!(swept(window.state()).rows().len(), 12);
-    assert_eq!(swept(window.state()).sweep().axes().len(), 2);
+    window.click_on("Start the sweep");
+    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
+    assert_eq!(swept(window.state()).rows.len(), 12);
+    assert_eq!(swept(window.state()).sweep.axes().len(), 2);
     // Its contours are computed once.
     window.run_steps(2);
     let before = made(&window.ctx);
     window.run_steps(10);
     assert_eq!(made(&window.ctx), before);
-    window.get_by_role_and_label(Role::ComboBox, "Result shown").click();
-    window.run_steps(3);
-    click(&mut window, "Highest pressure, kPa");
+    window.open_list("Result shown");
+    window.click_on("Highest pressure, kPa");
     assert_eq!(made(&window.ctx), before + 1);
-    click(&mut window, "Back to one parameter");
+    window.click_on("Back to one parameter");
     assert!(window.query_by_role_and_label(Role::TextInput, "Values along y").is_none());
 }
 
 #[test]
 fn closing_the_window_ends_a_sweep_and_what_is_being_solved() {
     let mut window = window("fundamental");
-    ctrl(&mut window, Key::Num3);
-    type_into(&mut window, "Values along x", "9000");
-    click(&mut window, "Start the sweep");
-    until(&mut window, "its points", |app| app.state().sweep.swept().is_some_and(|swept| swept.running()));
-    ctrl(&mut window, Key::Num2);
-    window.get_by_label_contains("Pin a preset").click();
-    window.run_steps(3);
+    window.ctrl(Key::Num3);
+    window.type_into("Values along x", "9000");
+    window.click_on("Start the sweep");
+    until(&mut window, "its points", |app| app.state().sweep.swept().is_some_and(|swept| swept.running));
+    window.ctrl(Key::Num2);
+    window.click_part("Pin a preset");
     let slow = presets::find("doubled-mesh").unwrap().name;
-    window.get_by_label_contains(&slow).click();
-    window.run_steps(2);
+    window.click_part(&slow);
     drop(window);
 }
 
@@ -397,10 +363,10 @@ fn what_is_exported_is_what_the_command_line_writes() {
     export(&mut window, "Animation…", &missing);
     window.get_by_label("This did not work");
     window.get_by_label_contains("cannot be written");
-    click(&mut window, "Close");
+    window.click_on("Close");
     export(&mut window, "Animation…", &at("cycle.avi"));
     window.get_by_label_contains("allowed .gif, .mp4, .png, .apng");
-    click(&mut window, "Close");
+    window.click_on("Close");
     assert!(!missing.exists() && !at("cycle.avi").exists());
 }
 
@@ -410,10 +376,10 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
     let at = |name: &str| -> PathBuf { folder.path().join(name) };
     let mut window = window("plate-crossover");
     solved(&mut window);
-    ctrl(&mut window, Key::D);
-    type_into(&mut window, "Frequency in kHz", "30");
+    window.ctrl(Key::D);
+    window.type_into("Frequency in kHz", "30");
     solved(&mut window);
-    ctrl(&mut window, Key::D);
+    window.ctrl(Key::D);
     export(&mut window, "Comparison, into a folder…", &at("comparison"));
     let found = names(&at("comparison"));
     for name in ["report.html", "compare.csv", "parameters.csv", "compare.json", "cycle.gif", "maps.svg"] {
@@ -423,14 +389,14 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
         serde_json::from_slice(&std::fs::read(at("comparison/compare.json")).unwrap()).unwrap();
     assert_eq!(object["runs"][1]["label"], labels(window.state())[1].as_str());
 
-    ctrl(&mut window, Key::Num3);
-    type_into(&mut window, "Values along x", "3");
-    click(&mut window, "Start the sweep");
-    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running()));
+    window.ctrl(Key::Num3);
+    window.type_into("Values along x", "3");
+    window.click_on("Start the sweep");
+    until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| !swept.running));
     export(&mut window, "Sweep as table…", &at("sweep.csv"));
     let text = std::fs::read_to_string(at("sweep.csv")).unwrap();
     let (shown, mut written) = (swept(window.state()), Vec::new());
-    squeezefilm::export::sweep::write_csv(shown.sweep(), shown.rows(), &mut written).unwrap();
+    squeezefilm::export::sweep::write_csv(&shown.sweep, shown.rows, &mut written).unwrap();
     assert!(text.as_bytes() == written && text.lines().count() == 4, "{text}");
     export(&mut window, "Sweep as figure…", &at("sweep.pdf"));
     assert!(std::fs::read(at("sweep.pdf")).unwrap().starts_with(b"%PDF"));
@@ -442,8 +408,8 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
     until(&mut window, "it begins", |app| app.state().exports.running().is_some());
     begin_export(&mut window, "Fields as NumPy archive…", &at("fields.npz"));
     window.get_by_label_contains("Another export goes on");
-    click(&mut window, "Close");
-    click(&mut window, "Cancel the export");
+    window.click_on("Close");
+    window.click_on("Cancel the export");
     until(&mut window, "it ends", |app| app.state().exports.running().is_none());
     assert!(window.query_by_label("This did not work").is_none(), "that it was cancelled is no error");
     assert!(names(folder.path()).iter().all(|name| !name.contains("long") && !name.contains(".tmp")));
@@ -458,11 +424,6 @@ fn told(window: &Window) -> Vec<(Role, String, Option<String>)> {
             (node.role(), node.label().or(node.value()).unwrap_or_default(), node.description())
         })
         .collect()
-}
-
-/// Whether a text is on screen.
-fn shows(window: &Window, part: &str) -> bool {
-    window.query_all_by_label_contains(part).next().is_some()
 }
 
 /// The tab on screen explains these words, each where it stands; nothing in it is without a word about it.
@@ -504,7 +465,7 @@ fn explains(faults: &mut Vec<String>, window: &Window, tab: &str, words: &[&str]
 
 /// Resting on what is called `name` shows `text`.
 fn hovers(faults: &mut Vec<String>, window: &mut Window, name: &str, text: &str) {
-    assert!(!shows(window, text), "{text}");
+    assert!(!window.shows(text), "{text}");
     let words = window.query_all_by_role_and_label(Role::Label, name).next();
     let Some(part) = words.or_else(|| window.query_all_by_label(name).next()) else {
         faults.push(format!("there is no {name}"));
@@ -512,7 +473,7 @@ fn hovers(faults: &mut Vec<String>, window: &mut Window, name: &str, text: &str)
     };
     part.hover();
     window.run_steps(40);
-    if !shows(window, text) {
+    if !window.shows(text) {
         faults.push(format!("{name} does not show “{text}”"));
     }
     window.hover_at(eframe::egui::pos2(1390.0, 2.0));
@@ -524,8 +485,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     // The panels at the sides explain some of the same words: they are not there.
     let quiet = |window: &mut Window| {
         for key in [Key::F2, Key::F3] {
-            window.key_press(key);
-            window.run_steps(2);
+            window.press(key);
         }
         window.get_by_label("Pause").click();
         window.run_steps(10);
@@ -539,27 +499,27 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Compare", &fields);
     hovers(faults, &mut window, "About: Gauge pressure", "Below zero it sucks");
     hovers(faults, &mut window, "Remove all", "Takes all pins away");
-    click(&mut window, "Numbers");
+    window.click_on("Numbers");
     explains(faults, &window, "Compare, numbers", &["α", "Film load", "Difference", "Knudsen number", "Film steps"]);
     hovers(faults, &mut window, "difference", "that of the first pinned run");
     hovers(faults, &mut window, "Minimum spacing H_m, nm", "film.min_spacing_nm");
 
-    ctrl(&mut window, Key::Num1);
+    window.ctrl(Key::Num1);
     let motion = ["Travelling wave", "Rotor", "Stator", "Gauge pressure", "Film", "Contact", "Pressure map"];
     explains(faults, &window, "Motion", &motion);
     explains(faults, &window, "Motion, at the side", &["Ring", "Velocity across the film", "u"]);
     explains(faults, &window, "Motion, followed tooth", &["Followed tooth", "Least gap", "Loads", "Slow motion"]);
 
-    ctrl(&mut window, Key::Num3);
+    window.ctrl(Key::Num3);
     explains(faults, &window, "Sweep, before", &["Fidelity"]);
-    type_into(&mut window, "Values along x", "3");
-    click(&mut window, "Start the sweep");
+    window.type_into("Values along x", "3");
+    window.click_on("Start the sweep");
     until(&mut window, "all points", |app| app.state().sweep.swept().is_some_and(|swept| swept.complete()));
     explains(faults, &window, "Sweep", &["α", "Computed", "Stated error", "Table I", "Present"]);
     hovers(faults, &mut window, "About: Minimum spacing H_m", "film.min_spacing_nm");
     hovers(faults, &mut window, "About: stated error", "the numerical error only");
 
-    ctrl(&mut window, Key::Num4);
+    window.ctrl(Key::Num4);
     until(&mut window, "torque over speed", |app| {
         app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
     });
@@ -575,9 +535,9 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     hovers(faults, &mut window, "Stall torque", "held at rest");
     hovers(faults, &mut window, "without film", "in a vacuum");
 
-    ctrl(&mut window, Key::Num5);
+    window.ctrl(Key::Num5);
     explains(faults, &window, "Trade-off, before", &[]);
-    click(&mut window, "Measure");
+    window.click_on("Measure");
     until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
     let tradeoff =
         ["fidelities", "other grids", "the paper's method", "present setting", "best", "Solve time", "Error of α"];
@@ -585,28 +545,28 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     explains(faults, &window, "Trade-off, table", &["Setting", "Stated error", "Accuracy", "Budget"]);
     hovers(faults, &mut window, "other grids", "spend their points well");
 
-    ctrl(&mut window, Key::Num6);
+    window.ctrl(Key::Num6);
     explains(faults, &window, "Start-up, before", &[]);
-    click(&mut window, "Start from rest");
+    window.click_on("Start from rest");
     until(&mut window, "a cycle arrives", |app| {
-        app.state().startup.as_ref().is_some_and(|starting| starting.points().len() > 1)
+        app.state().startup.as_ref().is_some_and(|starting| starting.points.len() > 1)
     });
     let startup = ["α", "Least film thickness", "Highest pressure", "Cycle", "Periodic solve"];
     explains(faults, &window, "Start-up", &startup);
-    click(&mut window, "Cancel the start-up");
+    window.click_on("Cancel the start-up");
 
-    ctrl(&mut window, Key::Num8);
+    window.ctrl(Key::Num8);
     until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
     explains(faults, &window, "Rotor", &["Compliance", "Harmonic", "Green's function"]);
     hovers(faults, &mut window, "present rotor", "single unit force");
 
-    ctrl(&mut window, Key::Num9);
+    window.ctrl(Key::Num9);
     explains(faults, &window, "Sensitivity, before", &[]);
-    click(&mut window, "Compute sensitivities");
-    until(&mut window, "sensitivities", |app| app.state().sensitivity.found().is_some());
-    type_into(&mut window, "Uncertainty of Minimum spacing H_m", "20%");
-    click(&mut window, "Draw and solve");
-    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo().is_some());
+    window.click_on("Compute sensitivities");
+    until(&mut window, "sensitivities", |app| app.state().sensitivity.found.is_some());
+    window.type_into("Uncertainty of Minimum spacing H_m", "20%");
+    window.click_on("Draw and solve");
+    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo.is_some());
     let words = ["α", "Stall torque", "No-load speed", "Elasticity", "Uncertainty", "Stated error", "Random scenes"];
     explains(faults, &window, "Sensitivity", &words);
     explains(faults, &window, "Sensitivity, table", &["Parameter", "Share of the variance"]);
@@ -618,8 +578,8 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     std::fs::write(&table, LOADS).unwrap();
     drop_file(&mut window, &table);
     explains(faults, &window, "Fit, form", &[]);
-    click(&mut window, "Fit the scene");
-    until(&mut window, "the fit", |app| app.state().fit.found().is_some());
+    window.click_on("Fit the scene");
+    until(&mut window, "the fit", |app| app.state().fit.found.is_some());
     let words = ["Standard error", "Measured", "Computed", "Residual", "Measured over computed"];
     explains(faults, &window, "Fit", &words);
     hovers(faults, &mut window, "Take these values", "one edit, which can be undone");
@@ -628,7 +588,7 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
     let mut window = self::window("rough-flow");
     solved(&mut window);
     quiet(&mut window);
-    ctrl(&mut window, Key::Num8);
+    window.ctrl(Key::Num8);
     until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
     explains(faults, &window, "Rough faces", &["Compliance", "Asperities", "Flow factors", "along the wave"]);
     drop(window);
@@ -642,13 +602,13 @@ fn every_term_and_every_button_of_every_tab_is_explained_on_hover() {
         "Motion of a plate",
         &["Gap", "Plate", "Wall", "Film pressure", "Ambient", "Film load", "Loop", "Velocity across the film"],
     );
-    ctrl(&mut window, Key::Num4);
+    window.ctrl(Key::Num4);
     let exact = ["Squeeze number", "Spring", "Damping", "σ/Q", "Spring and damping", "Boyle", "t/T", "Film load"];
     explains(faults, &window, "Exact", &exact);
     explains(faults, &window, "Exact, in units", &["Stiffness of the film", "Damping coefficient"]);
     explains(faults, &window, "Exact, table", &["Computed", "Exact", "⟨P⟩", "Invariant", "incompressible (σ → 0)"]);
     hovers(faults, &mut window, "Mean pressure", "comes to a limit");
-    ctrl(&mut window, Key::Num7);
+    window.ctrl(Key::Num7);
     let held = ["Gap", "Leak time", "Slow motion", "Held plate", "Film pressure", "Force", "Loop", "Boyle"];
     explains(faults, &window, "Hold", &held);
     hovers(faults, &mut window, "Leak time takes", "until about a third is left");
@@ -663,22 +623,22 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
     let mut window = window("fundamental");
     solved(&mut window);
     show_fit(&mut window);
-    assert!(shows(&window, "Which values of some parameters agree best"));
+    assert!(window.shows("Which values of some parameters agree best"));
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("loads.csv");
     std::fs::write(&table, LOADS).unwrap();
     drop_file(&mut window, &table);
-    assert!(shows(&window, "loads.csv: 4 measurements under 4 conditions"));
+    assert!(window.shows("loads.csv: 4 measurements under 4 conditions"));
     // What is wrong with a bound is said at the bound.
-    type_into(&mut window, "Lower bound of parameter 1", "3");
-    assert!(shows(&window, "film.min_spacing_nm = 3 is out of range"));
-    type_into(&mut window, "Lower bound of parameter 1", "100");
-    type_into(&mut window, "Upper bound of parameter 1", "400");
-    click(&mut window, "Fit the scene");
-    until(&mut window, "the fit", |app| app.state().fit.found().is_some());
-    let spacing = |window: &Window| window.state().state().document.scene().get("film.min_spacing_nm").unwrap();
+    window.type_into("Lower bound of parameter 1", "3");
+    assert!(window.shows("film.min_spacing_nm = 3 is out of range"));
+    window.type_into("Lower bound of parameter 1", "100");
+    window.type_into("Upper bound of parameter 1", "400");
+    window.click_on("Fit the scene");
+    until(&mut window, "the fit", |app| app.state().fit.found.is_some());
+    let spacing = |window: &Window| window.known().document.scene().get("film.min_spacing_nm").unwrap();
     assert_eq!(spacing(&window), Value::Number(200.0));
-    let found = window.state().state().fit.found().unwrap().1.values()[0].1;
+    let found = window.known().fit.found.as_ref().unwrap().1.values()[0].1;
     assert!((190.0..230.0).contains(&found), "{found}");
     // What is exported is what the command writes.
     let [ours, theirs] = ["ours", "theirs"].map(|name| folder.path().join(name));
@@ -690,18 +650,18 @@ fn a_fit_gives_values_that_are_taken_and_taken_back() {
     assert_eq!(names(&ours), names(&theirs));
     let [csv, again] = [&ours, &theirs].map(|folder| std::fs::read_to_string(folder.join("fit.csv")).unwrap());
     assert_eq!(csv, again);
-    click(&mut window, "Take these values");
+    window.click_on("Take these values");
     assert_eq!(spacing(&window), Value::Number(found));
     // It is of the scene as it now is, until that changes.
-    assert!(!shows(&window, "before the scene changed"));
-    ctrl(&mut window, Key::Z);
+    assert!(!window.shows("before the scene changed"));
+    window.ctrl(Key::Z);
     assert_eq!(spacing(&window), Value::Number(200.0));
-    type_into(&mut window, "Minimum spacing H_m in nm", "100");
-    assert!(shows(&window, "before the scene changed; fit again"));
+    window.type_into("Minimum spacing H_m in nm", "100");
+    assert!(window.shows("before the scene changed; fit again"));
     let bad = folder.path().join("bad.csv");
     std::fs::write(&bad, "film.min_spacing,alpha\n1,2\n").unwrap();
     drop_file(&mut window, &bad);
-    assert!(shows(&window, "bad.csv:1: column film.min_spacing: unknown"));
+    assert!(window.shows("bad.csv:1: column film.min_spacing: unknown"));
 }
 
 #[test]
@@ -714,17 +674,17 @@ fn a_fit_that_is_cancelled_leaves_nothing() {
     std::fs::write(&table, LOADS).unwrap();
     drop_file(&mut window, &table);
     for _ in 0..2 {
-        click(&mut window, "Add a key…");
+        window.click_on("Add a key…");
     }
-    click(&mut window, "Fit the scene");
-    assert!(window.state().state().fit.running());
-    click(&mut window, "Cancel the fit");
+    window.click_on("Fit the scene");
+    assert!(window.known().fit.running());
+    window.click_on("Cancel the fit");
     until(&mut window, "it ends", |app| !app.state().fit.running());
-    assert!(window.state().state().fit.found().is_none());
-    assert!(shows(&window, "Cancelled") && !shows(&window, "Take these values"));
+    assert!(window.known().fit.found.is_none());
+    assert!(window.shows("Cancelled") && !window.shows("Take these values"));
     // Another one can be begun.
-    click(&mut window, "Fit the scene");
-    assert!(window.state().state().fit.running());
+    window.click_on("Fit the scene");
+    assert!(window.known().fit.running());
 }
 
 #[test]
@@ -733,101 +693,100 @@ fn an_optimum_is_found_within_limits_and_taken() {
     solved(&mut window);
     show_fit(&mut window);
     let choose = |window: &mut Window, combo: &str, entry: &str| {
-        window.get_by_role_and_label(Role::ComboBox, combo).click();
-        window.run_steps(3);
+        window.open_list(combo);
         window.get_by_role_and_label(Role::Button, entry).click();
         window.run_steps(3);
     };
     choose(&mut window, "What is looked for", "the greatest value of");
     choose(&mut window, "Number that is sought", "stall torque, N·m");
     // No table is needed, and a limit that cannot be read is said.
-    type_into(&mut window, "Limits on other results", "alpha=0.3");
-    assert!(shows(&window, "alpha=0.3") && shows(&window, "name<value"));
-    type_into(&mut window, "Limits on other results", "alpha<0.3");
-    assert!(!shows(&window, "name<value"));
+    window.type_into("Limits on other results", "alpha=0.3");
+    assert!(window.shows("alpha=0.3") && window.shows("name<value"));
+    window.type_into("Limits on other results", "alpha<0.3");
+    assert!(!window.shows("name<value"));
     choose(&mut window, "Parameter 1", "Load on one wave");
-    type_into(&mut window, "Lower bound of parameter 1", "1");
-    type_into(&mut window, "Upper bound of parameter 1", "3");
-    click(&mut window, "Find the optimum");
-    until(&mut window, "the optimum", |app| app.state().fit.found().is_some());
-    let state = window.state().state();
-    let (_, found) = state.fit.found().unwrap();
+    window.type_into("Lower bound of parameter 1", "1");
+    window.type_into("Upper bound of parameter 1", "3");
+    window.click_on("Find the optimum");
+    until(&mut window, "the optimum", |app| app.state().fit.found.is_some());
+    let state = window.known();
+    let (_, found) = state.fit.found.as_ref().unwrap();
     let Found::Optimum(optimum) = &**found else { panic!("an optimum") };
     // Torque grows with the load, and the share of the air falls.
     assert!((optimum.lines[0].value - 3.0).abs() < 0.01 && optimum.value.value > 0.3, "{:?}", optimum.value);
     assert!(optimum.limited[0].value < 0.3);
     let load = found.values()[0];
-    assert!(shows(&window, "at its upper bound") && shows(&window, "allowed: alpha < 0.3"));
+    assert!(window.shows("at its upper bound") && window.shows("allowed: alpha < 0.3"));
     let faults = &mut Vec::new();
     explains(faults, &window, "Fit, optimum", &["Line through the optimum"]);
     assert!(faults.is_empty(), "{faults:#?}");
-    click(&mut window, "Take these values");
-    assert_eq!(window.state().state().document.scene().get(load.0), Some(Value::Number(load.1)));
+    window.click_on("Take these values");
+    assert_eq!(window.known().document.scene().get(load.0), Some(Value::Number(load.1)));
 }
 
 #[test]
 fn torques_dropped_on_the_torque_tab_are_drawn_over_the_curve() {
     let mut window = window("fundamental");
     solved(&mut window);
-    ctrl(&mut window, Key::Num4);
+    window.ctrl(Key::Num4);
     until(&mut window, "torque over speed", |app| {
         app.state().run.as_deref().is_some_and(|run| app.state().torque.is_of(run))
     });
-    assert!(!shows(&window, "measured"));
+    assert!(!window.shows("measured"));
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("torque.csv");
     let rows = "rotor_speed_rpm,torque_nm,film.min_spacing_nm\n0,0.26,\n20,0.24,\n40,0.2,100\n";
     std::fs::write(&table, rows).unwrap();
     drop_file(&mut window, &table);
-    assert_eq!(window.state().state().view.tab, Tab::Torque);
-    assert_eq!(window.state().state().fit.torques(), (vec![[0.0, 0.26], [20.0, 0.24]], 1));
-    assert!(shows(&window, "measured") && shows(&window, "1 measured torques are not drawn"));
+    assert_eq!(window.known().view.tab, Tab::Torque);
+    assert_eq!(window.known().fit.torques(), (vec![[0.0, 0.26], [20.0, 0.24]], 1));
+    assert!(window.shows("measured") && window.shows("1 measured torques are not drawn"));
 }
 
 #[test]
 fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
     let mut window = window("fundamental");
     solved(&mut window);
-    ctrl(&mut window, Key::Num9);
-    let state = |window: &Window| -> bool { window.state().state().sensitivity.found().is_some() };
+    window.ctrl(Key::Num9);
+    let state = |window: &Window| -> bool { window.known().sensitivity.found.is_some() };
     assert!(!state(&window), "nothing is computed before it is asked for");
-    click(&mut window, "Compute sensitivities");
-    until(&mut window, "sensitivities", |app| app.state().sensitivity.found().is_some());
+    window.click_on("Compute sensitivities");
+    until(&mut window, "sensitivities", |app| app.state().sensitivity.found.is_some());
     let scene = presets::find("fundamental").unwrap();
-    let settings = Settings { fidelity: window.state().state().document.target(), ..Settings::default() };
+    let settings = Settings { fidelity: window.known().document.target(), ..Settings::default() };
     let none: [&str; 0] = [];
     let alone = Sensitivity::of(&scene, &none, &settings, &Cancel::new(), &|_| ()).unwrap().unwrap();
-    let found = std::sync::Arc::clone(window.state().state().sensitivity.found().unwrap());
+    let found = std::sync::Arc::clone(window.known().sensitivity.found.as_ref().unwrap());
     assert_eq!(found.columns, alone.columns);
     let value = |output: usize| uncertain(found.values[output].value, found.values[output].error);
     window.get_by_label(&value(0));
-    click(&mut window, "stall torque");
+    window.click_on("stall torque");
     window.get_by_label(&format!("{}\u{a0}N·m", value(1)));
 
     // An uncertainty makes one of the result; what makes no sense is refused in its place.
     let spacing = "Uncertainty of Minimum spacing H_m";
-    type_into(&mut window, spacing, "20%");
+    window.type_into(spacing, "20%");
     let given = [("film.min_spacing_nm", "20%".parse().unwrap())];
     let uncertainties = Uncertainties::new(&scene, &given).unwrap();
     let spread = found.propagated(1, &uncertainties).deviation.value;
     window.get_by_label(&format!("± {} by the parameters", digits(spread, 2)));
-    type_into(&mut window, "Uncertainty of Frequency", "much");
-    let refused = window.state().state().sensitivity.refused("stator.frequency_khz").unwrap().to_owned();
+    window.type_into("Uncertainty of Frequency", "much");
+    let refused = window.known().sensitivity.refused("stator.frequency_khz").unwrap().to_owned();
     assert!(refused.contains("expected a standard deviation"), "{refused}");
     window.get_by_label(&format!("± {} by the parameters", digits(spread, 2)));
 
     // Random scenes are those of the command, and go when the uncertainties are others.
-    click(&mut window, "Draw and solve");
-    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo().is_some());
-    let carlo = window.state().state().sensitivity.carlo().unwrap().clone();
+    window.click_on("Draw and solve");
+    until(&mut window, "random scenes", |app| app.state().sensitivity.carlo.is_some());
+    let carlo = window.known().sensitivity.carlo.as_ref().unwrap().clone();
     assert_eq!(Some(carlo), alone.monte_carlo(&uncertainties, 500, 1, &Cancel::new(), &|| ()));
-    type_into(&mut window, spacing, "10%");
-    assert!(window.state().state().sensitivity.carlo().is_none());
+    window.type_into(spacing, "10%");
+    assert!(window.known().sensitivity.carlo.is_none());
 
     // Of another scene they say so.
-    assert!(!shows(&window, "before the scene changed"));
-    type_into(&mut window, "Minimum spacing H_m in nm", "150");
-    assert!(shows(&window, "before the scene changed; compute again"));
+    assert!(!window.shows("before the scene changed"));
+    window.type_into("Minimum spacing H_m in nm", "150");
+    assert!(window.shows("before the scene changed; compute again"));
 }
 
 #[test]
@@ -861,37 +820,30 @@ fn measured_heights_dropped_on_the_window_are_shown_and_taken() {
     let path = folder.path().join("face.csv");
     std::fs::write(&path, face()).unwrap();
     drop_file(&mut window, &path);
-    until(&mut window, "the heights are read", |app| app.state().face.found().is_some());
-    assert_eq!(window.state().state().view.tab, Tab::Rotor);
+    until(&mut window, "the heights are read", |app| app.state().face.found.is_some());
+    assert_eq!(window.known().view.tab, Tab::Rotor);
     until(&mut window, "the rotor", |app| matches!(app.state().rotor.found(), Some(Ok(_))));
-    assert!(shows(&window, "face.csv") && shows(&window, "Profile along x, nm"));
+    assert!(window.shows("face.csv") && window.shows("Profile along x, nm"));
     let faults = &mut Vec::new();
     explains(faults, &window, "Measured face", &["Measured face"]);
     assert!(faults.is_empty(), "{faults:#?}");
-    let follows = heights::keys_of(&window.state().state().face.found().unwrap().pair);
-    let rms = |window: &Window| window.state().state().document.scene().get("surface.rms_nm");
+    let follows = heights::keys_of(&window.known().face.found.as_ref().unwrap().pair);
+    let rms = |window: &Window| window.known().document.scene().get("surface.rms_nm");
     let before = rms(&window);
-    click(&mut window, "Take roughness from it");
+    window.click_on("Take roughness from it");
     for (key, value) in follows {
-        let taken = window.state().state().document.scene().get(key);
+        let taken = window.known().document.scene().get(key);
         // This preset has no flow factors, and so no lay.
         assert_eq!(taken, (key != "surface.lay").then_some(Value::Number(value)), "{key}");
     }
-    ctrl(&mut window, Key::Z);
+    window.ctrl(Key::Z);
     assert_eq!(rms(&window), before);
-    click(&mut window, "Forget it");
-    assert!(!shows(&window, "face.csv"));
+    window.click_on("Forget it");
+    assert!(!window.shows("face.csv"));
     std::fs::write(&path, "# height = nm\n1,2\n").unwrap();
     drop_file(&mut window, &path);
     until(&mut window, "it is refused", |app| app.state().modal.is_some());
-    assert!(shows(&window, "face.csv: no spacing along x"));
-}
-
-/// What a window leaves behind.
-fn left(window: &mut Window) -> Memory {
-    let mut memory = Memory::default();
-    eframe::App::save(window.state_mut(), &mut memory);
-    memory
+    assert!(window.shows("face.csv: no spacing along x"));
 }
 
 /// The window after that.
@@ -903,16 +855,14 @@ fn next(memory: Memory) -> Window {
 fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     let mut window = two_pinned();
     let first = labels(window.state())[0].clone();
-    type_into(&mut window, &format!("Label of {first}"), "as published");
+    window.type_into(&format!("Label of {first}"), "as published");
     // The first colour is free again, and is not taken by what comes back.
-    window.get_by_label_contains("Pin a preset").click();
-    window.run_steps(3);
+    window.click_part("Pin a preset");
     let levitating = presets::find("levitating").unwrap().name;
-    window.get_by_label_contains(&levitating).click();
-    window.run_steps(2);
+    window.click_part(&levitating);
     until(&mut window, "a third", |app| app.state().pins.runs().len() == 3);
     let changed = labels(window.state())[1].clone();
-    click(&mut window, &format!("Remove {changed}"));
+    window.click_on(&format!("Remove {changed}"));
     let kept = |app: &App| -> Vec<_> {
         let pins = app.state().pins.pins().iter().zip(app.state().pins.runs());
         pins.map(|(pin, run)| {
@@ -934,7 +884,7 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
     let mut window = next(memory.clone());
     window.step();
     // A slow frame may see the first one solved already.
-    let pins = &window.state().state().pins;
+    let pins = &window.known().pins;
     assert_eq!(pins.waiting().len() + pins.runs().len(), 2, "they are there at once, to be solved");
     // Closed before they are solved, they are there the next time.
     assert_eq!(left(&mut window).0["pins"], memory.0["pins"]);
@@ -949,12 +899,12 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
         assert!((ours - theirs).abs() <= error + other, "{ours} {theirs}");
     }
     // A new one comes after them.
-    ctrl(&mut window, Key::D);
+    window.ctrl(Key::D);
     assert_eq!(labels(window.state())[..2], before.iter().map(|pin| pin.0.clone()).collect::<Vec<_>>());
-    assert_eq!(window.state().state().pins.runs().len(), 3);
+    assert_eq!(window.known().pins.runs().len(), 3);
     // What was forgotten does not come back.
-    ctrl(&mut window, Key::Num2);
-    click(&mut window, "Remove all");
+    window.ctrl(Key::Num2);
+    window.click_on("Remove all");
     assert_eq!(left(&mut window).0["pins"], "[]");
 }
 
@@ -962,7 +912,7 @@ fn pins_outlive_the_window_and_are_solved_again_after_the_scene() {
 fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
     let mut window = window("plate-crossover");
     solved(&mut window);
-    ctrl(&mut window, Key::D);
+    window.ctrl(Key::D);
     let good = left(&mut window);
     drop(window);
     let stored = good.0["pins"].clone();
@@ -984,10 +934,10 @@ fn stored_pins_that_cannot_be_read_are_reported_and_the_others_come_back() {
         window.get_by_label("This did not work");
         window.get_by_label_contains("Not all pinned runs of the last window can be read");
         window.get_by_label_contains(said);
-        click(&mut window, "Close");
+        window.click_on("Close");
         solved(&mut window);
         until(&mut window, "the others", |app| app.state().pins.waiting().is_empty());
-        assert_eq!(window.state().state().pins.runs().len(), left_over);
+        assert_eq!(window.known().pins.runs().len(), left_over);
     }
 }
 
@@ -1013,8 +963,7 @@ fn a_chart_is_dragged_and_zoomed_and_a_double_click_brings_it_back() {
         let mut window = window(preset);
         solved(&mut window);
         window.key_press(Key::Space);
-        ctrl(&mut window, tab);
-        window.run_steps(3);
+        window.ctrl(tab);
         let id = eframe::egui::Id::unique(("chart", name));
         let range = |window: &Window| {
             let memory = egui_plot::PlotMemory::load(&window.ctx, id).unwrap();
@@ -1050,10 +999,9 @@ fn the_ring_is_turned_with_the_mouse_and_with_the_arrow_keys() {
     const NAME: &str = "The whole ring: drag to turn it, double-click to put it back";
     let mut window = window("fundamental");
     solved(&mut window);
-    window.get_by_label("Pause").click();
-    window.run_steps(3);
+    window.click_on("Pause");
     let seen = |window: &Window| {
-        let view = &window.state().state().view;
+        let view = &window.known().view;
         (view.orbit, view.phase)
     };
     let (first, phase) = seen(&window);
@@ -1066,14 +1014,12 @@ fn the_ring_is_turned_with_the_mouse_and_with_the_arrow_keys() {
     window.get_by_role_and_label(Role::Image, NAME).focus();
     window.run_steps(2);
     for key in [Key::ArrowUp, Key::ArrowLeft, Key::ArrowLeft] {
-        window.key_press(key);
-        window.run_steps(2);
+        window.press(key);
     }
     let (turned, same) = seen(&window);
     let by = [turned.azimuth - dragged.azimuth, turned.elevation - dragged.elevation];
     assert!((by[0] - 0.2).abs() < 1e-9 && (by[1] - 0.1).abs() < 1e-9, "{by:?}");
-    window.key_press(Key::Home);
-    window.run_steps(2);
+    window.press(Key::Home);
     assert_eq!((seen(&window), same), ((first, phase), phase));
     drop(window);
     let mut window = self::window("plate-trapped");
@@ -1085,14 +1031,13 @@ fn the_ring_is_turned_with_the_mouse_and_with_the_arrow_keys() {
 fn the_line_of_a_chart_over_the_cycle_is_dragged_to_another_instant() {
     let mut window = window("plate-crossover");
     solved(&mut window);
-    window.get_by_label("Pause").click();
-    window.run_steps(3);
+    window.click_on("Pause");
     let chart = window.get_by_role_and_label(Role::Image, "Load over the cycle: click to jump there").rect();
     let line = |window: &Window| window.get_by_label_contains("Line of Load over the cycle").rect().center();
-    let (from, phase) = (line(&window), window.state().state().view.phase);
+    let (from, phase) = (line(&window), window.known().view.phase);
     let to = chart.lerp_inside(Vec2::new(if phase < 0.5 { 0.75 } else { 0.25 }, 0.3));
     drag(&mut window, from, to);
-    let moved = window.state().state().view.phase;
+    let moved = window.known().view.phase;
     assert!((moved - if phase < 0.5 { 0.75 } else { 0.25 }).abs() < 0.02, "{phase} {moved}");
     assert!((line(&window).x - to.x).abs() < 3.0);
 }
@@ -1101,7 +1046,7 @@ fn the_line_of_a_chart_over_the_cycle_is_dragged_to_another_instant() {
 fn ring() -> Window {
     let mut window = window("ring-rotor");
     solved(&mut window);
-    ctrl(&mut window, Key::Num8);
+    window.ctrl(Key::Num8);
     until(&mut window, "the rotor is computed", |app| {
         let run = app.state().run.as_deref().map(|run| &run.problem.scenario);
         matches!(run, Some(Scenario::Motor(motor)) if app.state().rotor.is_of(motor))
@@ -1111,14 +1056,12 @@ fn ring() -> Window {
 
 /// A number of a part of the ring.
 fn length(window: &Window, part: usize, column: usize) -> f64 {
-    let Some(Value::Records(parts)) = window.state().state().document.scene().get("rotor.part") else {
-        panic!("no parts")
-    };
+    let Some(Value::Records(parts)) = window.known().document.scene().get("rotor.part") else { panic!("no parts") };
     parts[part][column].as_number().unwrap()
 }
 
 fn share(window: &Window) -> f64 {
-    match &window.state().state().run.as_deref().unwrap().solution.outcome {
+    match &window.known().run.as_deref().unwrap().solution.outcome {
         Outcome::Motor(result) => result.alpha,
         Outcome::Plate(_) => panic!("a motor"),
     }
@@ -1128,7 +1071,7 @@ fn share(window: &Window) -> f64 {
 fn an_edge_of_the_section_is_dragged_and_the_share_answers() {
     let mut window = ring();
     let before = share(&window);
-    let at_first = window.state().state().document.scene().clone();
+    let at_first = window.known().document.scene().clone();
     // What two parts share moves with both: the rim stays on its lining.
     let edge = window.get_by_label("Top of lining, to drag").rect().center();
     drag(&mut window, edge, edge - Vec2::new(0.0, 12.0));
@@ -1142,9 +1085,9 @@ fn an_edge_of_the_section_is_dragged_and_the_share_answers() {
     drag(&mut window, edge, edge - Vec2::new(2000.0, 0.0));
     assert_eq!((length(&window, 2, 2), length(&window, 1, 1)), (26.91, 26.91));
     // Each drag is one step back.
-    ctrl(&mut window, Key::Z);
-    ctrl(&mut window, Key::Z);
-    assert_eq!(window.state().state().document.scene(), &at_first);
+    window.ctrl(Key::Z);
+    window.ctrl(Key::Z);
+    assert_eq!(window.known().document.scene(), &at_first);
 }
 
 #[test]
@@ -1159,13 +1102,8 @@ fn a_part_is_edited_in_its_table() {
     let field = "Top in mm, lining";
     window.get_by_role_and_label(Role::SpinButton, field).scroll_to_me();
     window.run_steps(10);
-    window.get_by_role_and_label(Role::SpinButton, field).click();
-    window.run_steps(3);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::SpinButton, field).type_text("0.1");
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    window.type_over(Role::SpinButton, field, "0.1");
+    window.press(Key::Enter);
     // The rim comes down with it.
     assert_eq!((length(&window, 0, 4), length(&window, 1, 3)), (0.1, 0.1));
     solved(&mut window);

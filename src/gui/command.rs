@@ -4,6 +4,7 @@ use super::state::dialogs::{Export, Purpose};
 use super::state::document::Next;
 use super::state::fit::Sought;
 use super::state::pins::Page;
+use super::state::sweep::AxisEdit;
 use super::state::view::Tab;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::tradeoff::Target;
@@ -187,16 +188,8 @@ pub enum PinCommand {
 /// About the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweepCommand {
-    /// Varies this along x (0) or y (1), over a range round its present value.
-    Choose(usize, &'static str),
-    /// First value along x (0) or y (1), as typed.
-    From(usize, String),
-    /// Last value, likewise.
-    To(usize, String),
-    /// Number of values, likewise.
-    Count(usize, String),
-    /// By equal ratios instead of equal steps.
-    Log(usize, bool),
+    /// Changes what is varied along x (0) or y (1).
+    Axis(usize, AxisEdit),
     /// Varies a second parameter.
     Second(bool),
     /// Solves every point at this.
@@ -228,14 +221,8 @@ pub enum FitCommand {
     Quantity(&'static str),
     /// Within these limits on other numbers, as they are typed.
     Limits(String),
-    /// Chooses this key in this line of the form, between bounds round its present value.
-    Key(usize, &'static str),
-    /// From this.
-    From(usize, String),
-    /// Up to this.
-    To(usize, String),
-    /// By equal ratios.
-    Log(usize, bool),
+    /// Changes a line of the form: what is chosen, and between which bounds.
+    Axis(usize, AxisEdit),
     /// One more line.
     Add,
     /// One line less.

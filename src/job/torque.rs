@@ -29,6 +29,12 @@ impl Curves {
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Found(#[serde(with = "Parts")] pub TorqueCurves);
 
+impl From<Found> for TorqueCurves {
+    fn from(found: Found) -> Self {
+        found.0
+    }
+}
+
 /// The fields of [`TorqueCurves`]. In JSON they have other names.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "TorqueCurves")]

@@ -8,7 +8,9 @@ use egui_kittest::kittest::Queryable;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::document::Document;
+use squeezefilm::gui::state::window::State;
 use squeezefilm::gui::update::platform::Platform;
+use squeezefilm::scene::presets;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -31,11 +33,102 @@ pub(crate) fn reopen(memory: Memory, height: f32, platform: Platform) -> Window 
     })
 }
 
-/// Steps until `ready`, at most a minute of waiting in all: solvers work on their own threads.
+/// A window on a built-in preset.
+pub(crate) fn preset(name: &str, height: f32, platform: Platform) -> Window {
+    open(Document::opened(presets::find(name).unwrap(), None), height, platform)
+}
+
+/// What a window leaves behind.
+pub(crate) fn left(window: &mut Window) -> Memory {
+    let mut memory = Memory::default();
+    eframe::App::save(window.state_mut(), &mut memory);
+    memory
+}
+
+/// What a user does and sees. Whatever is done has some frames to take effect.
+pub(crate) trait User {
+    /// Presses a key.
+    fn press(&mut self, key: Key) {
+        self.press_with(Modifiers::NONE, key);
+    }
+
+    /// Presses a key with Ctrl.
+    fn ctrl(&mut self, key: Key) {
+        self.press_with(Modifiers::COMMAND, key);
+    }
+
+    /// Presses a key with others.
+    fn press_with(&mut self, modifiers: Modifiers, key: Key);
+
+    /// Clicks what has this label.
+    fn click_on(&mut self, label: &str);
+
+    /// Clicks what has this in its label.
+    fn click_part(&mut self, part: &str);
+
+    /// Opens the list of this name.
+    fn open_list(&mut self, name: &str);
+
+    /// Types over what is in a field, and leaves the cursor there.
+    fn type_over(&mut self, role: Role, field: &str, text: &str);
+
+    /// Types into a field, over what is there, and presses Enter.
+    fn type_into(&mut self, field: &str, text: &str) {
+        self.type_over(Role::TextInput, field, text);
+        self.press(Key::Enter);
+    }
+
+    /// Whether a text is on screen.
+    fn shows(&self, part: &str) -> bool;
+
+    /// All that the window knows.
+    fn known(&self) -> &State;
+}
+
+impl User for Window {
+    fn press_with(&mut self, modifiers: Modifiers, key: Key) {
+        self.key_press_modifiers(modifiers, key);
+        self.run_steps(3);
+    }
+
+    fn click_on(&mut self, label: &str) {
+        self.get_by_label(label).click();
+        self.run_steps(3);
+    }
+
+    fn click_part(&mut self, part: &str) {
+        self.get_by_label_contains(part).click();
+        self.run_steps(3);
+    }
+
+    fn open_list(&mut self, name: &str) {
+        self.get_by_role_and_label(Role::ComboBox, name).click();
+        self.run_steps(3);
+    }
+
+    fn type_over(&mut self, role: Role, field: &str, text: &str) {
+        self.get_by_role_and_label(role, field).click();
+        self.run_steps(3);
+        self.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        self.get_by_role_and_label(role, field).type_text(text);
+        self.step();
+    }
+
+    fn shows(&self, part: &str) -> bool {
+        self.query_all_by_label_contains(part).next().is_some()
+    }
+
+    fn known(&self) -> &State {
+        self.state().state()
+    }
+}
+
+/// Steps until `ready`, and a little more; at most two minutes of waiting in all: solvers work on their own threads.
 pub(crate) fn until(window: &mut Window, what: &str, ready: impl Fn(&App) -> bool) {
-    for _ in 0..6000 {
+    for _ in 0..12_000 {
         window.step();
         if ready(window.state()) {
+            window.run_steps(3);
             return;
         }
         std::thread::sleep(Duration::from_millis(10));
@@ -50,13 +143,6 @@ pub(crate) fn solved(window: &mut Window) {
         app.state().activity.running.is_none()
             && app.state().run.as_deref().is_some_and(|run| run.number == number && run.fidelity == Fidelity::Fine)
     });
-    // Where the solver was faster than the window, its results are in a layout that the next frames still move.
-    window.run_steps(3);
-}
-
-pub(crate) fn click(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(3);
 }
 
 /// Drops a file on the window.
@@ -97,11 +183,7 @@ pub(crate) fn await_path(window: &mut Window) -> &'static str {
 /// Types the path that is asked for.
 pub(crate) fn answer(window: &mut Window, path: &Path) {
     let name = await_path(window);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.get_by_role_and_label(Role::TextInput, name).type_text(path.to_str().unwrap());
-    window.step();
-    window.key_press(Key::Enter);
-    window.run_steps(3);
+    window.type_into(name, path.to_str().unwrap());
 }
 
 /// Asks for an export in the menu and types where to.
@@ -116,8 +198,7 @@ pub(crate) fn begin_export(window: &mut Window, entry: &str, path: &Path) {
     }
     window.get_by_label("Export").hover();
     window.run_steps(5);
-    window.get_by_label_contains(entry).click();
-    window.run_steps(2);
+    window.click_part(entry);
     answer(window, path);
 }
 

@@ -1,5 +1,6 @@
 //! Plain words for the keys of a scene and for the names it can choose from.
 
+use crate::digits::{capitalised, rounded};
 use crate::plan::Decision;
 use crate::scene::{Parameter, Scene, Value};
 
@@ -105,7 +106,7 @@ const SWITCHES: &[(&str, &str)] = &[
     ("numerics.tolerance", "Set tolerance of a cycle"),
 ];
 
-/// Plain words for the names of choices, by key and name.
+/// Plain words for the names of choices that say too little themselves, by key and name.
 const CHOICES: &[(&str, &str, &str)] = &[
     ("rotor.model", "beam", "Beam on a foundation"),
     ("rotor.model", "section", "Beam of a rectangular section"),
@@ -113,11 +114,6 @@ const CHOICES: &[(&str, &str, &str)] = &[
     ("rotor.model", "table", "Table from a file"),
     ("rotor.model", "green", "Deflection from a file"),
     ("plate.shape", "rectangle", "Rectangle or strip"),
-    ("plate.shape", "disc", "Disc"),
-    ("plate.shape", "ring", "Ring"),
-    ("material", "aluminium", "Aluminium"),
-    ("material", "steel", "Steel"),
-    ("material", "brass", "Brass"),
     ("material", "peek", "PEEK"),
     ("fixed", "axial", "Axially"),
     ("fixed", "radial", "Radially"),
@@ -126,39 +122,17 @@ const CHOICES: &[(&str, &str, &str)] = &[
     ("fixed", "axial-circumferential", "Axially, circumferentially"),
     ("fixed", "radial-circumferential", "Radially, circumferentially"),
     ("fixed", "all", "In all directions"),
-    ("film.gas", "custom", "Custom"),
-    ("film.gas", "air", "Air"),
-    ("film.gas", "nitrogen", "Nitrogen"),
-    ("film.gas", "helium", "Helium"),
-    ("film.gas", "argon", "Argon"),
-    ("film.gas", "carbon-dioxide", "Carbon dioxide"),
-    ("film.gas", "hydrogen", "Hydrogen"),
     ("film.slip", "none", "No slip"),
     ("film.slip", "first-order", "First-order"),
     ("film.slip", "second-order", "Second-order"),
     ("film.slip", "fukui-kaneko", "Fukui and Kaneko"),
     ("surface.model", "minimum-spacing", "A hard stop"),
-    ("surface.model", "asperities", "Asperities"),
     ("surface.contact_law", "greenwood-williamson", "Greenwood and Williamson"),
     ("surface.contact_law", "greenwood-tripp", "Greenwood and Tripp"),
-    ("surface.summit_heights", "gaussian", "Gaussian"),
-    ("surface.summit_heights", "exponential", "Exponential"),
     ("surface.flow_factors", "none", "As between smooth ones"),
     ("surface.flow_factors", "patir-cheng", "Patir and Cheng"),
-    ("numerics.wedge", "auto", AUTO),
     ("numerics.wedge", "on", "Solved"),
     ("numerics.wedge", "off", "Left out"),
-    ("numerics.teeth", "auto", AUTO),
-    ("numerics.teeth", "one", "One"),
-    ("numerics.teeth", "all", "All"),
-    ("numerics.width", "auto", AUTO),
-    ("numerics.width", "half", "Half"),
-    ("numerics.width", "full", "Full"),
-    ("numerics.flow", "auto", AUTO),
-    ("numerics.flow", "plane", "Plane"),
-    ("numerics.flow", "across", "Across"),
-    ("numerics.flow", "along", "Along"),
-    ("numerics.time", "auto", AUTO),
     ("numerics.time", "march", "Marched"),
     ("numerics.time", "trapped", "None, gas trapped"),
 ];
@@ -182,9 +156,14 @@ pub fn switch(parameter: &Parameter) -> &'static str {
     find(SWITCHES, parameter.key).unwrap_or_else(|| label(parameter))
 }
 
-/// Plain words for one name of a choice; the name itself if there are none.
-pub fn choice<'a>(key: &str, name: &'a str) -> &'a str {
-    CHOICES.iter().find(|(found, option, _)| *found == key && *option == name).map_or(name, |(_, _, words)| *words)
+/// Plain words for one name of a choice: those of the table, or the name itself with a capital letter.
+pub fn choice(key: &str, name: &str) -> String {
+    let found = CHOICES.iter().find(|(found, option, _)| *found == key && *option == name);
+    match found {
+        Some((_, _, words)) => (*words).to_owned(),
+        None if name == AUTO_NAME => AUTO.to_owned(),
+        None => capitalised(&name.replace('-', " ")),
+    }
 }
 
 /// As [`choice`]; of what is left to the plan, also what `plan` has chosen: "Auto: left out".
@@ -192,13 +171,13 @@ pub fn chosen(key: &str, name: &str, plan: &[Decision]) -> String {
     let found = plan.iter().find(|decision| decision.key() == Some(key));
     match found {
         Some(decision) if name == AUTO_NAME => automatic(key, decision.value()),
-        _ => choice(key, name).to_owned(),
+        _ => choice(key, name),
     }
 }
 
 /// That the plan has chosen this.
 pub fn automatic(key: &str, name: &str) -> String {
-    format!("Auto: {}", uncapitalised(choice(key, name)))
+    format!("Auto: {}", uncapitalised(&choice(key, name)))
 }
 
 fn uncapitalised(text: &str) -> String {
@@ -228,7 +207,8 @@ pub fn explanation(scene: &Scene, parameter: &Parameter, default: Option<&Value>
     let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
     let mut text = parameter.about.to_owned();
     if let Some(range) = scene.range(parameter.key) {
-        text.push_str(&format!("\n{} to {}{unit}", short(range.min), short(range.max)));
+        let bound = |value: f64| Value::Number(rounded(value, 5));
+        text.push_str(&format!("\n{} to {}{unit}", bound(range.min), bound(range.max)));
     }
     match (parameter.absent, default) {
         (Some(meaning), _) => text.push_str(&format!("\nDefault {meaning}")),
@@ -241,12 +221,6 @@ pub fn explanation(scene: &Scene, parameter: &Parameter, default: Option<&Value>
     }
     text.push_str(&format!("\n{}", parameter.key));
     text
-}
-
-/// A bound of a range, to at most five digits.
-fn short(value: f64) -> String {
-    let rounded = super::format::to_digits(value, 5, f64::round);
-    Value::Number(rounded).to_string()
 }
 
 #[cfg(test)]

@@ -131,11 +131,6 @@ impl Export {
     pub fn complete(self, path: PathBuf) -> Result<PathBuf, String> {
         self.filter().map_or(Ok(path.clone()), |(kind, extensions)| complete(path, kind, extensions))
     }
-
-    /// Whether it is several files, which go into a folder.
-    pub fn is_folder(self) -> bool {
-        self.filter().is_none()
-    }
 }
 
 /// `path` with one of `extensions`, the first if it has none.
@@ -192,6 +187,36 @@ pub enum Purpose {
 }
 
 impl Purpose {
+    /// What is asked.
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Open => "Open a preset",
+            Self::Save(_) => "Save the preset",
+            Self::Picture(_) => "Save a picture of the window",
+            Self::Export(export) => export.title(),
+            Self::Lessons => "Open a folder of lessons",
+            Self::Measurements => "Open a table of measurements",
+            Self::Heights => "Open measured heights",
+        }
+    }
+
+    /// Kind of file and its extensions; `None` for a folder.
+    pub fn filter(&self) -> Option<(&'static str, &'static [&'static str])> {
+        match self {
+            Self::Open | Self::Save(_) => Some(("Preset", &["toml"])),
+            Self::Picture(_) => Some(("Picture", &["png"])),
+            Self::Export(export) => export.filter(),
+            Self::Lessons => None,
+            Self::Measurements => Some(("Table", &["csv"])),
+            Self::Heights => Some(("Heights", &["csv", "txt"])),
+        }
+    }
+
+    /// Whether something is written, and not read.
+    pub fn writes(&self) -> bool {
+        matches!(self, Self::Save(_) | Self::Picture(_) | Self::Export(_))
+    }
+
     /// Whether both are dialogs for the same kind of thing: there is never more than one of them.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self, other) {

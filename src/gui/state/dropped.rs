@@ -11,9 +11,12 @@ use crate::scene::Scene;
 pub struct Dropped {
     task: Option<DropTask>,
     scene: Scene,
-    fidelity: Fidelity,
-    cycles: Vec<Cycle>,
-    ended: Option<Result<Fall, String>>,
+    /// Grids and steps are those of this fidelity.
+    pub fidelity: Fidelity,
+    /// The plate at the end of each cycle so far; the first is the beginning.
+    pub cycles: Vec<Cycle>,
+    /// How it ended.
+    pub ended: Option<Result<Fall, String>>,
 }
 
 impl Dropped {
@@ -43,21 +46,6 @@ impl Dropped {
     /// Whether it goes on.
     pub fn running(&self) -> bool {
         self.task.is_some()
-    }
-
-    /// The plate at the end of each cycle so far; the first is the beginning.
-    pub fn cycles(&self) -> &[Cycle] {
-        &self.cycles
-    }
-
-    /// How it ended.
-    pub fn ended(&self) -> Option<&Result<Fall, String>> {
-        self.ended.as_ref()
-    }
-
-    /// Grids and steps are those of this fidelity.
-    pub fn fidelity(&self) -> Fidelity {
-        self.fidelity
     }
 
     /// Whether `scene` is another one than was dropped.

@@ -24,18 +24,14 @@ pub struct RunningExport {
 #[derive(Debug, Default)]
 pub struct ExportState {
     running: Option<RunningExport>,
-    written: Option<Vec<PathBuf>>,
+    /// What the last one wrote.
+    pub written: Option<Vec<PathBuf>>,
 }
 
 impl ExportState {
     /// The one under way.
     pub fn running(&self) -> Option<&RunningExport> {
         self.running.as_ref()
-    }
-
-    /// What the last one wrote.
-    pub fn written(&self) -> Option<&[PathBuf]> {
-        self.written.as_deref()
     }
 
     /// One has begun.

@@ -35,7 +35,8 @@ pub type FaceTask = Task<(), Result<(HeightMap, Texture), String>>;
 pub struct FaceState {
     /// Name of the file, and what reads it.
     task: Option<(String, FaceTask)>,
-    found: Option<Arc<Face>>,
+    /// The face.
+    pub found: Option<Arc<Face>>,
 }
 
 impl FaceState {
@@ -64,10 +65,5 @@ impl FaceState {
     /// Whether one is being read.
     pub fn running(&self) -> bool {
         self.task.is_some()
-    }
-
-    /// The face.
-    pub fn found(&self) -> Option<&Arc<Face>> {
-        self.found.as_ref()
     }
 }

@@ -1,6 +1,6 @@
 //! Measurements as the window has them: the table, the keys that are to be chosen, and what a fit or the search for an optimum found.
 
-use super::sweep::AxisForm;
+use super::sweep::{AxisEdit, AxisForm};
 use crate::analysis::fit::{Bounds, Goal, Limit, MOST_UNKNOWNS, Measured, Observable, Unknown, measurable};
 use crate::gui::derived::words::unused;
 pub use crate::job::fit::{FitTask, Found};
@@ -27,7 +27,8 @@ pub enum Sought {
 /// The table, the form, and the fit.
 #[derive(Debug, Default)]
 pub struct FitState {
-    measured: Option<Arc<Measured>>,
+    /// The table.
+    pub measured: Option<Arc<Measured>>,
     form: Vec<AxisForm>,
     /// What is wrong with each line of the form.
     faults: Vec<Option<String>>,
@@ -42,10 +43,14 @@ pub struct FitState {
     goal_fault: Option<String>,
     /// The search under way, and the scene that it is of.
     task: Option<(Scene, FitTask)>,
-    told: Option<(usize, f64)>,
-    found: Option<(Scene, Arc<Found>)>,
-    failure: Option<String>,
-    cancelled: bool,
+    /// How many points were tried, and the least χ² or the best number so far.
+    pub told: Option<(usize, f64)>,
+    /// What was found, and for which scene.
+    pub found: Option<(Scene, Arc<Found>)>,
+    /// Why there is nothing.
+    pub failure: Option<String>,
+    /// Whether the last one was told to end.
+    pub cancelled: bool,
 }
 
 /// Whether a key can be chosen between two bounds.
@@ -66,11 +71,6 @@ impl FitState {
     /// Forgets the table.
     pub fn forget(&mut self) {
         self.measured = None;
-    }
-
-    /// The table.
-    pub fn measured(&self) -> Option<&Arc<Measured>> {
-        self.measured.as_ref()
     }
 
     /// The torques of the table that were measured on the scene as it is: speed \[rpm\] and torque \[N m\]; and how many others there are,
@@ -170,8 +170,10 @@ impl FitState {
     }
 
     /// Changes a line of the form.
-    pub fn edit(&mut self, line: usize, change: impl FnOnce(&mut AxisForm)) {
-        self.form.get_mut(line).map(change);
+    pub fn edit(&mut self, scene: &Scene, line: usize, edit: AxisEdit) {
+        if let Some(axis) = self.form.get_mut(line) {
+            axis.edit(scene, edit, 2);
+        }
         self.judged = None;
     }
 
@@ -235,26 +237,6 @@ impl FitState {
     /// Whether a fit goes on.
     pub fn running(&self) -> bool {
         self.task.is_some()
-    }
-
-    /// How many points were tried, and the least χ² or the best number so far.
-    pub fn told(&self) -> Option<(usize, f64)> {
-        self.told
-    }
-
-    /// Whether the last one was told to end.
-    pub fn cancelled(&self) -> bool {
-        self.cancelled
-    }
-
-    /// Why there is nothing.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
-    }
-
-    /// What was found, and for which scene.
-    pub fn found(&self) -> Option<&(Scene, Arc<Found>)> {
-        self.found.as_ref()
     }
 
     /// Whether `scene` is another one than was fitted: neither that nor the one that came out.

@@ -48,7 +48,7 @@ impl OffTabs {
             self.now.read_held(present.0, present.1);
         }
         if let Some(startup) = seen.startup.filter(|startup| !startup.stale(&run.scene)) {
-            let points = startup.points();
+            let points = &startup.points;
             for (readings, point) in [(&mut self.start, points.first()), (&mut self.now, points.last())] {
                 if let Some(point) = point {
                     readings.read_cycle(point.number, point.remaining, &point.outcome, &run.problem.scenario);

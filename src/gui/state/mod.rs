@@ -8,6 +8,7 @@ pub mod edits;
 pub mod exports;
 pub mod face;
 pub mod fit;
+pub mod followed;
 pub mod hold;
 pub mod lesson_tabs;
 pub mod lessons;

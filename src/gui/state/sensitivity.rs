@@ -13,47 +13,37 @@ const DRAWS: usize = 500;
 pub const SEED: u64 = 1;
 
 /// Derivatives, uncertainties and random scenes.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct SensitivityState {
     derivatives: Option<Finding<Result<Box<Sensitivity>, String>>>,
     drawing: Option<Finding<MonteCarlo>>,
     share: f64,
-    failure: Option<String>,
-    fidelity: Fidelity,
-    found: Option<Arc<Sensitivity>>,
+    /// Why nothing came of the last work.
+    pub failure: Option<String>,
+    /// The fidelity they were asked for.
+    pub fidelity: Fidelity,
+    /// Results and derivatives.
+    pub found: Option<Arc<Sensitivity>>,
     /// What was typed for each key: not empty.
     typed: BTreeMap<&'static str, String>,
     /// What is wrong with it.
     refused: BTreeMap<&'static str, String>,
-    /// Those that make sense, of the scene that was solved.
-    uncertainties: Option<Uncertainties>,
-    carlo: Option<MonteCarlo>,
+    /// The uncertainties that make sense; none may be among them. `None` before anything was found.
+    pub uncertainties: Option<Uncertainties>,
+    /// Random scenes of these.
+    pub carlo: Option<MonteCarlo>,
     /// Which of the results is looked at.
     pub output: usize,
-    /// How many random scenes are asked for.
-    pub draws: usize,
-}
-
-impl Default for SensitivityState {
-    fn default() -> Self {
-        Self {
-            derivatives: None,
-            drawing: None,
-            share: 0.0,
-            failure: None,
-            fidelity: Fidelity::default(),
-            found: None,
-            typed: BTreeMap::new(),
-            refused: BTreeMap::new(),
-            uncertainties: None,
-            carlo: None,
-            output: 0,
-            draws: DRAWS,
-        }
-    }
+    /// How many random scenes are asked for, if another number was chosen.
+    pub chosen_draws: Option<usize>,
 }
 
 impl SensitivityState {
+    /// How many random scenes are asked for.
+    pub fn draws(&self) -> usize {
+        self.chosen_draws.unwrap_or(DRAWS)
+    }
+
     /// `task` computes the derivatives at this fidelity. What was found before stays until it has.
     pub fn begin(&mut self, task: std::io::Result<Finding<Result<Box<Sensitivity>, String>>>, fidelity: Fidelity) {
         (self.share, self.failure, self.drawing) = (0.0, None, None);
@@ -114,21 +104,6 @@ impl SensitivityState {
         (self.derivatives.is_some() || self.drawing.is_some()).then_some(self.share)
     }
 
-    /// Why nothing came of the last work.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
-    }
-
-    /// Results and derivatives.
-    pub fn found(&self) -> Option<&Arc<Sensitivity>> {
-        self.found.as_ref()
-    }
-
-    /// The fidelity they were asked for.
-    pub fn fidelity(&self) -> Fidelity {
-        self.fidelity
-    }
-
     /// Whether they are of another scene than this.
     pub fn stale(&self, scene: &Scene) -> bool {
         let other = |of: &Scene| !of.same_model(scene) || of.numerics() != scene.numerics();
@@ -154,16 +129,6 @@ impl SensitivityState {
     /// What is wrong with that.
     pub fn refused(&self, key: &str) -> Option<&str> {
         self.refused.get(key).map(String::as_str)
-    }
-
-    /// The uncertainties that make sense; none may be among them. `None` before anything was found.
-    pub fn uncertainties(&self) -> Option<&Uncertainties> {
-        self.uncertainties.as_ref()
-    }
-
-    /// Random scenes of these.
-    pub fn carlo(&self) -> Option<&MonteCarlo> {
-        self.carlo.as_ref()
     }
 
     /// Finds out which of the typed uncertainties make sense for the scene that was solved.

@@ -70,15 +70,22 @@ pub type StartupTask = Task<Cycle, Result<Startup, String>>;
 pub struct StartupState {
     job: Option<StartupTask>,
     scene: Scene,
-    problem: Problem,
-    fidelity: Fidelity,
-    count: u64,
-    points: Vec<Point>,
+    /// What was started.
+    pub problem: Problem,
+    /// Grids and steps are those of this fidelity.
+    pub fidelity: Fidelity,
+    /// Its number in this window.
+    pub count: u64,
+    /// All cycles, in order.
+    pub points: Vec<Point>,
     kept: KeptCycles,
-    ranges: Option<Ranges>,
-    ended: Option<Result<Startup, String>>,
+    /// Ranges of the axes over all cycles so far.
+    pub ranges: Option<Ranges>,
+    /// How it ended.
+    pub ended: Option<Result<Startup, String>>,
     chosen: usize,
-    follow: bool,
+    /// Whether the newest cycle is looked at.
+    pub follow: bool,
 }
 
 impl StartupState {
@@ -168,24 +175,9 @@ impl StartupState {
         }
     }
 
-    /// Its number in this window.
-    pub fn count(&self) -> u64 {
-        self.count
-    }
-
     /// Whether it goes on.
     pub fn running(&self) -> bool {
         self.job.is_some()
-    }
-
-    /// How it ended.
-    pub fn ended(&self) -> Option<&Result<Startup, String>> {
-        self.ended.as_ref()
-    }
-
-    /// All cycles, in order.
-    pub fn points(&self) -> &[Point] {
-        &self.points
     }
 
     /// Cycles whose recordings are kept, ascending.
@@ -203,21 +195,6 @@ impl StartupState {
         self.chosen
     }
 
-    /// Whether the newest cycle is looked at.
-    pub fn follows(&self) -> bool {
-        self.follow
-    }
-
-    /// Ranges of the axes over all cycles so far.
-    pub fn ranges(&self) -> Option<&Ranges> {
-        self.ranges.as_ref()
-    }
-
-    /// Grids and steps are those of this fidelity.
-    pub fn fidelity(&self) -> Fidelity {
-        self.fidelity
-    }
-
     /// Whether `scene` is another one than was started.
     pub fn stale(&self, scene: &Scene) -> bool {
         !self.scene.same_model(scene) || self.scene.numerics() != scene.numerics()
@@ -226,11 +203,6 @@ impl StartupState {
     /// Name of the scene that was started.
     pub fn name(&self) -> &str {
         &self.scene.name
-    }
-
-    /// What was started.
-    pub fn problem(&self) -> &Problem {
-        &self.problem
     }
 }
 

@@ -44,6 +44,21 @@ pub struct AxisForm {
     pub log: bool,
 }
 
+/// A change of what is varied along an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AxisEdit {
+    /// Another key, over a range round its present value.
+    Key(&'static str),
+    /// The first value, as typed.
+    From(String),
+    /// The last one, likewise.
+    To(String),
+    /// Their number, likewise.
+    Count(String),
+    /// By equal ratios, or by equal steps.
+    Log(bool),
+}
+
 impl AxisForm {
     /// A useful range of `key` round its value in `scene`.
     pub fn around(scene: &Scene, key: &'static str, count: usize) -> Self {
@@ -75,6 +90,17 @@ impl AxisForm {
             form.count = format!("{}", high - low + 1.0);
         }
         form
+    }
+
+    /// Changes it; another key is varied by `count` values over a range round its value in `scene`.
+    pub fn edit(&mut self, scene: &Scene, edit: AxisEdit, count: usize) {
+        match edit {
+            AxisEdit::Key(key) => *self = Self::around(scene, key, count),
+            AxisEdit::From(text) => self.from = text,
+            AxisEdit::To(text) => self.to = text,
+            AxisEdit::Count(text) => self.count = text,
+            AxisEdit::Log(log) => self.log = log,
+        }
     }
 
     /// What it says, if it says something.
@@ -140,14 +166,11 @@ impl Form {
         [&self.x, &self.y].into_iter().take(if self.second { 2 } else { 1 })
     }
 
-    /// The axis along x (0) or y (1).
-    pub fn axis(&mut self, axis: usize) -> &mut AxisForm {
-        if axis == 0 { &mut self.x } else { &mut self.y }
-    }
-
-    /// Varies `key` along an axis, over a range round its value in `scene`.
-    pub fn choose(&mut self, scene: &Scene, axis: usize, key: &'static str) {
-        *self.axis(axis) = AxisForm::around(scene, key, if self.second { SIDE } else { LINE });
+    /// Changes the axis along x (0) or y (1).
+    pub fn edit(&mut self, scene: &Scene, axis: usize, edit: AxisEdit) {
+        let count = if self.second { SIDE } else { LINE };
+        let axis = if axis == 0 { &mut self.x } else { &mut self.y };
+        axis.edit(scene, edit, count);
     }
 
     /// Whether a second parameter is varied from now on.
@@ -177,52 +200,27 @@ pub fn candidates(scene: &Scene) -> impl Iterator<Item = &'static Parameter> + '
 /// A sweep that was begun.
 #[derive(Debug)]
 pub struct Swept {
-    sweep: Arc<Sweep>,
-    rows: Vec<Row>,
-    published: Vec<Published>,
-    number: u64,
-    running: bool,
-    /// The text of a panic that ended it.
-    failure: Option<String>,
+    /// The sweep.
+    pub sweep: Arc<Sweep>,
+    /// The rows there are, in the order of the points.
+    pub rows: Vec<Row>,
+    /// Published points of Table I in its plane.
+    pub published: Vec<Published>,
+    /// Its number in this window.
+    pub number: u64,
+    /// Whether it goes on.
+    pub running: bool,
+    /// Why it ended before it was done, if it was not cancelled.
+    pub failure: Option<String>,
     started: Instant,
     /// How many rows there were when it was begun or continued.
     before: usize,
 }
 
 impl Swept {
-    /// The sweep.
-    pub fn sweep(&self) -> &Arc<Sweep> {
-        &self.sweep
-    }
-
-    /// The rows there are, in the order of the points.
-    pub fn rows(&self) -> &[Row] {
-        &self.rows
-    }
-
-    /// Published points of Table I in its plane.
-    pub fn published(&self) -> &[Published] {
-        &self.published
-    }
-
-    /// Its number in this window.
-    pub fn number(&self) -> u64 {
-        self.number
-    }
-
-    /// Whether it goes on.
-    pub fn running(&self) -> bool {
-        self.running
-    }
-
     /// Whether every point is there.
     pub fn complete(&self) -> bool {
         self.rows.len() == self.sweep.len()
-    }
-
-    /// Why it ended before it was done, if it was not cancelled.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
     }
 
     /// Share that is done, 0 to 1.

@@ -21,11 +21,14 @@ pub struct TradeoffState {
     job: Option<MeasurementTask>,
     scene: Scene,
     started: Instant,
-    cancelled: bool,
-    /// The text of a panic that ended it.
-    failure: Option<String>,
-    share: f64,
-    tradeoff: Tradeoff,
+    /// Whether it was told to end before it was done.
+    pub cancelled: bool,
+    /// Why it ended before it was done, if it was not cancelled.
+    pub failure: Option<String>,
+    /// Share of the work that is done, 0 to 1.
+    pub share: f64,
+    /// What was found.
+    pub tradeoff: Tradeoff,
 }
 
 impl TradeoffState {
@@ -73,30 +76,10 @@ impl TradeoffState {
         self.job.is_some()
     }
 
-    /// Whether it was told to end before it was done.
-    pub fn cancelled(&self) -> bool {
-        self.cancelled
-    }
-
-    /// Why it ended before it was done, if it was not cancelled.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
-    }
-
-    /// Share of the work that is done, 0 to 1.
-    pub fn share(&self) -> f64 {
-        self.share
-    }
-
     /// Time that is left \[s\], as far as can be said.
     pub fn left(&self, now: Instant) -> Option<f64> {
         let spent = now.saturating_duration_since(self.started).as_secs_f64();
         (self.share > 0.0).then(|| spent * (1.0 - self.share) / self.share)
-    }
-
-    /// What was found.
-    pub fn tradeoff(&self) -> &Tradeoff {
-        &self.tradeoff
     }
 
     /// Name of the scene that was measured.
@@ -144,7 +127,7 @@ mod tests {
             std::thread::sleep(std::time::Duration::from_millis(10));
         }
         assert!(!state.running());
-        assert_eq!(state.failure(), Some("out of luck"));
+        assert_eq!(state.failure.as_deref(), Some("out of luck"));
     }
 
     #[test]

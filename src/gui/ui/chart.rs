@@ -1,6 +1,5 @@
 //! What charts have in common.
 
-use crate::digits::signed;
 use crate::gui::ui::glossary;
 use crate::gui::ui::paint::{PlotStyle, widened};
 use crate::ticks::{Steps, decades};
@@ -37,7 +36,7 @@ fn id(name: &str) -> Id {
 }
 
 /// Shows the chart `name` from `x[0]` to `x[1]` and from `y[0]` to `y[1]`, or where it was dragged or zoomed to.
-pub(in crate::gui::ui) fn framed<'a, R>(
+fn framed<'a, R>(
     ui: &mut egui::Ui,
     (name, plot): (&str, Plot<'a>),
     [x, y]: [[f64; 2]; 2],
@@ -59,8 +58,49 @@ pub(in crate::gui::ui) fn line<'a>(points: &[[f64; 2]], colour: Color32, width: 
     Line::new("", PlotPoints::from(points.to_vec())).color(colour).width(width).style(style).allow_hover(false)
 }
 
-/// A chart with its axes: values are read below it.
-pub(in crate::gui::ui) fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> Plot<'a> {
+/// A chart of a tab, over its whole width, whose axes are explained on hover. Values are read below it.
+pub(in crate::gui::ui) struct Chart<'n> {
+    /// What tells it from other charts, and screen readers what it is.
+    pub(in crate::gui::ui) name: &'n str,
+    /// Its height, with the axis below.
+    pub(in crate::gui::ui) height: f32,
+    /// Ranges of the axes until they are zoomed.
+    pub(in crate::gui::ui) bounds: [[f64; 2]; 2],
+    /// Name of the axis below; empty if there is none.
+    pub(in crate::gui::ui) below: &'n str,
+    /// What the glossary explains the axis below under, if it does, and the one at the left.
+    pub(in crate::gui::ui) words: (Option<&'n str>, &'n str),
+}
+
+impl Chart<'_> {
+    /// Shows what `add` draws.
+    pub(in crate::gui::ui) fn show<'a, R>(
+        self,
+        ui: &mut egui::Ui,
+        add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
+    ) -> PlotResponse<R> {
+        self.show_with(ui, |plot| plot, add)
+    }
+
+    /// As [`Self::show`], with changes to the plot, such as marks of its own.
+    pub(in crate::gui::ui) fn show_with<'a, R>(
+        self,
+        ui: &mut egui::Ui,
+        change: impl FnOnce(Plot<'a>) -> Plot<'a>,
+        add: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
+    ) -> PlotResponse<R> {
+        let Self { name, height, bounds, below, words: (x, y) } = self;
+        let (whole, plot) = (place(ui, height), chart(ui, name, height));
+        let plot = if below.is_empty() { plot } else { plot.x_axis_label(below) };
+        let shown = framed(ui, (name, change(plot)), bounds, add);
+        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+        axes(ui, whole, *shown.transform.frame(), x, y);
+        shown
+    }
+}
+
+/// A plot with marks at round numbers, as far apart as they have to be.
+fn chart<'a>(ui: &egui::Ui, name: &str, height: f32) -> Plot<'a> {
     let em = ui.text_style_height(&TextStyle::Body);
     let lines = f64::from((height / (NUMBER_EVERY * em)).max(1.0));
     let columns = f64::from((ui.available_width() / (COLUMN_EVERY * em)).max(1.0));
@@ -237,30 +277,42 @@ pub(in crate::gui::ui) fn title(ui: &mut egui::Ui, text: &str, word: &str) {
 pub(in crate::gui::ui) fn legend(ui: &mut egui::Ui, entries: &[(&str, Color32, LineStyle)]) {
     ui.horizontal_wrapped(|ui| {
         for (text, colour, style) in entries {
-            let font = TextStyle::Body.resolve(ui.style());
-            let galley = ui.painter().layout_no_wrap((*text).to_owned(), font, ui.visuals().text_color());
-            let em = galley.size().y;
-            let indent = (SAMPLE + 0.35) * em;
-            let (area, response) =
-                ui.allocate_exact_size(egui::vec2(indent + galley.size().x + 0.5 * em, em), egui::Sense::hover());
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, *text));
-            glossary::here(ui, response, text);
-            let ends = [area.left_center(), area.left_center() + egui::vec2(SAMPLE * em, 0.0)];
-            let stroke = egui::Stroke::new(2.0, *colour);
-            match style {
-                LineStyle::Solid => drop(ui.painter().line_segment(ends, stroke)),
-                LineStyle::Dashed { length } => {
-                    // A solid one is one dash.
-                    ui.painter().extend(egui::Shape::dashed_line(&ends, stroke, *length, 0.6 * length));
+            key(ui, text, SAMPLE + 0.35, 0.5, |painter, left, em| {
+                let ends = [left, left + egui::vec2(SAMPLE * em, 0.0)];
+                let stroke = egui::Stroke::new(2.0, *colour);
+                match style {
+                    LineStyle::Solid => drop(painter.line_segment(ends, stroke)),
+                    LineStyle::Dashed { length } => {
+                        // A solid one is one dash.
+                        painter.extend(egui::Shape::dashed_line(&ends, stroke, *length, 0.6 * length));
+                    }
+                    LineStyle::Dotted { spacing } => {
+                        painter.extend(egui::Shape::dotted_line(&ends, *colour, *spacing, 1.2));
+                    }
                 }
-                LineStyle::Dotted { spacing } => {
-                    ui.painter().extend(egui::Shape::dotted_line(&ends, *colour, *spacing, 1.2));
-                }
-            }
-            let colour = ui.visuals().text_color();
-            ui.painter().galley(area.left_top() + egui::vec2(indent, 0.0), galley, colour);
+            });
         }
     });
+}
+
+/// An entry of a legend, in one piece, so that it is a whole that goes to the next line. What `draw` draws from a place on, at half the
+/// height of the text, has `indent` before the text, which has `after` behind it, in heights of the text.
+pub(in crate::gui::ui) fn key(
+    ui: &mut egui::Ui,
+    text: &str,
+    indent: f32,
+    after: f32,
+    draw: impl FnOnce(&egui::Painter, egui::Pos2, f32),
+) {
+    let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
+    let em = galley.size().y;
+    let size = egui::vec2(indent * em + galley.size().x + after * em, em);
+    let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+    glossary::here(ui, response, text);
+    draw(ui.painter(), area.left_center(), em);
+    ui.painter().galley(area.left_top() + egui::vec2(indent * em, 0.0), galley, colour);
 }
 
 /// Marks of an axis of log₁₀: powers of ten, at most about `most`, and 2 and 5 times them if they are few and that is `between`.
@@ -271,8 +323,7 @@ pub(in crate::gui::ui) fn powers(input: &GridInput, most: f64, between: bool) ->
 
 /// As many decimals as the steps between ticks need, with a true minus sign.
 pub(in crate::gui::ui) fn tick(mark: GridMark) -> String {
-    let decimals = (-mark.step_size.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
-    signed(format!("{:.decimals$}", mark.value))
+    Steps::of([mark.value; 2], mark.step_size).format(mark.value)
 }
 
 /// Marks at 1, 2 or 5 times a power of ten, at most about `most`.

@@ -1,13 +1,16 @@
 //! What every drawing function is given.
 
 use super::highlight;
-use super::theme::{HIGHLIGHT, Palette, palette};
+use super::hint::Hint;
+use super::theme::{self, Palette, palette};
 use crate::gui::command::Command;
+use crate::gui::derived::format::rough;
 use crate::gui::state::window::State;
 use crate::job::SolvedScene;
 use crate::platform::Instant;
 use eframe::egui::{self, Color32, Rect, RichText, Ui};
 use std::cell::{Cell, RefCell};
+use std::time::Duration;
 
 /// The state to read, the colours, the present moment, and where commands go.
 #[derive(Debug)]
@@ -59,6 +62,43 @@ impl<'a> DrawContext<'a> {
         self.say(ui, text, self.colours.quiet);
     }
 
+    /// What stands in a tab that has nothing to show yet, a paragraph each.
+    pub fn introduce(&self, ui: &mut Ui, paragraphs: &[&str]) {
+        ui.add_space(8.0);
+        for paragraph in paragraphs {
+            self.note(ui, *paragraph);
+            ui.add_space(4.0);
+        }
+    }
+
+    /// A button that asks for `command`; `about` is told on hover.
+    pub fn button(&self, ui: &mut Ui, text: &str, about: impl Into<String>, command: impl Into<Command>) {
+        if ui.button(text).hint(about).clicked() {
+            self.push(command);
+        }
+    }
+
+    /// The same, small, and called `name` by screen readers.
+    pub fn small_button(
+        &self,
+        ui: &mut Ui,
+        (text, about): (&str, &str),
+        name: impl Into<String>,
+        command: impl Into<Command>,
+    ) {
+        if ui.small_button(text).hint(about).accessible_name(name).clicked() {
+            self.push(command);
+        }
+    }
+
+    /// How far some work is: a share from 0 to 1, in words, and the time that is left \[s\], if it is known.
+    pub fn progress(&self, ui: &mut Ui, width: f32, share: f64, words: &str, left: Option<f64>) {
+        let left = left.map_or_else(String::new, |left| format!(", {} left", rough(left)));
+        ui.add(egui::ProgressBar::new(share as f32).desired_width(width).text(format!("{words}{left}")));
+        // What is left grows less even while nothing new is told.
+        ui.ctx().request_repaint_after(Duration::from_secs(1));
+    }
+
     /// Says so if `run` is not of the present scene; whether it is not.
     pub fn say_if_stale(&self, ui: &mut Ui, run: &SolvedScene) -> bool {
         let stale = self.state.stale(run);
@@ -80,6 +120,6 @@ impl<'a> DrawContext<'a> {
 
     /// The same of a plot, whose ring stays within it, clear of the title above.
     pub fn mark_plot(&self, ui: &Ui, name: &str, plot: Rect) {
-        self.mark(ui, name, plot.shrink(HIGHLIGHT.gap + 0.5 * HIGHLIGHT.glow));
+        self.mark(ui, name, plot.shrink(theme::highlight::GAP + 0.5 * theme::highlight::GLOW));
     }
 }

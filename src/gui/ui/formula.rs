@@ -1,6 +1,6 @@
 //! Sets formulas: every part is a box with a width, a height above the baseline and a depth below it.
 
-use crate::gui::ui::theme::MATHEMATICS as SIZES;
+use crate::gui::ui::theme::mathematics;
 use crate::lessons::formula::{Mark, Node, SUM};
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Galley, Painter, Pos2, Shape, Stroke, Vec2, pos2, vec2};
@@ -38,7 +38,7 @@ pub(in crate::gui) struct Style {
 
 impl Style {
     fn scaled(self, scale: f32) -> Self {
-        Self { size: (scale * self.size).max(SIZES.least.min(self.size)), display: false, ..self }
+        Self { size: (scale * self.size).max(mathematics::LEAST.min(self.size)), display: false, ..self }
     }
 }
 
@@ -99,8 +99,8 @@ impl Typeset {
         let width = galley.size().x;
         Self {
             width: if slanted { width + 0.04 * style.size } else { width },
-            ascent: SIZES.ascent * style.size,
-            descent: SIZES.descent * style.size,
+            ascent: mathematics::ASCENT * style.size,
+            descent: mathematics::DESCENT * style.size,
             pieces: vec![Piece::Text(Pos2::ZERO, galley)],
         }
     }
@@ -120,13 +120,13 @@ impl Typeset {
     }
 
     fn fraction(painter: &Painter, over: &[Node], under: &[Node], style: Style) -> Self {
-        let inner = if style.display { Style { display: false, ..style } } else { style.scaled(SIZES.fraction) };
+        let inner = if style.display { Style { display: false, ..style } } else { style.scaled(mathematics::FRACTION) };
         let (over, under) = (Self::of(painter, over, inner), Self::of(painter, under, inner));
-        let rule = (SIZES.rule * style.size).max(1.0);
+        let rule = (mathematics::RULE * style.size).max(1.0);
         let (overhang, gap) = (0.12 * style.size, 0.14 * style.size + 0.5 * rule);
         let widest = over.width.max(under.width) + 2.0 * overhang;
         let side = 0.08 * style.size;
-        let axis = -SIZES.axis * style.size;
+        let axis = -mathematics::AXIS * style.size;
         let line = vec![pos2(side, axis), pos2(side + widest, axis)];
         let mut set = Self { width: widest + 2.0 * side, pieces: vec![Piece::Line(line, rule)], ..Self::default() };
         let middle = |part: &Self| side + 0.5 * (widest - part.width);
@@ -139,7 +139,7 @@ impl Typeset {
 
     fn root(painter: &Painter, inside: &[Node], style: Style) -> Self {
         let inside = Self::of(painter, inside, style);
-        let rule = (SIZES.rule * style.size).max(1.0);
+        let rule = (mathematics::RULE * style.size).max(1.0);
         let (gap, hook) = (0.14 * style.size, 0.55 * style.size);
         let (top, bottom) = (-inside.ascent - gap, inside.descent);
         let foot = 0.25 * style.size;
@@ -158,12 +158,12 @@ impl Typeset {
 
     /// A sum on its own, with what it is over below and how far it goes above.
     fn sum(painter: &Painter, [index, exponent]: [&[Node]; 2], style: Style) -> Self {
-        let small = style.scaled(SIZES.script);
-        let large = SIZES.sum * style.size;
+        let small = style.scaled(mathematics::SCRIPT);
+        let large = mathematics::SUM * style.size;
         let (galley, _) = galley(painter, SUM, large, style.colour, false);
         // Its middle is where those of + and of fractions are.
-        let (ascent, descent) = (SIZES.ascent * large, SIZES.descent * large);
-        let drop = 0.5 * (ascent - descent) - SIZES.axis * style.size;
+        let (ascent, descent) = (mathematics::ASCENT * large, mathematics::DESCENT * large);
+        let drop = 0.5 * (ascent - descent) - mathematics::AXIS * style.size;
         let sign = galley.size().x;
         let [below, above] = [index, exponent].map(|nodes| Self::of(painter, nodes, small));
         let width = sign.max(below.width).max(above.width);
@@ -188,7 +188,7 @@ impl Typeset {
             return Self::sum(painter, scripts, style);
         }
         let [index, exponent] = scripts;
-        let small = style.scaled(SIZES.script);
+        let small = style.scaled(mathematics::SCRIPT);
         let mut set = Self::of(painter, base, style);
         let (base_ascent, base_descent, start) = (set.ascent, set.descent, set.width + 0.02 * style.size);
         let tall = base_ascent > 1.1 * style.size;
@@ -212,7 +212,7 @@ impl Typeset {
 
     fn bracketed(painter: &Painter, left: char, inside: &[Node], right: char, style: Style) -> Self {
         let inside = Self::of(painter, inside, style);
-        let rule = (SIZES.rule * style.size).max(1.0);
+        let rule = (mathematics::RULE * style.size).max(1.0);
         let (top, bottom) = (-inside.ascent - 0.04 * style.size, inside.descent + 0.04 * style.size);
         let width = 0.34 * style.size;
         let mut set = Self { width, ascent: -top, descent: bottom, pieces: Vec::new() };
@@ -233,7 +233,7 @@ impl Typeset {
             Mark::Dot => set.pieces.push(Piece::Dot(pos2(0.58 * set.width, top), 0.065 * style.size)),
             Mark::Bar => {
                 let line = vec![pos2(0.1 * set.width, top), pos2(set.width, top)];
-                set.pieces.push(Piece::Line(line, (SIZES.rule * style.size).max(1.0)));
+                set.pieces.push(Piece::Line(line, (mathematics::RULE * style.size).max(1.0)));
             }
         }
         set.ascent = set.ascent.max(-top + 0.08 * style.size);

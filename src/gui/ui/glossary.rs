@@ -31,6 +31,12 @@ pub fn here(ui: &Ui, response: egui::Response, word: &str) -> egui::Response {
     explain(ui, response, word, None)
 }
 
+/// Writes `text`, and explains `word` there as [`here`] does.
+pub fn term(ui: &mut Ui, text: impl Into<egui::WidgetText>, word: &str) -> egui::Response {
+    let label = ui.label(text);
+    here(ui, label, word)
+}
+
 /// What is drawn at `place`, the `number`th of its drawing, as something to point at.
 pub fn over(ui: &Ui, place: egui::Rect, word: &str, number: usize) -> egui::Response {
     let response = ui.interact(place, ui.scope_id().with(("term", word, number)), egui::Sense::hover());

@@ -1,6 +1,6 @@
 //! Where parts of the window are, and the ring round one that a lesson or the tour points at.
 
-use super::theme::{HIGHLIGHT, palette};
+use super::theme::{highlight, palette};
 use eframe::egui::{Context, CornerRadius, Id, Rect, Stroke, StrokeKind, Ui};
 
 /// Remembers that `name` is at `rect` in this frame.
@@ -25,7 +25,7 @@ pub fn ring_round(ctx: &Context, rect: Rect) -> Option<Rect> {
     let now = ctx.cumulative_frame_nr();
     let rings: Vec<(u64, Rect)> = ctx.data(|data| data.get_temp(rings_id())).unwrap_or_default();
     let fresh = rings.into_iter().filter(|(frame, _)| now.saturating_sub(*frame) <= 1);
-    fresh.map(|(_, ring)| ring).find(|ring| ring.expand(HIGHLIGHT.gap).intersects(rect))
+    fresh.map(|(_, ring)| ring).find(|ring| ring.expand(highlight::GAP).intersects(rect))
 }
 
 /// A ring with a glow round `rect`.
@@ -37,13 +37,13 @@ pub fn ring(ui: &Ui, rect: Rect) {
         rings.push((now, rect));
     });
     let colour = palette(ui.visuals().dark_mode).accent;
-    let rect = rect.expand(HIGHLIGHT.gap);
-    let corner = CornerRadius::same(HIGHLIGHT.corner);
+    let rect = rect.expand(highlight::GAP);
+    let corner = CornerRadius::same(highlight::CORNER);
     ui.painter().rect_stroke(
         rect,
         corner,
-        Stroke::new(HIGHLIGHT.glow, colour.gamma_multiply(0.25)),
+        Stroke::new(highlight::GLOW, colour.gamma_multiply(0.25)),
         StrokeKind::Middle,
     );
-    ui.painter().rect_stroke(rect, corner, Stroke::new(HIGHLIGHT.line, colour), StrokeKind::Middle);
+    ui.painter().rect_stroke(rect, corner, Stroke::new(highlight::LINE, colour), StrokeKind::Middle);
 }

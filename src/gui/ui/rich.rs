@@ -2,7 +2,7 @@
 
 use super::formula::{Style as MathStyle, Typeset, galley};
 use crate::gui::ui::cache::once;
-use crate::gui::ui::theme::{MATHEMATICS, palette};
+use crate::gui::ui::theme::{mathematics, palette};
 use crate::lessons::picture::Picture;
 use crate::lessons::text::{Block, Inline, Style, plain};
 use eframe::egui::{self, Color32, FontId, Galley, Rect, Response, Sense, TextStyle, Ui, pos2, vec2};
@@ -45,7 +45,7 @@ pub(in crate::gui) fn blocks(ui: &mut Ui, blocks: &[Block], look: Look) {
             Block::Picture(picture) => shown(ui, picture),
             Block::Formula(formula) => {
                 let room = ui.available_width();
-                let mut size = MATHEMATICS.display * look.size;
+                let mut size = mathematics::DISPLAY * look.size;
                 let set = |ui: &Ui, size: f32| {
                     let style = MathStyle { size, colour: look.colour, display: true };
                     Typeset::of(ui.painter(), &formula.nodes, style)
@@ -123,7 +123,7 @@ pub(in crate::gui) fn paragraph(ui: &mut Ui, parts: &[Inline], look: Look) -> Re
         }
     }
     let lead = 0.36 * look.size;
-    let (ascent, descent) = (MATHEMATICS.ascent * look.size, MATHEMATICS.descent * look.size);
+    let (ascent, descent) = (mathematics::ASCENT * look.size, mathematics::DESCENT * look.size);
     let heights: Vec<(f32, f32)> = lines
         .iter()
         .map(|line| line.iter().fold((ascent, descent), |(a, d), atom| (a.max(atom.ascent), d.max(atom.descent))))
@@ -182,7 +182,7 @@ fn atoms(ui: &Ui, parts: &[Inline], look: Look) -> Vec<Atom> {
         .size()
         .x
         .max(0.25 * look.size);
-    let (ascent, descent) = (MATHEMATICS.ascent * look.size, MATHEMATICS.descent * look.size);
+    let (ascent, descent) = (mathematics::ASCENT * look.size, mathematics::DESCENT * look.size);
     let mut atoms = Vec::new();
     // Whether white space came before, and before that a number.
     let (mut apart, mut number) = (true, false);

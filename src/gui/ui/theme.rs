@@ -127,6 +127,12 @@ fn dress(visuals: &mut egui::Visuals, dark: bool) {
     widgets.inactive.fg_stroke.color = grey([0xd2, 0xd7, 0xdf], [0x2e, 0x33, 0x3b]);
 }
 
+/// Gives fields and boxes an outline: in the light theme their fill is nearly that of the panel.
+pub fn outline_fields(ui: &mut egui::Ui) {
+    let widgets = &mut ui.visuals_mut().widgets;
+    widgets.inactive.bg_stroke = widgets.noninteractive.bg_stroke;
+}
+
 /// Installs the fonts: those of egui that text is written with, with fewer glyphs, its icons, and DejaVu Sans for the glyphs that they lack.
 pub fn install_fonts(ctx: &egui::Context) {
     use FontFamily::{Monospace, Proportional};
@@ -148,53 +154,35 @@ pub fn install_fonts(ctx: &egui::Context) {
 }
 
 /// The ring round what is highlighted.
-#[derive(Clone, Copy, Debug)]
-pub struct Highlight {
+pub mod highlight {
     /// Between it and what it is round.
-    pub gap: f32,
+    pub const GAP: f32 = 3.0;
     /// Its width.
-    pub line: f32,
+    pub const LINE: f32 = 2.0;
     /// The width of its glow.
-    pub glow: f32,
+    pub const GLOW: f32 = 6.0;
     /// Its corners.
-    pub corner: u8,
+    pub const CORNER: u8 = 6;
 }
-
-/// The ring round what is highlighted.
-pub const HIGHLIGHT: Highlight = Highlight { gap: 3.0, line: 2.0, glow: 6.0, corner: 6 };
 
 /// Sizes of formulas, relative to the text around them.
-#[derive(Clone, Copy, Debug)]
-pub struct Mathematics {
+pub mod mathematics {
     /// A formula on its own.
-    pub display: f32,
+    pub const DISPLAY: f32 = 1.2;
     /// Indices and exponents.
-    pub script: f32,
+    pub const SCRIPT: f32 = 0.72;
     /// The sign of a sum on its own.
-    pub sum: f32,
+    pub const SUM: f32 = 1.5;
     /// What is over and under a line in the middle of a text.
-    pub fraction: f32,
+    pub const FRACTION: f32 = 0.8;
     /// The smallest \[points\].
-    pub least: f32,
+    pub const LEAST: f32 = 8.5;
     /// Height of the middle of + and − above the baseline.
-    pub axis: f32,
+    pub const AXIS: f32 = 0.27;
     /// Height of a letter above the baseline.
-    pub ascent: f32,
+    pub const ASCENT: f32 = 0.74;
     /// Depth of a letter below it.
-    pub descent: f32,
+    pub const DESCENT: f32 = 0.21;
     /// Width of lines: of fractions and roots.
-    pub rule: f32,
+    pub const RULE: f32 = 0.07;
 }
-
-/// Sizes of formulas.
-pub const MATHEMATICS: Mathematics = Mathematics {
-    display: 1.2,
-    script: 0.72,
-    sum: 1.5,
-    fraction: 0.8,
-    least: 8.5,
-    axis: 0.27,
-    ascent: 0.74,
-    descent: 0.21,
-    rule: 0.07,
-};

@@ -51,12 +51,12 @@ impl Updater {
         let of_run = |what| Some(Content::Run(what, Box::new(self.named()?)));
         let of_sweep = |what: fn(Quantity) -> OfSweep| {
             let swept = self.state.sweep.swept()?;
-            let quantity = self.state.sweep.quantity(&swept.sweep().quantities());
-            Some(Content::Sweep(what(quantity), Arc::clone(swept.sweep()), swept.rows().to_vec()))
+            let quantity = self.state.sweep.quantity(&swept.sweep.quantities());
+            Some(Content::Sweep(what(quantity), Arc::clone(&swept.sweep), swept.rows.to_vec()))
         };
         let of_tradeoff = |what| {
             let measured = self.state.tradeoff.as_ref()?;
-            Some(Content::Tradeoff(what, measured.name().to_owned(), measured.tradeoff().clone()))
+            Some(Content::Tradeoff(what, measured.name().to_owned(), measured.tradeoff.clone()))
         };
         match export {
             Export::Data => of_run(OfRun::Data),
@@ -78,11 +78,11 @@ impl Updater {
             Export::SweepFigure => of_sweep(OfSweep::Figure),
             Export::Sensitivity => {
                 let state = &self.state.sensitivity;
-                let (found, uncertainties) = (Arc::clone(state.found()?), state.uncertainties()?.clone());
-                Some(Content::Sensitivity(found, uncertainties, state.carlo().cloned(), state.fidelity()))
+                let (found, uncertainties) = (state.found.clone()?, state.uncertainties.clone()?);
+                Some(Content::Sensitivity(found, uncertainties, state.carlo.clone(), state.fidelity))
             }
             Export::Fit => {
-                let (scene, found) = self.state.fit.found()?;
+                let (scene, found) = self.state.fit.found.as_ref()?;
                 let problem = Problem::try_from(found.scene()).ok()?;
                 let posed = Posed { scene: found.scene().clone(), problem };
                 Some(Content::Fit(scene.name.clone(), Box::new(posed), Arc::clone(found)))
@@ -90,7 +90,7 @@ impl Updater {
             Export::Answers => Some(Content::Answers(self.state.lessons.records())),
             Export::TradeoffTable => of_tradeoff(OfTradeoff::Table),
             Export::TradeoffFigure => {
-                let tradeoff = self.state.tradeoff.as_ref()?.tradeoff();
+                let tradeoff = &self.state.tradeoff.as_ref()?.tradeoff;
                 let targets = [Target::Accuracy(self.state.view.accuracy), Target::Budget(self.state.view.budget)];
                 of_tradeoff(OfTradeoff::Figure(
                     targets.into_iter().filter_map(|target| tradeoff.choose(target)).collect(),

@@ -7,8 +7,8 @@ use crate::gui::state::dialogs::Purpose;
 use crate::gui::state::view::Tab;
 use crate::job::face::Heights;
 use crate::job::task::Task;
+use crate::scene::Kind;
 use crate::scene::heights::keys_of;
-use crate::scene::{Kind, Value};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -41,15 +41,11 @@ impl Updater {
 
     /// Gives the scene what follows from two faces like this one: as much as its laws ask for.
     fn take_face(&mut self) {
-        let Some(face) = self.state.face.found() else { return };
-        let mut next = self.state.document.scene().clone();
+        let Some(face) = self.state.face.found.as_ref() else { return };
+        let scene = self.state.document.scene();
         let spacing = (SPACING, rounded(face.pair.min_spacing * 1e9, 4));
-        let mut values = keys_of(&face.pair).into_iter().chain([spacing]).filter(|(key, _)| next.get(key).is_some());
-        let values: Vec<_> = values.by_ref().collect();
-        let set = values.into_iter().try_for_each(|(key, value)| next.set_value(key, Value::Number(value)));
-        match set.and_then(|()| next.check()) {
-            Ok(()) => self.change_scene(next),
-            Err(error) => self.state.fail(error),
-        }
+        let values = keys_of(&face.pair).into_iter().chain([spacing]).filter(|(key, _)| scene.get(key).is_some());
+        let values: Vec<_> = values.collect();
+        self.take_values(values);
     }
 }

@@ -4,11 +4,9 @@ use super::updater::Updater;
 use crate::analysis::fit::{LARGEST_TABLE, Measured};
 use crate::gui::command::{FaceCommand, FitCommand};
 use crate::gui::state::dialogs::Purpose;
-use crate::gui::state::sweep::AxisForm;
 use crate::gui::state::view::Tab;
 use crate::input::{ReadError, read_text};
 use crate::job;
-use crate::scene::Value;
 use crate::solve::{Method, Settings};
 use crate::surface::height_map::begins_as_heights;
 use std::path::Path;
@@ -29,26 +27,15 @@ impl Updater {
             FitCommand::Seek(sought) => state.fit.seek(sought),
             FitCommand::Quantity(name) => state.fit.seek_of(name),
             FitCommand::Limits(limits) => state.fit.limit(limits),
-            FitCommand::Key(line, key) => {
-                let axis = AxisForm::around(scene, key, 2);
-                state.fit.edit(line, |line| *line = axis);
-            }
-            FitCommand::From(line, text) => state.fit.edit(line, |line| line.from = text),
-            FitCommand::To(line, text) => state.fit.edit(line, |line| line.to = text),
-            FitCommand::Log(line, log) => state.fit.edit(line, |line| line.log = log),
+            FitCommand::Axis(line, edit) => state.fit.edit(scene, line, edit),
             FitCommand::Add => state.fit.add(scene),
             FitCommand::Remove(line) => state.fit.remove(line),
             FitCommand::Start => self.start_fit(),
             FitCommand::Cancel => state.fit.cancel(),
             FitCommand::Take => {
-                let Some((_, found)) = state.fit.found() else { return };
-                let mut next = scene.clone();
-                let mut values = found.values().into_iter();
-                let set = values.try_for_each(|(key, value)| next.set_value(key, Value::Number(value)));
-                match set.and_then(|()| next.check()) {
-                    Ok(()) => self.change_scene(next),
-                    Err(error) => self.state.fail(error),
-                }
+                let Some((_, found)) = state.fit.found.as_ref() else { return };
+                let values = found.values();
+                self.take_values(values);
             }
         }
     }
@@ -84,7 +71,7 @@ impl Updater {
         // What is wrong with a key is said at the key.
         let state = &self.state.fit;
         let (Ok(bounds), Ok(goal)) = (state.asked(&scene), state.goal(&scene)) else { return };
-        let measured = state.measured().cloned();
+        let measured = state.measured.clone();
         if measured.is_none() && goal.is_none() {
             return;
         }

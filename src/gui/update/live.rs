@@ -134,7 +134,7 @@ impl Updater {
         }
         let settings = startup::Settings { fidelity, ..startup::Settings::default() };
         // One at a time: the last one is ended first.
-        let count = self.state.startup.take().map_or(0, |last| last.count() + 1);
+        let count = self.state.startup.take().map_or(0, |last| last.count + 1);
         match job::startup::start(
             Posed { scene: scene.clone(), problem: problem.clone() },
             settings,

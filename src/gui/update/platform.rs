@@ -50,20 +50,15 @@ const TOO_SOON: Duration = Duration::from_millis(400);
 /// Asks the system's own dialog.
 fn native_dialog(purpose: Purpose, start: &DialogStart) -> Answer {
     let started = Instant::now();
-    let (filter, title): (Option<(&str, &[&str])>, _) = match &purpose {
-        Purpose::Picture(_) => (Some(("Picture", &["png"])), "Save"),
-        Purpose::Export(export) => (export.filter(), export.title()),
-        Purpose::Lessons => (None, "Open a folder of lessons"),
-        Purpose::Measurements => (Some(("Table", &["csv"])), "Open a table of measurements"),
-        Purpose::Heights => (Some(("Heights", &["csv", "txt"])), "Open measured heights"),
-        Purpose::Open => (Some(("Preset", &["toml"])), "Open a preset"),
-        Purpose::Save(_) => (Some(("Preset", &["toml"])), "Save"),
+    let (filter, title) = match &purpose {
+        // The system says what the dialog is for.
+        Purpose::Picture(_) | Purpose::Save(_) => (purpose.filter(), "Save"),
+        _ => (purpose.filter(), purpose.title()),
     };
-    let asked = match purpose {
-        Purpose::Open | Purpose::Measurements | Purpose::Heights => Asked::File,
-        Purpose::Lessons => Asked::Folder,
-        Purpose::Export(export) if export.is_folder() => Asked::Folder,
-        Purpose::Export(_) | Purpose::Save(_) | Purpose::Picture(_) => Asked::NewFile,
+    let asked = match (filter, purpose.writes()) {
+        (None, _) => Asked::Folder,
+        (Some(_), true) => Asked::NewFile,
+        (Some(_), false) => Asked::File,
     };
     // Without a portal and without zenity the library answers as if the dialog had been closed, but at once.
     match start.parent.ask(&FileDialog { asked, title, filter, name: &start.name }) {

@@ -200,9 +200,9 @@ impl Updater {
                 let path = match &purpose {
                     Purpose::Open => failed.unwrap_or_default(),
                     Purpose::Save(_) => failed.unwrap_or_else(|| self.state.suggested_name()),
-                    Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
                     Purpose::Picture(_) => PICTURE.to_owned(),
                     Purpose::Export(export) => export.file_name().to_owned(),
+                    Purpose::Lessons | Purpose::Measurements | Purpose::Heights => String::new(),
                 };
                 self.state.modal = Some(Modal::Path(PathPrompt::instead_of_dialog(purpose, path)));
             }

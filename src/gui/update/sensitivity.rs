@@ -26,10 +26,12 @@ impl Updater {
             SensitivityCommand::Cancel => state.cancel(),
             SensitivityCommand::Look(output) => state.output = output,
             SensitivityCommand::Uncertainty(key, text) => state.type_uncertainty(key, text),
-            SensitivityCommand::Draws(draws) => state.draws = draws,
+            SensitivityCommand::Draws(draws) => state.chosen_draws = Some(draws),
             SensitivityCommand::Draw => {
-                let (Some(found), Some(uncertainties)) = (state.found(), state.uncertainties()) else { return };
-                let task = monte_carlo(Arc::clone(found), uncertainties.clone(), (state.draws, SEED), wake);
+                let (Some(found), Some(uncertainties)) = (state.found.as_ref(), state.uncertainties.as_ref()) else {
+                    return;
+                };
+                let task = monte_carlo(Arc::clone(found), uncertainties.clone(), (state.draws(), SEED), wake);
                 state.begin_drawing(task);
             }
         }

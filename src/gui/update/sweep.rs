@@ -16,14 +16,14 @@ impl Updater {
             SweepCommand::Start => self.start_sweep(),
             SweepCommand::Cancel => self.state.sweep.cancel(),
             SweepCommand::Continue => {
-                if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running()) {
-                    let task = job::sweep::go_on(swept.sweep(), swept.rows().to_vec(), self.wake(REDRAW));
+                if let Some(swept) = self.state.sweep.swept().filter(|swept| !swept.running) {
+                    let task = job::sweep::go_on(&swept.sweep, swept.rows.to_vec(), self.wake(REDRAW));
                     self.begin_sweep(task, true);
                 }
             }
             SweepCommand::Open(point) => {
                 // Every point is a scene: the sweep has made them all.
-                let scene = self.state.sweep.swept().and_then(|swept| swept.sweep().scene_at(point).ok());
+                let scene = self.state.sweep.swept().and_then(|swept| swept.sweep.scene_at(point).ok());
                 if let Some(mut scene) = scene {
                     // A sweep says in its name what was changed; the present scene keeps its own.
                     let present = self.state.document.scene();
@@ -32,14 +32,10 @@ impl Updater {
                 }
             }
             SweepCommand::Draw(quantity) => self.state.sweep.draw(quantity),
-            SweepCommand::Choose(axis, key) => {
+            SweepCommand::Axis(axis, edit) => {
                 let scene = self.state.document.scene();
-                self.state.sweep.edit(|form| form.choose(scene, axis, key));
+                self.state.sweep.edit(|form| form.edit(scene, axis, edit));
             }
-            SweepCommand::From(axis, text) => self.state.sweep.edit(|form| form.axis(axis).from = text),
-            SweepCommand::To(axis, text) => self.state.sweep.edit(|form| form.axis(axis).to = text),
-            SweepCommand::Count(axis, text) => self.state.sweep.edit(|form| form.axis(axis).count = text),
-            SweepCommand::Log(axis, log) => self.state.sweep.edit(|form| form.axis(axis).log = log),
             SweepCommand::Second(second) => self.state.sweep.edit(|form| form.set_second(second)),
             SweepCommand::Fidelity(fidelity) => self.state.sweep.edit(|form| form.fidelity = fidelity),
         }

@@ -10,7 +10,7 @@ use crate::job::{Request, Solver};
 use crate::platform::Instant;
 use crate::platform::window::Parent;
 use crate::problem::Problem;
-use crate::scene::Scene;
+use crate::scene::{Scene, Value};
 use eframe::egui;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -97,6 +97,16 @@ impl Updater {
         let document = &mut self.state.document;
         if document.change(next, document.target()) {
             self.scene_replaced();
+        }
+    }
+
+    /// Gives the scene these numbers, as one edit; says what is wrong with them.
+    pub(super) fn take_values<'k>(&mut self, values: impl IntoIterator<Item = (&'k str, f64)>) {
+        let mut next = self.state.document.scene().clone();
+        let set = values.into_iter().try_for_each(|(key, value)| next.set_value(key, Value::Number(value)));
+        match set.and_then(|()| next.check()) {
+            Ok(()) => self.change_scene(next),
+            Err(error) => self.state.fail(error),
         }
     }
 

@@ -9,7 +9,7 @@ use crate::gui::state::document::{Next, absolute};
 use crate::gui::state::modal::{Modal, PathPrompt};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::panels::field::select_all;
-use eframe::egui::{self, Id, Key, Ui};
+use eframe::egui::{self, Id, Key, Response, Ui};
 use std::path::{Path, PathBuf, is_separator};
 
 /// Widest text.
@@ -36,6 +36,15 @@ pub fn show(ctx: &egui::Context, cx: &DrawContext<'_>) {
     }
 }
 
+/// A button that has the keyboard until something else takes it.
+fn first_button(ui: &mut Ui, text: &str) -> Response {
+    let button = ui.button(text);
+    if ui.memory(|memory| memory.focused().is_none()) {
+        button.request_focus();
+    }
+    button
+}
+
 fn error(ui: &mut Ui, message: &str) -> Answer {
     heading(ui, "This did not work");
     // A long message scrolls: the button below stays in the window.
@@ -43,10 +52,7 @@ fn error(ui: &mut Ui, message: &str) -> Answer {
         ui.add(egui::Label::new(message).wrap());
     });
     ui.add_space(12.0);
-    let close = ui.button("Close");
-    if ui.memory(|memory| memory.focused().is_none()) {
-        close.request_focus();
-    }
+    let close = first_button(ui, "Close");
     close.clicked().then(Vec::new)
 }
 
@@ -76,10 +82,7 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
         if ui.button("Copy citation").clicked() {
             cx.push(Command::CopyCitation);
         }
-        let close = ui.button("Close");
-        if ui.memory(|memory| memory.focused().is_none()) {
-            close.request_focus();
-        }
+        let close = first_button(ui, "Close");
         close.clicked().then(Vec::new)
     })
     .inner
@@ -88,10 +91,7 @@ fn about(ui: &mut Ui, cx: &DrawContext<'_>) -> Answer {
 fn unsaved(ui: &mut Ui, name: &str, next: &Next) -> Answer {
     heading(ui, &format!("Save the changes to “{name}”?"));
     ui.horizontal_wrapped(|ui| {
-        let save = ui.button("Save");
-        if ui.memory(|memory| memory.focused().is_none()) {
-            save.request_focus();
-        }
+        let save = first_button(ui, "Save");
         let discard = ui.button("Don't save");
         let keep = ui.button("Keep editing");
         let answers = [
@@ -112,35 +112,24 @@ fn unfinished(ui: &mut Ui, work: &[String]) -> Answer {
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         let quit = ui.button("Quit anyway").clicked();
-        let wait = ui.button("Keep the window open");
-        if ui.memory(|memory| memory.focused().is_none()) {
-            wait.request_focus();
-        }
+        let wait = first_button(ui, "Keep the window open");
         if quit { Some(vec![Command::QuitAnyway]) } else { wait.clicked().then(Vec::new) }
     })
     .inner
 }
 
 fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
-    heading(
-        ui,
-        match prompt.purposes[..] {
-            [Purpose::Open] => "Open a preset",
-            [Purpose::Save(_)] => "Save the preset",
-            [Purpose::Lessons] => "Open a folder of lessons",
-            [Purpose::Measurements] => "Open a table of measurements",
-            [Purpose::Heights] => "Open measured heights",
-            [Purpose::Picture(_)] => "Save a picture of the window",
-            [Purpose::Export(export)] => export.title(),
-            _ => "Open or save a preset",
-        },
-    );
+    let title = match &prompt.purposes[..] {
+        [only] => only.title(),
+        _ => "Open or save a preset",
+    };
+    heading(ui, title);
     if prompt.no_dialog {
         let text = "No file dialog answers on this machine: type the path.";
         cx.note(ui, text);
         ui.add_space(6.0);
     }
-    let folder = matches!(prompt.purposes[..], [Purpose::Export(export)] if export.is_folder());
+    let folder = matches!(&prompt.purposes[..], [Purpose::Export(export)] if export.filter().is_none());
     let label = ui.label(if folder { "Folder" } else { "Path" });
     let mut typed = prompt.path.clone();
     let field = ui.add(egui::TextEdit::singleline(&mut typed).desired_width(f32::INFINITY)).labelled_by(label.id);
@@ -155,10 +144,7 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     let path = expanded(&typed);
     let named = !typed.trim().is_empty();
-    let writes = prompt
-        .purposes
-        .iter()
-        .any(|purpose| !matches!(purpose, Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights));
+    let writes = prompt.purposes.iter().any(Purpose::writes);
     let replaces = writes && named && cx.state.document.path() != Some(path.as_path()) && path.is_file();
     if replaces && !prompt.purposes.contains(&Purpose::Open) {
         cx.say(ui, "There is such a file already", cx.colours.alarm);
@@ -167,10 +153,10 @@ fn path(ui: &mut Ui, prompt: &PathPrompt, cx: &DrawContext<'_>) -> Answer {
     ui.horizontal_wrapped(|ui| {
         let mut answer = None;
         for (i, purpose) in prompt.purposes.iter().enumerate() {
-            let text = match purpose {
-                Purpose::Open | Purpose::Lessons | Purpose::Measurements | Purpose::Heights => "Open",
-                _ if replaces => "Replace",
-                Purpose::Save(_) | Purpose::Picture(_) | Purpose::Export(_) => "Save",
+            let text = match purpose.writes() {
+                false => "Open",
+                true if replaces => "Replace",
+                true => "Save",
             };
             let clicked = ui.add_enabled(named, egui::Button::new(text)).clicked();
             // Enter takes the first, but replaces nothing.

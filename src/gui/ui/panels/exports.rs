@@ -1,7 +1,6 @@
 //! How far an export is, or what it wrote.
 
 use crate::gui::command::Command;
-use crate::gui::derived::format::rough;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use eframe::egui::{self, RichText};
@@ -13,28 +12,22 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let exports = &cx.state.exports;
     if let Some(running) = exports.running() {
         ui.horizontal(|ui| {
-            if ui.button("Cancel the export").hint("Ends it; nothing is written").clicked() {
-                cx.push(Command::CancelExport);
-            }
+            cx.button(ui, "Cancel the export", "Ends it; nothing is written", Command::CancelExport);
             let (drawn, all) = running.drawn;
             if all > 0 {
-                let share = drawn as f32 / all as f32;
                 let spent = cx.now.saturating_duration_since(running.started).as_secs_f64();
                 let left = spent * (all - drawn.min(all)) as f64 / drawn.max(1) as f64;
-                let left = if drawn > 0 && drawn < all { format!(", {} left", rough(left)) } else { String::new() };
-                let text = format!("{drawn} of {all} pictures{left}");
-                ui.add(egui::ProgressBar::new(share).desired_width(220.0).text(text));
+                let left = (drawn > 0 && drawn < all).then_some(left);
+                cx.progress(ui, 220.0, drawn as f64 / all as f64, &format!("{drawn} of {all} pictures"), left);
             } else {
                 ui.spinner();
             }
             ui.label(if running.cancelled { "Ending…" } else { running.export.title() });
         });
         ui.ctx().request_repaint_after(Duration::from_secs(1));
-    } else if let Some(paths) = exports.written() {
+    } else if let Some(paths) = exports.written.as_deref() {
         ui.horizontal(|ui| {
-            if ui.small_button("✕").hint("Closes this note").accessible_name("Close the note").clicked() {
-                cx.push(Command::CloseExportNote);
-            }
+            cx.small_button(ui, ("✕", "Closes this note"), "Close the note", Command::CloseExportNote);
             let list = paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
             let text = RichText::new(summary(paths)).color(cx.colours.good);
             ui.add(egui::Label::new(text).truncate()).hint(list);

@@ -4,6 +4,7 @@ use super::results::{headline, number, section, shown, span};
 use crate::gui::derived::format::{time, uncertain};
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
+use crate::gui::ui::scroll::scrolled;
 use crate::hold::leak_time;
 use eframe::egui;
 
@@ -12,10 +13,8 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
     let (plate, now) = (hold.plate(), hold.shown());
     let (reading, ambient) = (now.reading, plate.gas.ambient_pressure);
     let (unit, area) = if plate.is_strip() { ("N/m", "Load / (p_a · length)") } else { ("N", "Load / (p_a · area)") };
-    egui::ScrollArea::vertical().id_salt("held").auto_shrink(false).show(ui, |ui| {
+    scrolled(ui, "held", 8.0, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
-        // Room for the scroll bar, which floats.
-        ui.set_max_width(ui.available_width() - 8.0);
         ui.add_space(8.0);
         cx.note(
             ui,

@@ -3,10 +3,10 @@
 use super::{lesson_numbers, lesson_parts};
 use crate::gui::command::{Command, LessonCommand};
 use crate::gui::state::running_lesson::RunningLesson;
-use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::keys;
 use crate::gui::ui::rich::Look;
+use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::{button, keys};
 use crate::lessons::work::{Score, Stage, StepWork, answer_words};
 use crate::lessons::{Lesson, Step};
 use eframe::egui::{self, Align, Button, Color32, Id, Layout, RichText, Stroke, TextStyle, Ui, vec2};
@@ -42,10 +42,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         ui.add_space(6.0);
     });
     egui::CentralPanel::default().frame(egui::Frame::new()).show(ui, |ui| {
-        let scroll = egui::ScrollArea::vertical().id_salt(("lesson", running.lesson, running.step)).auto_shrink(false);
-        scroll.show(ui, |ui| {
-            // Room for the scroll bar, which floats.
-            ui.set_max_width(ui.available_width() - 10.0);
+        scrolled(ui, ("lesson", running.lesson, running.step), 10.0, |ui| {
             let look = Look::reading(ui);
             let Some((step, work)) = step else {
                 recap(ui, lesson, &running.work, cx);

@@ -3,7 +3,7 @@
 
 use crate::analysis::decision;
 use crate::analysis::tradeoff::without_grid;
-use crate::digits::{capitalised, significant};
+use crate::digits::capitalised;
 use crate::gui::command::Command;
 use crate::gui::derived::format::{digits, power_of_ten};
 use crate::gui::derived::words;
@@ -11,7 +11,7 @@ use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::fidelity;
-use crate::gui::ui::hint::{Hint, beside, text_width};
+use crate::gui::ui::hint::{beside, text_width};
 use crate::job::SolvedScene;
 use crate::plan::Decision;
 use crate::scene::{Parameter, ParameterKind, Scene, Value};
@@ -76,13 +76,13 @@ pub fn sentence(change: &SwitchEffect) -> String {
     format!("α {before} → {after} ({sign}{}), {bound}", percent(relative.abs()))
 }
 
-/// A share in per cent, two digits.
+/// A share in per cent, two digits; of less than a hundred-thousandth, the power of ten that it is below.
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
-    match value {
-        0.0 => "0 %".to_owned(),
-        v if v >= 1e-3 => format!("{} %", significant(v, 2)),
-        v => format!("{} %", power_of_ten(v.log10().ceil())),
+    if value > 0.0 && value < 1e-3 {
+        format!("{} %", power_of_ten(value.log10().ceil()))
+    } else {
+        crate::digits::percent(share)
     }
 }
 
@@ -273,10 +273,8 @@ impl Row<'_> {
                 ("As the plan would", self.cx.colours.quiet)
             };
             ui.add(egui::Label::new(RichText::new(text).color(colour)).extend());
-            let button = ui.small_button("Back to auto").hint("Leaves this to the program again");
-            if button.accessible_name(format!("{} back to auto", capitalised(decision::term(decision)))).clicked() {
-                self.cx.push(back);
-            }
+            let name = format!("{} back to auto", capitalised(decision::term(decision)));
+            self.cx.small_button(ui, ("Back to auto", "Leaves this to the program again"), name, back);
         });
         ui.add_space(2.0);
     }

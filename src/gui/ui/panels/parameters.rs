@@ -9,6 +9,8 @@ use crate::gui::derived::words::{self, choice, field_name, label, switch};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::highlight;
 use crate::gui::ui::hint::{Hint, beside, text_width};
+use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::theme::outline_fields;
 use crate::plan::Decision;
 use crate::scene::{Kind, PARAMETERS, Parameter, ParameterKind, Scene, Value};
 use eframe::egui::{self, RichText, TextStyle};
@@ -50,7 +52,7 @@ const FRAME_MARGIN: i8 = 6;
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let scene = cx.state.document.scene();
     let plan = cx.state.run.as_ref().map_or(&[][..], |run| &run.solution.model.decisions);
-    egui::ScrollArea::vertical().id_salt("parameters").auto_shrink(false).show(ui, |ui| {
+    scrolled(ui, "parameters", 8.0, |ui| {
         let mut panel = Panel { scene, plan, units: 0.0, cx };
         panel.all(ui);
     });
@@ -68,10 +70,7 @@ struct Panel<'a> {
 impl Panel<'_> {
     fn all(&mut self, ui: &mut egui::Ui) {
         ui.spacing_mut().item_spacing.y = 4.0;
-        // Room for the scroll bar, which floats.
-        ui.set_max_width(ui.available_width() - 8.0);
-        // Fields and boxes get an outline: in the light theme their fill is nearly that of the panel.
-        ui.visuals_mut().widgets.inactive.bg_stroke = ui.visuals().widgets.noninteractive.bg_stroke;
+        outline_fields(ui);
         ui.add_space(6.0);
         for parameter in self.in_group("") {
             self.row(ui, parameter);
@@ -249,21 +248,24 @@ impl Panel<'_> {
                 Some(name) => slider.labelled_by(name.id),
                 None => slider.accessible_name(label(parameter)),
             };
-            let typed = Field {
-                key: parameter.key,
-                value: Some(value),
-                name: &field_name(parameter),
-                hint: "",
-                refused: self.cx.state.rejected.of(parameter.key),
-                width: field,
-                wrapped: false,
-            };
-            let typed = typed.show(ui, self.cx);
+            let typed = self.field(parameter, Some(value), &field_name(parameter), field).show(ui, self.cx);
             beside(ui.clip_rect(), typed, &explanation);
             ui.add(
                 egui::Label::new(RichText::new(parameter.unit).color(self.cx.colours.quiet)).selectable(false).extend(),
             );
         });
+    }
+
+    /// A field for the value of a parameter, on one line.
+    fn field<'f>(
+        &'f self,
+        parameter: &'static Parameter,
+        value: Option<&'f Value>,
+        name: &'f str,
+        width: f32,
+    ) -> Field<'f> {
+        let refused = self.cx.state.rejected.of(parameter.key);
+        Field { key: parameter.key, value, name, hint: "", refused, width, wrapped: false }
     }
 
     fn slider(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) -> egui::Response {
@@ -357,15 +359,8 @@ impl Panel<'_> {
     }
 
     fn text_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter, value: &Value) {
-        let field = Field {
-            key: parameter.key,
-            value: Some(value),
-            name: label(parameter),
-            hint: label(parameter),
-            refused: self.cx.state.rejected.of(parameter.key),
-            width: f32::INFINITY,
-            wrapped: true,
-        };
+        let name = label(parameter);
+        let field = Field { hint: name, wrapped: true, ..self.field(parameter, Some(value), name, f32::INFINITY) };
         let field = field.show(ui, self.cx);
         beside(ui.clip_rect(), field, parameter.about);
     }
@@ -373,15 +368,8 @@ impl Panel<'_> {
     fn path_row(&mut self, ui: &mut egui::Ui, parameter: &'static Parameter) {
         let name = ui.add(egui::Label::new(label(parameter)).wrap().selectable(false));
         let name = beside(ui.clip_rect(), name, &format!("{}\n{}", parameter.about, parameter.key));
-        let field = Field {
-            key: parameter.key,
-            value: None,
-            name: label(parameter),
-            hint: "path of the file, then Enter",
-            refused: self.cx.state.rejected.of(parameter.key),
-            width: f32::INFINITY,
-            wrapped: false,
-        };
+        let field = self.field(parameter, None, label(parameter), f32::INFINITY);
+        let field = Field { hint: "path of the file, then Enter", ..field };
         let field = field.show(ui, self.cx).labelled_by(name.id);
         let columns = match parameter.key {
             "surface.heights_csv" => {

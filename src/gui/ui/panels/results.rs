@@ -1,7 +1,6 @@
 //! The right panel: the numbers of a run. Every text can be selected and copied.
 
-use super::convergence;
-use super::model;
+use super::{convergence, model};
 use crate::analysis::exact::{slow_damping, units};
 use crate::analysis::regime;
 use crate::analysis::validity::Excess;
@@ -13,6 +12,7 @@ use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
+use crate::gui::ui::scroll::scrolled;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Plate, Scenario};
 use crate::solution::{Floating, MotorResult, Outcome, Performance, PlateResult, Status, StoppedBy};
@@ -27,10 +27,8 @@ const HEADLINE_ERROR: f32 = 1.35;
 
 /// Shows the results of `run`, and the switches of its model.
 pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
-    egui::ScrollArea::vertical().id_salt("results").auto_shrink(false).show(ui, |ui| {
+    scrolled(ui, "results", 8.0, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
-        // Room for the scroll bar, which floats.
-        ui.set_max_width(ui.available_width() - 8.0);
         ui.add_space(8.0);
         convergence_banner(ui, run, cx);
         match (&run.problem.scenario, &run.solution.outcome) {

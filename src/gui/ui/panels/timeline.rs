@@ -6,9 +6,8 @@ use crate::gui::derived::format::{thousands, time};
 use crate::gui::state::hold::HoldState;
 use crate::gui::state::view::Tab;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::keys;
+use crate::gui::ui::{glossary, keys};
 use crate::platform::SOLVED_HERE;
 use crate::solution::{Outcome, Status, StoppedBy};
 use eframe::egui::{self, ProgressBar, RichText, Slider};
@@ -93,9 +92,7 @@ fn play_and_step(ui: &mut egui::Ui, playing: bool, cx: &DrawContext<'_>) {
         cx.push(Command::TogglePlay);
     }
     for (arrow, by) in [("◀", -1), ("▶", 1)] {
-        if ui.button(arrow).hint(keys::about(&Command::StepFrames(by))).clicked() {
-            cx.push(Command::StepFrames(by));
-        }
+        cx.button(ui, arrow, keys::about(&Command::StepFrames(by)), Command::StepFrames(by));
     }
 }
 
@@ -147,9 +144,7 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if let Some(running) = &activity.running {
-                if ui.button("Cancel").hint(keys::about(&Command::CancelSolve)).clicked() {
-                    cx.push(Command::CancelSolve);
-                }
+                cx.button(ui, "Cancel", keys::about(&Command::CancelSolve), Command::CancelSolve);
                 ui.add(ProgressBar::new(running.fraction()).desired_width(120.0));
                 ui.label(running.text());
             } else if run.is_some_and(|run| run.fidelity < Fidelity::Reference && !cx.state.stale(run)) {

@@ -7,14 +7,12 @@ use crate::export::compare::{difference_text, value_text};
 use crate::gui::command::{Command, PinCommand};
 use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::pins::{Note, Page, fidelity};
-use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, text_width};
-use crate::gui::ui::keys;
 use crate::gui::ui::panels::menu::{COMPARISON, export_button, menu, presets_menu};
 use crate::gui::ui::theme::run_colour;
 use crate::gui::ui::views::overlay::{self, Overlaid};
+use crate::gui::ui::{button, glossary, keys};
 use eframe::egui::{self, Color32, Id, Key, RichText, Sense, TextStyle, Ui, vec2};
 
 /// Widest field for a label, in heights of the text.
@@ -133,10 +131,8 @@ fn chips(ui: &mut Ui, cx: &DrawContext<'_>) {
             frame(ui, cx.colours.quiet).show(ui, |ui| {
                 ui.spinner();
                 ui.label(&waiting.name);
-                let forget = ui.small_button("✕").hint("Do not pin it");
-                if forget.accessible_name(format!("Do not pin {}", waiting.name)).clicked() {
-                    cx.push(PinCommand::Forget(waiting.id));
-                }
+                let name = format!("Do not pin {}", waiting.name);
+                cx.small_button(ui, ("✕", "Do not pin it"), name, PinCommand::Forget(waiting.id));
             });
         }
     });
@@ -175,15 +171,10 @@ fn chip_parts(
         ui.painter().rect_filled(swatch, 2.0, colour);
         name_field(ui, id, run, label, cx);
         if !present {
-            let open = ui.small_button("Open").hint("Makes this the present scene; undo brings back what was");
-            if open.accessible_name(format!("Open {}", run.label)).clicked() {
-                cx.push(PinCommand::Open(id));
-            }
+            let open = ("Open", "Makes this the present scene; undo brings back what was");
+            cx.small_button(ui, open, format!("Open {}", run.label), PinCommand::Open(id));
         }
-        let remove = ui.small_button("✕").hint("Remove this pin");
-        if remove.accessible_name(format!("Remove {}", run.label)).clicked() {
-            cx.push(PinCommand::Remove(id));
-        }
+        cx.small_button(ui, ("✕", "Remove this pin"), format!("Remove {}", run.label), PinCommand::Remove(id));
     });
 }
 
@@ -264,8 +255,7 @@ fn heads(ui: &mut Ui, [beside, roomy]: [bool; 2], cx: &DrawContext<'_>) {
             ui.add(egui::Label::new(text).wrap()).hint(&run.label);
         });
         if beside && i > 0 {
-            let label = ui.label(RichText::new("difference").color(cx.colours.quiet));
-            glossary::here(ui, label, "difference");
+            glossary::term(ui, RichText::new("difference").color(cx.colours.quiet), "difference");
         }
     }
     ui.end_row();
@@ -291,8 +281,7 @@ fn results(ui: &mut Ui, cx: &DrawContext<'_>) {
         for row in cx.state.pins.results() {
             let main = matches!(row.quantity, Quantity::Alpha | Quantity::MeanGap | Quantity::LoadRatio);
             let strong = |text: String| if main { RichText::new(text).strong() } else { RichText::new(text) };
-            let label = ui.label(strong(capitalised(&row.label())));
-            glossary::here(ui, label, row.quantity.words());
+            glossary::term(ui, strong(capitalised(&row.label())), row.quantity.words());
             for (i, cell) in row.cells.iter().enumerate() {
                 if beside {
                     ui.add(egui::Label::new(strong(value_text(row, cell))).extend());

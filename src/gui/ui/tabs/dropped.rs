@@ -5,11 +5,11 @@ use crate::estimate::Estimate;
 use crate::fall::Fall;
 use crate::gui::command::StartupCommand;
 use crate::gui::state::dropped::Dropped;
-use crate::gui::ui::chart::{SOLID, axes, between, chart, framed, level, line, place};
+use crate::gui::ui::chart::{Chart, SOLID, between, level, line};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
 use crate::solution::{Outcome, Status};
-use eframe::egui::{self, Color32, RichText, Role, WidgetInfo};
+use eframe::egui::{self, Color32, RichText};
 use egui_plot::{Axis, Span};
 
 /// Height of the chart, a share of the tab.
@@ -21,9 +21,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let dropped = cx.state.dropped.as_ref();
     ui.horizontal_wrapped(|ui| match dropped.filter(|dropped| dropped.running()) {
         Some(_) => {
-            if ui.button("Cancel").hint("Ends it; its way so far stays").clicked() {
-                cx.push(StartupCommand::Cancel);
-            }
+            cx.button(ui, "Cancel", "Ends it; its way so far stays", StartupCommand::Cancel);
         }
         None => {
             let button = ui.button("Drop it").hint("Lets the plate fall from twice the gap at which it floats");
@@ -34,27 +32,23 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         }
     });
     let Some(dropped) = dropped else {
-        ui.add_space(8.0);
-        for text in [
+        cx.introduce(ui, &[
             "What does a plate under a load do when it is dropped on the vibration?",
             "It falls from rest, at twice the gap at which it floats, through gas at ambient pressure, while the vibration comes up. Its \
              way is marched with time steps of two lengths, whose difference is the error of the height. In the tab Hold it \
              can be pushed by hand and let go, in slow motion.",
-        ] {
-            cx.note(ui, text);
-            ui.add_space(4.0);
-        }
+        ]);
         return;
     };
     let (text, colour) = ending(dropped, cx, ui.visuals().text_color());
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(text).color(colour));
-        ui.label(RichText::new(format!("computed at {}", dropped.fidelity())).color(cx.colours.quiet));
+        ui.label(RichText::new(format!("computed at {}", dropped.fidelity)).color(cx.colours.quiet));
     });
     if dropped.stale(cx.state.document.scene()) {
         cx.say(ui, "Of the scene before it changed; drop it again", cx.colours.alarm);
     }
-    if dropped.cycles().len() > 1 {
+    if dropped.cycles.len() > 1 {
         way(ui, dropped, height, cx);
     }
 }
@@ -63,7 +57,7 @@ pub(super) fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
 fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) {
     let micrometres = |height: Estimate| [1e6 * height.value, 1e6 * height.error];
     let (mut curve, mut band) = (Vec::new(), Vec::new());
-    for cycle in dropped.cycles() {
+    for cycle in &dropped.cycles {
         let (time, [height, error]) = (1e3 * cycle.time, micrometres(cycle.height));
         curve.push([time, height]);
         band.push([time, height + error, height - error]);
@@ -73,9 +67,8 @@ fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) 
     let bounds = [[0.0, curve.last().map_or(1.0, |point| point[0])], [0.0, 1.1 * highest]];
     let (film, good) = (cx.colours.film, cx.colours.good);
     cx.note(ui, "Height of the plate, µm");
-    let (whole, name) = (place(ui, height), "Height of the plate over time");
-    let plot = chart(ui, name, height).show_axes(egui::Vec2b::TRUE).x_axis_label("time, ms");
-    let shown = framed(ui, (name, plot), bounds, move |plot| {
+    let (name, below, words) = ("Height of the plate over time", "time, ms", (None, "Floating plate"));
+    Chart { name, height, bounds, below, words }.show(ui, move |plot| {
         if let Some([gap, error]) = aim {
             plot.span(Span::new("", gap - error..=gap + error).axis(Axis::Y).fill(good.gamma_multiply(0.25)));
             plot.hline(level(gap, good, 1.5));
@@ -83,13 +76,11 @@ fn way(ui: &mut egui::Ui, dropped: &Dropped, height: f32, cx: &DrawContext<'_>) 
         plot.add(between(&band, film.gamma_multiply(0.25)));
         plot.line(line(&curve, film, 1.8, SOLID));
     });
-    shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), None, "Floating plate");
 }
 
 /// The mean gap of the periodic solve: of the drop's own at its end, until then of the run on screen.
 fn periodic(dropped: &Dropped, cx: &DrawContext<'_>) -> Option<Estimate> {
-    if let Some(ended) = dropped.ended() {
+    if let Some(ended) = &dropped.ended {
         return ended.as_ref().ok()?.floats.as_ref().ok().copied();
     }
     let run = cx.state.run.as_deref().filter(|run| !dropped.stale(&run.scene))?;
@@ -101,7 +92,7 @@ fn periodic(dropped: &Dropped, cx: &DrawContext<'_>) -> Option<Estimate> {
 
 /// How far it is, in words.
 fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, Color32) {
-    let last = dropped.cycles().last();
+    let last = dropped.cycles.last();
     let at = last.map_or_else(String::new, |cycle| {
         let (time, height) = (significant(1e3 * cycle.time, 3), cycle.height);
         format!("{time} ms: height {} µm", with_error(1e6 * height.value, 1e6 * height.error))
@@ -109,7 +100,7 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
     let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
         format!("; the periodic solve has {} µm", with_error(1e6 * gap.value, 1e6 * gap.error))
     });
-    match dropped.ended() {
+    match &dropped.ended {
         None if last.is_none() => ("The gap at which it floats is being computed".to_owned(), usual),
         None => (format!("{at}{aim}"), usual),
         Some(Err(message)) => (message.clone(), cx.colours.alarm),

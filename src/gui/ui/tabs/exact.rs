@@ -4,17 +4,18 @@
 use crate::analysis::exact::{Harmonic, units};
 use crate::estimate::Estimate;
 use crate::gui::derived::exact::{ExactCurves, small_amplitude};
-use crate::gui::derived::format::uncertain;
-use crate::gui::derived::format::{digits, power_of_ten};
+use crate::gui::derived::format::{digits, per_cent, power_of_ten, uncertain};
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, powers, title};
+use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, powers, title, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::rich::{self, Look};
+use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::table;
 use crate::job::SolvedScene;
 use crate::problem::{Outline, Scenario};
-use eframe::egui::{self, Color32, RichText, TextStyle, Ui};
-use egui_plot::{HLine, LineStyle, Points, VLine};
+use eframe::egui::{Color32, RichText, TextStyle, Ui};
+use egui_plot::LineStyle;
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 2] = [0.33, 0.27];
@@ -106,9 +107,7 @@ pub fn show(ui: &mut Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let Scenario::Plate(plate) = &run.problem.scenario else { return };
     let height = ui.available_height();
     let known = once(ui, "exact", (run.number, run.fidelity), || ExactCurves::new(run, plate));
-    egui::ScrollArea::vertical().id_salt("exact").auto_shrink(false).show(ui, |ui| {
-        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
-        ui.set_max_width(ui.available_width() - 14.0);
+    scrolled(ui, "exact", 14.0, |ui| {
         let em = ui.text_style_height(&TextStyle::Body);
         let tall = |i: usize| (SHARES[i] * height).max(LEAST_LINES[i] * em);
         cx.say_if_stale(ui, run);
@@ -148,23 +147,24 @@ fn coefficients(ui: &mut Ui, known: &ExactCurves, outline: Outline, height: f32,
     let name = "Spring and damping against the squeeze number";
     let computed = known.comparison.solved.map(|found| [found.spring.value, found.damping.value]);
     let top = computed.into_iter().flatten().fold(1.0, f64::max);
-    let whole = place(ui, height);
-    let plot = chart(ui, name, height)
-        .x_axis_label("σ/Q")
-        .x_grid_spacer(move |input| powers(&input, most, false))
-        .x_axis_formatter(|mark, _| power_of_ten(mark.value.round()));
-    let shown = framed(ui, (name, plot), [known.window, [0.0, 1.12 * top]], |plot| {
-        let present = known.comparison.effective_squeeze_number.log10();
-        plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
-        for (points, (_, colour)) in [(&curves.0, spring), (&curves.1, damping)] {
-            plot.line(line(points, colour, WIDTH, SOLID));
-        }
-        for (value, (_, colour)) in computed.into_iter().flatten().zip([spring, damping]) {
-            plot.points(Points::new("", vec![[present, value]]).color(colour).radius(RADIUS).allow_hover(false));
-        }
-    });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), Some("σ/Q"), "Spring and damping");
+    let (bounds, words) = ([known.window, [0.0, 1.12 * top]], (Some("σ/Q"), "Spring and damping"));
+    Chart { name, height, bounds, below: "σ/Q", words }.show_with(
+        ui,
+        |plot| {
+            plot.x_grid_spacer(move |input| powers(&input, most, false))
+                .x_axis_formatter(|mark, _| power_of_ten(mark.value.round()))
+        },
+        |plot| {
+            let present = known.comparison.effective_squeeze_number.log10();
+            plot.vline(upright(present, cx.colours.accent, 1.5));
+            for (points, (_, colour)) in [(&curves.0, spring), (&curves.1, damping)] {
+                plot.line(line(points, colour, WIDTH, SOLID));
+            }
+            for (value, (_, colour)) in computed.into_iter().flatten().zip([spring, damping]) {
+                plot.points(dots(vec![[present, value]], colour, RADIUS));
+            }
+        },
+    );
 }
 
 fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
@@ -178,11 +178,9 @@ fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
             ("incompressible (σ → 0)", viscous, LineStyle::dashed_dense()),
         ],
     );
-    let name = "Load over the cycle and its limits";
-    let whole = place(ui, height);
-    let plot = chart(ui, name, height).x_axis_label("t/T");
-    let shown = framed(ui, (name, plot), [[0.0, 1.0], known.bounds], |plot| {
-        plot.hline(HLine::new("", 0.0).color(cx.colours.quiet).width(1.0).allow_hover(false));
+    let (name, below, words) = ("Load over the cycle and its limits", "t/T", (Some("t/T"), "Film load"));
+    Chart { name, height, bounds: [[0.0, 1.0], known.bounds], below, words }.show(ui, |plot| {
+        plot.hline(level(0.0, cx.colours.quiet, 1.0));
         let lines = [
             (&known.boyle, boyle, dash),
             (&known.viscous, viscous, LineStyle::dashed_dense()),
@@ -192,8 +190,6 @@ fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
             plot.line(line(points, colour, WIDTH, style));
         }
     });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), Some("t/T"), "Film load");
 }
 
 /// Computed beside exact.
@@ -207,7 +203,7 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
     let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
     let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping]
         .map(|value| digits(value, DIGITS));
-    let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), percent);
+    let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), |off| format!("{} %", per_cent(off)));
     // What it is called, computed, exact, and when that holds.
     let rows = [
         ["Spring S", &spring, &digits(found.linear.spring, DIGITS), "for ε → 0"],
@@ -219,39 +215,22 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
     ];
     // In a narrow tab when the exact value holds is said on hover, and below, alone.
     let wide = ui.available_width() > WIDE * ui.text_style_height(&TextStyle::Body);
-    let grid = egui::Grid::new("exact").num_columns(if wide { 4 } else { 3 }).striped(true).spacing([14.0, 4.0]);
-    egui::ScrollArea::horizontal().id_salt("exact table").auto_shrink(true).show(ui, |ui| {
-        grid.show(ui, |ui| {
-            for head in ["", "Computed", "Exact"] {
-                let label = ui.label(RichText::new(head).color(cx.colours.quiet));
-                if !head.is_empty() {
-                    glossary::here(ui, label, head);
-                }
+    table::table(ui, "exact", if wide { 4 } else { 3 }, 14.0, |ui| {
+        table::heads(ui, &[("", ""), ("Computed", "Computed"), ("Exact", "Exact")], cx.colours.quiet);
+        ui.end_row();
+        for [name, computed, exact, when] in rows {
+            glossary::term(ui, RichText::new(name).color(cx.colours.quiet), name);
+            for value in [computed, exact] {
+                glossary::term(ui, RichText::new(value).color(ui.visuals().strong_text_color()), name);
+            }
+            if wide {
+                ui.label(RichText::new(when).color(cx.colours.quiet));
             }
             ui.end_row();
-            for [name, computed, exact, when] in rows {
-                let label = ui.label(RichText::new(name).color(cx.colours.quiet));
-                glossary::here(ui, label, name);
-                for value in [computed, exact] {
-                    let value = ui.label(RichText::new(value).color(ui.visuals().strong_text_color()));
-                    glossary::here(ui, value, name);
-                }
-                if wide {
-                    ui.label(RichText::new(when).color(cx.colours.quiet));
-                }
-                ui.end_row();
-            }
-        });
+        }
     });
 }
 
 fn stated(found: Estimate) -> String {
     uncertain(found.value, found.error)
-}
-
-/// A share in per cent, two digits, written out.
-fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
-    format!("{value:.decimals$} %")
 }

@@ -5,10 +5,9 @@ use crate::gui::command::FaceCommand;
 use crate::gui::derived::scales::span;
 use crate::gui::state::face::Face;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{SOLID, chart, framed, line, place, title};
+use crate::gui::ui::chart::{Chart, SOLID, line, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
-use crate::gui::ui::hint::Hint;
 use crate::gui::ui::paint::{PlotStyle, field_colours, title_with_ends};
 use crate::surface::height_map::HeightMap;
 use eframe::egui::{self, Color32, ColorImage, Grid, Rect, RichText, Sense, Stroke, TextureOptions, Ui, pos2, vec2};
@@ -26,23 +25,17 @@ pub(super) fn show(ui: &mut Ui, height: f32, cx: &DrawContext<'_>) {
     let state = &cx.state.face;
     ui.horizontal_wrapped(|ui| {
         let about = "A CSV file, a grid of heights or a profile, as squeezefilm surface reads it; or drop one on the window";
-        if ui.button("Open heights…").hint(about).clicked() {
-            cx.push(FaceCommand::Choose);
-        }
+        cx.button(ui, "Open heights…", about, FaceCommand::Choose);
         if state.running() {
             ui.spinner();
         }
-        let Some(face) = state.found() else { return };
+        let Some(face) = state.found.as_ref() else { return };
         let about = "Gives the scene what follows from two faces like this one, as much of it as its laws ask for: one edit, which can be undone";
-        if ui.button("Take roughness from it").hint(about).clicked() {
-            cx.push(FaceCommand::Take);
-        }
-        if ui.button("Forget it").hint("The face is no longer shown").clicked() {
-            cx.push(FaceCommand::Forget);
-        }
+        cx.button(ui, "Take roughness from it", about, FaceCommand::Take);
+        cx.button(ui, "Forget it", "The face is no longer shown", FaceCommand::Forget);
         ui.label(&face.name);
     });
-    if let Some(face) = state.found() {
+    if let Some(face) = state.found.as_ref() {
         let row = if face.map.ny > 1 { map(ui, face, height) } else { 0 };
         profile(ui, &face.map, row, height, cx);
         numbers(ui, face, cx);
@@ -105,14 +98,9 @@ fn profile(ui: &mut Ui, map: &HeightMap, row: usize, height: f32, cx: &DrawConte
     let points: Vec<[f64; 2]> = (0..map.nx).step_by(step).map(point).collect();
     let [low, high] = span(map.heights.iter().map(|height| height * 1e9));
     let length = (map.nx - 1) as f64 * map.spacing[0] * 1e6;
-    let whole = place(ui, 0.6 * height);
-    let plot = chart(ui, name, 0.6 * height).x_axis_label("x, µm");
-    let colour = cx.colours.film;
-    let shown = framed(ui, (name, plot), [[0.0, length], [low, high]], move |plot| {
-        plot.line(line(&points, colour, 1.5, SOLID))
-    });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    crate::gui::ui::chart::axes(ui, whole, *shown.transform.frame(), None, "Measured face");
+    let (bounds, words, colour) = ([[0.0, length], [low, high]], (None, "Measured face"), cx.colours.film);
+    let chart = Chart { name, height: 0.6 * height, bounds, below: "x, µm", words };
+    chart.show(ui, move |plot| plot.line(line(&points, colour, 1.5, SOLID)));
 }
 
 /// Its statistics, and what follows from two faces like it.
@@ -139,8 +127,7 @@ fn numbers(ui: &mut Ui, face: &Face, cx: &DrawContext<'_>) {
     Grid::new("face").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
         for [name, value, follows, of_both] in rows {
             for (name, value) in [(name, value), (follows, of_both)] {
-                let name = ui.label(RichText::new(name).color(cx.colours.quiet));
-                glossary::here(ui, name, "Measured face");
+                glossary::term(ui, RichText::new(name).color(cx.colours.quiet), "Measured face");
                 ui.label(RichText::new(value).color(ui.visuals().strong_text_color()));
             }
             ui.end_row();

@@ -5,10 +5,9 @@ use crate::gui::derived::format::{thousands, time};
 use crate::gui::state::document::Next;
 use crate::gui::state::hold::{HoldState, SECONDS};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
 use crate::gui::ui::tabs::labels::LOW;
-use crate::gui::ui::views;
+use crate::gui::ui::{glossary, views};
 use crate::scene::quantity_text;
 use eframe::egui::{self, Slider, TextStyle};
 
@@ -26,17 +25,13 @@ const BESIDE_SECONDS: f32 = 21.0;
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let Some(hold) = &cx.state.hold else {
-        ui.add_space(8.0);
         if cx.state.document.scene().floats() {
-            return cx.note(ui, "Solving…");
+            return cx.introduce(ui, &["Solving…"]);
         }
         let text = "Only a plate can be held: the teeth of a motor follow their wave. Open a plate to feel how the film answers.";
-        cx.note(ui, text);
-        ui.add_space(4.0);
+        cx.introduce(ui, &[text]);
         let hover = "A built-in preset: some of its gas escapes, some is squeezed";
-        if ui.button("Open the plate at its crossover").hint(hover).clicked() {
-            cx.push(Next::Preset(PRESET));
-        }
+        cx.button(ui, "Open the plate at its crossover", hover, Next::Preset(PRESET));
         return;
     };
     controls(ui, hold, cx);
@@ -55,8 +50,7 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         // As the slider rounds it: a plate that falls is not taken in the hand.
         let mut gap = egui::emath::round_to_decimals(hold.target() * 1e6, GAP_DECIMALS);
         ui.spacing_mut().slider_width = room(ui, BESIDE_GAP);
-        let label = ui.label("Gap");
-        let label = glossary::here(ui, label, "Gap");
+        let label = glossary::term(ui, "Gap", "Gap");
         let slider = Slider::new(&mut gap, least..=most).suffix(" µm").max_decimals(GAP_DECIMALS).smart_aim(false);
         // The plate follows a whole number, not each of its digits.
         let slider = slider.update_while_editing(false).custom_parser(|text| quantity_text::number("µm", text));
@@ -67,36 +61,27 @@ fn controls(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
         let hint = if floats { "It falls, and floats where its vibration carries it" } else { "Back to the mean gap" };
         match hold.free() {
             Some(true) => {
-                if ui.button("Stop").hint("The vibration ends, and the plate sinks").clicked() {
-                    cx.push(HoldCommand::LetGo { vibrates: false });
-                }
+                let about = "The vibration ends, and the plate sinks";
+                cx.button(ui, "Stop", about, HoldCommand::LetGo { vibrates: false });
             }
             Some(false) => {
-                if ui.button("Vibrate").hint("The vibration begins again").clicked() {
-                    cx.push(HoldCommand::LetGo { vibrates: true });
-                }
+                cx.button(ui, "Vibrate", "The vibration begins again", HoldCommand::LetGo { vibrates: true });
             }
             None => {
-                if ui.button("Let go").hint(hint).clicked() {
-                    cx.push(HoldCommand::LetGo { vibrates: true });
-                }
+                cx.button(ui, "Let go", hint, HoldCommand::LetGo { vibrates: true });
             }
         }
-        if ui.button("Reset").hint("Mean gap, ambient pressure, empty charts").clicked() {
-            cx.push(HoldCommand::Reset);
-        }
+        cx.button(ui, "Reset", "Mean gap, ambient pressure, empty charts", HoldCommand::Reset);
     });
     ui.horizontal(|ui| {
         let mut seconds = hold.seconds();
         ui.spacing_mut().slider_width = room(ui, BESIDE_SECONDS);
-        let label = ui.label("Leak time takes");
-        let label = glossary::here(ui, label, "Leak time");
+        let label = glossary::term(ui, "Leak time takes", "Leak time");
         let slider = Slider::new(&mut seconds, SECONDS).logarithmic(true).suffix(" s").max_decimals(1);
         if ui.add(slider).labelled_by(label.id).hint("How slow the slow motion is").changed() {
             cx.push(HoldCommand::Seconds(seconds));
         }
-        let label = ui.label(format!("slowed {}×", thousands(hold.slowed())));
-        glossary::here(ui, label, "Slow motion");
+        glossary::term(ui, format!("slowed {}×", thousands(hold.slowed())), "Slow motion");
     });
 }
 

@@ -7,15 +7,17 @@ use crate::analysis::rotor::{Bent, Curve, RotorCurves};
 use crate::digits::percent;
 use crate::gui::command::Command;
 use crate::gui::derived::format::{digits, power_of_ten};
+use crate::gui::derived::scales::span;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, powers, title};
+use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, powers, title};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
+use crate::gui::ui::scroll::scrolled;
 use crate::problem::{Problem, Scenario};
 use crate::scene::edges::{lengths, reach, with_edge};
 use crate::scene::{Parameter, Value};
 use eframe::egui::{self, Color32, CursorIcon, Pos2, Rect, Sense, Stroke, TextStyle, Ui, pos2, vec2};
-use egui_plot::{LineStyle, Points};
+use egui_plot::LineStyle;
 
 /// Heights of the charts and of the section: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 3] = [0.3, 0.3, 0.5];
@@ -41,9 +43,7 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         cx.note(ui, "A plate vibrates over a rigid wall: there is no rotor");
         return;
     };
-    egui::ScrollArea::vertical().id_salt("rotor").auto_shrink(false).show(ui, |ui| {
-        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
-        ui.set_max_width(ui.available_width() - 14.0);
+    scrolled(ui, "rotor", 14.0, |ui| {
         let known = cx.state.rotor.found();
         match known {
             None => drop(ui.label("Computing the rotor…")),
@@ -110,24 +110,24 @@ fn compliance(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
             (points.map(|(n, c)| [f64::from(n).log10(), c.log10()]).collect(), *colour, *style)
         })
         .collect();
-    let logs = lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point[1]));
-    let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-    let whole = place(ui, height);
-    let plot = chart(ui, name, height)
-        .x_axis_label("harmonic n of the wave")
-        .x_grid_spacer(|input| powers(&input, 6.0, true))
-        .y_grid_spacer(|input| powers(&input, 6.0, false))
-        .x_axis_formatter(|mark, _| format!("{:.0}", 10f64.powf(mark.value)))
-        .y_axis_formatter(|mark, _| power_of_ten(mark.value.round()));
+    let [low, high] = span(lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point[1])));
     let bounds = [[0.0, (SHOWN as f64).log10()], [low - 0.1, high + 0.1]];
-    let shown = framed(ui, (name, plot), bounds, |plot| {
-        for (points, colour, style) in &lines {
-            plot.line(line(points, *colour, WIDTH, *style));
-            plot.points(Points::new("", points.clone()).color(*colour).radius(2.0).allow_hover(false));
-        }
-    });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), Some("Harmonic"), "Compliance");
+    let (below, words) = ("harmonic n of the wave", (Some("Harmonic"), "Compliance"));
+    Chart { name, height, bounds, below, words }.show_with(
+        ui,
+        |plot| {
+            plot.x_grid_spacer(|input| powers(&input, 6.0, true))
+                .y_grid_spacer(|input| powers(&input, 6.0, false))
+                .x_axis_formatter(|mark, _| format!("{:.0}", 10f64.powf(mark.value)))
+                .y_axis_formatter(|mark, _| power_of_ten(mark.value.round()))
+        },
+        |plot| {
+            for (points, colour, style) in &lines {
+                plot.line(line(points, *colour, WIDTH, *style));
+                plot.points(dots(points.clone(), *colour, 2.0));
+            }
+        },
+    );
 }
 
 fn green(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
@@ -142,18 +142,14 @@ fn green(ui: &mut Ui, curves: &Styled<'_>, height: f32) {
         })
         .collect();
     let points = || lines.iter().flat_map(|(points, ..)| points.iter());
-    let most = |i: usize| points().map(|point| point[i]).fold(f64::NEG_INFINITY, f64::max);
-    let least = points().map(|point| point[1]).fold(f64::INFINITY, f64::min);
-    let (end, top) = (most(0), most(1));
-    let whole = place(ui, height);
-    let plot = chart(ui, name, height).x_axis_label("x from the force, mm");
-    let shown = framed(ui, (name, plot), [[-end, end], [least - 0.05 * (top - least), 1.05 * top]], |plot| {
+    let [[_, end], [least, top]] = [0, 1].map(|i| span(points().map(|point| point[i])));
+    let bounds = [[-end, end], [least - 0.05 * (top - least), 1.05 * top]];
+    let (below, words) = ("x from the force, mm", (None, "Green's function"));
+    Chart { name, height, bounds, below, words }.show(ui, |plot| {
         for (points, colour, style) in &lines {
             plot.line(line(points, *colour, WIDTH, *style));
         }
     });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), None, "Green's function");
 }
 
 fn numbers(ui: &mut Ui, found: &RotorCurves, present: bool, cx: &DrawContext<'_>) {

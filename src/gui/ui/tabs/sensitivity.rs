@@ -4,14 +4,16 @@ use crate::analysis::sensitivity::{LEAST, Sensitivity, Uncertainties};
 use crate::digits::{as_given, percent, significant};
 use crate::gui::command::{Command, SensitivityCommand};
 use crate::gui::derived::format::{digits, uncertain};
+use crate::gui::derived::scales::span;
 use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::sensitivity::SensitivityState;
-use crate::gui::ui::button;
-use crate::gui::ui::chart::{axes, between, chart, framed, line, place, title, upright};
+use crate::gui::ui::chart::{Chart, between, line, title, upright};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
 use crate::gui::ui::hint::{Hint, text_width};
+use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::table;
+use crate::gui::ui::{button, glossary};
 use crate::scene::Parameter;
 use eframe::egui::{self, RichText, TextStyle, Ui};
 use egui_plot::{GridMark, LineStyle};
@@ -28,16 +30,14 @@ const DRAWS: std::ops::RangeInclusive<usize> = 10..=100_000;
 
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
-    egui::ScrollArea::vertical().id_salt("sensitivity").auto_shrink(false).show(ui, |ui| {
-        // Room for the scroll bar, which floats.
-        ui.set_max_width(ui.available_width() - 8.0);
+    scrolled(ui, "sensitivity", 8.0, |ui| {
         let state = &cx.state.sensitivity;
         buttons(ui, state, cx);
-        if let Some(failure) = state.failure() {
+        if let Some(failure) = &state.failure {
             cx.say(ui, format!("Nothing was found: {failure}"), cx.colours.alarm);
         }
-        let (Some(found), Some(uncertainties)) = (state.found(), state.uncertainties()) else {
-            introduction(ui, cx);
+        let (Some(found), Some(uncertainties)) = (state.found.as_ref(), state.uncertainties.as_ref()) else {
+            cx.introduce(ui, INTRODUCTION);
             return;
         };
         if state.stale(cx.state.document.scene()) {
@@ -65,35 +65,27 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
 fn buttons(ui: &mut Ui, state: &SensitivityState, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         if let Some(share) = state.running() {
-            if ui.button("Cancel").hint("Ends it; what was found before stays").clicked() {
-                cx.push(SensitivityCommand::Cancel);
-            }
-            let text = format!("{:.0} %", 100.0 * share);
-            ui.add(egui::ProgressBar::new(share as f32).desired_width(140.0).text(text));
+            cx.button(ui, "Cancel", "Ends it; what was found before stays", SensitivityCommand::Cancel);
+            cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), None);
         } else {
             let hover = "Solves the scene with every parameter a little changed, in the background; a second or so";
-            let button = button::first(ui, "Compute sensitivities", (state.found().is_none(), true), cx).hint(hover);
+            let button = button::first(ui, "Compute sensitivities", (state.found.is_none(), true), cx).hint(hover);
             if button.clicked() {
                 cx.push(SensitivityCommand::Start);
             }
         }
-        if state.found().is_some() && ui.button("Export…").hint(Export::Sensitivity.about()).clicked() {
+        if state.found.is_some() && ui.button("Export…").hint(Export::Sensitivity.about()).clicked() {
             cx.push(Command::Export(Export::Sensitivity));
         }
     });
 }
 
-fn introduction(ui: &mut Ui, cx: &DrawContext<'_>) {
-    ui.add_space(8.0);
-    for text in [
-        "Which parameters matter, and how well do they have to be known?",
-        "Every parameter is changed a little, up and down, and the scene solved each time. Give parameters an uncertainty, and see how \
+/// What stands in the tab while there is nothing to see.
+const INTRODUCTION: &[&str] = &[
+    "Which parameters matter, and how well do they have to be known?",
+    "Every parameter is changed a little, up and down, and the scene solved each time. Give parameters an uncertainty, and see how \
          uncertain the results are. Nothing is computed before you ask.",
-    ] {
-        cx.note(ui, text);
-        ui.add_space(4.0);
-    }
-}
+];
 
 /// Which of the results is looked at.
 fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>) {
@@ -128,19 +120,17 @@ fn result(
         let text = if known { uncertain(value.value, value.error) } else { digits(value.value, 4) };
         ui.label(RichText::new(format!("{text}{unit}")).strong());
         if known {
-            let shown = ui.label(RichText::new("numerical").color(cx.colours.quiet));
-            glossary::here(ui, shown, "Stated error");
+            glossary::term(ui, RichText::new("numerical").color(cx.colours.quiet), "Stated error");
         }
         if !uncertainties.is_empty() {
             let spread = found.propagated(output, uncertainties);
             let text = format!("± {} by the parameters", digits(spread.deviation.value, 2));
-            let shown = ui.label(RichText::new(text).color(cx.colours.accent));
-            glossary::here(ui, shown, "Uncertainty of a parameter");
+            glossary::term(ui, RichText::new(text).color(cx.colours.accent), "Uncertainty of a parameter");
             if !spread.unknown.is_empty() {
                 cx.say(ui, format!("without {}", spread.unknown.join(", ")), cx.colours.alarm);
             }
         }
-        if let Some(spread) = state.carlo().and_then(|carlo| carlo.spread(output)) {
+        if let Some(spread) = state.carlo.as_ref().and_then(|carlo| carlo.spread(output)) {
             let [low, _, high] = spread.quantiles;
             let text = format!(
                 "random scenes: {} ± {}, 90 % of them from {} to {}",
@@ -149,8 +139,7 @@ fn result(
                 digits(low, 4),
                 digits(high, 4)
             );
-            let shown = ui.label(RichText::new(text).color(cx.colours.film));
-            glossary::here(ui, shown, "Random scenes");
+            glossary::term(ui, RichText::new(text).color(cx.colours.film), "Random scenes");
         }
     });
 }
@@ -177,36 +166,39 @@ fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Unce
     let [low, high] = ends.fold([0.0_f64; 2], |[low, high], end| [low.min(end), high.max(end)]);
     let room = MARGIN * (high - low);
     let name = "Tornado chart";
-    let whole = place(ui, height);
     let rows: Vec<GridMark> = (0..bars.len()).map(|row| GridMark { value: -(row as f64), step_size: 1.0 }).collect();
     let named = names.clone();
-    let plot = chart(ui, name, height)
-        .y_axis_min_width(gutter)
-        .y_grid_spacer(move |_| rows.clone())
-        .y_axis_formatter(move |mark, _| {
-            let row = (-mark.value).round();
-            named.get(row.max(0.0) as usize).filter(|_| row >= 0.0).map_or_else(String::new, |name| (*name).to_owned())
-        })
-        .allow_zoom(false)
-        .allow_drag(false);
     let strong = ui.visuals().strong_text_color();
     let quiet = cx.colours.quiet;
     let (up, down) = (cx.colours.film, cx.colours.contact);
     let drawn = bars.clone();
-    let shown = framed(ui, (name, plot), [[low - room, high + room], [0.6 - count, 0.6]], move |plot| {
-        for (row, (_, bar)) in drawn.iter().enumerate() {
-            let y = -(row as f64);
-            let colour = if bar.value < 0.0 { down } else { up };
-            let ends = [bar.value.min(0.0), bar.value.max(0.0)].map(|x| [x, y - HALF, y + HALF]);
-            plot.add(between(&ends, colour));
-            let error = [[bar.value - bar.error, y], [bar.value + bar.error, y]];
-            plot.line(line(&error, strong, 1.5, LineStyle::Solid));
-        }
-        plot.vline(upright(0.0, quiet, 1.0));
-    });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
     let word = if uncertainties.is_empty() { "Elasticity" } else { "Uncertainty of a parameter" };
-    axes(ui, whole, *shown.transform.frame(), Some(word), word);
+    let (bounds, words) = ([[low - room, high + room], [0.6 - count, 0.6]], (Some(word), word));
+    Chart { name, height, bounds, below: "", words }.show_with(
+        ui,
+        |plot| {
+            plot.y_axis_min_width(gutter)
+                .y_grid_spacer(move |_| rows.clone())
+                .y_axis_formatter(move |mark, _| {
+                    let row = (-mark.value).round();
+                    let name = named.get(row.max(0.0) as usize).filter(|_| row >= 0.0);
+                    name.map_or_else(String::new, |name| (*name).to_owned())
+                })
+                .allow_zoom(false)
+                .allow_drag(false)
+        },
+        move |plot| {
+            for (row, (_, bar)) in drawn.iter().enumerate() {
+                let y = -(row as f64);
+                let colour = if bar.value < 0.0 { down } else { up };
+                let ends = [bar.value.min(0.0), bar.value.max(0.0)].map(|x| [x, y - HALF, y + HALF]);
+                plot.add(between(&ends, colour));
+                let error = [[bar.value - bar.error, y], [bar.value + bar.error, y]];
+                plot.line(line(&error, strong, 1.5, LineStyle::Solid));
+            }
+            plot.vline(upright(0.0, quiet, 1.0));
+        },
+    );
     if smaller > 0 {
         cx.note(ui, format!("{smaller} more are below {} % of the longest", significant(100.0 * LEAST, 1)));
     }
@@ -222,9 +214,8 @@ fn monte_carlo(
     let (output, uncertainties) = of;
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| {
-        let words = ui.label("Random scenes");
-        let words = glossary::here(ui, words, "Random scenes");
-        let mut draws = state.draws;
+        let words = glossary::term(ui, "Random scenes", "Random scenes");
+        let mut draws = state.draws();
         let field = egui::DragValue::new(&mut draws).range(DRAWS).speed(10.0);
         if ui.add(field).labelled_by(words.id).hint("How many are solved").changed() {
             cx.push(SensitivityCommand::Draws(draws));
@@ -239,7 +230,7 @@ fn monte_carlo(
             cx.push(SensitivityCommand::Draw);
         }
     });
-    let Some(carlo) = state.carlo() else { return };
+    let Some(carlo) = state.carlo.as_ref() else { return };
     if !carlo.failures.is_empty() {
         let text = format!(
             "{} could not be solved and are missing, the first because {}",
@@ -272,24 +263,22 @@ fn monte_carlo(
     };
     let curve: Vec<[f64; 2]> = if linear > 0.0 { (-70..=70).map(normal).collect() } else { Vec::new() };
     let ends = bars.iter().map(|bar| bar[0]).chain(curve.iter().map(|point| point[0]));
-    let [low, high] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let [low, high] = span(ends);
     let top = bars.iter().map(|bar| bar[2]).chain(curve.iter().map(|point| point[1])).fold(0.0, f64::max);
     let name = "Histogram of the random scenes";
     title(ui, name, "Random scenes");
     let height = HISTOGRAM * ui.text_style_height(&TextStyle::Body);
-    let whole = place(ui, height);
-    let word = found.outputs[output].words();
-    let plot = chart(ui, name, height).x_axis_label(found.outputs[output].label(found.problem()));
+    let below = found.outputs[output].label(found.problem());
+    let words = (Some(found.outputs[output].words()), "Random scenes");
     let (film, contact, quiet) = (cx.colours.film, cx.colours.contact, cx.colours.quiet);
-    let shown = framed(ui, (name, plot), [[low, high], [0.0, 1.08 * top]], move |plot| {
+    let bounds = [[low, high], [0.0, 1.08 * top]];
+    Chart { name, height, bounds, below: &below, words }.show(ui, move |plot| {
         for bar in bars.chunks_exact(2) {
             plot.add(between(bar, film.gamma_multiply(0.7)));
         }
         plot.line(line(&curve, contact, 2.0, LineStyle::dashed_dense()));
         plot.vline(upright(value, quiet, 1.5));
     });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), Some(word), "Random scenes");
     cx.note(ui, "Dashed: the normal distribution that the derivatives give. The line: the result of the scene itself.");
 }
 
@@ -314,39 +303,37 @@ fn table(
     });
     let em = ui.text_style_height(&TextStyle::Body);
     ui.add_space(6.0);
-    let grid = egui::Grid::new("sensitivities").num_columns(5).striped(true).spacing([14.0, 4.0]);
-    egui::ScrollArea::horizontal().id_salt("sensitivities").auto_shrink(true).show(ui, |ui| {
-        grid.show(ui, |ui| {
-            for (head, word) in [
-                ("Parameter", "Parameter"),
-                ("Value", "Parameter"),
-                ("% for 1 % more", "Elasticity"),
-                ("Uncertainty", "Uncertainty of a parameter"),
-                ("Share", "Share of the variance"),
-            ] {
-                let shown = ui.label(RichText::new(head).color(cx.colours.quiet));
-                glossary::here(ui, shown, word);
-            }
-            ui.end_row();
-            for column in order {
-                let by = &found.columns[column];
-                let parameter = by.parameter;
-                ui.label(label(parameter)).hint(explanation(found.scene(), parameter, None));
-                ui.label(format!("{} {}", as_given(by.at), parameter.unit).trim_end().to_owned());
-                match (&by.slopes, found.elasticity(output, column)) {
-                    (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
-                    (Ok(_), None) => drop(ui.label("–")),
-                    (Ok(_), Some(found)) if by.scale().is_some() => drop(ui.label(uncertain(found.value, found.error))),
-                    (Ok(_), Some(found)) => {
-                        let text = format!("{} per {}", uncertain(100.0 * found.value, 100.0 * found.error), parameter.unit);
-                        ui.label(text).hint("Per cent of the result for one unit of the parameter, which is zero or has no natural zero");
-                    }
+    let heads = [
+        ("Parameter", "Parameter"),
+        ("Value", "Parameter"),
+        ("% for 1 % more", "Elasticity"),
+        ("Uncertainty", "Uncertainty of a parameter"),
+        ("Share", "Share of the variance"),
+    ];
+    table::table(ui, "sensitivities", heads.len(), 14.0, |ui| {
+        table::heads(ui, &heads, cx.colours.quiet);
+        ui.end_row();
+        for column in order {
+            let by = &found.columns[column];
+            let parameter = by.parameter;
+            ui.label(label(parameter)).hint(explanation(found.scene(), parameter, None));
+            ui.label(format!("{} {}", as_given(by.at), parameter.unit).trim_end().to_owned());
+            match (&by.slopes, found.elasticity(output, column)) {
+                (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
+                (Ok(_), None) => drop(ui.label("–")),
+                (Ok(_), Some(found)) if by.scale().is_some() => drop(ui.label(uncertain(found.value, found.error))),
+                (Ok(_), Some(found)) => {
+                    let text =
+                        format!("{} per {}", uncertain(100.0 * found.value, 100.0 * found.error), parameter.unit);
+                    ui.label(text).hint(
+                        "Per cent of the result for one unit of the parameter, which is zero or has no natural zero",
+                    );
                 }
-                field(ui, state, parameter, 6.0 * em, cx);
-                ui.label(propagated.share(parameter).map_or_else(String::new, percent));
-                ui.end_row();
             }
-        })
+            field(ui, state, parameter, 6.0 * em, cx);
+            ui.label(propagated.share(parameter).map_or_else(String::new, percent));
+            ui.end_row();
+        }
     });
 }
 

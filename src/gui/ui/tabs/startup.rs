@@ -4,10 +4,9 @@ use super::dropped;
 use crate::export::startup::unsettled;
 use crate::gui::command::StartupCommand;
 use crate::gui::state::startup::StartupState;
-use crate::gui::ui::button;
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::hint::Hint;
-use crate::gui::ui::views;
+use crate::gui::ui::{button, views};
 use crate::scene;
 use crate::solution::Status;
 use crate::startup::Settings;
@@ -30,7 +29,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         return;
     };
     state(ui, startup, cx);
-    if startup.points().is_empty() {
+    if startup.points.is_empty() {
         return;
     }
     let line = ui.text_style_height(&TextStyle::Body);
@@ -39,7 +38,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let history = ui.scope(|ui| views::history::show(ui, startup, periodic, plots, cx));
     cx.mark(ui, "history", history.response.rect);
     if let Some(run) = startup.run() {
-        views::run::show(ui, run, startup.ranges(), cx);
+        views::run::show(ui, run, startup.ranges.as_ref(), cx);
     }
 }
 
@@ -47,9 +46,8 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         match cx.state.startup.as_ref().filter(|startup| startup.running()) {
             Some(_) => {
-                if ui.button("Cancel the start-up").hint("Ends it; the cycles computed so far stay").clicked() {
-                    cx.push(StartupCommand::Cancel);
-                }
+                let about = "Ends it; the cycles computed so far stay";
+                cx.button(ui, "Cancel the start-up", about, StartupCommand::Cancel);
             }
             None => {
                 let hover = "Computes every tooth, cycle by cycle, in the background; the window stays usable";
@@ -61,36 +59,31 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         }
         let Some(startup) = cx.state.startup.as_ref().filter(|startup| startup.run().is_some()) else { return };
-        let mut follow = startup.follows();
+        let mut follow = startup.follow;
         let hover = "Shows each cycle as soon as it is computed";
         if ui.checkbox(&mut follow, "Follow the newest cycle").hint(hover).changed() {
             cx.push(StartupCommand::Follow(follow));
         }
         let hover = "Plays the cycles that are kept one after the other, from the first";
-        if ui.button("Play from rest").hint(hover).clicked() {
-            cx.push(StartupCommand::Replay);
-        }
+        cx.button(ui, "Play from rest", hover, StartupCommand::Replay);
     });
 }
 
 fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
-    ui.add_space(8.0);
     let rest = match cx.state.document.scene().kind() {
         scene::Kind::Motor => {
             "the wave stands still, pressed against the rotor. Then it moves. Every tooth is followed, with nothing accelerated, until"
         }
         scene::Kind::Plate => "the plate rests at its mean gap. Then it moves, away from the wall at first, until",
     };
-    for text in [
+    let paragraphs = [
         "How does the film come to carry load, from the moment at which the vibration begins?",
         &format!(
             "At first the gas is at ambient pressure everywhere, and {rest} the cycle repeats. Each cycle is shown as soon as it is \
              computed. Nothing is computed before you ask."
         ),
-    ] {
-        cx.note(ui, text);
-        ui.add_space(4.0);
-    }
+    ];
+    cx.introduce(ui, &paragraphs);
 }
 
 /// How far it is, and of what; then the numbers of the cycle looked at.
@@ -98,31 +91,31 @@ fn state(ui: &mut egui::Ui, startup: &StartupState, cx: &DrawContext<'_>) {
     let (text, colour) = ending(startup, cx, ui.visuals().text_color());
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(text).color(colour));
-        ui.label(RichText::new(format!("computed at {}", startup.fidelity())).color(cx.colours.quiet));
+        ui.label(RichText::new(format!("computed at {}", startup.fidelity)).color(cx.colours.quiet));
     });
-    if let Some(Ok(ended)) = startup.ended() {
+    if let Some(Ok(ended)) = &startup.ended {
         ended.warnings.iter().for_each(|warning| cx.say(ui, warning.clone(), cx.colours.alarm));
     }
     if startup.stale(cx.state.document.scene()) {
         let text = format!("Of “{}” before the scene changed; start again", startup.name());
         cx.say(ui, text, cx.colours.alarm);
     }
-    if let Some(point) = startup.points().get(startup.chosen().wrapping_sub(1)) {
-        let text = format!("Shown is {}", views::history::words(point, &startup.problem().scenario));
+    if let Some(point) = startup.points.get(startup.chosen().wrapping_sub(1)) {
+        let text = format!("Shown is {}", views::history::words(point, &startup.problem.scenario));
         ui.add(egui::Label::new(text).wrap());
     }
 }
 
 /// How far it is, in words.
 fn ending(startup: &StartupState, cx: &DrawContext<'_>, usual: egui::Color32) -> (String, egui::Color32) {
-    let cycles = startup.points().len();
-    let remaining = startup.points().last().map_or(f64::INFINITY, |point| point.remaining);
+    let cycles = startup.points.len();
+    let remaining = startup.points.last().map_or(f64::INFINITY, |point| point.remaining);
     let open = if remaining.is_finite() {
         format!("not yet repeating, trapped gas may still change by {:.1} %", 100.0 * remaining)
     } else {
         "not yet repeating".to_owned()
     };
-    match startup.ended() {
+    match &startup.ended {
         None if cycles == 0 => ("The first cycle is being computed".to_owned(), usual),
         None if remaining < Settings::default().tolerance => {
             (format!("Cycle {cycles}: repeats; cycles follow on finer grids"), usual)

@@ -4,12 +4,12 @@ use crate::analysis::surface::SurfaceCurves;
 use crate::digits::significant;
 use crate::gui::derived::format::power_of_ten;
 use crate::gui::ui::cache::once;
-use crate::gui::ui::chart::{SOLID, axes, chart, framed, legend, line, place, powers, title};
+use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, powers, title};
 use crate::gui::ui::context::DrawContext;
 use crate::problem::Motor;
 use crate::surface::Surface;
-use eframe::egui::{self, Ui};
-use egui_plot::{LineStyle, Points};
+use eframe::egui::Ui;
+use egui_plot::LineStyle;
 
 const WIDTH: f32 = 2.0;
 
@@ -34,20 +34,20 @@ fn contact(ui: &mut Ui, curves: &SurfaceCurves, height: f32, cx: &DrawContext<'_
     title(ui, name, "Asperities");
     let points: Vec<[f64; 2]> = curves.contact.iter().map(|[h, p]| [h * 1e9, (p * 1e-6).log10()]).collect();
     let (Some([near, high]), Some([far, low])) = (points.first().copied(), points.last().copied()) else { return };
-    let whole = place(ui, height);
-    let plot = chart(ui, name, height)
-        .x_axis_label("mean gap, nm")
-        .y_grid_spacer(|input| powers(&input, 6.0, false))
-        .y_axis_formatter(|mark, _| power_of_ten(mark.value.round()));
-    let shown = framed(ui, (name, plot), [[near.min(0.0), far], [low, high + 0.2]], |plot| {
-        plot.line(line(&points, cx.colours.contact, WIDTH, SOLID));
-        if let Some([h, p]) = curves.even {
-            let at = vec![[h * 1e9, (p * 1e-6).log10()]];
-            plot.points(Points::new("", at).color(cx.colours.film).radius(4.0).allow_hover(false));
-        }
-    });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), None, "Asperities");
+    let (bounds, words) = ([[near.min(0.0), far], [low, high + 0.2]], (None, "Asperities"));
+    Chart { name, height, bounds, below: "mean gap, nm", words }.show_with(
+        ui,
+        |plot| {
+            plot.y_grid_spacer(|input| powers(&input, 6.0, false))
+                .y_axis_formatter(|mark, _| power_of_ten(mark.value.round()))
+        },
+        |plot| {
+            plot.line(line(&points, cx.colours.contact, WIDTH, SOLID));
+            if let Some([h, p]) = curves.even {
+                plot.points(dots(vec![[h * 1e9, (p * 1e-6).log10()]], cx.colours.film, 4.0));
+            }
+        },
+    );
     if let Some([h, p]) = curves.even {
         let [h, p] = [significant(h * 1e9, 3), significant(p * 1e-6, 3)];
         cx.note(ui, format!("Pressed evenly by the load ({p} MPa) the faces stay {h} nm apart in the mean, the point"));
@@ -64,13 +64,10 @@ fn flow(ui: &mut Ui, curves: &SurfaceCurves, height: f32, cx: &DrawContext<'_>) 
     let values = || lines.iter().flatten();
     let top = values().map(|point| point[1]).fold(1.0, f64::max);
     let far = values().map(|point| point[0]).fold(0.0, f64::max);
-    let whole = place(ui, height);
-    let plot = chart(ui, name, height).x_axis_label("film thickness, nm");
-    let shown = framed(ui, (name, plot), [[0.0, far], [0.0, 1.05 * top]], |plot| {
+    let (bounds, words) = ([[0.0, far], [0.0, 1.05 * top]], (None, "Flow factors"));
+    Chart { name, height, bounds, below: "film thickness, nm", words }.show(ui, |plot| {
         for (points, (colour, style)) in lines.iter().zip(styles) {
             plot.line(line(points, colour, WIDTH, style));
         }
     });
-    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), None, "Flow factors");
 }

@@ -5,14 +5,16 @@ use crate::analysis::torque::TorqueCurves;
 use crate::digits::{as_given, significant};
 use crate::estimate::Estimate;
 use crate::gui::derived::format::{digits, uncertain};
-use crate::gui::ui::chart::{SOLID, axes, chart, dots, framed, legend, line, place, title};
+use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, title, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
+use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::table;
 use crate::job::SolvedScene;
 use crate::problem::{Motor, Scenario};
 use crate::solution::{Performance, Point};
 use eframe::egui::{self, Color32, RichText, TextStyle, Vec2b};
-use egui_plot::{LineStyle, VLine};
+use egui_plot::LineStyle;
 
 /// Heights of the charts: shares of the tab, and at least this many lines of text.
 const SHARES: [f32; 3] = [0.29, 0.2, 0.2];
@@ -38,9 +40,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let of = cx.state.torque.found_of().unwrap_or(run);
     let Scenario::Motor(motor) = &of.problem.scenario else { return };
     let height = ui.available_height();
-    egui::ScrollArea::vertical().id_salt("torque").auto_shrink(false).show(ui, |ui| {
-        // Room for the scroll bar, which floats, and for half a number at the end of an axis.
-        ui.set_max_width(ui.available_width() - 14.0);
+    scrolled(ui, "torque", 14.0, |ui| {
         cx.say_if_stale(ui, of);
         match cx.state.torque.found() {
             None => drop(ui.label("Solving the contact without film…")),
@@ -145,26 +145,23 @@ fn panel(
     let drawn = lines.iter().flat_map(|(points, ..)| points).chain(measured);
     let greatest = drawn.map(|point| point[1]).fold(0.0, f64::max);
     let top = top.unwrap_or(if greatest > 0.0 { HEADROOM * greatest } else { 1.0 });
-    let (group, whole) = (egui::Id::unique("torque charts"), place(ui, height));
-    let mut plot =
-        chart(ui, name, height).show_axes(Vec2b::TRUE).link_cursor(group, Vec2b::new(true, false)).show_x(true);
-    if bottom {
-        plot = plot.x_axis_label("speed of the rotor, rpm");
-    }
-    let shown = framed(ui, (name, plot), [[0.0, fastest], [0.0, top]], |plot| {
-        if (0.0..=fastest).contains(&present) {
-            plot.vline(VLine::new("", present).color(cx.colours.accent).width(1.5).allow_hover(false));
-        }
-        for (points, colour, style) in lines {
-            plot.line(line(points, *colour, WIDTH, *style));
-        }
-        plot.points(dots(measured.to_vec(), cx.colours.stator, MEASURED));
-        plot.pointer_coordinate().map(|at| at.x)
-    });
-    let response = shown.response;
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    axes(ui, whole, *shown.transform.frame(), Some("Rotor speed"), word);
-    shown.inner.filter(|_| response.hovered()).filter(|speed| (0.0..=fastest).contains(speed))
+    let below = if bottom { "speed of the rotor, rpm" } else { "" };
+    let (bounds, words) = ([[0.0, fastest], [0.0, top]], (Some("Rotor speed"), word));
+    let shown = Chart { name, height, bounds, below, words }.show_with(
+        ui,
+        |plot| plot.link_cursor(egui::Id::unique("torque charts"), Vec2b::new(true, false)).show_x(true),
+        |plot| {
+            if (0.0..=fastest).contains(&present) {
+                plot.vline(upright(present, cx.colours.accent, 1.5));
+            }
+            for (points, colour, style) in lines {
+                plot.line(line(points, *colour, WIDTH, *style));
+            }
+            plot.points(dots(measured.to_vec(), cx.colours.stator, MEASURED));
+            plot.pointer_coordinate().map(|at| at.x)
+        },
+    );
+    shown.inner.filter(|_| shown.response.hovered()).filter(|speed| (0.0..=fastest).contains(speed))
 }
 
 /// The values at the speed under the pointer.
@@ -214,29 +211,18 @@ fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
         (&present, Box::new(|of| stated(Some(of.present.torque), 1.0, "N·m")), "Torque over speed"),
         ("Friction heat there", Box::new(|of| stated(Some(of.present.friction), 1.0, "W")), "Friction heat"),
     ];
-    let grid = egui::Grid::new("figures of merit").num_columns(3).striped(true).spacing([10.0, 4.0]);
-    // Wider than the tab only in a small window with large text.
-    egui::ScrollArea::horizontal().id_salt("figures of merit").auto_shrink(true).show(ui, |ui| {
-        grid.show(ui, |ui| {
-            for (head, colour) in
-                [("", cx.colours.quiet), ("With film", cx.colours.film), ("Without film", cx.colours.contact)]
-            {
-                let label = ui.label(RichText::new(head).color(colour));
-                if !head.is_empty() {
-                    glossary::here(ui, label, head);
-                }
+    table::table(ui, "figures of merit", 3, 10.0, |ui| {
+        ui.label("");
+        table::heads(ui, &[("With film", "With film")], cx.colours.film);
+        table::heads(ui, &[("Without film", "Without film")], cx.colours.contact);
+        ui.end_row();
+        for (name, cell, word) in &rows {
+            glossary::term(ui, RichText::new(*name).color(cx.colours.quiet), word);
+            for of in [with, without] {
+                glossary::term(ui, RichText::new(cell(of)).color(ui.visuals().strong_text_color()), word);
             }
             ui.end_row();
-            for (name, cell, word) in &rows {
-                let label = ui.label(RichText::new(*name).color(cx.colours.quiet));
-                glossary::here(ui, label, word);
-                for of in [with, without] {
-                    let value = ui.label(RichText::new(cell(of)).color(ui.visuals().strong_text_color()));
-                    glossary::here(ui, value, word);
-                }
-                ui.end_row();
-            }
-        });
+        }
     });
 }
 

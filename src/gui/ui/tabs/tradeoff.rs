@@ -3,16 +3,17 @@
 
 use crate::analysis::attempt::RunStatus;
 use crate::analysis::tradeoff::{Candidate, Family, Point, Target, Tradeoff};
-use crate::digits::significant;
+use crate::digits::short;
 use crate::gui::command::Command;
-use crate::gui::derived::format::{rough, trimmed};
+use crate::gui::derived::format::{per_cent, trimmed};
 use crate::gui::state::dialogs::Export;
 use crate::gui::state::tradeoff::{TradeoffState, is_present};
-use crate::gui::ui::button;
-use crate::gui::ui::chart::{axes, bare, line, place as chart_place, powers};
+use crate::gui::ui::chart::{axes, bare, key, line, place as chart_place, powers};
 use crate::gui::ui::context::DrawContext;
-use crate::gui::ui::glossary;
 use crate::gui::ui::hint::Hint;
+use crate::gui::ui::scroll::scrolled;
+use crate::gui::ui::table;
+use crate::gui::ui::{button, glossary};
 use crate::solve::Method;
 use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
 use egui_plot::{HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, Points, VLine};
@@ -40,16 +41,14 @@ const BUDGET: std::ops::RangeInclusive<f64> = 1e-2..=600_000.0;
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     let height = ui.available_height();
-    egui::ScrollArea::vertical().id_salt("trade-off").auto_shrink(false).show(ui, |ui| {
-        // Room for the scroll bar, which floats.
-        ui.set_max_width(ui.available_width() - 8.0);
+    scrolled(ui, "trade-off", 8.0, |ui| {
         buttons(ui, cx);
         let Some(measured) = &cx.state.tradeoff else {
-            introduction(ui, cx);
+            cx.introduce(ui, INTRODUCTION);
             return;
         };
         state(ui, measured, cx);
-        let tradeoff = measured.tradeoff();
+        let tradeoff = &measured.tradeoff;
         if !tradeoff.points.iter().any(|point| place(point).is_some()) {
             return;
         }
@@ -72,14 +71,9 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         match running {
             Some(measured) => {
                 let hover = "Ends it; what was measured stays";
-                if ui.button("Cancel the measurement").hint(hover).clicked() {
-                    cx.push(Command::CancelMeasure);
-                }
-                let left = measured.left(cx.now).map_or_else(String::new, |left| format!(", {} left", rough(left)));
-                let text = format!("{:.0} %{left}", 100.0 * measured.share());
-                ui.add(egui::ProgressBar::new(measured.share() as f32).desired_width(140.0).text(text));
-                // What is left grows less even while nothing new is told.
-                ui.ctx().request_repaint_after(std::time::Duration::from_secs(1));
+                cx.button(ui, "Cancel the measurement", hover, Command::CancelMeasure);
+                let (share, left) = (measured.share, measured.left(cx.now));
+                cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), left);
             }
             None => {
                 let about = "Takes about a minute; the window stays usable";
@@ -93,43 +87,36 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             .state
             .tradeoff
             .as_ref()
-            .is_some_and(|measured| !measured.running() && !measured.tradeoff().points.is_empty())
+            .is_some_and(|measured| !measured.running() && !measured.tradeoff.points.is_empty())
         {
             for (text, export) in [("Export CSV…", Export::TradeoffTable), ("Export figure…", Export::TradeoffFigure)]
             {
-                if ui.button(text).hint(export.about()).clicked() {
-                    cx.push(Command::Export(export));
-                }
+                cx.button(ui, text, export.about(), Command::Export(export));
             }
         }
     });
 }
 
-fn introduction(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
-    ui.add_space(8.0);
-    for text in [
-        "How exact can this scene be solved, and how fast, on this machine?",
-        "Each fidelity, some grids beside them and the method of the paper on its meshes are timed in turn, in the \
+/// What stands in the tab while there is nothing to see.
+const INTRODUCTION: &[&str] = &[
+    "How exact can this scene be solved, and how fast, on this machine?",
+    "Each fidelity, some grids beside them and the method of the paper on its meshes are timed in turn, in the \
          background, and judged by the error of α (of a plate, of the film load). Nothing is measured before you ask.",
-    ] {
-        cx.note(ui, text);
-        ui.add_space(4.0);
-    }
-}
+];
 
 /// Of what, and whether that still is the scene.
 fn state(ui: &mut egui::Ui, measured: &TradeoffState, cx: &DrawContext<'_>) {
     if measured.stale(cx.state.document.scene()) {
         let text = format!("Measured on “{}” before the scene changed; measure again", measured.name());
         cx.say(ui, text, cx.colours.alarm);
-    } else if measured.cancelled() {
+    } else if measured.cancelled {
         let text = if measured.running() { "Ending…" } else { "Cancelled; this was measured until then" };
         cx.note(ui, text);
     }
-    if let Some(failure) = measured.failure() {
+    if let Some(failure) = &measured.failure {
         cx.say(ui, format!("The measurement failed: {failure}"), cx.colours.alarm);
     }
-    let unconverged = measured.tradeoff().points.iter().filter(|point| !usable(&point.run.status)).count();
+    let unconverged = measured.tradeoff.points.iter().filter(|point| !usable(&point.run.status)).count();
     if unconverged > 0 {
         let text = format!("{unconverged} of the settings did not converge: they are in the table only");
         cx.note(ui, text);
@@ -159,7 +146,7 @@ fn legend(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for family in [Family::Fidelity, Family::Grid, Family::Paper] {
             let (name, colour, shape) = style(family, cx);
-            key(ui, name, |painter, at| match shape {
+            sign(ui, name, |painter, at| match shape {
                 MarkerShape::Square => {
                     painter.rect_filled(egui::Rect::from_center_size(at, egui::Vec2::splat(1.6 * RADIUS)), 0, colour);
                 }
@@ -171,10 +158,10 @@ fn legend(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 _ => drop(painter.circle_filled(at, RADIUS, colour)),
             });
         }
-        key(ui, "present setting", |painter, at| {
+        sign(ui, "present setting", |painter, at| {
             painter.circle_stroke(at, 0.6 * RING, egui::Stroke::new(2.0, cx.colours.accent));
         });
-        key(ui, "best", |painter, at| {
+        sign(ui, "best", |painter, at| {
             let end = egui::vec2(0.5 * em, 0.0);
             let stroke = egui::Stroke::new(1.5, cx.colours.quiet);
             painter.extend(egui::Shape::dashed_line(&[at - end, at + end], stroke, 4.0, 3.0));
@@ -182,18 +169,9 @@ fn legend(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     });
 }
 
-/// An entry of the legend, in one piece, so that it is a whole that goes to the next line.
-fn key(ui: &mut egui::Ui, text: &str, draw: impl FnOnce(&egui::Painter, egui::Pos2)) {
-    let font = TextStyle::Body.resolve(ui.style());
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, ui.visuals().text_color());
-    let em = galley.size().y;
-    let size = egui::vec2(1.3 * em + galley.size().x, em);
-    let (area, response) = ui.allocate_exact_size(size, egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
-    glossary::here(ui, response, text);
-    draw(ui.painter(), area.left_center() + egui::vec2(0.5 * em, 0.0));
-    let colour = ui.visuals().text_color();
-    ui.painter().galley(area.left_top() + egui::vec2(1.3 * em, 0.0), galley, colour);
+/// An entry of the legend, whose sign is drawn round a place.
+fn sign(ui: &mut egui::Ui, text: &str, draw: impl FnOnce(&egui::Painter, egui::Pos2)) {
+    key(ui, text, 1.3, 0.0, |painter, left, em| draw(painter, left + egui::vec2(0.5 * em, 0.0)));
 }
 
 /// log₁₀ of time \[s\] and of the error \[%\]; `None` without either.
@@ -299,14 +277,13 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
             }
             Target::Budget(time) => ("Budget", 1e3 * time, " ms", BUDGET, "The most exact within this time"),
         };
-        let label = ui.label(name);
-        let label = glossary::here(ui, label, name);
+        let label = glossary::term(ui, name, name);
         let speed = 0.01 * value;
         let drag = egui::DragValue::new(&mut value)
             .suffix(unit)
             .range(range)
             .speed(speed)
-            .custom_formatter(|value, _| trimmed(&significant(value, 3)).to_owned());
+            .custom_formatter(|value, _| short(value, 3));
         if ui.add(drag).labelled_by(label.id).hint(about).changed() {
             cx.push(Command::Target(match target {
                 Target::Accuracy(_) => Target::Accuracy(1e-2 * value),
@@ -338,43 +315,34 @@ fn advice(ui: &mut egui::Ui, tradeoff: &Tradeoff, target: Target, cx: &DrawConte
 fn table(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
     let mut order: Vec<&Point> = tradeoff.points.iter().collect();
     order.sort_by(|a, b| a.median.total_cmp(&b.median));
-    let quiet = |text: &str| RichText::new(text).color(cx.colours.quiet);
-    let grid = egui::Grid::new("settings").num_columns(4).striped(true).spacing([14.0, 4.0]);
-    // Wider than the tab only in a small window with large text.
-    egui::ScrollArea::horizontal().id_salt("settings").auto_shrink(true).show(ui, |ui| {
-        grid.show(ui, |ui| {
-            for (head, word) in [("Setting", "Setting"), ("Time", "Solve time"), ("Error", "Stated error")] {
-                let label = ui.label(quiet(head));
-                glossary::here(ui, label, word);
+    table::table(ui, "settings", 4, 14.0, |ui| {
+        let heads = [("Setting", "Setting"), ("Time", "Solve time"), ("Error", "Stated error"), ("", "")];
+        table::heads(ui, &heads, cx.colours.quiet);
+        ui.end_row();
+        for point in order {
+            let candidate = &point.run.candidate;
+            let (family, colour, _) = style(candidate.family, cx);
+            glossary::term(ui, RichText::new(&candidate.name).color(colour), family);
+            ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
+            ui.label(point.error.map_or_else(String::new, percent));
+            let mut marks = Vec::new();
+            match &point.run.status {
+                RunStatus::Waiting | RunStatus::Converged => {}
+                RunStatus::Failed(_) => marks.push("failed".to_owned()),
+                other => marks.push(other.to_string()),
             }
-            ui.label("");
+            if point.best {
+                marks.push("best".to_owned());
+            }
+            if in_use(candidate, cx) {
+                marks.push("in use".to_owned());
+            }
+            let marks = ui.label(RichText::new(marks.join(", ")).color(cx.colours.quiet));
+            if let RunStatus::Failed(reason) = &point.run.status {
+                marks.hint(reason);
+            }
             ui.end_row();
-            for point in order {
-                let candidate = &point.run.candidate;
-                let (family, colour, _) = style(candidate.family, cx);
-                let setting = ui.label(RichText::new(&candidate.name).color(colour));
-                glossary::here(ui, setting, family);
-                ui.label(if point.median.is_finite() { duration(point.median) } else { "…".to_owned() });
-                ui.label(point.error.map_or_else(String::new, percent));
-                let mut marks = Vec::new();
-                match &point.run.status {
-                    RunStatus::Waiting | RunStatus::Converged => {}
-                    RunStatus::Failed(_) => marks.push("failed".to_owned()),
-                    other => marks.push(other.to_string()),
-                }
-                if point.best {
-                    marks.push("best".to_owned());
-                }
-                if in_use(candidate, cx) {
-                    marks.push("in use".to_owned());
-                }
-                let marks = ui.label(quiet(&marks.join(", ")));
-                if let RunStatus::Failed(reason) = &point.run.status {
-                    marks.hint(reason);
-                }
-                ui.end_row();
-            }
-        })
+        }
     });
 }
 
@@ -386,14 +354,12 @@ fn duration(seconds: f64) -> String {
         s if s < 99.5 => (s, "s"),
         s => (s / 60.0, "min"),
     };
-    format!("{}{NO_BREAK}{unit}", trimmed(&significant(value, 3)))
+    format!("{}{NO_BREAK}{unit}", short(value, 3))
 }
 
 /// A share in per cent, two digits, written out however small.
 fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    let decimals = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
-    format!("{}{NO_BREAK}%", trimmed(&format!("{value:.decimals$}")))
+    format!("{}{NO_BREAK}%", trimmed(&per_cent(share)))
 }
 
 #[cfg(test)]

@@ -81,7 +81,7 @@ pub fn show(ui: &mut Ui, startup: &StartupState, periodic: Option<&SolvedScene>,
     let style = PlotStyle::new(ui);
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let gutter = style.width(ui.painter(), "−0.000") + 6.0;
-    let quantities = match startup.problem().scenario {
+    let quantities = match startup.problem.scenario {
         Scenario::Motor(_) if area.width() < NARROW * style.row => OF_MOTOR_NARROW,
         Scenario::Motor(_) => OF_MOTOR,
         Scenario::Plate(_) => OF_PLATE,
@@ -111,15 +111,15 @@ fn plot(
     periodic: Option<&SolvedScene>,
     cx: &DrawContext<'_>,
 ) {
-    let scenario = &startup.problem().scenario;
-    let points = startup.points();
+    let scenario = &startup.problem.scenario;
+    let points = &startup.points;
     let of = |outcome: &Outcome| {
         let (value, error) = (quantity.of)(outcome, scenario);
         (value / quantity.unit, error / quantity.unit)
     };
     // Extremes are those of one grid, without an error: compared with those of another they would mislead.
     let aim = periodic
-        .filter(|run| quantity.extrapolated || run.fidelity == startup.fidelity())
+        .filter(|run| quantity.extrapolated || run.fidelity == startup.fidelity)
         .map(|run| of(&run.solution.outcome));
     let [low, high] = span(points.iter().map(|point| of(&point.outcome).0).chain(aim.map(|aim| aim.0)));
     let margin = 0.12 * (high - low);

@@ -3,7 +3,7 @@
 
 use super::field::{self, Stamp};
 use super::map::y_labels;
-use super::plate::load_unit;
+use super::plate::{load_unit, wall_and_plate};
 use crate::fidelity::Fidelity;
 use crate::gui::command::HoldCommand;
 use crate::gui::derived::format::{number, times, with_known_digits};
@@ -154,18 +154,14 @@ fn draw_plate(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &HoldFram
     let inside = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, under) = (axes.py(0.0), axes.py(gap));
     film(inside, &axes, [under, wall], shown);
-    let block = |top: f32, bottom: f32| Rect::from_min_max(pos2(rect.left(), top), pos2(rect.right(), bottom));
-    inside.rect_filled(block(wall, rect.bottom()), 0.0, style.solid(style.palette.stator));
-    inside.hline(rect.x_range(), wall, Stroke::new(1.5, style.palette.stator));
-    let top = under - PLATE * rect.height();
-    inside.rect_filled(block(top, under), 0.0, style.solid(style.palette.rotor));
-    inside.hline(rect.x_range(), under, Stroke::new(1.5, style.palette.rotor));
+    let thickness = PLATE * rect.height();
+    wall_and_plate(inside, style, rect, [wall, under], thickness);
     // Where it was before it was taken.
     let mean = axes.py(shown.hold.plate().mean_gap);
     let ends = [pos2(rect.left(), mean), pos2(rect.right(), mean)];
     inside.extend(egui::Shape::dashed_line(&ends, Stroke::new(1.0, style.palette.quiet), 6.0, 5.0));
     tag(inside, style, pos2(rect.right() - 6.0, mean), Align2::RIGHT_CENTER, "mean gap");
-    arrow(inside, style, rect, 0.5 * (top + under), force, shown);
+    arrow(inside, style, rect, under - 0.5 * thickness, force, shown);
     axes
 }
 

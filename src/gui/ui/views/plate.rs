@@ -154,17 +154,27 @@ fn draw_gap(painter: &Painter, style: &PlotStyle, rect: Rect, shown: &PlateFrame
 
     let painter = &painter.with_clip_rect(painter.clip_rect().intersect(rect));
     let (wall, plate) = (axes.py(0.0), axes.py(shown.thickness()));
-    let (left, right) = (rect.left(), rect.right());
-    let block = |top: f32, bottom: f32| Rect::from_min_max(pos2(left, top), pos2(right, bottom));
-    painter.rect_filled(block(plate, wall), 0.0, style.palette.film.gamma_multiply(0.25));
-    painter.rect_filled(block(wall, rect.bottom()), 0.0, style.solid(style.palette.stator));
-    painter.hline(rect.x_range(), wall, Stroke::new(1.5, style.palette.stator));
-    // The plate keeps its thickness and moves.
-    let thickness = 0.8 * above as f32 * rect.height();
-    painter.rect_filled(block(plate - thickness, plate), 0.0, style.solid(style.palette.rotor));
-    painter.hline(rect.x_range(), plate, Stroke::new(1.5, style.palette.rotor));
+    let film = Rect::from_x_y_ranges(rect.x_range(), plate..=wall);
+    painter.rect_filled(film, 0.0, style.palette.film.gamma_multiply(0.25));
+    wall_and_plate(painter, style, rect, [wall, plate], 0.8 * above as f32 * rect.height());
     axes.cursor(painter, style, shown.cursor);
     axes
+}
+
+/// The wall up to one height, and from another one on the plate, which keeps its thickness and moves.
+pub(super) fn wall_and_plate(
+    painter: &Painter,
+    style: &PlotStyle,
+    rect: Rect,
+    [wall, under]: [f32; 2],
+    thickness: f32,
+) {
+    let parts =
+        [(wall, wall..=rect.bottom(), style.palette.stator), (under, under - thickness..=under, style.palette.rotor)];
+    for (face, heights, colour) in parts {
+        painter.rect_filled(Rect::from_x_y_ranges(rect.x_range(), heights), 0.0, style.solid(colour));
+        painter.hline(rect.x_range(), face, Stroke::new(1.5, colour));
+    }
 }
 
 /// Pressure along x at y = 0, over x \[mm\].

@@ -6,11 +6,10 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
-use crate::digits::capitalised;
-use crate::digits::{significant, with_error};
+use crate::digits::{capitalised, short, significant, with_error};
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
-use crate::gui::derived::format::{digits, trimmed};
+use crate::gui::derived::format::digits;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::ui::cache::once;
@@ -37,6 +36,8 @@ const CROSS: f32 = 5.0;
 const SQUARE: f32 = 5.5;
 /// What the drawing is called.
 const NAME: &str = "Sweep: point to read a value, click to make its scene the present one";
+/// Significant digits of a value that is varied, at most.
+const DIGITS: usize = 6;
 /// How near the pointer has to be.
 const NEAR: f32 = 40.0;
 /// Lines of equal value, about.
@@ -88,7 +89,7 @@ impl Plotted<'_> {
     fn words(&self, row: &Row) -> String {
         let mut lines: Vec<String> = Vec::new();
         for (axis, value) in self.sweep.axes().iter().zip(&row.values) {
-            lines.push(format!("{} {} {}", label(axis.parameter), short(*value), axis.parameter.unit));
+            lines.push(format!("{} {} {}", label(axis.parameter), short(*value, DIGITS), axis.parameter.unit));
         }
         let unit = self.quantity.unit(self.sweep.problem());
         let name = capitalised(self.quantity.words());
@@ -165,12 +166,7 @@ fn marks(axis: &Axis, range: [f64; 2], most: usize) -> Vec<GridMark> {
 
 /// What is written at a mark.
 fn written(axis: &Axis, mark: GridMark) -> String {
-    if axis.scale == Scale::Log { short(10f64.powf(mark.value)) } else { tick(mark) }
-}
-
-/// At most six digits, none for nothing.
-fn short(value: f64) -> String {
-    trimmed(&significant(value, 6)).to_owned()
+    if axis.scale == Scale::Log { short(10f64.powf(mark.value), DIGITS) } else { tick(mark) }
 }
 
 /// The name of an axis.
@@ -478,7 +474,7 @@ fn contours(painter: &Painter, style: &PlotStyle, axes: &Axes, lines: &[Contour]
         let level = *level;
         let part = (level - range[0]) / (range[1] - range[0]);
         let colour = if part > 0.55 { Color32::from_black_alpha(190) } else { Color32::from_white_alpha(190) };
-        let text = if log { short(10f64.powf(level.round())) } else { ticks.format(level) };
+        let text = if log { short(10f64.powf(level.round()), DIGITS) } else { ticks.format(level) };
         let size = vec2(style.width(painter, &text) + 4.0, style.row);
         for piece in pieces {
             let points: Vec<Pos2> = piece.iter().map(|[x, y]| axes.at(*x, *y)).collect();

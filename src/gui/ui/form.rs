@@ -1,0 +1,102 @@
+//! Parts of forms: a field, a list to choose from, and a parameter with two values between which it is varied or chosen.
+
+use super::context::DrawContext;
+use super::hint::{Hint, beside};
+use crate::gui::command::Command;
+use crate::gui::derived::words::label;
+use crate::gui::state::sweep::{AxisEdit, AxisForm};
+use crate::scene::Parameter;
+use eframe::egui::accesskit::Role;
+use eframe::egui::{ComboBox, RichText, TextEdit, TextStyle, Ui, WidgetInfo};
+
+/// Width of the list of parameters, in heights of the text.
+const PARAMETERS: f32 = 11.0;
+
+/// A field for a line of text, called `name`, which says `empty` while there is none; what the text was changed to. The width is in heights
+/// of the text.
+pub(in crate::gui::ui) fn field(
+    ui: &mut Ui,
+    (name, about): (&str, &str),
+    (text, empty): (&str, &'static str),
+    width: f32,
+) -> Option<String> {
+    let mut text = text.to_owned();
+    let width = width * ui.text_style_height(&TextStyle::Body);
+    let response = ui.add(TextEdit::singleline(&mut text).desired_width(width).hint_text(empty));
+    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
+    response.hint(about).changed().then_some(text)
+}
+
+/// A list called `name` that shows what is chosen; `entries` draws what can be. The width of the box is in heights of the text.
+pub(in crate::gui::ui) fn list(
+    ui: &mut Ui,
+    id: &str,
+    (name, about): (&str, &str),
+    (chosen, width): (&str, f32),
+    entries: impl FnOnce(&mut Ui),
+) {
+    let em = ui.text_style_height(&TextStyle::Body);
+    let list = ComboBox::from_id_salt(id).selected_text(chosen).width(width * em).height(36.0 * em);
+    let response = list.show_ui(ui, entries).response;
+    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+    response.hint(about);
+}
+
+/// A parameter with two values, as they are typed.
+pub(in crate::gui::ui) struct AxisRow<'a> {
+    /// What was typed.
+    pub(in crate::gui::ui) axis: &'a AxisForm,
+    /// What stands before it, what the parameter is for, and what it is called.
+    pub(in crate::gui::ui) parameter: [&'a str; 3],
+    /// What can be chosen, in groups with a title each; one without a title has no line for it.
+    pub(in crate::gui::ui) groups: &'a dyn Fn() -> Vec<(&'static str, Vec<&'static Parameter>)>,
+    /// What the fields of both values are called, and what they are for.
+    pub(in crate::gui::ui) values: [(&'a str, &'a str); 2],
+    /// Their width, in heights of the text.
+    pub(in crate::gui::ui) width: f32,
+    /// What the field of their number is called, if there is one.
+    pub(in crate::gui::ui) count: Option<&'a str>,
+    /// What the box for equal ratios is called, and what it is for.
+    pub(in crate::gui::ui) log: (&'a str, &'a str),
+}
+
+impl AxisRow<'_> {
+    /// Shows it; `command` is asked for with each change.
+    pub(in crate::gui::ui) fn show(self, ui: &mut Ui, cx: &DrawContext<'_>, command: impl Fn(AxisEdit) -> Command) {
+        let Self { axis, parameter: [before, what, name], groups, values: [from, to], width, count, log } = self;
+        let edit = |edit: AxisEdit| cx.push(command(edit));
+        ui.label(before);
+        let parameter = Parameter::find(axis.key);
+        let about = format!("{what}. {}", parameter.map_or("", |parameter| parameter.about));
+        list(ui, "parameter", (name, &about), (parameter.map_or(axis.key, label), PARAMETERS), |ui| {
+            for (title, group) in groups() {
+                if !title.is_empty() {
+                    ui.label(RichText::new(title).color(cx.colours.quiet));
+                }
+                for parameter in group {
+                    let entry = ui.selectable_label(parameter.key == axis.key, label(parameter));
+                    if beside(ui.clip_rect(), entry, parameter.about).clicked() {
+                        edit(AxisEdit::Key(parameter.key));
+                    }
+                }
+            }
+        });
+        ui.label("from");
+        field(ui, from, (&axis.from, ""), width).map(AxisEdit::From).map(edit);
+        ui.label("to");
+        field(ui, to, (&axis.to, ""), width).map(AxisEdit::To).map(edit);
+        if let Some(unit) = parameter.map(|parameter| parameter.unit).filter(|unit| !unit.is_empty()) {
+            ui.label(RichText::new(unit).color(cx.colours.quiet));
+        }
+        if let Some(name) = count {
+            let about = (name, "How many values, both ends counted");
+            field(ui, about, (&axis.count, ""), 2.2).map(AxisEdit::Count).map(edit);
+            ui.label("values");
+        }
+        let mut equal_ratios = axis.log;
+        let checkbox = ui.checkbox(&mut equal_ratios, "log").hint(log.1);
+        if checkbox.accessible_name(log.0).changed() {
+            edit(AxisEdit::Log(equal_ratios));
+        }
+    }
+}
