@@ -5,8 +5,7 @@
 mod window;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, Vec2};
-use egui_kittest::Harness;
+use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::{Answer, Purpose};

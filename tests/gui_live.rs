@@ -5,7 +5,7 @@
 mod window;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, vec2};
+use eframe::egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
 use squeezefilm::gui::app::App;
 use squeezefilm::gui::state::dialogs::Answer;

@@ -182,6 +182,12 @@ fn settle(window: &mut Window) {
     window.run_steps(20);
 }
 
+/// Compares the window with its picture of this name; what differs is told at the end.
+fn compare(results: &mut SnapshotResults, window: &mut Window, name: &str) {
+    window.snapshot(name);
+    results.extend_harness(window);
+}
+
 /// A start-up that has come to its end, and a held plate at rest.
 fn live(results: &mut SnapshotResults) {
     const STARTUP: (Modifiers, Key) = (Modifiers::COMMAND, Key::Num6);
@@ -195,15 +201,13 @@ fn live(results: &mut SnapshotResults) {
         until(&mut window, "the start-up ends", |app| {
             app.state().startup.as_ref().is_some_and(|starting| starting.ended.is_some())
         });
-        window.snapshot(name);
-        results.extend_harness(&mut window);
+        compare(results, &mut window, name);
     }
     for (name, size, keys) in
         [("hold-dark", USUAL, &[HOLD][..]), ("hold-lecture-light", SMALL, &[HOLD, THEME, LECTURE])]
     {
         let mut window = window("plate-crossover", size, keys);
-        window.snapshot(name);
-        results.extend_harness(&mut window);
+        compare(results, &mut window, name);
     }
 }
 
@@ -218,41 +222,34 @@ fn the_window_looks_as_it_did() {
     let mut results = SnapshotResults::new();
     for &(name, preset, size, keys) in LOOKS {
         let mut window = window(preset, size, keys);
-        window.snapshot(name);
-        results.extend_harness(&mut window);
+        compare(&mut results, &mut window, name);
     }
     let spacing = ("Minimum spacing H_m in nm", "100");
     let mut window = compared("fundamental", spacing, USUAL, &[]);
     window.snapshot("compare-dark");
     window.get_by_label("Numbers").click();
     settle(&mut window);
-    window.snapshot("compare-numbers");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "compare-numbers");
     let mut window = compared("plate-crossover", ("Frequency in kHz", "40"), SMALL, &[THEME]);
-    window.snapshot("compare-plates-small-light");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "compare-plates-small-light");
     let mut window = compared("fundamental", spacing, USUAL, &[LECTURE]);
-    window.snapshot("compare-lecture");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "compare-lecture");
     for (name, preset, two, size, keys) in [
         ("sweep-dark", "fundamental", false, USUAL, &[][..]),
         ("sweep-lecture", "fundamental", false, USUAL, &[LECTURE]),
         ("sweep-map-small-light", "plate-crossover", true, SMALL, &[THEME]),
     ] {
         let mut window = swept(preset, two, size, keys);
-        window.snapshot(name);
-        results.extend_harness(&mut window);
+        compare(&mut results, &mut window, name);
     }
     let mut window = self::window("fundamental", USUAL, &[(Modifiers::COMMAND, Key::Num5)]);
     window.click_on("Measure");
     until(&mut window, "measured", |app| app.state().tradeoff.as_ref().is_some_and(|measured| !measured.running()));
-    window.snapshot("trade-off");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "trade-off");
     let mut window = self::window("plate-crossover", USUAL, &[LECTURE, TORQUE]);
     window.get_by_label_contains("6mH^2").scroll_to_me();
     settle(&mut window);
-    window.snapshot("exact-formulas");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "exact-formulas");
     live(&mut results);
     open_by_path(&mut results);
 }
@@ -276,8 +273,7 @@ fn sensitivities_look_as_they_did() {
     until(&mut window, "random scenes", |app| app.state().sensitivity.carlo.is_some());
     window.get_by_label("Draw and solve").scroll_to_me();
     settle(&mut window);
-    window.snapshot("sensitivity-uncertain");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "sensitivity-uncertain");
 }
 
 /// The rotor by itself: a ring with its parts among the parameters, and a beam.
@@ -300,12 +296,10 @@ fn a_rotor_looks_as_it_did() {
         window.query_all_by_label("Rotor").nth(label).unwrap().click();
         settle(&mut window);
     }
-    window.snapshot("rotor-ring");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "rotor-ring");
     let mut window = self::window("fundamental", SMALL, &[ROTOR, THEME]);
     until(&mut window, "the rotor is computed", computed);
-    window.snapshot("rotor-beam-small-light");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "rotor-beam-small-light");
     let mut window = self::window("rough-flow", USUAL, &[ROTOR]);
     until(&mut window, "the rotor is computed", computed);
     window.snapshot("rotor-rough-faces");
@@ -316,8 +310,7 @@ fn a_rotor_looks_as_it_did() {
     until(&mut window, "the heights are read", |app| app.state().face.found.is_some());
     window.get_by_role_and_label(Role::Image, "Profile along x, nm").scroll_to_me();
     settle(&mut window);
-    window.snapshot("rotor-measured-face");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "rotor-measured-face");
 }
 
 /// A fit with its residuals, in a small window and light too; and measured torques over the curve.
@@ -340,14 +333,12 @@ fn measurements_look_as_they_did() {
         settle(&mut window);
         window.get_by_label("Fit the scene").click();
         until(&mut window, "the fit", |app| app.state().fit.found.is_some());
-        window.snapshot(name);
-        results.extend_harness(&mut window);
+        compare(&mut results, &mut window, name);
     }
     let mut window = window("fundamental", USUAL, &[TORQUE]);
     drop_file(&mut window, &torques);
     settle(&mut window);
-    window.snapshot("torque-measured");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "torque-measured");
 }
 
 /// A path to type, and what cannot be opened, in a small window with large text.
@@ -360,8 +351,7 @@ fn open_by_path(results: &mut SnapshotResults) {
     window.step();
     window.key_press(Key::Enter);
     settle(&mut window);
-    window.snapshot("error");
-    results.extend_harness(&mut window);
+    compare(results, &mut window, "error");
 }
 
 /// Clicks these one after the other, by their names.
@@ -413,8 +403,7 @@ fn lessons_tour_and_glossary_look_as_they_did() {
             click(&mut window, &["Give me a hint", "One more hint", "Show me"]);
         }
         solved(&mut window);
-        window.snapshot(name);
-        results.extend_harness(&mut window);
+        compare(&mut results, &mut window, name);
     }
     let mut window = window("fundamental", USUAL, &[]);
     click(&mut window, &["Lessons", "Why the mean force"]);
@@ -430,6 +419,5 @@ fn lessons_tour_and_glossary_look_as_they_did() {
     click(&mut window, &["Skip the tour", "Help", "Glossary"]);
     window.get_by_role_and_label(Role::TextInput, "Search").type_text("squeeze");
     solved(&mut window);
-    window.snapshot("glossary");
-    results.extend_harness(&mut window);
+    compare(&mut results, &mut window, "glossary");
 }

@@ -396,7 +396,7 @@ fn comparison_and_sweep_are_exported_and_a_long_export_is_cancelled() {
     export(&mut window, "Sweep as table…", &at("sweep.csv"));
     let text = std::fs::read_to_string(at("sweep.csv")).unwrap();
     let (shown, mut written) = (swept(window.state()), Vec::new());
-    squeezefilm::export::sweep::write_csv(&shown.sweep, shown.rows, &mut written).unwrap();
+    squeezefilm::export::sweep::write_csv(&shown.sweep, &shown.rows, &mut written).unwrap();
     assert!(text.as_bytes() == written && text.lines().count() == 4, "{text}");
     export(&mut window, "Sweep as figure…", &at("sweep.pdf"));
     assert!(std::fs::read(at("sweep.pdf")).unwrap().starts_with(b"%PDF"));

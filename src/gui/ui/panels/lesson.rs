@@ -19,10 +19,8 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     ui.add_space(6.0);
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let leave = ui.button("Leave").on_hover_text("Ends the lesson and brings your own scene back");
-            if leave.clicked() {
-                cx.push(LessonCommand::Leave);
-            }
+            let about = "Ends the lesson and brings your own scene back";
+            cx.button(ui, "Leave", about, LessonCommand::Leave);
             let title = RichText::new(format!("Lesson · {}", lesson.title)).color(cx.colours.quiet);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(egui::Label::new(title).truncate()));
         });
@@ -119,9 +117,7 @@ fn foot(ui: &mut Ui, (step_number, steps): (usize, usize), step: &Step, work: &S
         if back.on_hover_text(keys::of(&Command::Lesson(LessonCommand::Back))).clicked() {
             cx.push(LessonCommand::Back);
         }
-        if ui.button("All results").on_hover_text("Shows the usual panel; the lesson waits").clicked() {
-            cx.push(LessonCommand::AllResults(true));
-        }
+        cx.button(ui, "All results", "Shows the usual panel; the lesson waits", LessonCommand::AllResults(true));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let complete = stage == Stage::Told;
             let text = match (complete, step_number + 1 == steps) {
@@ -146,9 +142,7 @@ fn foot_of_recap(ui: &mut Ui, cx: &DrawContext<'_>) {
         if ui.button("Back").clicked() {
             cx.push(LessonCommand::Back);
         }
-        if ui.button("Take it again").on_hover_text("From the first step, with nothing answered").clicked() {
-            cx.push(LessonCommand::Again);
-        }
+        cx.button(ui, "Take it again", "From the first step, with nothing answered", LessonCommand::Again);
         let next = cx.state.lessons.following();
         if button::next(ui, "Close", next.is_none(), cx).on_hover_text("Brings your own scene back").clicked() {
             cx.push(LessonCommand::Leave);

@@ -28,6 +28,17 @@ const MARGIN: f64 = 0.03;
 /// Random scenes that can be asked for.
 const DRAWS: std::ops::RangeInclusive<usize> = 10..=100_000;
 
+/// What is shown of a result.
+#[derive(Clone, Copy)]
+struct Shown<'a> {
+    state: &'a SensitivityState,
+    found: &'a Sensitivity,
+    /// Which of the results.
+    output: usize,
+    uncertainties: &'a Uncertainties,
+    cx: &'a DrawContext<'a>,
+}
+
 /// Shows the tab.
 pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
     scrolled(ui, "sensitivity", 8.0, |ui| {
@@ -49,10 +60,10 @@ pub fn show(ui: &mut Ui, cx: &DrawContext<'_>) {
         }
         let output = state.output.min(found.outputs.len() - 1);
         choose(ui, found, output, cx);
-        result(ui, state, found, (output, uncertainties), cx);
-        tornado(ui, found, output, uncertainties, cx);
-        monte_carlo(ui, state, found, (output, uncertainties), cx);
-        table(ui, state, found, (output, uncertainties), cx);
+        let shown = Shown { state, found, output, uncertainties, cx };
+        for part in [result, tornado, monte_carlo, table] {
+            part(ui, shown);
+        }
         let whole = found.whole();
         if !whole.is_empty() {
             let names: Vec<&str> = whole.iter().filter_map(|key| Some(label(Parameter::find(key)?))).collect();
@@ -100,14 +111,8 @@ fn choose(ui: &mut Ui, found: &Sensitivity, present: usize, cx: &DrawContext<'_>
 }
 
 /// The result with both of its uncertainties, apart from each other.
-fn result(
-    ui: &mut Ui,
-    state: &SensitivityState,
-    found: &Sensitivity,
-    of: (usize, &Uncertainties),
-    cx: &DrawContext<'_>,
-) {
-    let (output, uncertainties) = of;
+fn result(ui: &mut Ui, shown: Shown<'_>) {
+    let Shown { state, found, output, uncertainties, cx } = shown;
     let value = found.values[output];
     if !value.value.is_finite() {
         cx.note(ui, "This scene has no such result");
@@ -144,7 +149,8 @@ fn result(
     });
 }
 
-fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Uncertainties, cx: &DrawContext<'_>) {
+fn tornado(ui: &mut Ui, shown: Shown<'_>) {
+    let Shown { found, output, uncertainties, cx, .. } = shown;
     let (bars, smaller) = found.tornado(output, uncertainties);
     let unit = found.outputs[output].unit(found.problem());
     ui.add_space(4.0);
@@ -204,14 +210,8 @@ fn tornado(ui: &mut Ui, found: &Sensitivity, output: usize, uncertainties: &Unce
     }
 }
 
-fn monte_carlo(
-    ui: &mut Ui,
-    state: &SensitivityState,
-    found: &Sensitivity,
-    of: (usize, &Uncertainties),
-    cx: &DrawContext<'_>,
-) {
-    let (output, uncertainties) = of;
+fn monte_carlo(ui: &mut Ui, shown: Shown<'_>) {
+    let Shown { state, found, output, uncertainties, cx } = shown;
     ui.add_space(6.0);
     ui.horizontal_wrapped(|ui| {
         let words = glossary::term(ui, "Random scenes", "Random scenes");
@@ -283,14 +283,8 @@ fn monte_carlo(
 }
 
 /// Every parameter: how much the result changes with it, and its uncertainty, to type.
-fn table(
-    ui: &mut Ui,
-    state: &SensitivityState,
-    found: &Sensitivity,
-    of: (usize, &Uncertainties),
-    cx: &DrawContext<'_>,
-) {
-    let (output, uncertainties) = of;
+fn table(ui: &mut Ui, shown: Shown<'_>) {
+    let Shown { state, found, output, uncertainties, cx } = shown;
     let propagated = found.propagated(output, uncertainties);
     let magnitude = |column: usize| {
         let relative = found.columns[column].scale().is_some();
