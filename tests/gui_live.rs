@@ -202,10 +202,10 @@ fn a_dragged_plate_pushes_back_then_lets_its_gas_go() {
     assert!(gap(app) < 0.9 && held(app).target() < 0.8 * held(app).plate().mean_gap);
     // Held there, the pressure falls though nothing moves.
     until(&mut window, "it relaxes", |app| ratio(app) < 0.02);
-    let held = gap(window.state());
+    let kept = gap(window.state());
     window.drop_at(begin + vec2(0.0, 0.1 * rect.height()));
     at_rest(&mut window);
-    assert!((gap(window.state()) - held).abs() < 1e-3, "it stays where the hand left it");
+    assert!((gap(window.state()) - kept).abs() < 1e-3, "it stays where the hand left it");
     // At rest nothing is computed, and nothing is drawn again.
     let number = held(window.state()).now().number;
     std::thread::sleep(Duration::from_millis(200));
