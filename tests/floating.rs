@@ -2,6 +2,8 @@
 //! gap that was found.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod scenes;
+
 use squeezefilm::analysis::exact::Comparison;
 use squeezefilm::analysis::quantity::Quantity;
 use squeezefilm::analysis::sweep::Sweep;
@@ -18,9 +20,7 @@ const DISC: &[(&str, &str)] = &[("plate.shape", "disc"), ("plate.radius_mm", "1"
 const RING: &[(&str, &str)] = &[("plate.shape", "ring"), ("plate.radius_mm", "1"), ("plate.inner_radius_mm", "0.4")];
 
 fn scene(preset: &str, set: &[&[(&str, &str)]]) -> Scene {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(set.concat()).unwrap();
-    scene
+    scenes::scene(preset, &set.concat())
 }
 
 fn solved(scene: &Scene, fidelity: Fidelity) -> (Problem, Result<Solution, SolveError>) {

@@ -1,6 +1,8 @@
 //! A plate held by hand against exact results: Boyle, the viscous film, the slowest mode of the leak, and the balance of mass.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod scenes;
+
 use proptest::prelude::{ProptestConfig, prop, proptest};
 use squeezefilm::analysis::exact::slow_damping;
 use squeezefilm::control::Cancel;
@@ -8,16 +10,12 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::exact::viscous_strip_force;
 use squeezefilm::hold::{Hold, REACH, leak_time};
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{GRAVITY, Numerics, Plate, Problem, Scenario};
-use squeezefilm::scene::presets;
+use squeezefilm::problem::{GRAVITY, Numerics, Plate, Scenario};
 use squeezefilm::solution::{Outcome, PlateResult, settled};
 use squeezefilm::solve::{Settings, solve};
 
 fn plate(set: &[(&str, &str)]) -> Plate {
-    let mut scene = presets::find("plate-crossover").unwrap();
-    scene.set_all(set.iter().copied()).unwrap();
-    let Scenario::Plate(plate) = Problem::try_from(&scene).unwrap().scenario else { panic!("a plate") };
-    plate
+    scenes::plate("plate-crossover", set)
 }
 
 fn held(plate: &Plate) -> Hold {
@@ -196,9 +194,7 @@ fn a_gap_that_is_no_number_is_the_mean_gap_and_reset_is_rest() {
 
 /// A plate under a load, and the gap at which it floats \[m\].
 fn floating(set: &[(&str, &str)]) -> (Plate, f64) {
-    let mut scene = presets::find("floating-disc").unwrap();
-    scene.set_all(set.iter().copied()).unwrap();
-    let problem = Problem::try_from(&scene).unwrap();
+    let problem = scenes::problem("floating-disc", set);
     let settings = Settings { fidelity: Fidelity::Fine, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     let Scenario::Plate(plate) = settled(&problem, &solution.outcome).into_owned().scenario else { panic!("a plate") };
@@ -240,8 +236,7 @@ fn dropped_it_settles_where_the_periodic_solve_floats_and_sinks_when_the_vibrati
 #[test]
 fn pushed_away_it_creeps_back_as_fast_as_reynolds_damps_it() {
     let (plate, gap) = floating(&[]);
-    let scene = presets::find("floating-disc").unwrap();
-    let problem = Problem::try_from(&scene).unwrap();
+    let problem = scenes::problem("floating-disc", &[]);
     let solution = solve(&problem, &Settings::default(), &mut (), &Cancel::new()).unwrap();
     let Outcome::Plate(PlateResult { floating: Some(found), .. }) = solution.outcome else { panic!("it floats") };
     let damping = slow_damping(&plate);

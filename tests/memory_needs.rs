@@ -3,6 +3,9 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod scenes;
+
+use scenes::problem;
 use squeezefilm::budget::Purpose;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::export::files::{self, Control, Solved};
@@ -22,12 +25,6 @@ use std::process::Command;
 /// At most a tenth too low, or a factor of 2 too high.
 const ALLOWED: std::ops::RangeInclusive<f64> = 0.9..=2.0;
 
-fn problem(preset: &str, set: &[(&str, &str)]) -> Problem {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(set.iter().copied()).unwrap();
-    Problem::try_from(&scene).unwrap()
-}
-
 /// Estimate, which `run` returns, over what it allocates.
 fn compare(what: &str, run: impl FnOnce() -> u64) -> f64 {
     let mut bytes = 0;
@@ -43,7 +40,7 @@ fn rings() -> Vec<(&'static str, Section, Band)> {
         let [inner_radius, outer_radius, bottom, top] = [inner, outer, bottom, top].map(|mm| 1e-3 * mm);
         Part { name: name.to_owned(), inner_radius, outer_radius, bottom, top, material: MATERIALS[0] }
     };
-    let Scenario::Motor(motor) = problem("ring-rotor", &[]).scenario else { unreachable!("the preset is a motor") };
+    let motor = scenes::motor("ring-rotor", &[]);
     let RotorCompliance::Ring(preset) = &motor.rotor else { unreachable!("its rotor is a ring") };
     let band = motor.wave().band;
     let block = Section::new(vec![part("block", [20.0, 32.0, 0.0, 8.0])], Vec::new()).unwrap();

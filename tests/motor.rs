@@ -3,6 +3,8 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used)]
 
+mod scenes;
+
 use proptest::prelude::*;
 use squeezefilm::control::{Cancel, Progress};
 use squeezefilm::dimensionless::Dimensionless;
@@ -11,7 +13,6 @@ use squeezefilm::motor::{self, Periodic};
 use squeezefilm::plan::{Choice, Plan};
 use squeezefilm::problem::{Motor, Problem, RotorCompliance, Scenario};
 use squeezefilm::rotor::Wave;
-use squeezefilm::scene::{Scene, presets};
 use squeezefilm::solution::{Outcome, Status};
 use squeezefilm::solve::{Settings, solve as solve_problem};
 
@@ -20,16 +21,7 @@ use squeezefilm::solve::{Settings, solve as solve_problem};
 const CONVERGED_ALPHA: f64 = 0.245855;
 
 fn motor_with(changes: &[(&str, &str)]) -> Motor {
-    let mut scene = presets::find("fundamental").unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    motor_of(&scene)
-}
-
-fn motor_of(scene: &Scene) -> Motor {
-    match Problem::try_from(scene).unwrap().scenario {
-        Scenario::Motor(motor) => motor,
-        Scenario::Plate(_) => panic!("a motor"),
-    }
+    scenes::motor("fundamental", changes)
 }
 
 fn plan(motor: &Motor, fidelity: Fidelity) -> Plan {
@@ -187,7 +179,7 @@ fn a_light_load_floats() {
             assert!(found.result.max_torque < 1e-6);
         }
     }
-    let found = solve(&motor_of(&presets::find("levitating").unwrap()), Fidelity::Standard);
+    let found = solve(&scenes::motor("levitating", &[]), Fidelity::Standard);
     assert!(found.result.levitated && (found.result.alpha - 1.0).abs() <= 1e-6, "{:?}", found.result);
 }
 
@@ -339,7 +331,7 @@ proptest! {
 
 #[test]
 fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_known() {
-    let problem = Problem::try_from(&presets::find("ring-rotor").unwrap()).unwrap();
+    let problem = scenes::problem("ring-rotor", &[]);
     let settings = Settings { fidelity: Fidelity::Standard, ..Settings::default() };
     let solved = |problem: &Problem| solve_problem(problem, &settings, &mut (), &Cancel::new());
     let Outcome::Motor(ring) = solved(&problem).unwrap().outcome else { panic!("a motor") };
@@ -368,7 +360,7 @@ fn a_ring_is_solved_as_the_table_of_its_compliances_and_states_how_well_it_is_kn
 #[test]
 fn rounds_of_another_state_are_not_told() {
     // Where the rotor floats a solve looks for a state in which teeth touch, under other loads first.
-    let problem = Problem::try_from(&presets::find("levitating").unwrap()).unwrap();
+    let problem = scenes::problem("levitating", &[]);
     for fidelity in [Fidelity::Draft, Fidelity::Standard] {
         let mut told = Vec::new();
         let mut listen = |progress: &Progress| told.push((progress.level, progress.iteration));

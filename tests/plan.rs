@@ -3,6 +3,8 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod scenes;
+
 use rayon::prelude::*;
 use squeezefilm::control::Cancel;
 use squeezefilm::dimensionless::Dimensionless;
@@ -10,23 +12,9 @@ use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor;
 use squeezefilm::plan::{Decision, Plan, ROTOR_EFFECT};
 use squeezefilm::plate;
-use squeezefilm::problem::{
-    Flow, Motor, Numerics, Plate, Problem, RotorCompliance, Scenario, Teeth, Time, Wedge, Width,
-};
-use squeezefilm::scene::presets;
+use squeezefilm::problem::{Flow, Motor, Numerics, RotorCompliance, Teeth, Time, Wedge, Width};
 use squeezefilm::solution::Status;
 use std::f64::consts::TAU;
-
-type Changes = &'static [(&'static str, &'static str)];
-
-fn motor_with(preset: &str, changes: &[(&str, &str)]) -> Motor {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    match Problem::try_from(&scene).unwrap().scenario {
-        Scenario::Motor(motor) => motor,
-        Scenario::Plate(_) => panic!("a motor"),
-    }
-}
 
 /// Nothing left out, and cycles that repeat far better than what is measured.
 const WHOLE: Numerics = Numerics {
@@ -42,15 +30,6 @@ const WHOLE: Numerics = Numerics {
     time: Time::March,
 };
 
-fn plate_with(changes: &[(&str, &str)]) -> Plate {
-    let mut scene = presets::find("plate-crossover").unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    match Problem::try_from(&scene).unwrap().scenario {
-        Scenario::Plate(plate) => plate,
-        Scenario::Motor(_) => panic!("a plate"),
-    }
-}
-
 fn decision<'a>(plan: &'a Plan, key: &str) -> &'a Decision {
     plan.decisions.iter().find(|decision| decision.key() == Some(key)).unwrap()
 }
@@ -62,447 +41,111 @@ fn alpha(motor: &Motor, plan: &Plan) -> Option<(f64, f64)> {
     (found.status == Status::Converged).then_some((found.result.alpha, found.result.alpha_error))
 }
 
-/// A spread of motors: presets, and every number that a bound is made of over its decades.
-const MOTORS: &[(&str, Changes)] = &[
-    ("fundamental", &[]),
-    ("rotor-width-0.6mm", &[]),
-    ("frequency-3khz", &[]),
-    ("frequency-100khz", &[]),
-    ("tooth-radius-3m", &[]),
-    ("levitating", &[]),
-    ("fundamental", &[("film.min_spacing_nm", "20"), ("stator.frequency_khz", "3")]),
-    ("fundamental", &[("film.min_spacing_nm", "20"), ("stator.frequency_khz", "1000")]),
-    ("fundamental", &[("film.min_spacing_nm", "20"), ("stator.frequency_khz", "10000")]),
+/// A spread of motors: presets, and every number that a bound is made of over its decades. Each family is made of every entry of its first
+/// list with every entry of its second one; an entry is the changes to the fundamental case.
+const PRESETS: [&str; 6] =
+    ["fundamental", "rotor-width-0.6mm", "frequency-3khz", "frequency-100khz", "tooth-radius-3m", "levitating"];
+const FAMILIES: &[(&[&str], &[&str])] = &[
     (
-        "fundamental",
+        &["film.min_spacing_nm=20", "film.min_spacing_nm=60", "film.min_spacing_nm=200", "film.min_spacing_nm=1000"],
         &[
-            ("film.min_spacing_nm", "20"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "0.3"),
-            ("motor.load_per_wave_n", "0.6"),
+            "stator.frequency_khz=3",
+            "stator.frequency_khz=1000",
+            "stator.frequency_khz=10000",
+            "stator.frequency_khz=1000 stator.normal_amplitude_um=0.3 motor.load_per_wave_n=0.6",
+            "stator.frequency_khz=1000 stator.normal_amplitude_um=5 motor.load_per_wave_n=8",
+            "stator.frequency_khz=1000 rotor.point_compliance_um_per_n=0.02",
         ],
     ),
     (
-        "fundamental",
+        &["film.slip=none", "film.slip=second-order", "film.slip=fukui-kaneko"],
+        &["stator.frequency_khz=300", "stator.frequency_khz=3000 film.min_spacing_nm=50"],
+    ),
+    (
+        &["rotor.contact_width_mm=0.03", "rotor.contact_width_mm=3"],
+        &["", "stator.frequency_khz=3000 motor.load_per_wave_n=10"],
+    ),
+    // Few wide teeth, and many narrow ones.
+    (
         &[
-            ("film.min_spacing_nm", "20"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "5"),
-            ("motor.load_per_wave_n", "8"),
+            "stator.teeth_per_wave=1 stator.tooth_width_mm=26",
+            "stator.teeth_per_wave=1 stator.tooth_width_mm=20",
+            "stator.teeth_per_wave=2 stator.tooth_width_mm=12",
+            "stator.teeth_per_wave=4 stator.tooth_width_mm=6",
+        ],
+        &["stator.frequency_khz=300", "motor.rotor_speed_rpm=300", "stator.tangential_amplitude_um=10"],
+    ),
+    (
+        &[
+            "stator.teeth_per_wave=64 stator.tooth_width_mm=0.05 rotor.contact_width_mm=10",
+            "stator.teeth_per_wave=64 stator.tooth_width_mm=0.1 rotor.contact_width_mm=10",
+            "stator.teeth_per_wave=64 stator.tooth_width_mm=0.4 rotor.contact_width_mm=10",
+            "stator.teeth_per_wave=9 stator.tooth_width_mm=0.3 rotor.contact_width_mm=10",
+            "stator.teeth_per_wave=9 stator.tooth_width_mm=0.1 rotor.contact_width_mm=3",
+        ],
+        &["stator.frequency_khz=1000", "stator.frequency_khz=10000"],
+    ),
+    (
+        &[
+            "stator.teeth_per_wave=64 stator.tooth_width_mm=0.05 rotor.contact_width_mm=10",
+            "stator.teeth_per_wave=64 stator.tooth_width_mm=0.1 rotor.contact_width_mm=10",
+            "stator.teeth_per_wave=64 stator.tooth_width_mm=0.2 rotor.contact_width_mm=10",
+        ],
+        &[
+            "stator.frequency_khz=10000 motor.load_per_wave_n=60 rotor.point_compliance_um_per_n=0.02 film.min_spacing_nm=200",
+            "stator.frequency_khz=10000 motor.load_per_wave_n=60 rotor.point_compliance_um_per_n=0.02 film.min_spacing_nm=1000",
+        ],
+    ),
+    // Crowned teeth.
+    (
+        &["stator.tooth_radius_m=0.3", "stator.tooth_radius_m=1", "stator.tooth_radius_m=10"],
+        &[
+            "",
+            "stator.frequency_khz=10000",
+            "stator.frequency_khz=10000 rotor.contact_width_mm=10 stator.tooth_width_mm=0.1 stator.teeth_per_wave=64",
         ],
     ),
     (
-        "fundamental",
-        &[("film.min_spacing_nm", "20"), ("stator.frequency_khz", "1000"), ("rotor.point_compliance_um_per_n", "0.02")],
-    ),
-    ("fundamental", &[("film.min_spacing_nm", "60"), ("stator.frequency_khz", "3")]),
-    ("fundamental", &[("film.min_spacing_nm", "60"), ("stator.frequency_khz", "1000")]),
-    ("fundamental", &[("film.min_spacing_nm", "60"), ("stator.frequency_khz", "10000")]),
-    (
-        "fundamental",
+        &["stator.tooth_radius_m=1"],
         &[
-            ("film.min_spacing_nm", "60"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "0.3"),
-            ("motor.load_per_wave_n", "0.6"),
+            "stator.frequency_khz=10000 rotor.contact_width_mm=10",
+            "stator.teeth_per_wave=1 stator.tooth_width_mm=26 stator.frequency_khz=300",
         ],
     ),
+    (&["motor.rotor_speed_rpm=300", "motor.rotor_speed_rpm=-3000"], &["", "stator.tooth_width_mm=0.5"]),
     (
-        "fundamental",
+        &["stator.frequency_khz=10000 film.ambient_pressure_kpa=3"],
+        &["", "film.min_spacing_nm=20", "film.min_spacing_nm=60"],
+    ),
+    (&["film.ambient_pressure_kpa=3"], &["stator.frequency_khz=300", "stator.frequency_khz=10000"]),
+    (&["stator.frequency_khz=1000"], &["motor.load_per_wave_n=20", "motor.load_per_wave_n=0.5"]),
+    (
         &[
-            ("film.min_spacing_nm", "60"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "5"),
-            ("motor.load_per_wave_n", "8"),
+            "motor.rotor_speed_rpm=30 stator.frequency_khz=3",
+            "motor.rotor_speed_rpm=-100 stator.frequency_khz=3 film.min_spacing_nm=1000",
+            "motor.rotor_speed_rpm=10000 stator.frequency_khz=300",
+            "motor.rotor_speed_rpm=2000 stator.frequency_khz=1000 film.min_spacing_nm=100",
+            "stator.tangential_amplitude_um=10 stator.frequency_khz=300",
+            "film.ambient_pressure_kpa=1000",
+            "stator.frequency_khz=0.1",
+            "stator.frequency_khz=1",
+            "stator.teeth_per_wave=1 stator.tooth_width_mm=20 stator.frequency_khz=10000",
+            "stator.teeth_per_wave=2 stator.tooth_width_mm=12 stator.frequency_khz=3000",
+            "stator.teeth_per_wave=4 stator.tooth_width_mm=6 stator.frequency_khz=10000",
+            "stator.teeth_per_wave=2 stator.tooth_width_mm=5 stator.frequency_khz=10000 film.min_spacing_nm=1000",
         ],
-    ),
-    (
-        "fundamental",
-        &[("film.min_spacing_nm", "60"), ("stator.frequency_khz", "1000"), ("rotor.point_compliance_um_per_n", "0.02")],
-    ),
-    ("fundamental", &[("film.min_spacing_nm", "200"), ("stator.frequency_khz", "3")]),
-    ("fundamental", &[("film.min_spacing_nm", "200"), ("stator.frequency_khz", "1000")]),
-    ("fundamental", &[("film.min_spacing_nm", "200"), ("stator.frequency_khz", "10000")]),
-    (
-        "fundamental",
-        &[
-            ("film.min_spacing_nm", "200"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "0.3"),
-            ("motor.load_per_wave_n", "0.6"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("film.min_spacing_nm", "200"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "5"),
-            ("motor.load_per_wave_n", "8"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("film.min_spacing_nm", "200"),
-            ("stator.frequency_khz", "1000"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-        ],
-    ),
-    ("fundamental", &[("film.min_spacing_nm", "1000"), ("stator.frequency_khz", "3")]),
-    ("fundamental", &[("film.min_spacing_nm", "1000"), ("stator.frequency_khz", "1000")]),
-    ("fundamental", &[("film.min_spacing_nm", "1000"), ("stator.frequency_khz", "10000")]),
-    (
-        "fundamental",
-        &[
-            ("film.min_spacing_nm", "1000"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "0.3"),
-            ("motor.load_per_wave_n", "0.6"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("film.min_spacing_nm", "1000"),
-            ("stator.frequency_khz", "1000"),
-            ("stator.normal_amplitude_um", "5"),
-            ("motor.load_per_wave_n", "8"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("film.min_spacing_nm", "1000"),
-            ("stator.frequency_khz", "1000"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-        ],
-    ),
-    ("fundamental", &[("film.slip", "none"), ("stator.frequency_khz", "300")]),
-    ("fundamental", &[("film.slip", "none"), ("stator.frequency_khz", "3000"), ("film.min_spacing_nm", "50")]),
-    ("fundamental", &[("film.slip", "second-order"), ("stator.frequency_khz", "300")]),
-    ("fundamental", &[("film.slip", "second-order"), ("stator.frequency_khz", "3000"), ("film.min_spacing_nm", "50")]),
-    ("fundamental", &[("film.slip", "fukui-kaneko"), ("stator.frequency_khz", "300")]),
-    ("fundamental", &[("film.slip", "fukui-kaneko"), ("stator.frequency_khz", "3000"), ("film.min_spacing_nm", "50")]),
-    ("fundamental", &[("rotor.contact_width_mm", "0.03")]),
-    (
-        "fundamental",
-        &[("rotor.contact_width_mm", "0.03"), ("stator.frequency_khz", "3000"), ("motor.load_per_wave_n", "10")],
-    ),
-    ("fundamental", &[("rotor.contact_width_mm", "3")]),
-    (
-        "fundamental",
-        &[("rotor.contact_width_mm", "3"), ("stator.frequency_khz", "3000"), ("motor.load_per_wave_n", "10")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "1"), ("stator.tooth_width_mm", "26"), ("stator.frequency_khz", "300")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "1"), ("stator.tooth_width_mm", "26"), ("motor.rotor_speed_rpm", "300")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "1"), ("stator.tooth_width_mm", "26"), ("stator.tangential_amplitude_um", "10")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "1"), ("stator.tooth_width_mm", "20"), ("stator.frequency_khz", "300")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "1"), ("stator.tooth_width_mm", "20"), ("motor.rotor_speed_rpm", "300")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "1"), ("stator.tooth_width_mm", "20"), ("stator.tangential_amplitude_um", "10")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "2"), ("stator.tooth_width_mm", "12"), ("stator.frequency_khz", "300")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "2"), ("stator.tooth_width_mm", "12"), ("motor.rotor_speed_rpm", "300")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "2"), ("stator.tooth_width_mm", "12"), ("stator.tangential_amplitude_um", "10")],
-    ),
-    ("fundamental", &[("stator.teeth_per_wave", "4"), ("stator.tooth_width_mm", "6"), ("stator.frequency_khz", "300")]),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "4"), ("stator.tooth_width_mm", "6"), ("motor.rotor_speed_rpm", "300")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "4"), ("stator.tooth_width_mm", "6"), ("stator.tangential_amplitude_um", "10")],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.05"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.05"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.4"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.4"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "9"),
-            ("stator.tooth_width_mm", "0.3"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "9"),
-            ("stator.tooth_width_mm", "0.3"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "9"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("rotor.contact_width_mm", "3"),
-            ("stator.frequency_khz", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "9"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("rotor.contact_width_mm", "3"),
-            ("stator.frequency_khz", "10000"),
-        ],
-    ),
-    ("fundamental", &[("stator.tooth_radius_m", "0.3")]),
-    ("fundamental", &[("stator.tooth_radius_m", "0.3"), ("stator.frequency_khz", "10000")]),
-    (
-        "fundamental",
-        &[
-            ("stator.tooth_radius_m", "0.3"),
-            ("stator.frequency_khz", "10000"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("stator.teeth_per_wave", "64"),
-        ],
-    ),
-    ("fundamental", &[("stator.tooth_radius_m", "1")]),
-    ("fundamental", &[("stator.tooth_radius_m", "1"), ("stator.frequency_khz", "10000")]),
-    (
-        "fundamental",
-        &[
-            ("stator.tooth_radius_m", "1"),
-            ("stator.frequency_khz", "10000"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("stator.teeth_per_wave", "64"),
-        ],
-    ),
-    ("fundamental", &[("stator.tooth_radius_m", "10")]),
-    ("fundamental", &[("stator.tooth_radius_m", "10"), ("stator.frequency_khz", "10000")]),
-    (
-        "fundamental",
-        &[
-            ("stator.tooth_radius_m", "10"),
-            ("stator.frequency_khz", "10000"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("stator.teeth_per_wave", "64"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[("stator.tooth_radius_m", "1"), ("stator.frequency_khz", "10000"), ("rotor.contact_width_mm", "10")],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.tooth_radius_m", "1"),
-            ("stator.teeth_per_wave", "1"),
-            ("stator.tooth_width_mm", "26"),
-            ("stator.frequency_khz", "300"),
-        ],
-    ),
-    ("fundamental", &[("motor.rotor_speed_rpm", "300")]),
-    ("fundamental", &[("motor.rotor_speed_rpm", "300"), ("stator.tooth_width_mm", "0.5")]),
-    ("fundamental", &[("motor.rotor_speed_rpm", "-3000")]),
-    ("fundamental", &[("motor.rotor_speed_rpm", "30"), ("stator.frequency_khz", "3")]),
-    (
-        "fundamental",
-        &[("motor.rotor_speed_rpm", "-100"), ("stator.frequency_khz", "3"), ("film.min_spacing_nm", "1000")],
-    ),
-    ("fundamental", &[("motor.rotor_speed_rpm", "10000"), ("stator.frequency_khz", "300")]),
-    (
-        "fundamental",
-        &[("motor.rotor_speed_rpm", "2000"), ("stator.frequency_khz", "1000"), ("film.min_spacing_nm", "100")],
-    ),
-    ("fundamental", &[("stator.frequency_khz", "10000"), ("film.ambient_pressure_kpa", "3")]),
-    (
-        "fundamental",
-        &[("stator.frequency_khz", "10000"), ("film.ambient_pressure_kpa", "3"), ("film.min_spacing_nm", "20")],
-    ),
-    (
-        "fundamental",
-        &[("stator.frequency_khz", "10000"), ("film.ambient_pressure_kpa", "3"), ("film.min_spacing_nm", "60")],
-    ),
-    ("fundamental", &[("motor.rotor_speed_rpm", "-3000"), ("stator.tooth_width_mm", "0.5")]),
-    ("fundamental", &[("stator.tangential_amplitude_um", "10"), ("stator.frequency_khz", "300")]),
-    ("fundamental", &[("motor.load_per_wave_n", "20"), ("stator.frequency_khz", "1000")]),
-    ("fundamental", &[("motor.load_per_wave_n", "0.5"), ("stator.frequency_khz", "1000")]),
-    ("fundamental", &[("film.ambient_pressure_kpa", "1000")]),
-    ("fundamental", &[("film.ambient_pressure_kpa", "3"), ("stator.frequency_khz", "300")]),
-    ("fundamental", &[("stator.frequency_khz", "0.1")]),
-    ("fundamental", &[("stator.frequency_khz", "1")]),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "1"), ("stator.tooth_width_mm", "20"), ("stator.frequency_khz", "10000")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "2"), ("stator.tooth_width_mm", "12"), ("stator.frequency_khz", "3000")],
-    ),
-    (
-        "fundamental",
-        &[("stator.teeth_per_wave", "4"), ("stator.tooth_width_mm", "6"), ("stator.frequency_khz", "10000")],
-    ),
-    ("fundamental", &[("film.ambient_pressure_kpa", "3"), ("stator.frequency_khz", "10000")]),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "2"),
-            ("stator.tooth_width_mm", "5"),
-            ("stator.frequency_khz", "10000"),
-            ("film.min_spacing_nm", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.05"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-            ("motor.load_per_wave_n", "60"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-            ("film.min_spacing_nm", "200"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.05"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-            ("motor.load_per_wave_n", "60"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-            ("film.min_spacing_nm", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-            ("motor.load_per_wave_n", "60"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-            ("film.min_spacing_nm", "200"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.1"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-            ("motor.load_per_wave_n", "60"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-            ("film.min_spacing_nm", "1000"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.2"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-            ("motor.load_per_wave_n", "60"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-            ("film.min_spacing_nm", "200"),
-        ],
-    ),
-    (
-        "fundamental",
-        &[
-            ("stator.teeth_per_wave", "64"),
-            ("stator.tooth_width_mm", "0.2"),
-            ("rotor.contact_width_mm", "10"),
-            ("stator.frequency_khz", "10000"),
-            ("motor.load_per_wave_n", "60"),
-            ("rotor.point_compliance_um_per_n", "0.02"),
-            ("film.min_spacing_nm", "1000"),
-        ],
+        &[""],
     ),
 ];
+
+/// All of them: preset and changes.
+fn motors() -> Vec<(&'static str, Vec<(&'static str, &'static str)>)> {
+    let pairs = |text: &'static str| text.split_whitespace().map(|change| change.split_once('=').unwrap());
+    let family = |(first, second): &(&'static [&'static str], &'static [&'static str])| {
+        first.iter().flat_map(|a| second.iter().map(move |b| ("fundamental", pairs(a).chain(pairs(b)).collect())))
+    };
+    PRESETS.into_iter().map(|preset| (preset, Vec::new())).chain(FAMILIES.iter().flat_map(family)).collect()
+}
 
 /// What a reduction was measured to change, and what its decision says.
 struct Measured {
@@ -517,8 +160,8 @@ struct Measured {
     chosen: bool,
 }
 
-fn measure(preset: &str, changes: Changes, fidelity: Fidelity) -> Vec<Measured> {
-    let motor = motor_with(preset, changes);
+fn measure(preset: &str, changes: &[(&str, &str)], fidelity: Fidelity) -> Vec<Measured> {
+    let motor = scenes::motor(preset, changes);
     let still = Numerics { wedge: Wedge::Off, ..WHOLE };
     let plan = |numerics: &Numerics| Plan::motor(&motor, fidelity, numerics).unwrap();
     let cases = [
@@ -560,7 +203,7 @@ fn measure(preset: &str, changes: Changes, fidelity: Fidelity) -> Vec<Measured> 
 
 #[test]
 fn the_stated_effect_bounds_the_measured_one() {
-    let rows: Vec<Measured> = MOTORS
+    let rows: Vec<Measured> = motors()
         .par_iter()
         .with_max_len(1)
         .flat_map_iter(|(preset, changes)| measure(preset, changes, Fidelity::Standard))
@@ -600,7 +243,7 @@ fn one_tooth_and_half_the_width_are_exact() {
         ("fundamental", &[("stator.teeth_per_wave", "3"), ("stator.frequency_khz", "1000")]),
         ("fundamental", &[("motor.rotor_speed_rpm", "300"), ("film.slip", "fukui-kaneko")]),
     ] {
-        let motor = motor_with(preset, changes);
+        let motor = scenes::motor(preset, changes);
         let tight = Numerics { tolerance: Some(1e-9), ..WHOLE };
         let alpha_of = |numerics: &Numerics| {
             let plan = Plan::motor(&motor, Fidelity::Draft, numerics).unwrap();
@@ -616,8 +259,8 @@ fn one_tooth_and_half_the_width_are_exact() {
 
 #[test]
 fn the_plan_leaves_out_only_what_is_below_its_share() {
-    for (preset, changes) in MOTORS {
-        let motor = motor_with(preset, changes);
+    for (preset, changes) in motors() {
+        let motor = scenes::motor(preset, &changes);
         for fidelity in Fidelity::ALL {
             let plan = Plan::motor(&motor, fidelity, &Numerics::default()).unwrap();
             let share = 0.2 * fidelity.spec().target_error;
@@ -657,7 +300,7 @@ fn bounds_are_those_of_their_formulas() {
 
     // Trapped gas: leaks at the ends of a tooth and at its sides, and twice the crown's share of the gap at the ends.
     let [flat, crowned] =
-        [&[][..], &[("stator.tooth_radius_m", "3")]].map(|changes| motor_with("fundamental", changes));
+        [&[][..], &[("stator.tooth_radius_m", "3")]].map(|changes| scenes::motor("fundamental", changes));
     let trapped = |motor| effect(motor, "numerics.time", Numerics { time: Time::Trapped, ..Numerics::default() });
     let layer = Dimensionless::of_motor(&flat).boundary_layer;
     let (length, width) = (flat.tooth_width, flat.contact_width);
@@ -670,7 +313,7 @@ fn bounds_are_those_of_their_formulas() {
     same(trapped(&crowned) - trapped(&flat), leaks(crown, active) - leaks(0.0, length) + 2.0 * uneven);
 
     // The wedge term, where the wave opens the gap by less than it is anyway.
-    let open = motor_with("fundamental", &[("film.min_spacing_nm", "4000")]);
+    let open = scenes::motor("fundamental", &[("film.min_spacing_nm", "4000")]);
     let numbers = Dimensionless::of_motor(&open);
     let squeezed = TAU * open.tooth_width / open.wavelength() * (1.0 + open.min_spacing / open.normal_amplitude);
     let shifted = (0.5 * open.tangential_amplitude / numbers.boundary_layer).powi(2) * width / length;
@@ -683,7 +326,7 @@ fn bounds_are_those_of_their_formulas() {
 fn a_plate_has_the_nodes_that_are_asked_for() {
     let grids = |changes: &[(&str, &str)], turned: bool| -> Vec<[usize; 2]> {
         let numerics = Numerics { film_nodes_along: Some(56), film_nodes_across: Some(14), ..Numerics::default() };
-        let plan = Plan::plate(&plate_with(changes), Fidelity::Standard, &numerics);
+        let plan = Plan::plate(&scenes::plate("plate-crossover", changes), Fidelity::Standard, &numerics);
         assert_eq!(plan.turned, turned, "{changes:?}");
         plan.grids.iter().map(|grid| [grid.along, grid.across]).collect()
     };
@@ -696,13 +339,17 @@ fn a_plate_has_the_nodes_that_are_asked_for() {
     assert_eq!(grids(&large, false), [[7, 2], [14, 4], [28, 8]]);
     // A grid that nobody chose is that of the accuracy.
     let spec = Fidelity::Standard.spec();
-    let square = Plan::plate(&plate_with(&[("plate.width_mm", "1")]), Fidelity::Standard, &Numerics::default());
+    let square = Plan::plate(
+        &scenes::plate("plate-crossover", &[("plate.width_mm", "1")]),
+        Fidelity::Standard,
+        &Numerics::default(),
+    );
     assert!(square.grids.iter().all(|grid| grid.across == spec.across));
 }
 
 #[test]
 fn a_plate_that_nearly_touches_is_recorded_between_its_steps() {
-    let plate = plate_with(&[("plate.mean_gap_um", "0.5"), ("plate.amplitude_um", "0.4999")]);
+    let plate = scenes::plate("plate-crossover", &[("plate.mean_gap_um", "0.5"), ("plate.amplitude_um", "0.4999")]);
     let plan = Plan::plate(&plate, Fidelity::Draft, &Numerics::default());
     assert!(plan.frames_per_step > 1, "{}", plan.frames_per_step);
     let found = plate::periodic(&plate, &plan, &mut (), &Cancel::new()).unwrap();
@@ -711,7 +358,7 @@ fn a_plate_that_nearly_touches_is_recorded_between_its_steps() {
 
 #[test]
 fn a_switch_overrules_the_plan_and_is_marked() {
-    let motor = motor_with("fundamental", &[]);
+    let motor = scenes::motor("fundamental", &[]);
     let auto = Plan::motor(&motor, Fidelity::Standard, &Numerics::default()).unwrap();
     let base = Numerics::default();
     for (key, value, numerics) in [
@@ -746,9 +393,7 @@ fn a_switch_overrules_the_plan_and_is_marked() {
 #[test]
 fn an_error_of_the_rotor_changes_alpha_by_no_more_than_is_stated() {
     for preset in ["fundamental", "min-spacing-100nm", "tooth-radius-3m", "frequency-100khz"] {
-        let Scenario::Motor(motor) = Problem::try_from(&presets::find(preset).unwrap()).unwrap().scenario else {
-            panic!("a motor")
-        };
+        let motor = scenes::motor(preset, &[]);
         let (rotor, first) =
             (motor.compliances(64, &Cancel::new()).unwrap(), std::f64::consts::TAU / motor.wavelength());
         let alpha = |change: &dyn Fn(usize) -> f64| {

@@ -2,19 +2,15 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod scenes;
+
+use scenes::problem;
 use squeezefilm::control::Cancel;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::problem::{Problem, RotorCompliance, Scenario};
-use squeezefilm::scene::presets;
 use squeezefilm::solution::{Outcome, PlateResult, Status, StoppedBy};
 use squeezefilm::solve::{self, solve};
 use squeezefilm::startup::{Cycle, Settings, Startup, startup};
-
-fn problem(preset: &str, changes: &[(&str, &str)]) -> Problem {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
-    Problem::try_from(&scene).unwrap()
-}
 
 fn run(problem: &Problem, settings: &Settings) -> (Vec<Cycle>, Startup) {
     let mut cycles: Vec<Cycle> = Vec::new();

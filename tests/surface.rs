@@ -3,6 +3,8 @@
 // clippy.toml allows this inside #[test] functions; the helpers of this file are tests too.
 #![allow(clippy::unwrap_used)]
 
+mod scenes;
+
 use proptest::prelude::*;
 use squeezefilm::contact::{Contact, Instant, Modes, Shape};
 use squeezefilm::control::Cancel;
@@ -12,7 +14,7 @@ use squeezefilm::film::grid::{Axis, FilmGrid, Start};
 use squeezefilm::film::stepper::FilmState;
 use squeezefilm::motor;
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance, Scenario};
+use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance};
 use squeezefilm::rotor::ring::Band;
 use squeezefilm::rotor::{Compliances, Wave};
 use squeezefilm::scene::{Scene, presets};
@@ -252,8 +254,7 @@ fn the_films_invariant_holds_with_flow_factors() {
 }
 
 fn solved(preset: &str, changes: &[(&str, &str)]) -> (Scene, Solution, MotorResult) {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(changes.iter().copied()).unwrap();
+    let scene = scenes::scene(preset, changes);
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let solution = solve(&Problem::try_from(&scene).unwrap(), &settings, &mut (), &Cancel::new()).unwrap();
     assert_eq!(solution.status, Status::Converged, "{changes:?}");
@@ -307,9 +308,7 @@ fn under_a_light_load_the_rotor_floats_over_the_asperities() {
 /// A motor on summits so stiff and so far apart that they all carry at one height has the film share of the hard stop there.
 #[test]
 fn a_motor_on_stiff_asperities_is_the_one_with_the_hard_stop() {
-    let Scenario::Motor(hard) = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap().scenario else {
-        panic!()
-    };
+    let hard = scenes::motor("fundamental", &[]);
     let alpha = |motor: &Motor| {
         let plan = Plan::motor(motor, Fidelity::Draft, &Numerics::default()).unwrap();
         let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).unwrap();
@@ -349,7 +348,7 @@ fn flow_factors_matter_where_gas_has_time_to_leave_and_vanish_with_the_roughness
 #[test]
 fn the_film_is_as_thin_as_is_said_to_within_its_error() {
     let motor = |fidelity| {
-        let problem = Problem::try_from(&presets::find("asperities").unwrap()).unwrap();
+        let problem = scenes::problem("asperities", &[]);
         solve(&problem, &Settings { fidelity, ..Settings::default() }, &mut (), &Cancel::new()).unwrap().recording
     };
     let exact = motor(Fidelity::Reference);
@@ -373,9 +372,7 @@ fn teeth_that_seem_to_float_may_touch_within_the_error() {
         ("fundamental", "0.489", Fidelity::Draft),
     ] {
         let motor = |fidelity| {
-            let mut scene = presets::find(preset).unwrap();
-            scene.set_all([("motor.load_per_wave_n", load)]).unwrap();
-            let problem = Problem::try_from(&scene).unwrap();
+            let problem = scenes::problem(preset, &[("motor.load_per_wave_n", load)]);
             let solution = solve(&problem, &Settings { fidelity, ..Settings::default() }, &mut (), &Cancel::new());
             let Outcome::Motor(result) = solution.unwrap().outcome else { panic!("{preset} is a motor") };
             result

@@ -1,6 +1,8 @@
 //! Torque, power and efficiency of solved motors: balances that hold whatever the contact is, limits, honest errors.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod scenes;
+
 use squeezefilm::analysis::torque::TorqueCurves;
 use squeezefilm::control::Cancel;
 use squeezefilm::drive::{Drive, film_power};
@@ -9,9 +11,8 @@ use squeezefilm::export::figures;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor::without_film;
 use squeezefilm::plan::Plan;
-use squeezefilm::problem::{Motor, Numerics, Problem, Scenario};
+use squeezefilm::problem::{Motor, Numerics, Scenario};
 use squeezefilm::recording::Recording;
-use squeezefilm::scene::presets;
 use squeezefilm::solution::{MotorResult, Outcome, Performance};
 use squeezefilm::solve::{Method, Record, Settings, solve};
 use std::f64::consts::TAU;
@@ -24,9 +25,7 @@ struct Solved {
 }
 
 fn solved_by(preset: &str, set: &[(&str, &str)], fidelity: Fidelity, method: Method) -> Solved {
-    let mut scene = presets::find(preset).unwrap();
-    scene.set_all(set.iter().copied()).unwrap();
-    let problem = Problem::try_from(&scene).unwrap();
+    let problem = scenes::problem(preset, set);
     let settings = Settings { fidelity, method, ..Settings::default() };
     let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
     let (Scenario::Motor(motor), Outcome::Motor(result)) = (problem.scenario, solution.outcome) else {
@@ -153,9 +152,7 @@ fn a_heavily_pressed_motor_gives_far_less_than_the_bound() {
 #[test]
 fn a_solve_has_the_numbers_of_the_curve_also_where_it_keeps_no_fields() {
     for (preset, set) in [("fundamental", &[][..]), ("fundamental", &HEAVY[..]), ("levitating", &[][..])] {
-        let mut scene = presets::find(preset).unwrap();
-        scene.set_all(set.iter().copied()).unwrap();
-        let problem = Problem::try_from(&scene).unwrap();
+        let problem = scenes::problem(preset, set);
         let settings = Settings { fidelity: Fidelity::Draft, record: Record::Numbers, ..Settings::default() };
         let solution = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
         assert!(solution.recording.contact.is_empty());
