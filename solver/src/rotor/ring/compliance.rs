@@ -162,8 +162,7 @@ impl Section {
         let load = contact_load(self, &mesh, band);
         let of_order = |order: &u32| {
             cancelled(cancel)?;
-            let mut moved = load.clone();
-            system.factor(f64::from(*order), 0.0)?.solve(&mut moved, 1)?;
+            let moved = system.moved(&load, f64::from(*order))?;
             let direction = |d: usize| moved.iter().skip(d).step_by(DIRECTIONS).copied().collect();
             Ok(Deflection { radial: direction(0), circumferential: direction(1), axial: direction(2) })
         };
@@ -391,15 +390,9 @@ mod tests {
     fn a_large_ring_on_a_soft_layer_is_a_beam_on_an_elastic_foundation() {
         let (radius, side, layer) = (10.0_f64, 10e-3_f64, 2e-3);
         let (beam, soft) = (rubbery("beam", 200e9, 0.0), rubbery("soft", 1.33e6, 0.0));
-        let part = |name: &str, bottom: f64, top: f64, material: Material| Part {
-            name: name.to_owned(),
-            inner_radius: radius - 0.5 * side,
-            outer_radius: radius + 0.5 * side,
-            bottom,
-            top,
-            material,
-        };
-        let parts = vec![part("beam", 0.0, side, beam), part("layer", side, side + layer, soft)];
+        let radii = (radius - 0.5 * side, radius + 0.5 * side);
+        let parts =
+            vec![Part::of("beam", radii, (0.0, side), beam), Part::of("layer", radii, (side, side + layer), soft)];
         let held = Support::at_height(side + layer, [true, true, true]);
         let section = Section::new(parts, vec![held]).unwrap();
         let found = section.compliances(Band { radius, width: side }, 25, 8, &Cancel::new()).unwrap();
@@ -460,15 +453,10 @@ mod tests {
 
     /// A flange with a rib below it and a body beside it.
     fn rotor() -> (Section, Band) {
-        let part = |name: &str, radii: (f64, f64), heights: (f64, f64)| {
-            let [inner_radius, outer_radius, bottom, top] =
-                [radii.0, radii.1, heights.0, heights.1].map(|mm| 1e-3 * mm);
-            Part { name: name.to_owned(), inner_radius, outer_radius, bottom, top, material: MATERIALS[0] }
-        };
         let parts = vec![
-            part("rib", (28.85, 29.15), (0.0, 1.0)),
-            part("flange", (27.0, 29.15), (1.0, 1.5)),
-            part("body", (25.0, 27.0), (1.0, 6.0)),
+            Part::in_mm("rib", (28.85, 29.15), (0.0, 1.0)),
+            Part::in_mm("flange", (27.0, 29.15), (1.0, 1.5)),
+            Part::in_mm("body", (25.0, 27.0), (1.0, 6.0)),
         ];
         (Section::new(parts, Vec::new()).unwrap(), Band { radius: 29e-3, width: 0.3e-3 })
     }
@@ -518,8 +506,7 @@ mod tests {
         let reduced = Reduced::new(&system, &load, &samples(first, last), &Cancel::new()).unwrap().equations;
         for n in [1, 2, 3, 4, 6, 9, 14, 20, 30, 45, 70, 100] {
             let order = first * f64::from(n);
-            let mut moved = load.clone();
-            system.factor(order, 0.0).unwrap().solve(&mut moved, 1).unwrap();
+            let moved = system.moved(&load, order).unwrap();
             let off = 1.0 - reduced.compliance(order).unwrap() / dot(&load, &moved);
             // From below, as of every part of the displacements.
             assert!(off > -1e-8 && off < LEFT_OUT, "order {order}: {off}");
@@ -540,8 +527,7 @@ mod tests {
         let refined = coarse.refined(&finer, &corrected(first, last), &Cancel::new()).unwrap();
         for n in [1, 2, 3, 4, 6, 9, 14, 20, 30, 45, 70, 100] {
             let order = first * f64::from(n);
-            let mut moved = loads[1].clone();
-            systems[1].factor(order, 0.0).unwrap().solve(&mut moved, 1).unwrap();
+            let moved = systems[1].moved(&loads[1], order).unwrap();
             let (full, known) = (dot(&loads[1], &moved), coarse.equations.compliance(order).unwrap());
             let left_out = (full - refined.compliance(order).unwrap()) / (full - known);
             assert!((-1e-4..not_refined(order / last)).contains(&left_out), "order {order}: {left_out}");
@@ -577,8 +563,7 @@ mod tests {
         let system = System::new(&section, &mesh).unwrap();
         let load = contact_load(&section, &mesh, band);
         for n in [1, 2, 3, 5, 8, 16, 32, 64, 100] {
-            let mut moved = load.clone();
-            system.factor(7.0 * n as f64, 0.0).unwrap().solve(&mut moved, 1).unwrap();
+            let moved = system.moved(&load, 7.0 * n as f64).unwrap();
             let finer = dot(&load, &moved) / band.radius;
             let Estimate { value, error } = found.harmonics[n - 1];
             assert!((value - finer).abs() < 1.5 * error && error < 2e-3 * value, "{n}: {value} ± {error}, {finer}");

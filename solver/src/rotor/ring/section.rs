@@ -371,10 +371,22 @@ impl Section {
         material: Material,
         supports: Vec<Support>,
     ) -> Self {
-        let (inner_radius, outer_radius) = radii;
-        let part =
-            Part { name: "ring".to_owned(), inner_radius, outer_radius, bottom: heights.0, top: heights.1, material };
-        Self::new(vec![part], supports).unwrap()
+        Self::new(vec![Part::of("ring", radii, heights, material)], supports).unwrap()
+    }
+}
+
+#[cfg(test)]
+impl Part {
+    /// Of these radii and heights \[m\].
+    pub(super) fn of(name: &str, radii: (f64, f64), heights: (f64, f64), material: Material) -> Self {
+        let ((inner_radius, outer_radius), (bottom, top)) = (radii, heights);
+        Self { name: name.to_owned(), inner_radius, outer_radius, bottom, top, material }
+    }
+
+    /// Of aluminium, with radii and heights in millimetres.
+    pub(super) fn in_mm(name: &str, radii: (f64, f64), heights: (f64, f64)) -> Self {
+        let metres = |(from, to): (f64, f64)| (1e-3 * from, 1e-3 * to);
+        Self::of(name, metres(radii), metres(heights), MATERIALS[0])
     }
 }
 
@@ -390,11 +402,6 @@ impl Support {
 mod tests {
     use super::*;
 
-    fn part(name: &str, radii: (f64, f64), heights: (f64, f64)) -> Part {
-        let [inner_radius, outer_radius, bottom, top] = [radii.0, radii.1, heights.0, heights.1].map(|mm| 1e-3 * mm);
-        Part { name: name.to_owned(), inner_radius, outer_radius, bottom, top, material: MATERIALS[0] }
-    }
-
     fn refused(parts: Vec<Part>, supports: Vec<Support>) -> String {
         Section::new(parts, supports).unwrap_err().to_string()
     }
@@ -402,41 +409,38 @@ mod tests {
     #[test]
     fn a_section_that_is_not_in_order_is_refused_with_what_is_allowed() {
         assert!(refused(Vec::new(), Vec::new()).contains("no part"));
-        let text = refused(vec![part("web", (29.0, 28.0), (0.0, 1.0))], Vec::new());
+        let text = refused(vec![Part::in_mm("web", (29.0, 28.0), (0.0, 1.0))], Vec::new());
         assert!(text.contains("part web: outer radius = 28 mm: allowed above its inner radius, 29 mm"), "{text}");
-        let text = refused(vec![part("web", (0.0, 28.0), (0.0, 1.0))], Vec::new());
+        let text = refused(vec![Part::in_mm("web", (0.0, 28.0), (0.0, 1.0))], Vec::new());
         assert!(text.contains("inner radius = 0 mm: allowed above 0"), "{text}");
-        let text = refused(vec![part("web", (27.0, 28.0), (f64::NAN, 1.0))], Vec::new());
+        let text = refused(vec![Part::in_mm("web", (27.0, 28.0), (f64::NAN, 1.0))], Vec::new());
         assert!(text.contains("not a number"), "{text}");
-        let flange = || part("flange", (25.0, 30.0), (1.0, 2.0));
-        let text = refused(vec![flange(), part("web", (28.0, 29.0), (0.0, 1.5))], Vec::new());
+        let flange = || Part::in_mm("flange", (25.0, 30.0), (1.0, 2.0));
+        let text = refused(vec![flange(), Part::in_mm("web", (28.0, 29.0), (0.0, 1.5))], Vec::new());
         assert!(text.contains("parts flange and web overlap"), "{text}");
-        let corner = refused(vec![flange(), part("web", (30.0, 31.0), (0.0, 1.0))], Vec::new());
+        let corner = refused(vec![flange(), Part::in_mm("web", (30.0, 31.0), (0.0, 1.0))], Vec::new());
         assert!(corner.contains("part web is not connected with part flange"), "{corner}");
         let held = Support {
             inner_radius: 20e-3,
             outer_radius: 21e-3,
-            bottom: 0.0,
             top: 1e-3,
-            radial: false,
-            axial: true,
-            circumferential: false,
+            ..Support::at_height(0.0, [false, true, false])
         };
         let text = refused(vec![flange()], vec![held]);
         assert!(text.contains("support 1: no part is within r = 20 to 21 mm"), "{text}");
         let text = refused(vec![flange()], vec![Support { axial: false, ..held }]);
         assert!(text.contains("support 1: it fixes no direction"), "{text}");
         let touching = Support { outer_radius: 25e-3, bottom: 2e-3, top: 2e-3, ..held };
-        assert!(Section::new(vec![flange(), part("web", (28.0, 29.0), (0.0, 1.0))], vec![touching]).is_ok());
+        assert!(Section::new(vec![flange(), Part::in_mm("web", (28.0, 29.0), (0.0, 1.0))], vec![touching]).is_ok());
     }
 
     #[test]
     fn contact_faces_are_the_lowest_and_neighbours_are_one() {
         let parts = vec![
-            part("flange", (25.0, 31.0), (1.0, 2.0)),
-            part("second", (29.0, 29.5), (0.0, 1.0)),
-            part("first", (28.0, 29.0), (0.0, 1.0)),
-            part("apart", (30.0, 30.5), (0.0, 1.0)),
+            Part::in_mm("flange", (25.0, 31.0), (1.0, 2.0)),
+            Part::in_mm("second", (29.0, 29.5), (0.0, 1.0)),
+            Part::in_mm("first", (28.0, 29.0), (0.0, 1.0)),
+            Part::in_mm("apart", (30.0, 30.5), (0.0, 1.0)),
         ];
         let section = Section::new(parts, Vec::new()).unwrap();
         let faces: Vec<_> = section.contact_faces().iter().map(|face| (mm(face.0), mm(face.1))).collect();
