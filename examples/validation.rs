@@ -61,11 +61,11 @@ fn grids() -> Result<String, Box<dyn Error>> {
         let plan = Plan::motor(motor, fidelity, &problem.numerics)?;
         let found = motor::periodic(motor, &plan, &mut (), &Cancel::new())?;
         let mut grid = plan.grids[0];
-        let finest = grid.along << (found.alphas.len() - 1);
+        let finest = grid.along << (found.headlines.len() - 1);
         let across = found.stats.film_nodes / (finest + 1);
-        for (number, alpha) in found.alphas.iter().enumerate() {
+        for (number, alpha) in found.headlines.iter().enumerate() {
             let name = if number == 0 { fidelity.name() } else { "" };
-            let last = number + 1 == found.alphas.len();
+            let last = number + 1 == found.headlines.len();
             let result = if last { with_error(found.result.alpha, found.result.alpha_error) } else { String::new() };
             writeln!(text, "| {name} | {} × {across}, {} | {alpha:.6} | {result} |", grid.along + 1, grid.steps)?;
             grid = grid.finer(true);

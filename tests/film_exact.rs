@@ -300,7 +300,7 @@ fn convergence_is_of_second_order_in_space_and_time() {
     let load = |along: usize, steps: usize| {
         let numerics =
             Numerics { film_nodes_along: Some(2 * along + 1), steps_per_cycle: Some(steps), ..Numerics::default() };
-        *solve_with(&strip, Fidelity::Reference, &numerics).loads.last().unwrap()
+        *solve_with(&strip, Fidelity::Reference, &numerics).headlines.last().unwrap()
     };
     let space: Vec<f64> = [16, 32, 64, 128].iter().map(|n| load(*n, 64)).collect();
     let time: Vec<f64> = [32, 64, 128, 256].iter().map(|n| load(16, *n)).collect();

@@ -7,16 +7,32 @@
 use crate::control::Cancel;
 use crate::estimate::Mean;
 use crate::plan::{Grid, Plan};
-use crate::solution::Status;
+use crate::recording::Recording;
+use crate::solution::{Stats, Status};
 
 /// Share of what the last polynomial across changed that is taken as the error of those left out (calibrated:
 /// docs/validation.md).
 pub const WIDTH_SHARE: f64 = 0.15;
 
+/// The state of a scene on one grid.
+pub trait State {
+    /// The headline.
+    fn headline(&self) -> Mean;
+
+    /// What the accuracy asked for is relative to.
+    fn unit(&self) -> f64;
+
+    /// Unknown nodes across.
+    fn across(&self) -> usize;
+
+    /// Notes how many nodes and steps it has.
+    fn count(&self, stats: &mut Stats);
+}
+
 /// A scene that can be solved on any grid.
 pub trait Scene {
     /// Its state on one grid.
-    type Level;
+    type Level: State;
     /// Why it cannot be solved.
     type Error;
 
@@ -34,20 +50,11 @@ pub trait Scene {
         number: usize,
     ) -> Result<(Status, Self::Level), Self::Error>;
 
-    /// The headline on one grid.
-    fn headline(&self, level: &Self::Level) -> Mean;
-
-    /// What the accuracy asked for is relative to.
-    fn unit(&self, level: &Self::Level) -> f64;
-
     /// Share of the error asked for that the nodes across may have.
     fn width_aim(&self) -> f64;
 
     /// Work of one round, `Grid::work`, on grids beyond those of the plan: at most this over the square root of the error asked for.
     fn most_work(&self) -> f64;
-
-    /// Unknown nodes across.
-    fn across(&self, level: &Self::Level) -> usize;
 
     /// Whether the headline is as exact as was asked, or further grids would not make it so.
     fn settled(&self, found: &Found<Self::Level>) -> bool;
@@ -70,7 +77,48 @@ pub struct Found<L> {
     pub narrower: Option<(L, f64)>,
 }
 
-impl<L> Found<L> {
+/// A periodic state: the numbers, how they were reached, and the fields.
+#[derive(Clone, Debug)]
+pub struct Periodic<R> {
+    /// How the finest grid ended.
+    pub status: Status,
+    /// The numbers, with the error estimate.
+    pub result: R,
+    /// The headline on each grid, coarse to fine: α, or a plate's mean load \[N; of a strip N/m\].
+    pub headlines: Vec<f64>,
+    /// What the last polynomial across changed of the headline on the coarsest grid; 0 with finite volumes.
+    pub across: f64,
+    /// What it cost, all grids.
+    pub stats: Stats,
+    /// Fields of one cycle on the finest grid.
+    pub recording: Recording,
+}
+
+impl<R: Default> Periodic<R> {
+    /// One that ended so before any grid was solved.
+    pub fn ended(status: Status) -> Self {
+        Self {
+            status,
+            result: R::default(),
+            headlines: Vec::new(),
+            across: 0.0,
+            stats: Stats::default(),
+            recording: Recording::default(),
+        }
+    }
+}
+
+impl<L: State> Found<L> {
+    /// How it was reached, without numbers and fields; `stats` is what it cost.
+    pub fn reached<R: Default>(&self, mut stats: Stats) -> Periodic<R> {
+        if let Some(level) = self.levels.last() {
+            level.count(&mut stats);
+        }
+        let headlines = self.headlines.iter().map(|mean| mean.all).collect();
+        let across = self.narrower.as_ref().map_or(0.0, |(_, change)| *change);
+        Periodic { headlines, across, stats, ..Periodic::ended(self.status) }
+    }
+
     /// Estimated error of the headline of a polynomial with so many nodes across, absolute.
     pub fn width_error(&self) -> f64 {
         self.narrower.as_ref().map_or(0.0, |(_, change)| WIDTH_SHARE * change)
@@ -143,7 +191,7 @@ pub fn climb_once<S: Scene>(
         Found { status, levels: Vec::new(), headlines: Vec::new(), grids: Vec::new(), spectral, narrower: None };
     let mut across = plan.grids.first().map_or(0, |grid| grid.across);
     if plan.spectral && plan.grids.len() > 1 {
-        let first = last.map_or(across, |last| scene.across(&last.levels[0])).max(2);
+        let first = last.map_or(across, |last| last.levels[0].across()).max(2);
         across = settle_across(scene, plan, first, last, &mut found)?;
         if found.status != Status::Converged {
             return Ok(found);
@@ -171,7 +219,7 @@ pub fn climb_once<S: Scene>(
             found.levels.clear();
             found.grids.clear();
         } else {
-            found.headlines.push(scene.headline(&level));
+            found.headlines.push(level.headline());
             found.levels.push(level);
             found.grids.push(grid);
         }
@@ -201,26 +249,26 @@ fn settle_across<S: Scene>(
     let grid = Grid { across: across - 1, ..coarsest };
     let (mut status, mut narrower) = scene.solve(plan, &grid, start, start.is_some(), 0)?;
     while status == Status::Converged {
-        let similar = last.map(|last| &last.levels[0]).filter(|level| scene.across(level) == across);
+        let similar = last.map(|last| &last.levels[0]).filter(|level| level.across() == across);
         let start = similar.unwrap_or(&narrower);
         let level;
         (status, level) = scene.solve(plan, &Grid { across, ..coarsest }, Some(start), similar.is_some(), 0)?;
-        let change = (scene.headline(&level).all - scene.headline(&narrower).all).abs();
-        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.target_error * scene.unit(&level);
+        let change = (level.headline().all - narrower.headline().all).abs();
+        let matters = WIDTH_SHARE * change > scene.width_aim() * plan.target_error * level.unit();
         if status == Status::Converged && matters && across < plan.most_across {
             narrower = level;
             across += 1;
             continue;
         }
         found.status = status;
-        found.headlines = vec![scene.headline(&level)];
+        found.headlines = vec![level.headline()];
         found.levels = vec![level];
         found.grids = vec![Grid { across, ..coarsest }];
         found.narrower = Some((narrower, change));
         return Ok(across);
     }
     found.status = status;
-    found.headlines = vec![scene.headline(&narrower)];
+    found.headlines = vec![narrower.headline()];
     found.levels = vec![narrower];
     found.grids = vec![Grid { across: across - 1, ..coarsest }];
     Ok(across)

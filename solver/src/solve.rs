@@ -15,7 +15,7 @@ use crate::plate;
 use crate::plate::floating::{FloatError, Floated, float};
 use crate::problem::{Motor, Plate, Problem, Scenario};
 use crate::recording::Recording;
-use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Stats, Status, StoppedBy};
+use crate::solution::{Accuracy, Floating, Model, Outcome, PlateResult, Solution, Status, StoppedBy};
 use crate::surface::Surface;
 use serde::{Deserialize, Serialize};
 
@@ -283,10 +283,7 @@ fn floated(
             Ok(solution)
         }
         Err(FloatError::Film(Interrupted::Cancelled)) => {
-            let (result, recording) = (PlateResult::default(), Recording::default());
-            let stats = Stats::default();
-            let periodic = plate::Periodic { status: Status::Cancelled, result, loads: Vec::new(), stats, recording };
-            Ok(of_plate(periodic, &asked(plate), cancel))
+            Ok(of_plate(plate::Periodic::ended(Status::Cancelled), &asked(plate), cancel))
         }
         Err(error) => Err(error.into()),
     }
@@ -340,7 +337,7 @@ fn touching(
     let floats = |alpha: f64| alpha > motor::NEARLY_FLOATS;
     let asked = plan.maps && !cancel.has_budget();
     let astray = matches!(found.status, Status::NotConverged { .. });
-    if !asked || !astray && !found.alphas.iter().any(|alpha| floats(*alpha)) {
+    if !asked || !astray && !found.headlines.iter().any(|alpha| floats(*alpha)) {
         return None;
     }
     // Its rounds are those of this solve only if its result is.

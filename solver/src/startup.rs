@@ -50,7 +50,7 @@ pub struct Settings {
     pub cycles: usize,
     /// What [`Cycle::remaining`] has to fall below.
     pub tolerance: f64,
-    /// Cycles that whoever they are handed to keeps at a time, for the memory that they take.
+    /// Cycles that the caller keeps at a time: the estimate of memory counts them.
     pub kept: usize,
 }
 
@@ -109,7 +109,7 @@ pub fn startup(
 ) -> Result<Startup, SolveError> {
     let numbers = solve::Settings { fidelity: settings.fidelity, record: Record::Numbers, ..Default::default() };
     let periodic = match solve(problem, &numbers, &mut (), cancel) {
-        // The way may be there where its end is not found at once.
+        // There may be a transient although its end is not found at once.
         Err(SolveError::Motor(_) | SolveError::Plate(_)) => None,
         solved => Some(solved?),
     };
@@ -139,7 +139,7 @@ pub fn startup(
             // What the coarser grids gave stands.
             Err(_) => break,
         }
-        // As many grids as there are left would not do.
+        // The grids that are left would not be enough.
         let left = plan.most_grids.saturating_sub(plan.grids.len());
         if way.worst() * (way.worst() / before).powi(left as i32) > allowed {
             break;

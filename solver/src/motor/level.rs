@@ -13,6 +13,7 @@ use crate::film::exact::trapped_height;
 use crate::film::grid::{Axis, FilmGrid, Start};
 use crate::film::stepper::{FilmState, NEWTON_TOLERANCE};
 use crate::film::trapped::TrappedFilm;
+use crate::ladder::State;
 use crate::numerics::anderson::Anderson;
 use crate::plan::{Grid, Plan};
 use crate::problem::{Flow, Motor};
@@ -164,22 +165,8 @@ impl Level {
         self.steps
     }
 
-    pub(super) fn film_nodes(&self) -> usize {
-        self.grid().len()
-    }
-
-    pub(super) fn contact_nodes(&self) -> usize {
-        self.contact.nodes()
-    }
-
     fn grid(&self) -> &FilmGrid {
         self.films[0].grid()
-    }
-
-    /// Unknown nodes across half the width.
-    pub(super) fn across(&self) -> usize {
-        let y = &self.grid().y;
-        if y.start == Start::Mirror { y.unknown().len() } else { y.len() / 2 }
     }
 
     /// No tooth touches at any instant.
@@ -281,6 +268,25 @@ impl Level {
             for tooth in 0..teeth {
                 let to = self.line_of(tooth, s);
                 self.film_thickness[to..to + nx].copy_from_slice(&fields.film_thickness[tooth * nx..(tooth + 1) * nx]);
+                self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves the contact problems of all instants, one after the other, as if there were no gas.
+    pub(super) fn dry_cycle(&mut self, cancel: &Cancel) -> Result<(), Stop> {
+        let (mut contact, nodes, nx) = (self.contact.dry(), self.contact.nodes(), self.nx);
+        let (mut shape, mut fields) = (Shape::unknown(), Instant::default());
+        for s in 0..self.instants() {
+            if cancel.is_cancelled() {
+                return Err(Stop::Cancelled);
+            }
+            contact
+                .solve(&self.stator[s * nodes..(s + 1) * nodes], &vec![0.0; nodes], &mut shape, &mut fields)
+                .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
+            for tooth in 0..self.teeth {
+                let to = self.line_of(tooth, s);
                 self.contact_load[to..to + nx].copy_from_slice(&fields.contact[tooth * nx..(tooth + 1) * nx]);
             }
         }
@@ -444,8 +450,7 @@ impl Level {
         if accuracy == 0.0 {
             return f64::INFINITY;
         }
-        let alpha = self.mean_film_load() / self.load;
-        (REPEATING_SHARE * accuracy * unit(alpha)).max(LEAST_CHANGE)
+        (REPEATING_SHARE * accuracy * self.unit()).max(LEAST_CHANGE)
     }
 
     /// Film line load \[N/m\] at a node of the lines, from the film's own pressure.
@@ -488,7 +493,8 @@ impl Level {
         self.drift / self.load + self.unbalanced()
     }
 
-    /// The latter. (Twice the mean: calibrated, docs/validation.md.)
+    /// How far film and contact disagree about their shares of the load, as an error of α: twice the mean imbalance (calibrated,
+    /// docs/validation.md).
     fn unbalanced(&self) -> f64 {
         2.0 * self.mean_imbalance()
     }
@@ -508,17 +514,12 @@ impl Level {
     }
 
     /// α at instant 0: the present, between two cycles of a transient.
-    pub(super) fn alpha_now(&self, motor: &Motor) -> f64 {
-        self.mean_film_load_of(self.steps) / motor.load
+    pub(super) fn alpha_now(&self) -> f64 {
+        self.mean_film_load_of(self.steps) / self.load
     }
 
-    pub(super) fn alpha(&self, motor: &Motor) -> f64 {
-        self.mean_film_load() / motor.load
-    }
-
-    /// α over all steps, and over those of the next coarser grid.
-    pub(super) fn mean_alpha(&self, motor: &Motor) -> Mean {
-        Mean { all: self.alpha(motor), shared: self.mean_film_load_of(2) / motor.load }
+    pub(super) fn alpha(&self) -> f64 {
+        self.mean_film_load() / self.load
     }
 
     /// (film load + contact load − L)/L at an instant, the film's load from its own pressure: how far film and contact still
@@ -547,6 +548,29 @@ impl Level {
     /// Cycle mean of the imbalance: by how much α would differ if it were taken from the contact load.
     pub(super) fn mean_imbalance(&self) -> f64 {
         self.imbalances().sum::<f64>().abs() / self.instants() as f64
+    }
+}
+
+impl State for Level {
+    /// α.
+    fn headline(&self) -> Mean {
+        Mean { all: self.alpha(), shared: self.mean_film_load_of(2) / self.load }
+    }
+
+    fn unit(&self) -> f64 {
+        unit(self.alpha())
+    }
+
+    /// Of half the width.
+    fn across(&self) -> usize {
+        let y = &self.grid().y;
+        if y.start == Start::Mirror { y.unknown().len() } else { y.len() / 2 }
+    }
+
+    fn count(&self, stats: &mut Stats) {
+        stats.film_nodes = self.grid().len();
+        stats.contact_nodes = self.contact.nodes();
+        stats.steps_per_cycle = self.steps;
     }
 }
 

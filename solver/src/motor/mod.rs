@@ -17,8 +17,8 @@ pub use dry::without_film;
 pub use ending::{MotorError, unit};
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate, extrapolate_means};
-use crate::ladder::{Found, Nested, Scene, climb, climb_once};
+use crate::estimate::{Estimate, extrapolate, extrapolate_means};
+use crate::ladder::{self, Found, Nested, Scene, State, climb, climb_once};
 use crate::memory;
 use crate::plan::{Grid, Plan};
 use crate::problem::Motor;
@@ -37,32 +37,18 @@ const COARSE_ROUNDS: usize = 120;
 /// Work of one cycle of every tooth on the finest grid, `Grid::work`, up to which cycles are marched one after the other.
 const MOST_MARCHED: f64 = 1e6;
 
-/// Share of the load on the film from which on a rotor counts as floating, or nearly.
+/// Share of the load on the film above which a rotor counts as floating, or nearly so.
 pub const NEARLY_FLOATS: f64 = 0.95;
 /// Loads, over its own, through which the state of a motor whose teeth touch is followed.
 const HEAVIER: [f64; 7] = [4.0, 2.8, 2.0, 1.5, 1.25, 1.1, 1.0];
 
 /// What rounding may have changed of α.
 const ROUNDING: f64 = 1e-12;
-/// A share of the load that no one minds: an error below it is no reason to call a result unresolved.
+/// Share of the load below which an error is no reason to call a result unresolved.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// A motor's periodic state: the numbers, how they were reached, and the fields.
-#[derive(Clone, Debug)]
-pub struct Periodic {
-    /// How the finest grid ended.
-    pub status: Status,
-    /// The numbers, with the error estimate.
-    pub result: MotorResult,
-    /// α of each grid, coarse to fine.
-    pub alphas: Vec<f64>,
-    /// What the last polynomial across changed of α on the coarsest grid; 0 with finite volumes.
-    pub across: f64,
-    /// What it cost, all grids.
-    pub stats: Stats,
-    /// Fields of one cycle on the finest grid.
-    pub recording: Recording,
-}
+/// A motor's periodic state; its headline is α.
+pub type Periodic = ladder::Periodic<MotorResult>;
 
 /// The states that the last solve ended with: where the solve of a similar motor starts.
 ///
@@ -175,7 +161,7 @@ pub fn touching(
             stats: &mut *stats,
         };
         let found = climb_once(&mut search, plan, last.as_ref(), cancel).ok()?;
-        let floats = |level: &Level| level.alpha(&motor) > NEARLY_FLOATS;
+        let floats = |level: &Level| level.alpha() > NEARLY_FLOATS;
         if found.status != Status::Converged || found.levels.last().is_some_and(floats) {
             return None;
         }
@@ -282,24 +268,12 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn headline(&self, level: &Level) -> Mean {
-        level.mean_alpha(self.motor)
-    }
-
-    fn unit(&self, level: &Level) -> f64 {
-        unit(level.alpha(self.motor))
-    }
-
     fn width_aim(&self) -> f64 {
         0.3
     }
 
     fn most_work(&self) -> f64 {
         1.5e5
-    }
-
-    fn across(&self, level: &Level) -> usize {
-        level.across()
     }
 
     fn settled(&self, found: &Found<Level>) -> bool {
@@ -351,7 +325,7 @@ impl<'a> Transient<'a> {
         let (mut alphas, mut ends) = (Vec::new(), Vec::new());
         let (mut coarser, mut last) = (Vec::new(), (Recording::default(), f64::INFINITY));
         for (number, level) in self.levels.iter_mut().enumerate() {
-            let start = level.alpha_now(self.motor);
+            let start = level.alpha_now();
             let maps = self.plan.maps && number == finest;
             let told = |level: &Level| {
                 if number < finest {
@@ -366,12 +340,10 @@ impl<'a> Transient<'a> {
                 Err(Stop::Cancelled) => return Ok(None),
                 Err(Stop::Failed(error)) => return Err(error),
             };
-            let end = level.alpha_now(self.motor);
-            alphas.push(level.mean_alpha(self.motor).from_to(start, end, level.steps()));
+            let end = level.alpha_now();
+            alphas.push(level.headline().from_to(start, end, level.steps()));
             ends.push(end);
-            self.stats.film_nodes = level.film_nodes();
-            self.stats.contact_nodes = level.contact_nodes();
-            self.stats.steps_per_cycle = level.steps();
+            level.count(&mut self.stats);
         }
         self.stats.cycles += 1;
         let astray = self.levels.iter().map(Level::residual).fold(tolerance, f64::max);
@@ -432,19 +404,9 @@ fn stated(plan: &Plan, found: &Found<Level>) -> Estimate {
 }
 
 /// The numbers, their error and the fields, from the finest grid and what each grid gave, coarse to fine.
-fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) -> Periodic {
-    let (status, alphas) = (found.status, found.headlines.iter().map(|mean| mean.all).collect());
-    let across = found.narrower.as_ref().map_or(0.0, |(_, change)| *change);
-    let Some((level, coarser)) = found.levels.split_last() else {
-        return Periodic {
-            status,
-            result: MotorResult::default(),
-            alphas,
-            across,
-            stats,
-            recording: Recording::default(),
-        };
-    };
+fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Periodic {
+    let mut periodic: Periodic = found.reached(stats);
+    let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<LineLoads> = coarser.iter().rev().take(2).rev().map(|level| level.line_loads(motor)).collect();
     let mut recording = level.recording(motor, plan, &coarser, plan.maps);
     let estimate = stated(plan, found);
@@ -454,16 +416,10 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
     let mut result = summarise(motor, &recording);
     result.alpha_error = estimate.error + (result.alpha - estimate.value).abs();
     let asked = (plan.accuracy * unit(result.alpha)).max(NEGLIGIBLE);
-    let status = match status {
-        Status::Converged if result.alpha_error > asked.max(result.alpha.abs()) => {
-            Status::NotResolved { error: result.alpha_error / result.alpha.abs() }
-        }
-        status => status,
-    };
-    stats.film_nodes = level.film_nodes();
-    stats.contact_nodes = level.contact_nodes();
-    stats.steps_per_cycle = level.steps();
-    Periodic { status, result, alphas, across, stats, recording }
+    if periodic.status == Status::Converged && result.alpha_error > asked.max(result.alpha.abs()) {
+        periodic.status = Status::NotResolved { error: result.alpha_error / result.alpha.abs() };
+    }
+    Periodic { result, recording, ..periodic }
 }
 
 /// Cycle means and extremes of a recording.

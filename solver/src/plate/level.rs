@@ -9,6 +9,7 @@ use crate::film::grid::{Axis, Between, FilmGrid, Start};
 use crate::film::slip::SlipLaw;
 use crate::film::stepper::FilmState;
 use crate::film::trapped::edge_height;
+use crate::ladder::State;
 use crate::numerics::{anderson::Anderson, grading};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
@@ -264,27 +265,6 @@ impl Level {
         self.loads().iter().zip(&self.dt).map(|(load, dt)| load * dt).sum::<f64>() / self.period
     }
 
-    /// Mean load over all frames, and over those of the next coarser grid \[N\].
-    pub(super) fn mean(&self) -> Mean {
-        let nx = self.cycle.grid().x.len();
-        let (mut line, mut all, mut shared) = (vec![0.0; nx], 0.0, 0.0);
-        let frames = self.frames.len();
-        for frame in 0..frames {
-            self.frames.mix(frame, &mut line, |m, ix| self.line[m * nx + ix]);
-            let load = self.load(&line, self.frames.gap[frame]);
-            all += load;
-            shared += if frame % 2 == 0 { load } else { 0.0 };
-        }
-        Mean { all: all / frames as f64, shared: shared / frames.div_ceil(2) as f64 }
-    }
-
-    /// See [`unit`].
-    pub(super) fn unit(&self) -> f64 {
-        let loads = self.loads();
-        let (low, high) = loads.iter().fold((0.0f64, 0.0f64), |(low, high), load| (low.min(*load), high.max(*load)));
-        unit(self.mean_load(), high - low)
-    }
-
     /// By how much ln Z may still change from round to round: what that does to the load is a share of the error asked for.
     fn allowed_change(&self, plan: &Plan) -> f64 {
         if plan.accuracy == 0.0 {
@@ -386,6 +366,38 @@ impl Level {
         recording.x = recording.map_y.clone();
         std::mem::swap(&mut recording.map_x, &mut recording.map_y);
         recording.pressure = if maps { pressure } else { Vec::new() };
+    }
+}
+
+impl State for Level {
+    /// Mean load over all frames, and over those of the next coarser grid \[N\].
+    fn headline(&self) -> Mean {
+        let nx = self.cycle.grid().x.len();
+        let (mut line, mut all, mut shared) = (vec![0.0; nx], 0.0, 0.0);
+        let frames = self.frames.len();
+        for frame in 0..frames {
+            self.frames.mix(frame, &mut line, |m, ix| self.line[m * nx + ix]);
+            let load = self.load(&line, self.frames.gap[frame]);
+            all += load;
+            shared += if frame % 2 == 0 { load } else { 0.0 };
+        }
+        Mean { all: all / frames as f64, shared: shared / frames.div_ceil(2) as f64 }
+    }
+
+    /// See [`unit`].
+    fn unit(&self) -> f64 {
+        let loads = self.loads();
+        let (low, high) = loads.iter().fold((0.0f64, 0.0f64), |(low, high), load| (low.min(*load), high.max(*load)));
+        unit(self.mean_load(), high - low)
+    }
+
+    fn across(&self) -> usize {
+        self.cycle.grid().y.unknown().len()
+    }
+
+    fn count(&self, stats: &mut Stats) {
+        stats.film_nodes = self.cycle.grid().len();
+        stats.steps_per_cycle = self.steps();
     }
 }
 

@@ -11,12 +11,11 @@ pub use level::unit;
 pub use transient::Transient;
 
 use crate::control::{Cancel, Observer, Reporter};
-use crate::estimate::{Estimate, Mean, extrapolate_smooth};
+use crate::estimate::{Estimate, extrapolate_smooth};
 use crate::film::cycle::Interrupted;
-use crate::ladder::{Found, Nested, Scene, climb};
+use crate::ladder::{self, Found, Nested, Scene, State, climb};
 use crate::plan::{Grid, Plan};
 use crate::problem::Plate;
-use crate::recording::Recording;
 use crate::solution::{PlateResult, Stats, Status};
 use level::Level;
 use result::extremes;
@@ -25,20 +24,8 @@ use std::borrow::Cow;
 /// Rounding of a mean load over the force of the gas.
 const ROUNDING: f64 = 1e-15;
 
-/// A plate's periodic state: the numbers, how they were reached, and the fields.
-#[derive(Clone, Debug)]
-pub struct Periodic {
-    /// How the finest grid ended.
-    pub status: Status,
-    /// The numbers, with the error estimate.
-    pub result: PlateResult,
-    /// Mean load of each grid, coarse to fine \[N; of a strip N/m\].
-    pub loads: Vec<f64>,
-    /// What it cost, all grids.
-    pub stats: Stats,
-    /// Fields of one cycle on the finest grid.
-    pub recording: Recording,
-}
+/// A plate's periodic state; its headline is the mean load \[N; of a strip N/m\].
+pub type Periodic = ladder::Periodic<PlateResult>;
 
 /// Solves for the periodic state on each of the plan's grids.
 ///
@@ -75,14 +62,9 @@ fn turned<'a>(plate: &'a Plate, plan: &Plan) -> Cow<'a, Plate> {
 }
 
 /// The numbers, their error and the fields of a plate, turned as the plan says, from what each grid gave, coarse to fine.
-fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, mut stats: Stats) -> Periodic {
-    let loads = found.headlines.iter().map(|mean| mean.all).collect();
-    let Some((level, coarser)) = found.levels.split_last() else {
-        let (result, recording) = (PlateResult::default(), Recording::default());
-        return Periodic { status: found.status, result, loads, stats, recording };
-    };
-    stats.film_nodes = level.cycle.grid().len();
-    stats.steps_per_cycle = level.steps();
+fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Periodic {
+    let mut periodic: Periodic = found.reached(stats);
+    let Some((level, coarser)) = found.levels.split_last() else { return periodic };
     let coarser: Vec<_> = coarser.iter().rev().take(2).rev().map(|level| level.fields(plate, false).0).collect();
     let mut recording = level.recording(plate, &coarser, plan.maps || plan.turned);
     let estimate = stated(plate, plan, found);
@@ -96,16 +78,13 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, mut stats: Stats) ->
     result.max_pressure_error += highest;
     let force = result.film_load;
     result.film_load_error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
-    let status = match found.status {
-        Status::Converged if result.film_load_error > level.unit().max(force.abs()) => {
-            Status::NotResolved { error: result.film_load_error / force.abs() }
-        }
-        status => status,
-    };
+    if periodic.status == Status::Converged && result.film_load_error > level.unit().max(force.abs()) {
+        periodic.status = Status::NotResolved { error: result.film_load_error / force.abs() };
+    }
     if plan.turned {
         level.turn(&mut recording, plan.maps);
     }
-    Periodic { status, result, loads, stats, recording }
+    Periodic { result, recording, ..periodic }
 }
 
 /// Least and greatest mean load \[N\] that the equations allow: Z is nowhere less than the least gap and nowhere more than the greatest
@@ -184,26 +163,14 @@ impl Scene for Search<'_> {
         }
     }
 
-    fn headline(&self, level: &Level) -> Mean {
-        level.mean()
-    }
-
-    fn unit(&self, level: &Level) -> f64 {
-        level.unit()
-    }
-
-    /// Little: spring and damping are as exact as the mean then.
+    /// Small, so that spring and damping are as exact as the mean.
     fn width_aim(&self) -> f64 {
         0.02
     }
 
-    /// Much: without contact a few rounds are enough.
+    /// Large, because without contact a few rounds are enough.
     fn most_work(&self) -> f64 {
         4e5
-    }
-
-    fn across(&self, level: &Level) -> usize {
-        level.cycle.grid().y.unknown().len()
     }
 
     fn settled(&self, found: &Found<Level>) -> bool {

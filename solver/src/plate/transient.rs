@@ -4,6 +4,7 @@ use super::level::Level;
 use crate::control::Cancel;
 use crate::estimate::{extrapolate, extrapolate_means};
 use crate::film::cycle::Interrupted;
+use crate::ladder::State;
 use crate::plan::Plan;
 use crate::problem::Plate;
 use crate::recording::Recording;
@@ -68,10 +69,9 @@ impl Transient {
                 Err(failed) => return Err(failed),
             };
             let end = level.load_now();
-            loads.push(level.mean().from_to(start, end, level.steps()));
+            loads.push(level.headline().from_to(start, end, level.steps()));
             ends.push(end);
-            self.stats.film_nodes = level.cycle.grid().len();
-            self.stats.steps_per_cycle = level.steps();
+            level.count(&mut self.stats);
         }
         self.stats.cycles += 1;
         let (recording, change) = last;

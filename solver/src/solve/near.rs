@@ -71,7 +71,7 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
         let stiffness = afloat.stiffness;
         let value = afloat.next(plate, plate.mean_gap, result.film_load);
         let mean_gap = Estimate { value, error: result.film_load_error / stiffness.value.abs() };
-        // Of the stiffness itself there is no difference.
+        // The stiffness is that of the centre: how it differs here is not known.
         let natural_frequency = Estimate { value: f64::NAN, error: f64::NAN };
         result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
     }
