@@ -1,5 +1,6 @@
 //! The state of the motor and one time step of it: Fig. 1's inner loop.
 
+use super::Mesh;
 use super::contact::{Balance, Contact};
 use super::film::FactoredFilm;
 use super::mesh::Meshes;
@@ -62,15 +63,8 @@ pub(super) struct March<'a> {
 
 impl<'a> March<'a> {
     /// Everything at rest at t = 0: ambient pressure, the rotor pressed on the stator without a film.
-    pub(super) fn new(
-        motor: &'a Motor,
-        rotor: &Compliances,
-        nx: usize,
-        ny: usize,
-        n: usize,
-        steps: usize,
-        knudsen: f64,
-    ) -> Self {
+    pub(super) fn new(motor: &'a Motor, rotor: &Compliances, mesh: &Mesh, knudsen: f64) -> Self {
+        let Mesh { nx, ny, n, steps } = *mesh;
         let meshes = Meshes::new(motor, n, nx);
         let contact = Contact::new(motor, rotor, &meshes);
         let (b, h_m) = (motor.tooth_width, motor.min_spacing);

@@ -104,8 +104,8 @@ pub fn solve(
     observer: &mut dyn Observer,
     cancel: &Cancel,
 ) -> Result<Solution, RotorError> {
-    let Mesh { nx, ny, n, steps } = Mesh::of(numerics);
-    let rotor = motor.compliances(n / 2, cancel)?;
+    let mesh = Mesh::of(numerics);
+    let rotor = motor.compliances(mesh.n / 2, cancel)?;
 
     let mut warnings = Vec::new();
     let knudsen = match motor.gas.slip {
@@ -117,28 +117,28 @@ pub fn solve(
         }
     };
 
-    let mut march = March::new(motor, &rotor, nx, ny, n, steps, knudsen);
+    let mut march = March::new(motor, &rotor, &mesh, knudsen);
     let mut recorder = Recorder::new(&march, &rotor);
     let mut counts = Counts::default();
     let status = counts.cycles(&mut march, &mut recorder, observer, cancel, &mut warnings);
 
     // Of a state that is not one, the residual is the only measure there is.
     let astray = if let Status::NotConverged { residual, .. } = status { residual } else { counts.limit_cycle };
-    let relative_error = discretisation_error(nx, ny, n) + astray + rotor.relative_error();
+    let relative_error = discretisation_error(&mesh) + astray + rotor.relative_error();
     let recording = recorder.finish();
     let film_load = mean(&recording.film_load);
     let contact_load = mean(&recording.contact_load);
     let alpha = film_load / motor.load;
     let touching: usize = recording.teeth_in_contact.iter().sum();
+    let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
     let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let [film_load_min, film_load_max] =
-        [-most(&recording.film_load.iter().map(|f| -f).collect::<Vec<_>>()), most(&recording.film_load)];
+    let [film_load_min, film_load_max] = [least(&recording.film_load), most(&recording.film_load)];
     let max_pressure = most(&recording.max_pressure);
     let outcome = MotorResult {
         film_load_range_error: [film_load_min, film_load_max].map(|load| relative_error * load.abs()),
         max_pressure_error: relative_error * max_pressure,
         min_gap_error: relative_error * (most(&recording.min_film_thickness) - motor.min_spacing),
-        teeth_in_contact_error: motor.teeth as f64 / steps as f64,
+        teeth_in_contact_error: motor.teeth as f64 / mesh.steps as f64,
         alpha,
         alpha_error: counts.alpha_remaining + relative_error * alpha.abs(),
         film_load,
@@ -147,9 +147,9 @@ pub fn solve(
         contact_load,
         // A film that carries more than the load leaves nothing to rub.
         max_torque: motor.friction_torque((1.0 - alpha).max(0.0) * motor.load),
-        teeth_in_contact: touching as f64 / steps as f64,
+        teeth_in_contact: touching as f64 / mesh.steps as f64,
         levitated: touching == 0,
-        min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
+        min_gap: least(&recording.min_film_thickness),
         max_pressure,
         max_contact: most(&recording.contact),
     };
@@ -157,15 +157,14 @@ pub fn solve(
     let stats = Stats {
         film_steps: counts.steps * teeth,
         film_solves: march.rounds * teeth,
-        limited_steps: 0,
         cycles: counts.cycles,
         coupling_iterations: march.rounds,
         contact_solves: march.contact_solves,
         contact_iterations: march.contact.rounds,
-        unsettled_steps: 0,
-        film_nodes: nx * ny,
-        contact_nodes: n + 1,
-        steps_per_cycle: steps,
+        film_nodes: mesh.nx * mesh.ny,
+        contact_nodes: mesh.n + 1,
+        steps_per_cycle: mesh.steps,
+        ..Stats::default()
     };
     let stated = outcome.alpha_error / alpha.abs();
     Ok(Solution {
@@ -174,7 +173,7 @@ pub fn solve(
         outcome: Outcome::Motor(outcome),
         performance: None,
         stats,
-        model: describe(motor, (nx, ny, n + 1), &march),
+        model: describe(motor, &mesh, &march),
         warnings,
         recording,
     })
@@ -185,14 +184,15 @@ pub fn solve(
 /// the fundamental case (0.2383 and, doubled, 0.2437, where 0.2459 is the converged value of our own method: 3.1 %), with
 /// a margin, since the film's boundary layer, one cell wide there, differs from case to case. Almost all of it is the
 /// mesh across the width. Steps in time matter less: 90, 180 and 360 in a cycle give 0.2381, 0.2383 and 0.2383.
-fn discretisation_error(nx: usize, ny: usize, n: usize) -> f64 {
+fn discretisation_error(&Mesh { nx, ny, n, .. }: &Mesh) -> f64 {
     let coarseness = |paper: usize, own: usize| (paper - 1) as f64 / own as f64;
     let (along, across, contact) = PAPER_MESH;
     let worst = coarseness(along, nx - 1).max(coarseness(across, ny - 1)).max(coarseness(contact, n));
     PAPER_MESH_ERROR * worst
 }
 
-fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March<'_>) -> Model {
+fn describe(motor: &Motor, mesh: &Mesh, march: &March<'_>) -> Model {
+    let (nx, ny, nodes) = (mesh.nx, mesh.ny, mesh.n + 1);
     let mut remarks = vec![
         format!(
             "The paper's literal algorithm: every tooth, full width, {nx} × {ny} uniform film nodes, {nodes} contact \
@@ -201,7 +201,7 @@ fn describe(motor: &Motor, (nx, ny, nodes): (usize, usize, usize), march: &March
         format!(
             "The error given for α is the change still to come from cycle to cycle plus {:.1} % for the meshes, \
              scaled from doubling them in the fundamental case: one mesh has no estimate of its own.",
-            100.0 * discretisation_error(nx, ny, nodes - 1)
+            100.0 * discretisation_error(mesh)
         ),
     ];
     if motor.shear {
