@@ -38,13 +38,26 @@ fn motor_of(problem: &Problem) -> &Motor {
 fn alpha(fidelity: Fidelity, changes: &[(&str, f64)], choices: &[(&str, &str)]) -> Periodic {
     let mut scene = scene_with("fundamental", changes);
     scene.set_all(choices.iter().copied()).unwrap();
-    let problem = Problem::try_from(&scene).unwrap();
-    let plan = Plan::motor(motor_of(&problem), fidelity, &problem.numerics).unwrap();
-    let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
-    assert_eq!(found.status, Status::Converged, "{changes:?} {choices:?}");
-    check(motor_of(&problem), &plan, &found).unwrap();
+    let (problem, plan, found) = checked(&scene, fidelity);
     check_mass(motor_of(&problem), &plan).unwrap();
     found
+}
+
+/// The periodic state of a motor's scene, which has to converge and to be in order.
+fn checked(scene: &Scene, fidelity: Fidelity) -> (Problem, Plan, Periodic) {
+    let problem = Problem::try_from(scene).unwrap();
+    let (plan, found) = periodic(&problem, fidelity, |plan| plan);
+    assert_eq!(found.status, Status::Converged, "{}", options(scene));
+    check(motor_of(&problem), &plan, &found).unwrap();
+    (problem, plan, found)
+}
+
+/// The periodic state of a motor by its plan, `changed`.
+fn periodic(problem: &Problem, fidelity: Fidelity, changed: impl Fn(Plan) -> Plan) -> (Plan, Periodic) {
+    let motor = motor_of(problem);
+    let plan = changed(Plan::motor(motor, fidelity, &problem.numerics).unwrap());
+    let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).unwrap();
+    (plan, found)
 }
 
 // ---- what holds of every result
@@ -375,28 +388,30 @@ fn the_main_keys_two_by_two_at_the_ends_of_their_ranges() {
     assert_eq!((astray, &faults), (0, &Vec::new()));
 }
 
+/// The keys of the motors below.
+const HARD: [&str; 17] = [
+    "motor.contact_radius_mm",
+    "motor.waves",
+    "motor.load_per_wave_n",
+    "motor.rotor_speed_rpm",
+    "stator.frequency_khz",
+    "stator.normal_amplitude_um",
+    "stator.teeth_per_wave",
+    "stator.tooth_radius_m",
+    "stator.tooth_width_mm",
+    "rotor.contact_width_mm",
+    "rotor.decay_length_mm",
+    "rotor.point_compliance_um_per_n",
+    "rotor.local_compliance_m2_per_n",
+    "film.min_spacing_nm",
+    "film.ambient_pressure_kpa",
+    "film.viscosity_upa_s",
+    "film.mean_free_path_nm",
+];
+
 /// Random motors, each of which did not converge for a reason of its own.
 #[test]
 fn motors_that_were_hard_to_reach_converge() {
-    let keys = [
-        "motor.contact_radius_mm",
-        "motor.waves",
-        "motor.load_per_wave_n",
-        "motor.rotor_speed_rpm",
-        "stator.frequency_khz",
-        "stator.normal_amplitude_um",
-        "stator.teeth_per_wave",
-        "stator.tooth_radius_m",
-        "stator.tooth_width_mm",
-        "rotor.contact_width_mm",
-        "rotor.decay_length_mm",
-        "rotor.point_compliance_um_per_n",
-        "rotor.local_compliance_m2_per_n",
-        "film.min_spacing_nm",
-        "film.ambient_pressure_kpa",
-        "film.viscosity_upa_s",
-        "film.mean_free_path_nm",
-    ];
     #[rustfmt::skip]
     let motors = [
         ("gas leaves within a step", "false",
@@ -407,7 +422,7 @@ fn motors_that_were_hard_to_reach_converge() {
          [4.5766, 4.0, 1.0641, 1919.1, 0.89017, 0.23546, 1.0, 0.01, 0.79193, 3.3726, 2.4045, 0.10745, 2.2476e-9, 222.9, 1.3149, 195.22, 6746.0]),
     ];
     for (reason, shear, values) in motors {
-        let pairs: Vec<(&str, f64)> = keys.into_iter().zip(values).collect();
+        let pairs: Vec<(&str, f64)> = HARD.into_iter().zip(values).collect();
         let mut scene = scene_with("fundamental", &pairs);
         scene.set("film.slip", "second-order").unwrap();
         scene.set("film.shear", shear).unwrap();
@@ -418,26 +433,10 @@ fn motors_that_were_hard_to_reach_converge() {
 /// Marched cycle after cycle, it comes to no end; on grids that the scene prescribes it once counted as converged after seven.
 #[test]
 fn on_prescribed_grids_too_a_march_has_to_repeat() {
-    let motor = [
-        ("motor.contact_radius_mm", 500.0),
-        ("motor.waves", 48.0),
-        ("motor.load_per_wave_n", 0.012_356_03),
-        ("motor.rotor_speed_rpm", 1456.9777),
-        ("stator.frequency_khz", 0.010_395_299_65),
-        ("stator.normal_amplitude_um", 16.418_349),
-        ("stator.teeth_per_wave", 2.0),
-        ("stator.tooth_width_mm", 26.267_077),
-        ("stator.tooth_radius_m", 233.952_33),
-        ("rotor.contact_width_mm", 6.185_942_45),
-        ("rotor.decay_length_mm", 21.524_484_7),
-        ("rotor.point_compliance_um_per_n", 1.684_946_17),
-        ("rotor.local_compliance_m2_per_n", 3.226_242e-9),
-        ("film.min_spacing_nm", 16.760_954_58),
-        ("film.ambient_pressure_kpa", 934.323_748),
-        ("film.viscosity_upa_s", 552.316_628),
-        ("film.mean_free_path_nm", 149_311.443),
-        ("numerics.film_nodes_along", 45.0),
-    ];
+    #[rustfmt::skip]
+    let values =
+        [500.0, 48.0, 0.012_356_03, 1456.9777, 0.010_395_299_65, 16.418_349, 2.0, 233.952_33, 26.267_077, 6.185_942_45, 21.524_484_7, 1.684_946_17, 3.226_242e-9, 16.760_954_58, 934.323_748, 552.316_628, 149_311.443];
+    let motor: Vec<_> = HARD.into_iter().zip(values).chain([("numerics.film_nodes_along", 45.0)]).collect();
     let problem = Problem::try_from(&scene_with("fundamental", &motor)).unwrap();
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     let found = solve(&problem, &settings, &mut (), &Cancel::new()).unwrap();
@@ -785,12 +784,7 @@ fn a_tooth_may_be_as_wide_as_the_pitch() {
             let mut scene = scene_with("fundamental", &[("stator.teeth_per_wave", teeth)]);
             let pitch = scene.range("stator.tooth_width_mm").unwrap().max;
             scene.set_value("stator.tooth_width_mm", Value::Number(share * pitch)).unwrap();
-            let problem = Problem::try_from(&scene).unwrap();
-            let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics).unwrap();
-            let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
-            check(motor_of(&problem), &plan, &found).unwrap();
-            assert_eq!(found.status, Status::Converged);
-            found.result
+            checked(&scene, Fidelity::Standard).2.result
         };
         let (almost, whole) = (at(0.999), at(1.0));
         println!("{teeth} teeth: α {} and {}", almost.alpha, whole.alpha);
@@ -843,13 +837,8 @@ fn results_are_the_same_to_the_last_bit_for_any_number_of_threads() {
     let run = |threads: usize| -> Vec<Vec<u64>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            problems
-                .par_iter()
-                .map(|problem| {
-                    let plan = Plan::motor(motor_of(problem), Fidelity::Standard, &problem.numerics).unwrap();
-                    bits(&motor::periodic(motor_of(problem), &plan, &mut (), &Cancel::new()).unwrap())
-                })
-                .collect()
+            let found = |problem: &Problem| periodic(problem, Fidelity::Standard, |plan| plan).1;
+            problems.par_iter().map(|problem| bits(&found(problem))).collect()
         })
     };
     let one = run(1);
@@ -875,9 +864,8 @@ fn the_cost_of_a_solve_is_flat() {
                 let mut scene = scene_with("fundamental", &changes(*spacing));
                 scene.set("numerics.time", "march").unwrap();
                 let problem = Problem::try_from(&scene).unwrap();
-                let plan = Plan::motor(motor_of(&problem), Fidelity::Standard, &problem.numerics).unwrap();
-                let plan = Plan { most_grids: plan.grids.len(), ..plan };
-                let found = motor::periodic(motor_of(&problem), &plan, &mut (), &Cancel::new()).unwrap();
+                let unrefined = |plan: Plan| Plan { most_grids: plan.grids.len(), ..plan };
+                let (_, found) = periodic(&problem, Fidelity::Standard, unrefined);
                 assert_eq!(found.status, Status::Converged, "{frequency} kHz, {spacing} nm");
                 found.stats.film_steps
             })
