@@ -1,7 +1,7 @@
 //! What all solves of this process may take of memory at the same time.
 //!
-//! Whoever solves takes his share of the one budget first ([`take`]): what is more than all of it is refused, what is more than is left
-//! waits for others to end, so that the results of a sweep do not depend on how many threads share the budget. It is a quarter of the
+//! Every solve first takes its share of the one budget ([`take`]): one that needs more than all of it is refused, one that needs more than
+//! is left waits for others to end, so that the results of a sweep do not depend on how many threads share the budget. It is a quarter of the
 //! machine's memory unless [`allow`] says otherwise, because results are kept, and drawn, beside it.
 //!
 //! A rotor takes its share while it is resolved, and gives it back before the solve takes its own: nobody waits who holds a share.
@@ -15,7 +15,7 @@ use std::time::Duration;
 const SHARE: u64 = 4;
 /// … or, where nothing is known of the machine, so many bytes.
 const UNKNOWN: u64 = 1_000_000_000;
-/// How often whoever waits looks whether it is cancelled.
+/// How often a solve that waits looks whether it is cancelled.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// What a solve needs.

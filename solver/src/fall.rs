@@ -18,7 +18,7 @@ use crate::solution::{Outcome, PlateResult, Status, settled};
 use crate::solve::{Record, Settings, SolveError, solve};
 use serde::{Deserialize, Serialize};
 
-/// From how high it is dropped, in gaps at which it floats or rests.
+/// Height from which it is dropped, as a multiple of the gap at which it floats or rests.
 const FROM: f64 = 2.0;
 /// Cycles over which the height may not change any more.
 const SETTLED: usize = 32;

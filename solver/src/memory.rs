@@ -69,9 +69,9 @@ fn accelerated(depth: u64) -> u64 {
 /// errors come from, and all of them while they are extrapolated.
 const KEPT_LINES: u64 = 10;
 const EXTRAPOLATED_LINES: u64 = 16;
-/// What does not grow with the grid, and nodes across that are found wanting on the coarsest one.
+/// What does not grow with the grid, and the coarsest grid with one node less across.
 const FIXED: u64 = 8192;
-/// The same as `EXTRAPOLATED_LINES` of a motor, whose contact is integrated for its torque, on what its errors come from as well (`drive`).
+/// As `EXTRAPOLATED_LINES`, of a motor: its torque is integrated from the contact, and its errors from that on other grids (`drive`).
 const MOTOR_LINES: u64 = 40;
 const EXTRAPOLATED_MAPS: u64 = 2;
 

@@ -102,7 +102,7 @@ pub struct Weighed {
 }
 
 impl Decision {
-    /// Of what is exact, and what nothing overrules.
+    /// A decision that changes nothing, and that no key overrules.
     fn exact(chosen: Choice) -> Self {
         Self { chosen, overruled: false, effect: 0.0, weighed: None }
     }
