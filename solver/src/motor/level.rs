@@ -277,13 +277,13 @@ impl Level {
     /// Solves the contact problems of all instants, one after the other, as if there were no gas.
     pub(super) fn dry_cycle(&mut self, cancel: &Cancel) -> Result<(), Stop> {
         let (mut contact, nodes, nx) = (self.contact.dry(), self.contact.nodes(), self.nx);
-        let (mut shape, mut fields) = (Shape::unknown(), Instant::default());
+        let (nothing, mut shape, mut fields) = (vec![0.0; nodes], Shape::unknown(), Instant::default());
         for s in 0..self.instants() {
             if cancel.is_cancelled() {
                 return Err(Stop::Cancelled);
             }
             contact
-                .solve(&self.stator[s * nodes..(s + 1) * nodes], &vec![0.0; nodes], &mut shape, &mut fields)
+                .solve(&self.stator[s * nodes..(s + 1) * nodes], &nothing, &mut shape, &mut fields)
                 .map_err(|source| Stop::Failed(MotorError::Contact { instant: s, source }))?;
             for tooth in 0..self.teeth {
                 let to = self.line_of(tooth, s);
