@@ -239,7 +239,7 @@ fn files_and_json_agree_and_are_gone_on_with() {
     assert_eq!(run(&[&other[..], &["--restart"]].concat(), Some(&again)).status.code(), Some(0));
     assert!(!left.exists());
     // What somebody has changed is not taken for a result.
-    let changed = saved.replacen(",converged,slip-law,0.", ",converged,slip-law,1.", 1);
+    let changed = saved.replacen(",accuracy,slip-law,0.", ",accuracy,slip-law,1.", 1);
     assert_ne!(changed, saved);
     fs::write(&left, &changed).unwrap();
     let output = run(&COMMAND, Some(&again));

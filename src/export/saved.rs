@@ -324,7 +324,9 @@ mod tests {
         assert_eq!(read(&sweep, Part::WHOLE, &text).unwrap(), rows(&sweep));
         let second = text.lines().nth(1).unwrap();
         assert!(
-            second.starts_with("sweep,point,stator.frequency_khz,status,validity,alpha,alpha_error,film_load_n,"),
+            second.starts_with(
+                "sweep,point,stator.frequency_khz,status,stopped_by,validity,alpha,alpha_error,film_load_n,"
+            ),
             "{text}"
         );
     }

@@ -1,9 +1,8 @@
 //! The state of the motor and one time step of it: Fig. 1's inner loop.
 
-use super::Mesh;
 use super::contact::{Balance, Contact};
 use super::film::FactoredFilm;
-use super::mesh::Meshes;
+use super::mesh::{Mesh, Meshes};
 use crate::problem::Motor;
 use crate::rotor::Compliances;
 

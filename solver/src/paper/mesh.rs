@@ -16,10 +16,39 @@
 //! A tooth's *entries* are the nodes of its interpolation, ascending; entries of tooth k are
 //! `first[k]..first[k + 1]` of the flat arrays.
 
-use crate::problem::Motor;
+use crate::problem::{Motor, Numerics};
 
+/// The paper's film nodes along and across a tooth, and its contact nodes in a wavelength, ends counted.
+pub(super) const PAPER_MESH: (usize, usize, usize) = (51, 11, 181);
+/// Steps in a cycle, which the paper does not give.
+const STEPS_PER_CYCLE: usize = 180;
 /// How far beyond the tooth edge a node may be and still be on the tooth, in spacings.
 const EDGE_TOLERANCE: f64 = 0.01;
+
+/// Sizes of the meshes: the paper's, unless numerics say otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mesh {
+    /// Film nodes along a tooth.
+    pub nx: usize,
+    /// Film nodes across the width.
+    pub ny: usize,
+    /// Contact spacings in a wavelength.
+    pub n: usize,
+    /// Time steps in a cycle.
+    pub steps: usize,
+}
+
+impl Mesh {
+    /// As `numerics` say.
+    pub fn of(numerics: &Numerics) -> Self {
+        Self {
+            nx: numerics.film_nodes_along.unwrap_or(PAPER_MESH.0).max(3),
+            ny: numerics.film_nodes_across.unwrap_or(PAPER_MESH.1).max(3),
+            n: numerics.contact_nodes.unwrap_or(PAPER_MESH.2).max(5) - 1,
+            steps: numerics.steps_per_cycle.unwrap_or(STEPS_PER_CYCLE).max(4),
+        }
+    }
+}
 
 /// Linear interpolation: `values[at] * (1 − weight) + values[at + 1] * weight`.
 #[derive(Clone, Copy, Debug)]

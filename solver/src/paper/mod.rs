@@ -41,6 +41,7 @@ mod mesh;
 mod record;
 
 pub use film::FactoredFilm;
+pub use mesh::Mesh;
 
 use crate::control::{Cancel, Observer, Progress};
 use crate::problem::{Motor, Numerics, Slip};
@@ -48,12 +49,9 @@ use crate::rotor::RotorError;
 use crate::solution::{Accuracy, Model, MotorResult, Outcome, Solution, Stats, Status, StoppedBy};
 use contact::Balance;
 use march::{INNER_TOLERANCE, March, Step};
+use mesh::PAPER_MESH;
 use record::Recorder;
 
-/// The paper's film nodes along and across a tooth, and its contact nodes in a wavelength, ends counted.
-const PAPER_MESH: (usize, usize, usize) = (51, 11, 181);
-/// Steps in a cycle, which the paper does not give.
-const STEPS_PER_CYCLE: usize = 180;
 /// Change over a cycle, relative to the greatest pressure and spacing, at which the cycle repeats.
 const CYCLE_TOLERANCE: f64 = 1e-5;
 /// Most cycles marched.
@@ -67,31 +65,6 @@ const PROGRESS: f64 = 0.9;
 const LIMIT_CYCLE: f64 = 1e-2;
 /// Error of α on the paper's mesh, relative: see [`discretisation_error`].
 const PAPER_MESH_ERROR: f64 = 0.045;
-
-/// Sizes of the meshes: the paper's, unless numerics say otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mesh {
-    /// Film nodes along a tooth.
-    pub nx: usize,
-    /// Film nodes across the width.
-    pub ny: usize,
-    /// Contact spacings in a wavelength.
-    pub n: usize,
-    /// Time steps in a cycle.
-    pub steps: usize,
-}
-
-impl Mesh {
-    /// As `numerics` say.
-    pub fn of(numerics: &Numerics) -> Self {
-        Self {
-            nx: numerics.film_nodes_along.unwrap_or(PAPER_MESH.0).max(3),
-            ny: numerics.film_nodes_across.unwrap_or(PAPER_MESH.1).max(3),
-            n: numerics.contact_nodes.unwrap_or(PAPER_MESH.2).max(5) - 1,
-            steps: numerics.steps_per_cycle.unwrap_or(STEPS_PER_CYCLE).max(4),
-        }
-    }
-}
 
 /// Solves for the periodic state of `motor` by the paper's algorithm, on the paper's meshes unless `numerics` says
 /// otherwise. The observer hears of every cycle; `cancel` is looked at in every time step.

@@ -329,6 +329,8 @@ impl Recording {
                 pitch: self.pitch,
                 x: self.x.clone(),
                 node_length: self.node_length.clone(),
+                radial: self.radial,
+                touching_from: self.touching_from,
                 contact: field(|lines| &lines.contact),
                 film: field(|lines| &lines.film),
                 film_thickness: field(|lines| &lines.film_thickness),
@@ -552,9 +554,11 @@ mod tests {
 
     #[test]
     fn a_cycle_is_read_at_other_instants_with_every_recorded_one_as_it_was() {
-        let recording = passing(1, 6);
+        let mut recording = passing(1, 6);
+        (recording.lines.radial, recording.lines.touching_from) = (true, 0.25);
         let finer = recording.resampled(24);
         assert_eq!((finer.frames, finer.stored_teeth, finer.film.len()), (24, 3, 3 * 24 * 2));
+        assert_eq!((finer.radial, finer.touching_from), (true, 0.25));
         for (tooth, frame) in [(0, 0), (1, 2), (2, 5)] {
             let (a, b) = (recording.line_offset(tooth, frame), finer.line_offset(tooth, 4 * frame));
             assert_eq!(recording.film[a..a + 2], finer.film[b..b + 2]);
