@@ -336,7 +336,7 @@ fn map_panel(sweep: &Sweep, rows: &[Row], [x, y]: [&SweepAxis; 2], quantity: Qua
     panel = panel.layer(map);
     if x.words.is_empty() && y.words.is_empty() {
         let error = typical_error(rows, quantity);
-        panel = panel.layer(Contours { grid, error, labels: true, ..Contours::default() });
+        panel = panel.layer(Contours { grid, error, labels: true });
     }
     panel = with_points(panel, "not converged", unsound, Colour::CONTACT, Marker::solid(Shape::Cross));
     let here = |point: Published| <[f64; 2]>::try_from(point.values).ok();
