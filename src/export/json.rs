@@ -41,7 +41,7 @@ pub struct Summary {
     pub stopped_by: &'static str,
     /// What forces are in: `N`, or `N/m` for a strip, where they are per metre of width.
     pub force_unit: &'static str,
-    /// The numbers; of these the object has `residual`, `tolerance` and [`RESULTS`].
+    /// The numbers. The object has those that say what came of the solve, and of the others `residual` and `tolerance`.
     pub numbers: Numbers,
     /// The bound of the torque of the whole ring without the air film.
     pub dry_torque_nm: Option<f64>,
