@@ -9,7 +9,7 @@ use super::ending::Stop;
 use super::level::Level;
 use crate::control::Cancel;
 use crate::plan::Plan;
-use crate::problem::Motor;
+use crate::problem::{Flow, Motor};
 use crate::recording::LineLoads;
 
 /// The contact of one cycle on each of the plan's grids, coarse to fine, one tooth stored; `None` if cancelled.
@@ -17,7 +17,8 @@ use crate::recording::LineLoads;
 /// # Errors
 /// [`MotorError::Contact`] if a contact problem has no solution to working precision.
 pub fn without_film(motor: &Motor, plan: &Plan, cancel: &Cancel) -> Result<Option<Vec<LineLoads>>, MotorError> {
-    let plan = Plan { every_tooth: false, trapped: false, shear: false, ..plan.clone() };
+    // Nothing is solved across the width, so that its nodes need no memory.
+    let plan = Plan { every_tooth: false, trapped: false, shear: false, flow: Flow::Along, ..plan.clone() };
     let mut cycles = Vec::with_capacity(plan.grids.len());
     for grid in &plan.grids {
         let mut level = Level::new(motor, &plan, grid);

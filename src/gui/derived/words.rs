@@ -236,10 +236,19 @@ mod tests {
             assert!(find(LABELS, parameter.key).is_some(), "{}", parameter.key);
             assert_eq!(find(SWITCHES, parameter.key).is_some(), parameter.absent.is_some(), "{}", parameter.key);
             if let ParameterKind::Choice { options, .. } = parameter.kind {
+                let stale = CHOICES.iter().find(|(key, option, _)| *key == parameter.key && !options.contains(option));
+                assert_eq!(stale, None, "{}", parameter.key);
                 for option in options {
-                    assert_ne!(choice(parameter.key, option), *option, "{}", parameter.key);
+                    assert!(
+                        choice(parameter.key, option).starts_with(char::is_uppercase),
+                        "{}: {option}",
+                        parameter.key
+                    );
                 }
             }
+        }
+        for (key, option, words) in CHOICES {
+            assert_ne!(capitalised(&option.replace('-', " ")), *words, "{key}: {option} needs no words of its own");
         }
         for (key, _) in LABELS.iter().chain(SWITCHES) {
             assert!(Parameter::find(key).is_some(), "{key}");

@@ -85,7 +85,7 @@ pub struct StartupState {
     pub ended: Option<Result<Startup, String>>,
     chosen: usize,
     /// Whether the newest cycle is looked at.
-    pub follow: bool,
+    pub follows_newest: bool,
 }
 
 impl StartupState {
@@ -102,7 +102,7 @@ impl StartupState {
             ranges: None,
             ended: None,
             chosen: 0,
-            follow: true,
+            follows_newest: true,
         }
     }
 
@@ -133,7 +133,7 @@ impl StartupState {
         let (scene, problem) = (self.scene.clone(), self.problem.clone());
         let run = as_solved(number_of_run, scene, problem, self.fidelity, outcome, recording);
         self.kept.insert(number, Arc::new(run), MOST_BYTES);
-        if newest && self.follow || self.chosen == 0 {
+        if newest && self.follows_newest || self.chosen == 0 {
             self.chosen = number;
         } else {
             // What was looked at may no longer be kept.
@@ -150,7 +150,7 @@ impl StartupState {
 
     /// Looks at cycle `number`, or at the nearest one that is kept, and no longer at the newest.
     pub fn stay_at(&mut self, number: usize) {
-        self.follow = false;
+        self.follows_newest = false;
         self.choose(number);
     }
 
@@ -162,7 +162,7 @@ impl StartupState {
 
     /// Looks at the newest cycle from now on, or stays where it is.
     pub fn follow(&mut self, follow: bool) {
-        self.follow = follow;
+        self.follows_newest = follow;
         if let (true, Some(newest)) = (follow, self.kept().last()) {
             self.chosen = newest;
         }

@@ -59,7 +59,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
             }
         }
         let Some(startup) = cx.state.startup.as_ref().filter(|startup| startup.run().is_some()) else { return };
-        let mut follow = startup.follow;
+        let mut follow = startup.follows_newest;
         let hover = "Shows each cycle as soon as it is computed";
         if ui.checkbox(&mut follow, "Follow the newest cycle").hint(hover).changed() {
             cx.push(StartupCommand::Follow(follow));
