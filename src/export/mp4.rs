@@ -56,7 +56,7 @@ pub(super) fn write(video: &Video, timing: &Timing, comment: &str, out: &mut dyn
 /// A packet without delimiters, which a container has no use for.
 fn sample(packet: &[u8]) -> Option<Vec<u8>> {
     let kept = obus(packet)?.into_iter().filter(|(kind, _)| *kind != TEMPORAL_DELIMITER);
-    Some(kept.flat_map(|(_, obu)| obu.iter().copied()).collect())
+    Some(kept.map(|(_, obu)| obu).collect::<Vec<_>>().concat())
 }
 
 /// The OBUs of a packet, each with its type; `None` if they do not end where the packet does.

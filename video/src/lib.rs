@@ -31,7 +31,7 @@ const PARTS: usize = 4;
 /// No side is shorter, says the encoder.
 const SHORTEST: usize = 16;
 /// The figure's, for what is added at the right and below.
-const BACKGROUND: [f32; 3] = [255.0; 3];
+const BACKGROUND: [u8; 3] = [255; 3];
 
 /// One cycle, encoded.
 pub struct Video {
@@ -178,38 +178,56 @@ fn level([width, height]: [usize; 2], rate: f64) -> u8 {
 
 /// Luma and both chromas of a picture, with background where it is larger than its source.
 fn planes(rgb: &[u8], [across, down]: [usize; 2], [width, height]: [usize; 2]) -> [Vec<u8>; 3] {
-    let pixel = |x: usize, y: usize| -> [f32; 3] {
-        if x >= across || y >= down {
-            return BACKGROUND;
-        }
-        let at = 3 * (y * across + x);
-        [rgb[at], rgb[at + 1], rgb[at + 2]].map(f32::from)
-    };
-    let luma = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    // Not `round`, a call to the C library for each sample on x86-64.
-    let nearest = |positive: f32| (positive + 0.5) as u8;
+    let rows: Vec<&[[u8; 3]]> = rgb.as_chunks().0.chunks_exact(across).take(down).collect();
     let mut planes = [vec![0; width * height], vec![0; width * height / 4], vec![0; width * height / 4]];
     let [grey, blue, red] = &mut planes;
     let chroma = blue.par_chunks_mut(width / 2).zip(red.par_chunks_mut(width / 2));
     grey.par_chunks_mut(2 * width).zip(chroma).enumerate().for_each(|(pair, (grey, (blue, red)))| {
         // Of both rows.
-        let mut sums = vec![[0.0; 3]; width];
+        let mut sums = vec![[0; 3]; width];
         for (row, grey) in grey.chunks_mut(width).enumerate() {
-            for (x, (sample, sum)) in grey.iter_mut().zip(&mut sums).enumerate() {
-                let colour = pixel(x, 2 * pair + row);
-                *sample = nearest(16.0 + 219.0 / 255.0 * luma(colour));
+            let convert = |sample: &mut u8, sum: &mut [i32; 3], colour: [u8; 3]| {
+                let colour = colour.map(i32::from);
+                *sample = LUMA.of(colour, 0);
                 (0..3).for_each(|k| sum[k] += colour[k]);
-            }
+            };
+            let known = rows.get(2 * pair + row).copied().unwrap_or_default();
+            let (source, added) = grey.split_at_mut(known.len());
+            source
+                .iter_mut()
+                .zip(&mut sums)
+                .zip(known)
+                .for_each(|((sample, sum), colour)| convert(sample, sum, *colour));
+            added.iter_mut().zip(&mut sums[known.len()..]).for_each(|(sample, sum)| convert(sample, sum, BACKGROUND));
         }
         for (x, (blue, red)) in blue.iter_mut().zip(red).enumerate() {
             let near = [(2 * x).saturating_sub(1), 2 * x, 2 * x + 1].map(|column| sums[column]);
-            let mean: [f32; 3] = std::array::from_fn(|k| (near[0][k] + 2.0 * near[1][k] + near[2][k]) / 8.0);
-            let luma = luma(mean);
-            *blue = nearest(128.0 + 224.0 / 255.0 * (mean[2] - luma) / 1.8556);
-            *red = nearest(128.0 + 224.0 / 255.0 * (mean[0] - luma) / 1.5748);
+            let sum: [i32; 3] = std::array::from_fn(|k| near[0][k] + 2 * near[1][k] + near[2][k]);
+            *blue = BLUE.of(sum, 3);
+            *red = RED.of(sum, 3);
         }
     });
     planes
+}
+
+/// A sample as a sum of red, green and blue, in units of 2⁻¹⁶, and what it is of black.
+struct Weights {
+    of: [i32; 3],
+    black: i32,
+}
+
+/// BT.709 in the limited range.
+const LUMA: Weights = Weights { of: [11_966, 40_254, 4064], black: 16 };
+const BLUE: Weights = Weights { of: [-6596, -22_189, 28_785], black: 128 };
+const RED: Weights = Weights { of: [28_784, -26_145, -2639], black: 128 };
+
+impl Weights {
+    /// Of the sum of 2^`doubled` colours.
+    fn of(&self, sum: [i32; 3], doubled: u32) -> u8 {
+        let [r, g, b] = self.of;
+        let half = 1 << (15 + doubled);
+        ((r * sum[0] + g * sum[1] + b * sum[2] + (self.black << (16 + doubled)) + half) >> (16 + doubled)) as u8
+    }
 }
 
 #[cfg(test)]

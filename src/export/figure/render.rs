@@ -28,7 +28,11 @@ pub(super) fn pixels(
     let tree = tree(svg)?;
     let (sx, sy) = (width as f32 / tree.size().width(), height as f32 / tree.size().height());
     resvg::render(&tree, Transform::from_scale(sx, sy), &mut pixmap.as_mut());
-    let rgb = pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    let pixels = pixmap.data().as_chunks::<4>().0;
+    let mut rgb = vec![0; 3 * pixels.len()];
+    for (colour, [r, g, b, _]) in rgb.as_chunks_mut().0.iter_mut().zip(pixels) {
+        *colour = [*r, *g, *b];
+    }
     Ok(Pixels { width: pixmap.width(), height: pixmap.height(), rgb })
 }
 
