@@ -103,6 +103,24 @@ fn every_setting_is_the_solve_that_its_options_ask_for_to_the_last_bit() {
 }
 
 #[test]
+fn settings_share_the_time_equally() {
+    let problem = Problem::try_from(&presets::find("fundamental").unwrap()).unwrap();
+    let all: Vec<_> =
+        candidates(&problem).into_iter().filter(|one| ["draft", "standard"].contains(&&*one.name)).collect();
+    assert_eq!(all.len(), 2);
+    // It is a quarter of a second later whenever the clock is looked at.
+    let looks = std::cell::Cell::new(0.0);
+    let clock = || {
+        looks.set(looks.get() + 0.25);
+        looks.get()
+    };
+    let effort = Effort { repeats: None, seconds: 60.0, ..Effort::default() };
+    for run in measure(&problem, all, &effort, &clock, &Cancel::new(), &mut |_, _| ()) {
+        assert_eq!(run.times.len(), (30.0 / run.times[0]) as usize, "{:?}", run.times);
+    }
+}
+
+#[test]
 fn the_command_that_is_recommended_gives_what_the_table_shows() {
     let set = ["--set", "film.slip=second-order", "--set", "numerics.film_nodes_along=21"];
     let output = run(&[&["tradeoff", "plate-crossover", "--repeats=1", "--accuracy=0.2%"][..], &set].concat());

@@ -330,3 +330,23 @@ fn place_columns(figure: &Figure, panels: &mut [Placed], columns: usize, width: 
         x += left + plot + right + COLUMN_GAP;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_titles_and_feet_keep_the_margins() {
+        for words in 60..90 {
+            let mut figure = Figure::new(&"il ".repeat(words));
+            figure.provenance.note = "lli ".repeat(words);
+            let Layout { width, title, foot, .. } = Layout::new(&figure);
+            assert!(title.len() > 1 && foot.len() > 1);
+            for (size, lines) in [(TITLE, title), (FOOT, foot)] {
+                for ([x, _], line) in lines {
+                    assert!(x >= MARGIN && x + text::width(&line, size) <= width - MARGIN, "{words}: {line}");
+                }
+            }
+        }
+    }
+}

@@ -133,9 +133,6 @@ fn linear(range: &Scaled, most: usize, whole: bool) -> Ticks {
     let steps = Steps::new(ends, most);
     let ones = whole && steps.step() <= 1.0;
     let steps = if ones { Steps::of(ends, 1.0) } else { steps };
-    if !(steps.step().is_finite() && steps.step() > 0.0) {
-        return Ticks::default();
-    }
     let size = range.from.abs().max(range.to.abs());
     let power = if (1.0 / PLAIN..PLAIN).contains(&size) && steps.step() >= 1e-4 { 0 } else { thousands(size) };
     let places = steps.decimals(power);

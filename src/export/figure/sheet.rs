@@ -239,4 +239,52 @@ mod tests {
         }
         assert!(moved);
     }
+
+    /// The numbers of this attribute, of all `tag`s of a page in order.
+    fn attributes(page: &str, tag: &str, name: &str) -> Vec<f64> {
+        let begin = format!("<{tag} ");
+        let tags = page.split(&begin).skip(1);
+        let value =
+            |tag: &str| tag.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()?.parse().ok());
+        tags.filter_map(value).collect()
+    }
+
+    #[test]
+    fn lines_stand_below_each_other_and_a_box_before_its_choice() {
+        let long = "words that take more than one line of a column ".repeat(4);
+        let size = SIZES[2];
+        let page =
+            set(&[Piece::Title(long.clone()), Piece::Text(long.clone()), Piece::Choice(long, true)], size).remove(0);
+        let [x, y, sizes] = ["x", "y", "font-size"].map(|name| attributes(&page, "text", name));
+        assert!(x.len() > 8 && y.iter().all(|y| (MARGIN..MARGIN + 30.0 * size).contains(y)), "{y:?}");
+        for i in 1..y.len() {
+            let apart = y[i] - y[i - 1];
+            // Within a paragraph the lines are evenly apart; between two there is more.
+            let same = sizes[i] == sizes[i - 1] && x[i] == x[i - 1];
+            assert!(if same { (apart - LINE * sizes[i]).abs() < 2e-3 } else { apart > LINE * size }, "{y:?}");
+        }
+        assert!(x[0] == MARGIN && (x[x.len() - 1] - MARGIN - INDENT * size).abs() < 1e-3, "{x:?}");
+        let first = x.iter().position(|at| *at > MARGIN).unwrap();
+        let [left, top, height] = ["x", "y", "height"].map(|name| attributes(&page, "rect", name)[0]);
+        assert!(left == MARGIN && top < y[first] && top + height > y[first] - size && y[first] - top < size, "{page}");
+    }
+
+    #[test]
+    fn ruled_lines_and_axes_leave_room_above_each_line_and_below_the_last() {
+        let size = SIZES[0];
+        let page =
+            set(&[Piece::Room(3), Piece::Axes(["x".into(), "y".into()]), Piece::Text("text".into())], size).remove(0);
+        let ends =
+            |path: &str| -> Vec<f64> { path.split(['M', 'L', ' ']).filter_map(|end| end.parse().ok()).collect() };
+        let paths: Vec<Vec<f64>> =
+            page.split("d=\"").skip(1).map(|path| ends(path.split('"').next().unwrap())).collect();
+        let right = MARGIN + Setter::width();
+        for (i, line) in paths[..3].iter().enumerate() {
+            let y = MARGIN + (i as f64 + 1.0) * RULED * size;
+            assert!(line.iter().zip([MARGIN, y, right, y]).all(|(a, b)| (a - b).abs() < 1e-3), "{line:?}");
+        }
+        let [left, top, _, bottom, .., along, low] = paths[3][..] else { panic!("{paths:?}") };
+        assert!(left > MARGIN && along < right && low == bottom && (bottom - top - AXES * size).abs() < 2e-3);
+        assert!(top > paths[2][1] + 0.5 * size && attributes(&page, "text", "y")[2] > bottom + 2.0 * size);
+    }
 }

@@ -287,3 +287,35 @@ pub fn map(motor: &Motor, recording: &Recording, frame: usize) -> Figure {
     );
     figure
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::figure::Layer;
+    use crate::recording::LineLoads;
+
+    #[test]
+    fn under_each_tooth_stands_its_own_pressure_and_nothing_in_the_groove() {
+        // Two teeth, of which one is stored; two nodes along it and two across half the width; the pressure counts.
+        let recording = Recording {
+            lines: LineLoads { frames: 4, teeth: 2, stored_teeth: 1, pitch: 2e-3, ..LineLoads::default() },
+            map_x: vec![-0.5e-3, 0.5e-3],
+            map_y: vec![0.0, 1e-4],
+            half_width: true,
+            pressure: (0..16).map(f64::from).collect(),
+            ..Recording::default()
+        };
+        let panel = all_teeth_on(&recording, 1, "hPa", 0.01, [0.0, 20.0]);
+        let Layer::Map(map) = &panel.layers[0] else { panic!("{panel:?}") };
+        let near = |found: &[f64], expected: &[f64]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(
+            near(&map.grid.x, &[-0.5, 0.5, 1.0, 1.5, 2.5]) && near(&map.grid.y, &[-0.1, 0.0, 0.1]),
+            "{:?}",
+            map.grid
+        );
+        let values = &map.grid.values;
+        assert!(near(&values[..6], &[0.05, 0.04, 0.05, 0.07, 0.06, 0.07]) && values[6..9].iter().all(|v| v.is_nan()));
+        assert!(values.len() == 15 && near(&values[9..], &[0.13, 0.12, 0.13, 0.15, 0.14, 0.15]), "{values:?}");
+        assert_eq!(map.range, Range::Fixed(0.0, 0.2));
+    }
+}
