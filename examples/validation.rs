@@ -66,16 +66,16 @@ fn grids() -> Result<String, Box<dyn Error>> {
         for (number, alpha) in found.headlines.iter().enumerate() {
             let name = if number == 0 { fidelity.name() } else { "" };
             let last = number + 1 == found.headlines.len();
-            let result = if last { with_error(found.result.alpha, found.result.alpha_error) } else { String::new() };
+            let result = if last { found.result.alpha.to_string() } else { String::new() };
             writeln!(text, "| {name} | {} × {across}, {} | {alpha:.6} | {result} |", grid.along + 1, grid.steps)?;
             grid = grid.finer(true);
         }
-        let (result, load) = (found.result, motor.load);
+        let result = found.result;
         sentence = format!(
             "\nSo α = {} and the film load is {} N, {:.1} % more than the {PUBLISHED} N of the paper.\n",
-            with_error(result.alpha, result.alpha_error),
-            with_error(result.film_load, result.alpha_error * load),
-            100.0 * (result.film_load / PUBLISHED - 1.0)
+            result.alpha,
+            result.film_load,
+            100.0 * (result.film_load.value / PUBLISHED - 1.0)
         );
     }
     Ok(text + &sentence)
@@ -108,13 +108,13 @@ fn mesh() -> Result<String, Box<dyn Error>> {
         .map(|(key, value)| (key, value.to_string()));
         let changes: Vec<(&str, &str)> = changes.iter().map(|(key, value)| (*key, value.as_str())).collect();
         let result = run(&changes, Method::Paper, Fidelity::Standard)?;
-        let first = *first.get_or_insert(result.film_load);
+        let first = *first.get_or_insert(result.film_load.value);
         writeln!(
             text,
             "| {along} × {across} | {contact} | {steps} | {:.4} | {:.5} | {:+.1} % |",
-            result.film_load,
-            result.alpha,
-            100.0 * (result.film_load / first - 1.0)
+            result.film_load.value,
+            result.alpha.value,
+            100.0 * (result.film_load.value / first - 1.0)
         )?;
     }
     let own = run(&[], Method::Auto, Fidelity::Reference)?;
@@ -122,9 +122,9 @@ fn mesh() -> Result<String, Box<dyn Error>> {
     writeln!(
         text,
         "| our method, reference | | | {:.4} | {:.5} | {:+.1} % |",
-        own.film_load,
-        own.alpha,
-        100.0 * (own.film_load / first - 1.0)
+        own.film_load.value,
+        own.alpha.value,
+        100.0 * (own.film_load.value / first - 1.0)
     )?;
     Ok(text)
 }
@@ -132,7 +132,7 @@ fn mesh() -> Result<String, Box<dyn Error>> {
 /// What the slip law and the wedge term change in the fundamental case.
 fn slip_laws() -> Result<String, Box<dyn Error>> {
     let mut text = "| change | α | |\n| --- | ---: | ---: |\n".to_owned();
-    let base = run(&[], Method::Auto, Fidelity::Reference)?.alpha;
+    let base = run(&[], Method::Auto, Fidelity::Reference)?.alpha.value;
     for (what, key, value) in [
         ("none: first-order slip", "film.slip", "first-order"),
         ("no slip", "film.slip", "none"),
@@ -141,8 +141,8 @@ fn slip_laws() -> Result<String, Box<dyn Error>> {
         ("no wedge term", "film.shear", "false"),
     ] {
         let result = run(&[(key, value)], Method::Auto, Fidelity::Reference)?;
-        let alpha = with_error(result.alpha, result.alpha_error);
-        writeln!(text, "| {what} | {alpha} | {:+.2} % |", 100.0 * (result.alpha / base - 1.0))?;
+        let alpha = result.alpha;
+        writeln!(text, "| {what} | {alpha} | {:+.2} % |", 100.0 * (result.alpha.value / base - 1.0))?;
     }
     Ok(text)
 }

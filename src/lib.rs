@@ -18,7 +18,7 @@
 //!
 //! assert_eq!(solution.status, Status::Converged);
 //! let Outcome::Motor(result) = solution.outcome else { unreachable!("the preset is a motor") };
-//! assert!((0.24..0.25).contains(&result.alpha));
+//! assert!((0.24..0.25).contains(&result.alpha.value));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -71,16 +71,16 @@ fn check(motor: &Motor, plan: &Plan, found: &Periodic) -> Result<(), String> {
     let (result, recording) = (&found.result, &found.recording);
     let fault = |words: String| Err(format!("{words}; {:?}, {result:?}", found.status));
     let numbers = [
-        result.alpha,
-        result.alpha_error,
-        result.film_load,
-        result.contact_load,
-        result.film_load_min,
-        result.film_load_max,
-        result.max_torque,
-        result.teeth_in_contact,
-        result.min_gap,
-        result.max_pressure,
+        result.alpha.value,
+        result.alpha.error,
+        result.film_load.value,
+        result.contact_load.value,
+        result.film_load_min.value,
+        result.film_load_max.value,
+        result.max_torque.value,
+        result.teeth_in_contact.value,
+        result.min_film_thickness.value,
+        result.max_pressure.value,
     ];
     if numbers.iter().any(|number| !number.is_finite()) {
         return fault("a number that is not finite".to_owned());
@@ -97,9 +97,9 @@ fn check(motor: &Motor, plan: &Plan, found: &Periodic) -> Result<(), String> {
     }
     match found.status {
         Status::Converged => {}
-        Status::NotResolved { error } if error >= 1.0 && result.alpha_error >= result.alpha.abs() => {}
+        Status::NotResolved { error } if error >= 1.0 && result.alpha.error >= result.alpha.value.abs() => {}
         // Says so, and states an error that is no promise.
-        Status::NotConverged { residual, tolerance } if residual > tolerance && result.alpha_error > tolerance => {
+        Status::NotConverged { residual, tolerance } if residual > tolerance && result.alpha.error > tolerance => {
             return Ok(());
         }
         _ => return fault("neither converged nor honest about it".to_owned()),
@@ -111,7 +111,7 @@ fn check(motor: &Motor, plan: &Plan, found: &Periodic) -> Result<(), String> {
         (true, true) => -1e-3,
         (false, _) => -1e-6,
     };
-    if result.alpha < lowest - result.alpha_error || result.alpha > 1.0 + 1e-6 + result.alpha_error {
+    if result.alpha.value < lowest - result.alpha.error || result.alpha.value > 1.0 + 1e-6 + result.alpha.error {
         return fault("α outside 0 … 1".to_owned());
     }
     for frame in 0..recording.frames {
@@ -219,12 +219,12 @@ fn check_plate(plate: &Plate, solution: &Solution) -> Result<(), String> {
     };
     let fault = |words: String| Err(format!("{words}; {:?}, {result:?}", solution.status));
     let numbers = [
-        result.film_load,
-        result.film_load_error,
-        result.film_load_min,
-        result.film_load_max,
-        result.max_pressure,
-        result.min_gap,
+        result.film_load.value,
+        result.film_load.error,
+        result.film_load_min.value,
+        result.film_load_max.value,
+        result.max_pressure.value,
+        result.min_film_thickness.value,
     ];
     if numbers.iter().any(|number| !number.is_finite()) {
         return fault("a number that is not finite".to_owned());
@@ -234,7 +234,7 @@ fn check_plate(plate: &Plate, solution: &Solution) -> Result<(), String> {
     }
     match solution.status {
         Status::Converged => {}
-        Status::NotResolved { error } if error >= 1.0 && result.film_load_error >= result.film_load.abs() => {}
+        Status::NotResolved { error } if error >= 1.0 && result.film_load.error >= result.film_load.value.abs() => {}
         Status::NotConverged { residual, tolerance } if residual > tolerance => return Ok(()),
         _ => return fault("neither converged nor honest about it".to_owned()),
     }
@@ -244,13 +244,15 @@ fn check_plate(plate: &Plate, solution: &Solution) -> Result<(), String> {
     let most = (greatest / least).sqrt();
     let [low, high] = [1.0 / most - 1.0, most - 1.0].map(|ratio| ratio * force);
     let rounding = 1e-12 * force * most;
-    if !(low - rounding..=high + rounding).contains(&result.film_load) {
-        let outside = (result.film_load - high).max(low - result.film_load);
-        if outside > result.film_load_error {
+    if !(low - rounding..=high + rounding).contains(&result.film_load.value) {
+        let outside = (result.film_load.value - high).max(low - result.film_load.value);
+        if outside > result.film_load.error {
             return fault(format!("a load outside {low} … {high} N"));
         }
     }
-    if result.max_pressure - result.max_pressure_error > (1.0 + 1e-9) * plate.gas.ambient_pressure * greatest / least {
+    if result.max_pressure.value - result.max_pressure.error
+        > (1.0 + 1e-9) * plate.gas.ambient_pressure * greatest / least
+    {
         return fault("more pressure than the greatest gap leaves in the least".to_owned());
     }
     Ok(())
@@ -669,7 +671,8 @@ fn thousands_of_plates() {
 fn in_a_vacuum_the_film_carries_nothing() {
     // The gas carries some share of p_a × area: α falls with p_a, and in proportion where σ is large.
     let pressures = [100.0, 10.0, 1.0, 0.1, 0.01];
-    let alphas = pressures.map(|p| alpha(Fidelity::Standard, &[("film.ambient_pressure_kpa", p)], &[]).result.alpha);
+    let alphas =
+        pressures.map(|p| alpha(Fidelity::Standard, &[("film.ambient_pressure_kpa", p)], &[]).result.alpha.value);
     println!("p_a {pressures:?} kPa: α {alphas:?}");
     for pair in alphas.windows(2) {
         assert!(pair[1] > 0.0 && pair[1] < 0.2 * pair[0], "{alphas:?}");
@@ -688,7 +691,7 @@ fn as_the_spacing_vanishes_the_film_carries_everything() {
     ] {
         let at = |spacing: f64| {
             let changes: Vec<_> = motor.iter().copied().chain([("film.min_spacing_nm", spacing)]).collect();
-            alpha(Fidelity::Standard, &changes, &[]).result.alpha
+            alpha(Fidelity::Standard, &changes, &[]).result.alpha.value
         };
         let alphas = [40.0, 20.0, 10.0, 5.0].map(at);
         println!("{motor:?}: α {alphas:?} at 40, 20, 10, 5 nm");
@@ -699,8 +702,9 @@ fn as_the_spacing_vanishes_the_film_carries_everything() {
 #[test]
 fn at_low_frequency_the_gas_has_time_to_leave() {
     let frequencies = [10.0, 1.0, 0.1, 0.01, 0.001];
-    let alphas = frequencies
-        .map(|f| alpha(Fidelity::Standard, &[("stator.frequency_khz", f)], &[("film.shear", "false")]).result.alpha);
+    let alphas = frequencies.map(|f| {
+        alpha(Fidelity::Standard, &[("stator.frequency_khz", f)], &[("film.shear", "false")]).result.alpha.value
+    });
     println!("{frequencies:?} kHz: α {alphas:?}");
     assert!(alphas.windows(2).all(|pair| pair[1].abs() < 0.6 * pair[0].abs() + 1e-9), "{alphas:?}");
     assert!(alphas[4].abs() < 1e-5, "{alphas:?}");
@@ -723,9 +727,9 @@ fn a_strongly_crowned_tooth_is_resolved_where_it_carries() {
             [Fidelity::Draft, Fidelity::Standard, Fidelity::Fine].map(|fidelity| alpha(fidelity, &changes, &[]).result);
         println!("R {radius} m, H_m {spacing} nm, {frequency} kHz: {} {} {}", draft.alpha, standard.alpha, fine.alpha);
         for (coarse, within) in [(draft, 0.1), (standard, 0.05)] {
-            let error = coarse.alpha_error + fine.alpha_error;
-            assert!((coarse.alpha - fine.alpha).abs() < error, "{changes:?}: {coarse:?} {fine:?}");
-            assert!((coarse.alpha / fine.alpha - 1.0).abs() < within, "{changes:?}: {coarse:?} {fine:?}");
+            let error = coarse.alpha.error + fine.alpha.error;
+            assert!((coarse.alpha.value - fine.alpha.value).abs() < error, "{changes:?}: {coarse:?} {fine:?}");
+            assert!((coarse.alpha.value / fine.alpha.value - 1.0).abs() < within, "{changes:?}: {coarse:?} {fine:?}");
         }
     }
 }
@@ -742,10 +746,10 @@ fn at_high_frequency_the_gas_is_trapped() {
         };
         let limit = at(10_000.0, "trapped");
         let other = at(1000.0, "trapped");
-        let error = limit.alpha_error + other.alpha_error;
-        assert!((other.alpha - limit.alpha).abs() < error, "{motor:?}: {limit:?} {other:?}");
-        let missing =
-            [100.0, 1000.0, 10_000.0].map(|frequency| at(frequency, "trapped").alpha - at(frequency, "march").alpha);
+        let error = limit.alpha.error + other.alpha.error;
+        assert!((other.alpha.value - limit.alpha.value).abs() < error, "{motor:?}: {limit:?} {other:?}");
+        let missing = [100.0, 1000.0, 10_000.0]
+            .map(|frequency| at(frequency, "trapped").alpha.value - at(frequency, "march").alpha.value);
         println!("{motor:?}: α → {}, missing {missing:?} at 0.1, 1, 10 MHz", limit.alpha);
         for pair in missing.windows(2) {
             assert!((2.6..3.8).contains(&(pair[0] / pair[1])), "{motor:?}: {missing:?}, √10 expected");
@@ -762,10 +766,10 @@ fn a_rotor_can_be_all_but_rigid() {
         alpha(Fidelity::Standard, &changes, &[]).result
     };
     let results = [0.1, 0.01, 0.001].map(at);
-    let alphas = results.map(|result| result.alpha);
-    println!("0.1, 0.01, 0.001 µm/N: α {alphas:?} ± {:?}", results.map(|result| result.alpha_error));
+    let alphas = results.map(|result| result.alpha.value);
+    println!("0.1, 0.01, 0.001 µm/N: α {alphas:?} ± {:?}", results.map(|result| result.alpha.error));
     let steps = [(alphas[1] - alphas[0]).abs(), (alphas[2] - alphas[1]).abs()];
-    assert!(steps[1] < 0.5 * steps[0] + results[1].alpha_error + results[2].alpha_error, "{alphas:?}");
+    assert!(steps[1] < 0.5 * steps[0] + results[1].alpha.error + results[2].alpha.error, "{alphas:?}");
 }
 
 #[test]
@@ -773,8 +777,8 @@ fn a_rotor_softer_than_the_wave_follows_it() {
     // It lies on every tooth at all times, at H_m: nothing is squeezed, and nothing is carried.
     let soft = [("rotor.point_compliance_um_per_n", 100.0), ("rotor.local_compliance_m2_per_n", 1e-7)];
     let found = alpha(Fidelity::Standard, &soft, &[("film.shear", "false"), ("numerics.tolerance", "1e-8")]);
-    assert!(found.result.alpha.abs() < 1e-6, "{:?}", found.result);
-    assert_eq!((found.result.teeth_in_contact, found.result.min_gap), (9.0, 200e-9));
+    assert!(found.result.alpha.value.abs() < 1e-6, "{:?}", found.result);
+    assert_eq!((found.result.teeth_in_contact.value, found.result.min_film_thickness.value), (9.0, 200e-9));
 }
 
 #[test]
@@ -788,8 +792,8 @@ fn a_tooth_may_be_as_wide_as_the_pitch() {
         };
         let (almost, whole) = (at(0.999), at(1.0));
         println!("{teeth} teeth: α {} and {}", almost.alpha, whole.alpha);
-        let allowed = 2e-3 * whole.alpha + almost.alpha_error + whole.alpha_error;
-        assert!((almost.alpha - whole.alpha).abs() < allowed, "{teeth}: {almost:?} {whole:?}");
+        let allowed = 2e-3 * whole.alpha.value + almost.alpha.error + whole.alpha.error;
+        assert!((almost.alpha.value - whole.alpha.value).abs() < allowed, "{teeth}: {almost:?} {whole:?}");
     }
 }
 
@@ -808,11 +812,11 @@ fn a_load_that_presses_the_wave_flat_leaves_no_film() {
         &[("film.shear", "false")],
     );
     println!("A = {:.3} µm of {flat:.3}: {:?}", 0.3 * flat, found.result);
-    assert_eq!((found.result.teeth_in_contact, found.result.min_gap), (9.0, 200e-9));
-    assert!(found.result.alpha.abs() < 1e-3, "{:?}", found.result);
+    assert_eq!((found.result.teeth_in_contact.value, found.result.min_film_thickness.value), (9.0, 200e-9));
+    assert!(found.result.alpha.value.abs() < 1e-3, "{:?}", found.result);
     // At any amplitude it is pressed down harder than by the load of the paper.
     let pressed = alpha(Fidelity::Standard, &[("motor.load_per_wave_n", 100.0)], &[]).result;
-    assert!(pressed.teeth_in_contact > 8.0 && pressed.alpha < 0.02, "{pressed:?}");
+    assert!(pressed.teeth_in_contact.value > 8.0 && pressed.alpha.value < 0.02, "{pressed:?}");
 }
 
 // ---- bits and costs
@@ -820,7 +824,12 @@ fn a_load_that_presses_the_wave_flat_leaves_no_film() {
 fn bits(found: &Periodic) -> Vec<u64> {
     let recording = &found.recording;
     let fields = [&recording.film_thickness, &recording.contact, &recording.film, &recording.pressure];
-    let result = [found.result.alpha, found.result.alpha_error, found.result.max_pressure, found.result.min_gap];
+    let result = [
+        found.result.alpha.value,
+        found.result.alpha.error,
+        found.result.max_pressure.value,
+        found.result.min_film_thickness.value,
+    ];
     result.iter().chain(fields.into_iter().flatten()).map(|number| number.to_bits()).collect()
 }
 
@@ -891,11 +900,11 @@ fn where_a_rotor_may_float_or_not_both_states_are_stated() {
     };
     for pressure in [185.0, 190.0] {
         let (floating, _, bistable) = both(pressure);
-        assert!(bistable && floating.alpha > 0.99, "{floating:?}");
+        assert!(bistable && floating.alpha.value > 0.99, "{floating:?}");
     }
     for pressure in [193.0, 195.0] {
         let (touching, status, _) = both(pressure);
-        assert!(status == Status::Converged && (touching.alpha - 0.64).abs() < 0.02, "{status:?} {touching:?}");
+        assert!(status == Status::Converged && (touching.alpha.value - 0.64).abs() < 0.02, "{status:?} {touching:?}");
     }
     assert!(!both(220.0).2);
 }

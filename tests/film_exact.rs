@@ -109,7 +109,7 @@ fn trapped_limit_is_langlois_and_is_approached_as_the_edge_layer_thins() {
         let deficit = |sigma: f64| {
             let strip = plate(sigma, epsilon, m, None);
             let found = solve(&strip, Fidelity::Fine);
-            1.0 - found.result.film_load / (strip.gas.ambient_pressure * LENGTH) / limit
+            1.0 - found.result.film_load.value / (strip.gas.ambient_pressure * LENGTH) / limit
         };
         // The layer is O(σ^-1/2) thick: a hundred times σ makes a tenth of the deficit.
         let (near, far) = (deficit(1e4), deficit(1e6));
@@ -178,9 +178,9 @@ fn viscous_limit_is_the_incompressible_film_with_no_mean_load() {
     }
     println!(
         "viscous limit: {worst:.1e}, mean load {:.1e}, of the largest force",
-        found.result.film_load.abs() / scale
+        found.result.film_load.value.abs() / scale
     );
-    assert!(found.result.film_load.abs() < 1e-3 * scale, "{} {scale}", found.result.film_load);
+    assert!(found.result.film_load.value.abs() < 1e-3 * scale, "{} {scale}", found.result.film_load);
 }
 
 /// Spring and damping of the load over a cycle, divided by p_a·area·ε.
@@ -242,12 +242,12 @@ fn the_plate_of_two_other_codes() {
             gas: air(mean_free_path),
         };
         let found = solve(&plate, Fidelity::Standard);
-        let load = found.result.film_load;
-        println!("plate benchmark: {:.4} ± {:.4} mN", 1e3 * load, 1e3 * found.result.film_load_error);
+        let load = found.result.film_load.value;
+        println!("plate benchmark: {:.4} ± {:.4} mN", 1e3 * load, 1e3 * found.result.film_load.error);
         assert!(
             (load - expected).abs() < digits,
             "{load:.6e} ± {:.1e}, expected {expected}",
-            found.result.film_load_error
+            found.result.film_load.error
         );
     }
 }
@@ -259,7 +259,7 @@ fn the_published_stiffness_and_damping_of_a_plate() {
     let problem = Problem::try_from(&presets::find("plate-mems").unwrap()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
     let found = solve(plate, Fidelity::Reference);
-    let film_load = Estimate { value: found.result.film_load, error: found.result.film_load_error };
+    let film_load = Estimate { value: found.result.film_load.value, error: found.result.film_load.error };
     let compared = Comparison::of(plate, film_load, &found.recording);
     let solved = compared.stiffness_and_damping().unwrap();
     for (what, solved, published, digit, exact) in [
@@ -280,7 +280,7 @@ fn slip_laws_agree_at_small_knudsen_numbers_and_differ_at_ours() {
         let mut plate = plate(100.0, 0.5, 0.0, None);
         plate.gas.slip = slip;
         plate.gas.mean_free_path = mean_free_path;
-        solve(&plate, Fidelity::Standard).result.film_load
+        solve(&plate, Fidelity::Standard).result.film_load.value
     };
     let laws = [Slip::FirstOrder, Slip::SecondOrder, Slip::FukuiKaneko];
     let continuum = load(Slip::None, 64e-9);
@@ -318,7 +318,7 @@ fn a_plate_turned_by_a_quarter_is_the_same_plate() {
     for sigma in [1.0, 1e5] {
         let long = plate(sigma, 0.5, 0.1, Some(1.0 / 40.0));
         let [found, other] = [&long, &long.turned()].map(|plate| solve(plate, Fidelity::Standard));
-        let (load, turned) = (found.result.film_load, other.result.film_load);
+        let (load, turned) = (found.result.film_load.value, other.result.film_load.value);
         assert!((turned / load - 1.0).abs() < 1e-9, "{load} {turned}");
         let (a, b) = (&found.recording, &other.recording);
         assert_eq!((&a.map_x, &a.map_y), (&b.map_y, &b.map_x));
@@ -344,10 +344,13 @@ fn steps_that_follow_the_gap_agree_with_even_ones() {
         let even = Numerics { steps_per_cycle: Some(4096), ..Numerics::default() };
         let (even, found) = (solve_with(&strip, Fidelity::Fine, &even), solve(&strip, Fidelity::Fine));
         let (a, b) = (found.result, even.result);
-        println!("σ {sigma}: {:?} even {:?}", (a.film_load, a.film_load_error), (b.film_load, b.film_load_error));
-        assert!((a.film_load - b.film_load).abs() < a.film_load_error + b.film_load_error);
-        assert!((a.film_load_max - b.film_load_max).abs() < a.film_load_range_error[1] + b.film_load_range_error[1]);
-        assert!(a.film_load_error < 2e-3 * a.film_load && 2 * found.stats.steps_per_cycle < even.stats.steps_per_cycle);
+        println!("σ {sigma}: {:?} even {:?}", (a.film_load, a.film_load.error), (b.film_load, b.film_load.error));
+        assert!((a.film_load.value - b.film_load.value).abs() < a.film_load.error + b.film_load.error);
+        assert!((a.film_load_max.value - b.film_load_max.value).abs() < a.film_load_max.error + b.film_load_max.error);
+        assert!(
+            a.film_load.error < 2e-3 * a.film_load.value
+                && 2 * found.stats.steps_per_cycle < even.stats.steps_per_cycle
+        );
     }
 }
 
@@ -360,9 +363,12 @@ fn what_trapped_gas_leaves_out_is_bounded() {
         let marched = Plan { trapped: false, left_out: 0.0, accuracy: 5e-4, ..plan.clone() };
         let [trapped, marched] =
             [&plan, &marched].map(|plan| plate::periodic(&plate, plan, &mut (), &Cancel::new()).unwrap().result);
-        let effect = trapped.film_load / marched.film_load - 1.0;
+        let effect = trapped.film_load.value / marched.film_load.value - 1.0;
         println!("ε {epsilon}: effect {effect:.2e} of {:.2e}", plan.left_out);
         assert!(effect.abs() > 0.2 * plan.left_out && effect.abs() < plan.left_out, "{effect}");
-        assert!((trapped.film_load - marched.film_load).abs() < trapped.film_load_error + marched.film_load_error);
+        assert!(
+            (trapped.film_load.value - marched.film_load.value).abs()
+                < trapped.film_load.error + marched.film_load.error
+        );
     }
 }

@@ -42,8 +42,8 @@ fn load(scene: &Scene, changes: &[(&str, String)]) -> f64 {
     let mut scene = scene.clone();
     scene.set_all(changes.iter().map(|(key, value)| (*key, value.as_str()))).unwrap();
     match solve(&Problem::try_from(&scene).unwrap(), &STANDARD, &mut (), &Cancel::new()).unwrap().outcome {
-        Outcome::Motor(result) => result.film_load,
-        Outcome::Plate(result) => result.film_load,
+        Outcome::Motor(result) => result.film_load.value,
+        Outcome::Plate(result) => result.film_load.value,
     }
 }
 
@@ -174,7 +174,7 @@ fn rows_of_one_condition_share_a_solve() {
     let problem = Problem::try_from(&motor).unwrap();
     let solution = solve(&problem, &Settings { record: Record::Everything, ..DRAFT }, &mut (), &Cancel::new()).unwrap();
     let (Scenario::Motor(of), Outcome::Motor(result)) = (&problem.scenario, &solution.outcome) else { panic!() };
-    let speeds: Vec<f64> = (0..10).map(|i| 0.1 * f64::from(i) * of.surface_speed()).collect();
+    let speeds: Vec<f64> = (0..10).map(|i| 0.1 * f64::from(i) * of.stator_speed()).collect();
     let curve = Scaled::with_film(of, result, &solution.recording).performance(&speeds).curve;
     let mut text = "rotor_speed_rpm,torque_nm\n".to_owned();
     let mut noise = Noise(7);

@@ -43,7 +43,7 @@ fn found(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> (Plate, P
 
 fn compared(preset: &str, set: &[&[(&str, &str)]], fidelity: Fidelity) -> Comparison {
     let (plate, result, solution) = found(preset, set, fidelity);
-    let film_load = Estimate { value: result.film_load, error: result.film_load_error };
+    let film_load = result.film_load;
     Comparison::of(&plate, film_load, &solution.recording)
 }
 
@@ -100,8 +100,8 @@ fn round_plates_have_both_limits_and_the_invariant() {
         // What is stated covers what a finer solve finds.
         let draft = found("plate-crossover", &[shape], Fidelity::Draft).1;
         let fine = found("plate-crossover", &[shape], Fidelity::Reference).1;
-        let off = (draft.film_load - fine.film_load).abs();
-        assert!(off < draft.film_load_error + fine.film_load_error, "{shape:?}: {draft:?} {fine:?}");
+        let off = (draft.film_load.value - fine.film_load.value).abs();
+        assert!(off < draft.film_load.error + fine.film_load.error, "{shape:?}: {draft:?} {fine:?}");
     }
 }
 
@@ -111,7 +111,7 @@ fn a_thin_ring_is_a_strip_bent_round() {
     let (plate, ring, _) = found("plate-crossover", &[&ring], Fidelity::Fine);
     let strip = found("plate-crossover", &[], Fidelity::Fine).1;
     let circumference = std::f64::consts::TAU * (plate.radius() - 0.5e-3);
-    assert!((ring.film_load / circumference / strip.film_load - 1.0).abs() < 1e-3, "{ring:?} {strip:?}");
+    assert!((ring.film_load.value / circumference / strip.film_load.value - 1.0).abs() < 1e-3, "{ring:?} {strip:?}");
 }
 
 // ---- floating
@@ -129,7 +129,7 @@ fn trapped_gas_carries_at_the_exact_gap() {
         ];
         let (plate, result, _) = found("plate-trapped", &[shape, &set], Fidelity::Fine);
         let floating = result.floating.unwrap();
-        let ratio = 1.0 + result.film_load / (plate.gas.ambient_pressure * plate.area());
+        let ratio = 1.0 + result.film_load.value / (plate.gas.ambient_pressure * plate.area());
         let exact = trapped_mean_pressure(plate.amplitude / plate.mean_gap, 0.0);
         println!("{load} N: {:?}, trapped {}", floating.mean_gap, plate.trapped_gap(load.parse().unwrap()));
         assert!((ratio / exact - 1.0).abs() < 2e-3 * (exact - 1.0) + 1e-3 * (ratio - 1.0), "{load}: {ratio} {exact}");
@@ -185,21 +185,21 @@ fn the_film_carries_the_load_at_the_gap_that_is_found() {
         let floating = result.floating.unwrap();
         let (load, Estimate { value: gap, error }) = (plate.load.unwrap(), floating.mean_gap);
         println!("{preset}: {gap:e} ± {error:e}, load {load} {result:?}, {:?}", solution.stats);
-        assert!((result.film_load - load).abs() < 2e-3 * load && floating.stiffness.value > 0.0);
+        assert!((result.film_load.value - load).abs() < 2e-3 * load && floating.stiffness.value > 0.0);
         assert!(error < 0.01 * gap && solution.accuracy.stated <= solution.accuracy.asked, "{:?}", solution.accuracy);
         assert!((draft.mean_gap / gap - 1.0).abs() < 0.05, "{preset}: {} {gap}", draft.mean_gap);
         // The gap given, and solved more exactly, carries the load within the error that is stated of the gap.
         given.set("plate.mean_gap_um", &(gap * 1e6).to_string()).unwrap();
         let (_, again) = solved(&given, Fidelity::Fine);
         let Outcome::Plate(fine) = again.unwrap().outcome else { panic!("a plate") };
-        let off = (fine.film_load - load).abs() - fine.film_load_error;
+        let off = (fine.film_load.value - load).abs() - fine.film_load.error;
         assert!(off < error * floating.stiffness.value, "{preset}: {fine:?} {load}");
         // Stiffness as the difference of two given gaps.
         let at = |share: f64| {
             let mut near = given.clone();
             near.set("plate.mean_gap_um", &(gap * share * 1e6).to_string()).unwrap();
             match solved(&near, Fidelity::Reference).1.unwrap().outcome {
-                Outcome::Plate(result) => result.film_load,
+                Outcome::Plate(result) => result.film_load.value,
                 Outcome::Motor(_) => panic!("a plate"),
             }
         };

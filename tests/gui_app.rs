@@ -39,7 +39,7 @@ fn window_in(preset: &str, height: f32, platform: Platform) -> Window {
 
 fn alpha(run: Option<&SolvedScene>) -> f64 {
     match run.unwrap().solution.outcome {
-        Outcome::Motor(result) => result.alpha,
+        Outcome::Motor(result) => result.alpha.value,
         Outcome::Plate(_) => panic!("a motor"),
     }
 }

@@ -38,8 +38,8 @@ fn cycles(app: &App) -> usize {
 
 fn share(outcome: &Outcome) -> (f64, f64) {
     match outcome {
-        Outcome::Motor(result) => (result.alpha, result.alpha_error),
-        Outcome::Plate(result) => (result.film_load, result.film_load_error),
+        Outcome::Motor(result) => (result.alpha.value, result.alpha.error),
+        Outcome::Plate(result) => (result.film_load.value, result.film_load.error),
     }
 }
 

@@ -463,7 +463,7 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     let run = run("fundamental");
     let Outcome::Motor(result) = run.solution.outcome else { panic!("a motor") };
     let harness = shown(run, 300.0, 1.0);
-    let alpha = squeezefilm::digits::with_error(result.alpha, result.alpha_error);
+    let alpha = squeezefilm::digits::with_error(result.alpha.value, result.alpha.error);
     harness.get_by_label_contains(&alpha);
     harness.get_by_label("share of the load carried by air");
     for name in [
@@ -521,7 +521,7 @@ fn what_the_model_leaves_out_is_shown_only_where_it_matters() {
 fn the_words_of_the_regime_say_what_the_film_carries_here() {
     let mut run = run("fundamental");
     let Outcome::Motor(result) = &mut run.solution.outcome else { panic!("a motor") };
-    result.alpha = -0.05;
+    result.alpha.value = -0.05;
     let harness = shown(run, 300.0, 1.0);
     harness.get_by_label_contains("is a spring");
     harness.get_by_label("here it sucks: its mean pressure is below ambient, and it pulls with 5 % of the load");
@@ -533,7 +533,7 @@ fn a_plate_shows_its_load_and_ratio() {
     let run = run("plate-crossover");
     let Outcome::Plate(result) = run.solution.outcome else { panic!("a plate") };
     let harness = shown(run, 300.0, 1.0);
-    let load = squeezefilm::digits::with_error(result.film_load, result.film_load_error);
+    let load = squeezefilm::digits::with_error(result.film_load.value, result.film_load.error);
     harness.get_by_label_contains(&format!("{load} N/m"));
     harness.get_by_label("Load / (p_a · length)");
     assert!(harness.query_by_label("Contact load").is_none());

@@ -758,7 +758,7 @@ fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
     let alone = Sensitivity::of(&scene, &none, &settings, &Cancel::new(), &|_| ()).unwrap().unwrap();
     let found = std::sync::Arc::clone(window.known().sensitivity.found.as_ref().unwrap());
     assert_eq!(found.columns, alone.columns);
-    let value = |output: usize| uncertain(found.values[output].value, found.values[output].error);
+    let value = |output: usize| uncertain(found.values[output]);
     window.get_by_label(&value(0));
     window.click_on("stall torque");
     window.get_by_label(&format!("{}\u{a0}N·m", value(1)));
@@ -1062,7 +1062,7 @@ fn length(window: &Window, part: usize, column: usize) -> f64 {
 
 fn share(window: &Window) -> f64 {
     match &window.known().run.as_deref().unwrap().solution.outcome {
-        Outcome::Motor(result) => result.alpha,
+        Outcome::Motor(result) => result.alpha.value,
         Outcome::Plate(_) => panic!("a motor"),
     }
 }

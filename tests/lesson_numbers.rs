@@ -202,7 +202,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let trapped: Vec<f64> = cycles("plate-trapped")
         .iter()
         .map(|outcome| match outcome {
-            Outcome::Plate(result) => PlateResult::ratio(result.film_load, &plate(&[])),
+            Outcome::Plate(result) => PlateResult::ratio(result.film_load.value, &plate(&[])),
             Outcome::Motor(_) => unreachable!("it is a plate"),
         })
         .collect();
@@ -213,7 +213,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let motor: Vec<f64> = cycles("fundamental")
         .iter()
         .map(|outcome| match outcome {
-            Outcome::Motor(result) => result.alpha,
+            Outcome::Motor(result) => result.alpha.value,
             Outcome::Plate(_) => unreachable!("it is a motor"),
         })
         .collect();
@@ -233,7 +233,7 @@ fn what_lessons_read_off_the_tabs_is_what_tabs_show() {
     let words = "it runs at 58 rpm with film and at 57 without";
     states(8, words, idle(&usual.with_film), 58.0, 0.009);
     states(8, words, idle(&usual.without_film), 57.0, 0.009);
-    states(6, "as fast as a rotor at 62 rpm would be", usual.rpm(usual.surface_speed), 62.0, 0.005);
+    states(6, "as fast as a rotor at 62 rpm would be", usual.rpm(usual.stator_speed), 62.0, 0.005);
     says(8, "friction that drives is back");
     let polished = merit("min-spacing-100nm", &[]);
     let narrow = merit("min-spacing-100nm", &["rotor.contact_width_mm=0.12"]);

@@ -38,7 +38,7 @@ fn decision<'a>(plan: &'a Plan, key: &str) -> &'a Decision {
 fn alpha(motor: &Motor, plan: &Plan) -> Option<(f64, f64)> {
     let exact = Plan { left_out: 0.0, ..plan.clone() };
     let found = motor::periodic(motor, &exact, &mut (), &Cancel::new()).unwrap();
-    (found.status == Status::Converged).then_some((found.result.alpha, found.result.alpha_error))
+    (found.status == Status::Converged).then_some((found.result.alpha.value, found.result.alpha.error))
 }
 
 /// A spread of motors: presets, and every number that a bound is made of over its decades. Each family is made of every entry of its first
@@ -383,7 +383,7 @@ fn a_switch_overrules_the_plan_and_is_marked() {
         }
         // What was left out on request is part of the stated error.
         let found = motor::periodic(&motor, &plan, &mut (), &Cancel::new()).unwrap();
-        assert!(found.result.alpha_error >= plan.left_out * found.result.alpha, "{asked:?}");
+        assert!(found.result.alpha.error >= plan.left_out * found.result.alpha.value, "{asked:?}");
     }
     let told = Numerics { wedge: Wedge::Off, flow: Flow::Along, time: Time::Trapped, ..base };
     let plan = Plan::motor(&motor, Fidelity::Standard, &told).unwrap();
@@ -400,7 +400,7 @@ fn an_error_of_the_rotor_changes_alpha_by_no_more_than_is_stated() {
             let rows = (1..=64).map(|n| (first * n as f64, change(n) * rotor.harmonic(n))).collect();
             let motor = Motor { rotor: RotorCompliance::Table(rows), ..motor.clone() };
             let plan = Plan::motor(&motor, Fidelity::Fine, &Numerics::default()).unwrap();
-            motor::periodic(&motor, &plan, &mut (), &Cancel::new()).unwrap().result.alpha
+            motor::periodic(&motor, &plan, &mut (), &Cancel::new()).unwrap().result.alpha.value
         };
         let known = alpha(&|_| 1.0);
         let smooth: f64 = (1..=10).map(|n| rotor.harmonic(n)).sum();

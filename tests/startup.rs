@@ -30,9 +30,9 @@ fn run(problem: &Problem, settings: &Settings) -> (Vec<Cycle>, Startup) {
 /// α or load ratio, and its error.
 fn main_number(problem: &Problem, outcome: &Outcome) -> (f64, f64) {
     match (outcome, &problem.scenario) {
-        (Outcome::Motor(result), _) => (result.alpha, result.alpha_error),
+        (Outcome::Motor(result), _) => (result.alpha.value, result.alpha.error),
         (Outcome::Plate(result), Scenario::Plate(plate)) => {
-            (PlateResult::ratio(result.film_load, plate), PlateResult::ratio(result.film_load_error, plate))
+            (PlateResult::ratio(result.film_load.value, plate), PlateResult::ratio(result.film_load.error, plate))
         }
         _ => panic!("a plate's result of a motor"),
     }

@@ -269,8 +269,8 @@ fn both_presets_are_solved_and_film_and_contact_carry_the_load() {
     for preset in ["asperities", "rough-flow"] {
         let (_, solution, result) = solved(preset, &[]);
         // Chosen so: near the fundamental case.
-        assert!((result.alpha - 0.246).abs() < 0.025, "{preset}: {}", result.alpha);
-        assert!((2.0..6.0).contains(&result.teeth_in_contact) && !result.levitated);
+        assert!((result.alpha.value - 0.246).abs() < 0.025, "{preset}: {}", result.alpha);
+        assert!((2.0..6.0).contains(&result.teeth_in_contact.value) && !result.levitated);
         let recording = &solution.recording;
         for frame in 0..recording.frames {
             let total = recording.film_load[frame] + recording.contact_load[frame];
@@ -284,25 +284,28 @@ fn both_presets_are_solved_and_film_and_contact_carry_the_load() {
 fn rougher_faces_stay_further_apart_and_hold_less_pressure() {
     let at = |rms: &str| solved("asperities", &[("surface.rms_nm", rms)]).2;
     let (fine, coarse, rough) = (at("50"), at("100"), at("200"));
-    assert!(fine.alpha > coarse.alpha + 0.05 && coarse.alpha > rough.alpha + 0.05);
-    assert!(fine.min_gap < coarse.min_gap && coarse.min_gap < rough.min_gap);
+    assert!(fine.alpha.value > coarse.alpha.value + 0.05 && coarse.alpha.value > rough.alpha.value + 0.05);
+    assert!(
+        fine.min_film_thickness.value < coarse.min_film_thickness.value
+            && coarse.min_film_thickness.value < rough.min_film_thickness.value
+    );
     // Greenwood and Tripp's summits on both faces are fewer that meet: at this density, softer.
     let (_, _, tripp) = solved("asperities", &[("surface.contact_law", "greenwood-tripp")]);
-    assert!(tripp.min_gap < coarse.min_gap);
+    assert!(tripp.min_film_thickness.value < coarse.min_film_thickness.value);
 }
 
 #[test]
 fn every_tooth_by_itself_gives_the_same() {
     let one = solved("asperities", &[("numerics.tolerance", "1e-6")]).2;
     let all = solved("asperities", &[("numerics.tolerance", "1e-6"), ("numerics.teeth", "all")]).2;
-    assert!((one.alpha - all.alpha).abs() < 1e-5, "{} {}", one.alpha, all.alpha);
+    assert!((one.alpha.value - all.alpha.value).abs() < 1e-5, "{} {}", one.alpha, all.alpha);
 }
 
 #[test]
 fn under_a_light_load_the_rotor_floats_over_the_asperities() {
     let result = solved("asperities", &[("motor.load_per_wave_n", "0.1"), ("surface.rms_nm", "50")]).2;
-    assert!(result.levitated && result.teeth_in_contact == 0.0, "{result:?}");
-    assert!((result.alpha - 1.0).abs() < 1e-2 + result.alpha_error, "{result:?}");
+    assert!(result.levitated && result.teeth_in_contact.value == 0.0, "{result:?}");
+    assert!((result.alpha.value - 1.0).abs() < 1e-2 + result.alpha.error, "{result:?}");
 }
 
 /// A motor on summits so stiff and so far apart that they all carry at one height has the film share of the hard stop there.
@@ -313,7 +316,7 @@ fn a_motor_on_stiff_asperities_is_the_one_with_the_hard_stop() {
         let plan = Plan::motor(motor, Fidelity::Draft, &Numerics::default()).unwrap();
         let found = motor::periodic(motor, &plan, &mut (), &Cancel::new()).unwrap();
         assert_eq!(found.status, Status::Converged);
-        found.result.alpha
+        found.result.alpha.value
     };
     let exact = alpha(&hard);
     let mut last = f64::INFINITY;
@@ -333,16 +336,16 @@ fn a_motor_on_stiff_asperities_is_the_one_with_the_hard_stop() {
 
 #[test]
 fn flow_factors_matter_where_gas_has_time_to_leave_and_vanish_with_the_roughness() {
-    let at = |changes: &[(&str, &str)]| solved("rough-flow", changes).2.alpha;
+    let at = |changes: &[(&str, &str)]| solved("rough-flow", changes).2.alpha.value;
     let slow = |lay: &str| at(&[("stator.frequency_khz", "3"), ("surface.lay", lay)]);
     let (across, even, along) = (slow("0.2"), slow("1"), slow("5"));
     // Grooves along the wave are walls to what leaves at the sides.
     assert!(across < 0.9 * even && even < 0.95 * along, "{across} {even} {along}");
-    let smooth = solved("fundamental", &[]).2.alpha;
+    let smooth = solved("fundamental", &[]).2.alpha.value;
     let fine = [("surface.flow_factors", "patir-cheng"), ("surface.rms_nm", "10")];
-    assert!((solved("fundamental", &fine).2.alpha / smooth - 1.0).abs() < 1e-4);
+    assert!((solved("fundamental", &fine).2.alpha.value / smooth - 1.0).abs() < 1e-4);
     let rough = [("surface.flow_factors", "patir-cheng"), ("surface.rms_nm", "100")];
-    assert!((solved("fundamental", &rough).2.alpha / smooth - 1.0).abs() > 0.01);
+    assert!((solved("fundamental", &rough).2.alpha.value / smooth - 1.0).abs() > 0.01);
 }
 
 #[test]
@@ -379,7 +382,7 @@ fn teeth_that_seem_to_float_may_touch_within_the_error() {
         };
         let (found, exact) = (motor(fidelity), motor(Fidelity::Reference));
         assert!(found.levitated && !exact.levitated, "{preset} {load}: {found:?} {exact:?}");
-        assert!(exact.teeth_in_contact <= found.teeth_in_contact_error, "{preset} {load}: {found:?} {exact:?}");
+        assert!(exact.teeth_in_contact.value <= found.teeth_in_contact.error, "{preset} {load}: {found:?} {exact:?}");
     }
 }
 

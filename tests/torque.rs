@@ -62,11 +62,11 @@ fn heat_node_by_node(solved: &Solved, speed: f64) -> f64 {
 fn what_the_stator_gives_is_what_the_rotor_and_the_heat_take() {
     let solved = solved("fundamental", &[], Fidelity::Fine);
     let merit = &solved.merit;
-    let v0 = solved.motor.surface_speed();
+    let v0 = solved.motor.stator_speed();
     assert!((v0 - TAU * 30e3 * 1e-6).abs() < 1e-12);
     // The curve is scaled to the extrapolated contact load, the sums are of the finest grid.
     let share = solved.recording.contact_load.iter().sum::<f64>() / solved.recording.frames as f64;
-    let scale = share / solved.result.contact_load;
+    let scale = share / solved.result.contact_load.value;
     // Node by node the change of sign falls between two frames: an error that has the size of the steps, not of the heat.
     let greatest = heat_node_by_node(&solved, 0.0);
     for point in &merit.with_film.curve {
@@ -93,13 +93,13 @@ fn the_figures_are_those_of_the_curve() {
     for (preset, set) in [("fundamental", vec![]), ("tooth-radius-3m", vec![("motor.rotor_speed_rpm", "25")])] {
         let solved = solved(preset, &set, Fidelity::Standard);
         let merit = &solved.merit;
-        assert!((merit.with_film.max_torque.value / solved.result.max_torque - 1.0).abs() < 1e-14);
-        assert!((merit.dry_equivalent.value - 0.7 * (1.0 - solved.result.alpha)).abs() < 1e-15);
+        assert!((merit.with_film.max_torque.value / solved.result.max_torque.value - 1.0).abs() < 1e-14);
+        assert!((merit.dry_equivalent.value - 0.7 * (1.0 - solved.result.alpha.value)).abs() < 1e-15);
         for found in [&merit.with_film, &merit.without_film] {
             assert!(found.stall_torque.value <= found.max_torque.value * (1.0 + 1e-12));
             let v = found.no_load_speed.unwrap().value;
             let there = found.curve.iter().find(|point| point.speed == v).unwrap();
-            assert!(there.torque.value.abs() < 1e-9 && v > 0.0 && v < merit.surface_speed);
+            assert!(there.torque.value.abs() < 1e-9 && v > 0.0 && v < merit.stator_speed);
             // The efficiency falls to nothing there, and is not heard of beyond.
             assert_eq!(there.efficiency.map(|share| share.value), Some(0.0));
             assert!(found.curve.iter().filter(|point| point.speed > v).all(|point| point.efficiency.is_none()));
@@ -186,9 +186,9 @@ fn a_rotor_that_floats_is_not_driven() {
     for point in &found.curve {
         assert_eq!([point.torque, point.output, point.friction].map(|found| found.value), [0.0; 3]);
         assert_eq!(point.torque.error, unit);
-        let most = unit / radius * (solved.motor.surface_speed() + point.speed.abs());
+        let most = unit / radius * (solved.motor.stator_speed() + point.speed.abs());
         let [output, friction] = [point.output.error, point.friction.error];
-        assert!((output + unit / radius * solved.motor.surface_speed() - most).abs() < 1e-9 * most && friction > 0.0);
+        assert!((output + unit / radius * solved.motor.stator_speed() - most).abs() < 1e-9 * most && friction > 0.0);
         assert!((friction - most).abs() < 1e-9 * most, "{point:?} {most}");
     }
     // The same motor in a vacuum does drive.
@@ -223,7 +223,7 @@ fn thin_gas_is_almost_no_gas() {
     // Coupled solve at the least ambient pressure: contact all but that of a vacuum.
     let solved = solved("fundamental", &[("film.ambient_pressure_kpa", "1")], Fidelity::Standard);
     let (wet, dry) = (&solved.merit.with_film, &solved.merit.without_film);
-    assert!(solved.result.alpha < 0.02, "{}", solved.result.alpha);
+    assert!(solved.result.alpha.value < 0.02, "{}", solved.result.alpha);
     let [with, without] = [wet, dry].map(|found| found.no_load_speed.unwrap().value);
     assert!((with / without - 1.0).abs() < 5e-3, "{with} {without}");
 }
@@ -277,9 +277,9 @@ fn stated_errors_hold_against_the_reference() {
 #[test]
 fn another_rotor_speed_changes_the_torque_by_less_than_is_said() {
     let still = solved("fundamental", &[("numerics.wedge", "on")], Fidelity::Fine);
-    let top = still.merit.rpm(still.motor.surface_speed()).to_string();
+    let top = still.merit.rpm(still.motor.stator_speed()).to_string();
     let turning = solved("fundamental", &[("numerics.wedge", "on"), ("motor.rotor_speed_rpm", &top)], Fidelity::Fine);
-    let change = (turning.result.max_torque / still.result.max_torque - 1.0).abs();
+    let change = (turning.result.max_torque.value / still.result.max_torque.value - 1.0).abs();
     assert!(change <= still.merit.speed_effect, "{change} {}", still.merit.speed_effect);
 }
 

@@ -21,7 +21,6 @@
 //! s₀ ≤ 1, so that the torque has a bound, the paper's maximum operating torque μ_d N waves r. A motor that is pressed so
 //! heavily that teeth also touch in the troughs of the wave stays far below it, because parts of the contact always brake.
 
-use crate::digits::with_error;
 use crate::estimate::Estimate;
 use crate::problem::Motor;
 use crate::recording::{LineLoads, Recording};
@@ -276,9 +275,8 @@ type Share<'a> = &'a dyn Fn(f64, (f64, f64), f64) -> f64;
 impl<'a> Scaled<'a> {
     /// With the film, from a solve.
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
-        let load =
-            Estimate { value: (1.0 - result.alpha).max(0.0) * motor.load, error: result.alpha_error * motor.load };
-        let spent = motor.friction_torque(load.value) * motor.surface_speed() / motor.contact_radius;
+        let load = Estimate { value: result.contact_load.value.max(0.0), ..result.contact_load };
+        let spent = motor.friction_torque(load.value) * motor.stator_speed() / motor.contact_radius;
         let lossy = |loads: &LineLoads| {
             (Drive::new(loads), if spent > 0.0 { given(motor, loads).max(0.0) / spent } else { 0.0 })
         };
@@ -309,13 +307,12 @@ impl<'a> Scaled<'a> {
 
     /// Speed at which the torque vanishes \[m/s\].
     pub fn no_load_speed(&self) -> Option<f64> {
-        Some(self.drive.0.no_load()? * self.motor.surface_speed())
+        Some(self.drive.0.no_load()? * self.motor.stator_speed())
     }
 
     /// μ_d waves N r \[N m\].
     fn torque(&self) -> Estimate {
-        let [value, error] = [self.load.value, self.load.error].map(|load| self.motor.friction_torque(load));
-        Estimate { value, error }
+        self.load * self.motor.friction_torque(1.0)
     }
 
     /// What efficiencies are shares of: the film's loss is a share of N, whose error moves them by at most its own relative size.
@@ -346,7 +343,7 @@ impl<'a> Scaled<'a> {
     }
 
     fn point(&self, speed: f64) -> Point {
-        let v0 = self.motor.surface_speed();
+        let v0 = self.motor.stator_speed();
         if v0 == 0.0 && speed == 0.0 {
             // Nothing slides.
             return Point::default();
@@ -359,7 +356,7 @@ impl<'a> Scaled<'a> {
             self.scaled(unit, Estimate { value: shares[1].value, error: greatest_error(&shares) }, most)
         };
         let (unit, per_radius) = (self.torque(), 1.0 / self.motor.contact_radius);
-        let force = Estimate { value: unit.value * per_radius, error: unit.error * per_radius };
+        let force = unit * per_radius;
         let (at, loss) = near[1].1[0];
         let driven = unit.value > 0.0 && efficiency(v, at, loss).is_some();
         Point {
@@ -375,10 +372,10 @@ impl<'a> Scaled<'a> {
     /// All of it, with a curve at these speeds \[m/s\].
     pub fn performance(&self, speeds: &[f64]) -> Performance {
         let exactly = |value: f64| Estimate { value, error: 0.0 };
-        let speed = self.motor.surface_speed();
+        let speed = self.motor.stator_speed();
         let (unit, v0) = (self.torque(), exactly(speed));
         let per_radius = speed / self.motor.contact_radius;
-        let power = Estimate { value: unit.value * per_radius, error: unit.error * per_radius };
+        let power = unit * per_radius;
         let driven = unit.value > 0.0 && self.drive.0.load > 0.0 && speed > 0.0;
         let marks = driven.then(|| {
             let marks = |(drive, loss): &Lossy| drive.marks(*loss);
@@ -397,7 +394,7 @@ impl<'a> Scaled<'a> {
             let slope = greatest_error(&curve) / VARIES;
             let known = v.error.is_finite() && slope.is_finite();
             let error = if known { v.error.max(slope / bent.max(f64::MIN_POSITIVE)).min(1.0) } else { f64::INFINITY };
-            Some(Estimate { value: v.value * speed, error: error * speed })
+            Some(Estimate { error, ..v } * speed)
         };
         // What is not driven may be, by as little as the contact that was missed.
         let nothing = |unit: Estimate| Estimate { value: 0.0, error: if speed > 0.0 { unit.error } else { 0.0 } };
@@ -423,13 +420,13 @@ fn greatest_error(shares: &[Estimate]) -> f64 {
 
 /// The warning of a motor whose teeth touch all round the wave, so that it gives less than the bound.
 pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Option<String> {
-    (result.teeth_in_contact >= motor.teeth as f64).then(|| {
+    (result.teeth_in_contact.value >= motor.teeth as f64).then(|| {
         format!(
             "all {} teeth of each wave touch the rotor at all times, so parts of the contact always brake: held at rest the motor \
              gives {} N·m, not the maximum operating torque μ_d (1 − α) waves L r = {} N·m, which is a bound",
             motor.teeth,
-            with_error(found.stall_torque.value, found.stall_torque.error),
-            with_error(found.max_torque.value, found.max_torque.error),
+            found.stall_torque,
+            found.max_torque,
         )
     })
 }

@@ -6,7 +6,10 @@
 //! taken (a third-order remainder would be a seventh of it), but never less than a fraction of the correction itself. Where nothing touches, the
 //! next term is regular, and less is taken ([`extrapolate_smooth`]).
 
+use crate::digits::with_error;
 use serde::{Deserialize, Serialize};
+use std::fmt::{Display, Formatter};
+use std::ops::Mul;
 
 /// A result and its estimated absolute error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -15,6 +18,29 @@ pub struct Estimate {
     pub value: f64,
     /// Estimated error of `value`, absolute.
     pub error: f64,
+}
+
+impl Estimate {
+    /// A number without an error.
+    pub fn exact(value: f64) -> Self {
+        Self { value, error: 0.0 }
+    }
+}
+
+/// In another unit.
+impl Mul<f64> for Estimate {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { value: self.value * factor, error: self.error * factor.abs() }
+    }
+}
+
+/// With as many digits as the error justifies: [`with_error`].
+impl Display for Estimate {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&with_error(self.value, self.error))
+    }
 }
 
 /// Share of |e₂₃ − e₁₂| that is taken as the error where the results converge at second order or faster (calibrated, as are all

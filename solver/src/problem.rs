@@ -190,7 +190,7 @@ impl Motor {
     }
 
     /// Greatest tangential speed of the stator's surface V₀ = 2πf B_S \[m/s\].
-    pub fn surface_speed(&self) -> f64 {
+    pub fn stator_speed(&self) -> f64 {
         std::f64::consts::TAU * self.frequency * self.tangential_amplitude
     }
 
@@ -205,7 +205,7 @@ impl Motor {
     /// `t_over_period`; V_St = 2πf B_S cos 2π(t/T + x/λ).
     pub fn sliding_speed(&self, x: f64, t_over_period: f64) -> f64 {
         let tau = std::f64::consts::TAU;
-        self.rotor_speed - self.surface_speed() * (tau * (t_over_period + x / self.wavelength())).cos()
+        self.rotor_speed - self.stator_speed() * (tau * (t_over_period + x / self.wavelength())).cos()
     }
 }
 

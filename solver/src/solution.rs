@@ -65,42 +65,32 @@ pub struct Accuracy {
     pub stopped_by: StoppedBy,
 }
 
-/// Results of a motor scene: cycle means for one wavelength.
+/// Results of a motor scene: cycle means for one wavelength, each with its estimated numerical error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MotorResult {
     /// α: the film's share of the load.
-    pub alpha: f64,
-    /// Estimated numerical error of `alpha`, absolute.
-    pub alpha_error: f64,
+    pub alpha: Estimate,
     /// Cycle mean of the film's net gauge force \[N\].
-    pub film_load: f64,
+    pub film_load: Estimate,
     /// Least film force in the cycle \[N\].
-    pub film_load_min: f64,
+    pub film_load_min: Estimate,
     /// Greatest film force in the cycle \[N\].
-    pub film_load_max: f64,
-    /// Estimated errors of the two, absolute \[N\].
-    pub film_load_range_error: [f64; 2],
+    pub film_load_max: Estimate,
     /// Cycle mean of the contact force \[N\].
-    pub contact_load: f64,
+    pub contact_load: Estimate,
     /// The paper's maximum operating torque of the whole ring, μ_d (1−α) waves L r \[N m\]: a bound, see
     /// [`Performance::stall_torque`].
-    pub max_torque: f64,
+    pub max_torque: Estimate,
     /// Cycle mean of the number of teeth that touch the rotor.
-    pub teeth_in_contact: f64,
+    pub teeth_in_contact: Estimate,
     /// No tooth touches at any instant: the rotor floats.
     pub levitated: bool,
     /// Least film thickness \[m\], H_m included.
-    pub min_gap: f64,
+    pub min_film_thickness: Estimate,
     /// Greatest absolute pressure \[Pa\].
-    pub max_pressure: f64,
+    pub max_pressure: Estimate,
     /// Greatest contact line load at any node and instant \[N/m\].
     pub max_contact: f64,
-    /// Estimated errors of teeth in contact, least film thickness \[m\] and greatest pressure \[Pa\], absolute.
-    pub teeth_in_contact_error: f64,
-    /// See `teeth_in_contact_error`.
-    pub min_gap_error: f64,
-    /// See `teeth_in_contact_error`.
-    pub max_pressure_error: f64,
 }
 
 /// The motor at one speed of its rotor; the whole ring.
@@ -164,21 +154,15 @@ impl Floating {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlateResult {
     /// Cycle mean of the net gauge force \[N or N/m\].
-    pub film_load: f64,
-    /// Estimated numerical error of `film_load`, absolute.
-    pub film_load_error: f64,
+    pub film_load: Estimate,
     /// Least gauge force in the cycle \[N; of a strip N/m\].
-    pub film_load_min: f64,
+    pub film_load_min: Estimate,
     /// Greatest gauge force in the cycle \[N; of a strip N/m\].
-    pub film_load_max: f64,
-    /// Least film thickness \[m\].
-    pub min_gap: f64,
+    pub film_load_max: Estimate,
+    /// Least film thickness \[m\]; of a plate that floats it is as exact as its mean gap, of others exact.
+    pub min_film_thickness: Estimate,
     /// Greatest absolute pressure \[Pa\].
-    pub max_pressure: f64,
-    /// Estimated errors of least and greatest force, absolute \[N or N/m\].
-    pub film_load_range_error: [f64; 2],
-    /// Estimated error of the greatest pressure, absolute \[Pa\].
-    pub max_pressure_error: f64,
+    pub max_pressure: Estimate,
     /// How it floats; `None` if its mean gap is given.
     pub floating: Option<Floating>,
 }

@@ -227,7 +227,7 @@ pub fn solve_from(
 fn of_motor(found: motor::Periodic, motor: &Motor, plan: &Plan, cancel: &Cancel) -> Solution {
     let teeth = if plan.every_tooth { motor.teeth } else { 1 };
     Solution {
-        accuracy: accuracy(plan, found.result.alpha_error, motor::unit(found.result.alpha), cancel),
+        accuracy: accuracy(plan, found.result.alpha.error, motor::unit(found.result.alpha.value), cancel),
         warnings: warnings(&found.status),
         status: found.status,
         outcome: Outcome::Motor(found.result),
@@ -240,7 +240,7 @@ fn of_motor(found: motor::Periodic, motor: &Motor, plan: &Plan, cancel: &Cancel)
 
 fn of_plate(found: plate::Periodic, plan: &Plan, cancel: &Cancel) -> Solution {
     Solution {
-        accuracy: accuracy(plan, found.result.film_load_error, found.result.film_load.abs(), cancel),
+        accuracy: accuracy(plan, found.result.film_load.error, found.result.film_load.value.abs(), cancel),
         warnings: warnings(&found.status),
         status: found.status,
         outcome: Outcome::Plate(found.result),
@@ -344,8 +344,7 @@ fn touching(
     let mut nobody = ();
     let observer: &mut dyn Observer = if astray { observer } else { &mut nobody };
     let other = motor::touching(motor, plan, &mut found.stats, observer, cancel)?;
-    let [here, there] =
-        [&found.result, &other.result].map(|result| Estimate { value: result.alpha, error: result.alpha_error });
+    let [here, there] = [&found.result, &other.result].map(|result| result.alpha);
     if found.status == Status::Converged && floats(here.value) {
         return Some(there).filter(|there| here.value - there.value > here.error + there.error);
     }

@@ -219,8 +219,10 @@ impl<'a> Way<'a> {
             each,
             steady: converged.map(|periodic| headline(&periodic.outcome)),
             unit: match periodic.map_or(nothing, |periodic| periodic.outcome) {
-                Outcome::Motor(result) => motor::unit(result.alpha),
-                Outcome::Plate(result) => plate::unit(result.film_load, result.film_load_max - result.film_load_min),
+                Outcome::Motor(result) => motor::unit(result.alpha.value),
+                Outcome::Plate(result) => {
+                    plate::unit(result.film_load.value, result.film_load_max.value - result.film_load_min.value)
+                }
             },
             errors: Vec::new(),
             status: Status::NotConverged { residual: f64::INFINITY, tolerance: settings.tolerance },
@@ -314,8 +316,8 @@ impl<'a> Way<'a> {
 /// α, or a plate's mean load \[N or N/m\].
 fn headline(outcome: &Outcome) -> Estimate {
     match outcome {
-        Outcome::Motor(result) => Estimate { value: result.alpha, error: result.alpha_error },
-        Outcome::Plate(result) => Estimate { value: result.film_load, error: result.film_load_error },
+        Outcome::Motor(result) => result.alpha,
+        Outcome::Plate(result) => result.film_load,
     }
 }
 

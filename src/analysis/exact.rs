@@ -80,10 +80,9 @@ pub struct Comparison {
 impl Comparison {
     /// Stiffness \[N/m\] and damping \[N s/m\] of the solved load, of a strip per metre of width; `None` if nothing vibrates.
     pub fn stiffness_and_damping(&self) -> Option<Harmonic<Estimate>> {
-        let times = |number: Estimate, unit: f64| Estimate { value: number.value * unit, error: number.error * unit };
         self.solved.map(|solved| Harmonic {
-            spring: times(solved.spring, self.unit.spring),
-            damping: times(solved.damping, self.unit.damping),
+            spring: solved.spring * self.unit.spring,
+            damping: solved.damping * self.unit.damping,
         })
     }
 
@@ -233,7 +232,7 @@ mod tests {
         let (Scenario::Plate(plate), Outcome::Plate(result)) = (problem.scenario, solution.outcome) else {
             panic!("a plate")
         };
-        let film_load = Estimate { value: result.film_load, error: result.film_load_error };
+        let film_load = result.film_load;
         let comparison = Comparison::of(&plate, film_load, &solution.recording);
         (plate, solution.recording, comparison)
     }

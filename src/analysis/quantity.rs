@@ -1,5 +1,6 @@
 //! The numbers of one solve under their names in JSON and CSV, so that any of them can be put on an axis.
 
+use crate::digits::significant;
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::problem::{Plate, Problem, Scenario, rpm};
@@ -203,6 +204,16 @@ impl Numbers {
         self.get(number).map(|value| Estimate { value, error })
     }
 
+    /// One of them for people: with its error if it is of those that have one, a count as a whole number; nothing if it is not known.
+    pub fn text(&self, number: Quantity) -> String {
+        match self.estimate(number) {
+            None => String::new(),
+            Some(Estimate { value, .. }) if number.is_count() => value.to_string(),
+            Some(Estimate { value, .. }) if number.error().is_none() => significant(value, 4),
+            Some(found) => found.to_string(),
+        }
+    }
+
     /// Of a solution of `problem`.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let mut numbers = Self::default();
@@ -222,79 +233,71 @@ impl Numbers {
         }
         match (&problem.scenario, &solution.outcome) {
             (Scenario::Motor(motor), Outcome::Motor(result)) => {
-                numbers.motor(result, motor.load, motor.friction_torque(motor.load));
+                numbers.motor(result);
                 if let Some(found) = &solution.performance {
-                    numbers.performance(found, |speed| rpm(speed, motor.contact_radius));
+                    numbers.performance(found, rpm(1.0, motor.contact_radius));
                 }
             }
-            (Scenario::Plate(plate), Outcome::Plate(result)) => {
-                numbers.plate(result, |load| PlateResult::ratio(load, plate));
-            }
+            (Scenario::Plate(plate), Outcome::Plate(result)) => numbers.plate(result, plate),
             // A solver answers in kind.
             _ => {}
         }
         numbers
     }
 
-    fn motor(&mut self, result: &MotorResult, load: f64, dry_torque: f64) {
-        self.set(Alpha, result.alpha);
-        self.set(AlphaError, result.alpha_error);
-        self.set(FilmLoad, result.film_load);
-        self.set(FilmLoadError, result.alpha_error * load);
-        self.set(FilmLoadMin, result.film_load_min);
-        self.set(FilmLoadMax, result.film_load_max);
-        self.set(ContactLoad, result.contact_load);
-        self.set(MaxTorque, result.max_torque);
-        self.set(MaxTorqueError, result.alpha_error * dry_torque);
-        self.set(TeethInContact, result.teeth_in_contact);
-        self.set(TeethInContactError, result.teeth_in_contact_error);
-        self.set(MinGapError, result.min_gap_error * 1e9);
-        self.range(result.film_load_range_error, result.max_pressure_error);
-        self.set(MinGap, result.min_gap * 1e9);
-        self.set(MaxPressure, result.max_pressure * 1e-3);
+    fn set_estimate(&mut self, number: Quantity, found: Estimate) {
+        self.set(number, found.value);
+        if let Some(error) = number.error() {
+            self.set(error, found.error);
+        }
     }
 
-    /// Errors of the least and greatest film load \[N or N/m\] and of the highest pressure \[Pa\].
-    fn range(&mut self, [least, most]: [f64; 2], highest: f64) {
-        self.set(FilmLoadMinError, least);
-        self.set(FilmLoadMaxError, most);
-        self.set(MaxPressureError, highest * 1e-3);
+    fn motor(&mut self, result: &MotorResult) {
+        for (quantity, found) in [
+            (Alpha, result.alpha),
+            (FilmLoad, result.film_load),
+            (FilmLoadMin, result.film_load_min),
+            (FilmLoadMax, result.film_load_max),
+            (ContactLoad, result.contact_load),
+            (MaxTorque, result.max_torque),
+            (TeethInContact, result.teeth_in_contact),
+            (MinGap, result.min_film_thickness * 1e9),
+            (MaxPressure, result.max_pressure * 1e-3),
+        ] {
+            self.set_estimate(quantity, found);
+        }
     }
 
-    fn performance(&mut self, found: &Performance, rpm: impl Fn(f64) -> f64) {
-        let speed = found.no_load_speed.map(|speed| Estimate { value: rpm(speed.value), error: rpm(speed.error) });
+    /// Speeds in `rpm` for 1 m/s.
+    fn performance(&mut self, found: &Performance, rpm: f64) {
         for (quantity, found) in [
             (StallTorque, Some(found.stall_torque)),
-            (NoLoadSpeed, speed),
+            (NoLoadSpeed, found.no_load_speed.map(|speed| speed * rpm)),
             (MaxPower, Some(found.max_power)),
             (MaxEfficiency, found.max_efficiency),
         ] {
-            if let (Some(found), Some(error)) = (found, quantity.error()) {
-                self.set(quantity, found.value);
-                self.set(error, found.error);
+            if let Some(found) = found {
+                self.set_estimate(quantity, found);
             }
         }
     }
 
-    fn plate(&mut self, result: &PlateResult, ratio: impl Fn(f64) -> f64) {
-        self.set(FilmLoad, result.film_load);
-        self.set(FilmLoadError, result.film_load_error);
-        self.set(FilmLoadMin, result.film_load_min);
-        self.set(FilmLoadMax, result.film_load_max);
-        self.set(LoadRatio, ratio(result.film_load));
-        self.set(LoadRatioError, ratio(result.film_load_error));
-        self.set(LoadRatioMin, ratio(result.film_load_min));
-        self.set(LoadRatioMax, ratio(result.film_load_max));
-        self.range(result.film_load_range_error, result.max_pressure_error);
-        self.set(LoadRatioMinError, ratio(result.film_load_range_error[0]));
-        self.set(LoadRatioMaxError, ratio(result.film_load_range_error[1]));
-        self.set(MinGap, result.min_gap * 1e9);
-        // A mean gap that is given is exact.
-        self.set(MinGapError, result.floating.map_or(0.0, |floating| floating.mean_gap.error * 1e9));
-        self.set(MaxPressure, result.max_pressure * 1e-3);
+    fn plate(&mut self, result: &PlateResult, plate: &Plate) {
+        let ratio = PlateResult::ratio(1.0, plate);
+        for (quantity, found) in [
+            (FilmLoad, result.film_load),
+            (FilmLoadMin, result.film_load_min),
+            (FilmLoadMax, result.film_load_max),
+            (LoadRatio, result.film_load * ratio),
+            (LoadRatioMin, result.film_load_min * ratio),
+            (LoadRatioMax, result.film_load_max * ratio),
+            (MinGap, result.min_film_thickness * 1e9),
+            (MaxPressure, result.max_pressure * 1e-3),
+        ] {
+            self.set_estimate(quantity, found);
+        }
         if let Some(floating) = result.floating {
-            self.set(MeanGap, floating.mean_gap.value * 1e6);
-            self.set(MeanGapError, floating.mean_gap.error * 1e6);
+            self.set_estimate(MeanGap, floating.mean_gap * 1e6);
             self.set(NaturalFrequency, floating.natural_frequency.value);
         }
     }

@@ -3,6 +3,7 @@
 use super::validity::mach;
 use crate::digits::rounded;
 use crate::dimensionless::Dimensionless;
+use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::solution::{Outcome, PlateResult};
 
@@ -22,16 +23,13 @@ pub fn squeeze(numbers: &Dimensionless) -> &'static str {
 
 /// Whether the film matters here: what it carries.
 pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
-    let (share, error, of, rest) = match (&problem.scenario, outcome) {
+    let (Estimate { value: share, error }, of, rest) = match (&problem.scenario, outcome) {
         (Scenario::Motor(_), Outcome::Motor(result)) if result.levitated => {
             return "here it carries the whole load: the rotor floats".to_owned();
         }
-        (Scenario::Motor(_), Outcome::Motor(result)) => {
-            (result.alpha, result.alpha_error, "the load", ": contact carries the rest")
-        }
+        (Scenario::Motor(_), Outcome::Motor(result)) => (result.alpha, "the load", ": contact carries the rest"),
         (Scenario::Plate(plate), Outcome::Plate(result)) => {
-            let ratio = |load| PlateResult::ratio(load, plate);
-            (ratio(result.film_load), ratio(result.film_load_error), "p_a × area", " in the mean")
+            (result.film_load * PlateResult::ratio(1.0, plate), "p_a × area", " in the mean")
         }
         // A solver answers in kind.
         _ => return String::new(),
@@ -39,7 +37,7 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
     let percent = format!("{} %", rounded(100.0 * share.abs(), 2));
     match share {
         _ if !share.is_finite() => "what it carries here is not known".to_owned(),
-        _ if sucks(share, error) => {
+        _ if sucks(Estimate { value: share, error }) => {
             let fast = match &problem.scenario {
                 Scenario::Motor(motor) if mach(motor) > 1.0 => ", where the faces slide beyond the speed of sound",
                 _ => "",
@@ -53,8 +51,8 @@ pub fn weight(problem: &Problem, outcome: &Outcome) -> String {
 }
 
 /// Whether a film load is truly negative: beyond its error, and by more than round-off.
-pub fn sucks(load: f64, error: f64) -> bool {
-    load + error.abs() < -NOTHING
+pub fn sucks(load: Estimate) -> bool {
+    load.value + load.error.abs() < -NOTHING
 }
 
 /// What the bearing number Λ says, beside the squeeze number.
@@ -86,7 +84,7 @@ mod tests {
     fn words(alpha: f64, alpha_error: f64, changes: &[(&str, &str)]) -> String {
         let mut scene = Scene::motor();
         scene.set_all(changes.iter().copied()).unwrap();
-        let result = MotorResult { alpha, alpha_error, ..MotorResult::default() };
+        let result = MotorResult { alpha: Estimate { value: alpha, error: alpha_error }, ..MotorResult::default() };
         weight(&Problem::try_from(&scene).unwrap(), &Outcome::Motor(result))
     }
 
@@ -112,7 +110,8 @@ mod tests {
         let problem = Problem::try_from(&Scene::plate()).unwrap();
         // p_a × 1 mm = 101.325 N/m.
         let of = |film_load: f64| {
-            let result = PlateResult { film_load, film_load_error: 1e-6, ..PlateResult::default() };
+            let result =
+                PlateResult { film_load: Estimate { value: film_load, error: 1e-6 }, ..PlateResult::default() };
             weight(&problem, &Outcome::Plate(result))
         };
         assert_eq!(of(10.1325), "here it carries 10 % of p_a × area in the mean");

@@ -95,8 +95,7 @@ impl Output {
     fn read(self, problem: &Problem, solution: &Solution, numbers: &Numbers) -> Estimate {
         let harmonic = |part: fn(&Harmonic<Estimate>) -> Estimate, unit: fn(&Harmonic<f64>) -> f64| {
             let Scenario::Plate(plate) = &problem.scenario else { return None };
-            let (found, unit) = (part(&solved(plate, &solution.recording)?), unit(&Harmonic::unit(plate)));
-            Some(Estimate { value: found.value * unit, error: found.error * unit })
+            Some(part(&solved(plate, &solution.recording)?) * unit(&Harmonic::unit(plate)))
         };
         let found = match self {
             Self::Number(quantity) => numbers.estimate(quantity),
@@ -253,10 +252,7 @@ impl Sensitivity {
         for (parameter, at, given) in uncertainties.iter() {
             let column = self.columns.iter().position(|column| column.parameter == parameter);
             match column.and_then(|column| self.slope(output, column)) {
-                Some(Estimate { value, error }) => {
-                    let deviation = given.deviation(at);
-                    parts.push((parameter, Estimate { value: value * deviation, error: error * deviation }));
-                }
+                Some(slope) => parts.push((parameter, slope * given.deviation(at))),
                 None => unknown.push(parameter.key),
             }
         }

@@ -7,6 +7,7 @@ use super::attempt::attempt;
 use super::quantity::Numbers;
 use super::sweep::spaced;
 use crate::control::{Cancel, Progress};
+use crate::estimate::Estimate;
 use crate::problem::{Motor, Problem, Scenario};
 use crate::scene::{Parameter, ParameterKind, Range, Scale, Scene, SceneError, Value};
 use crate::solution::{Outcome, Solution, Status};
@@ -196,19 +197,19 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
     let Outcome::Motor(result) = &solution.outcome else { return vec![Violation::NotFinite("α")] };
     let mut violations = Vec::new();
     for (name, value) in [
-        ("α", result.alpha),
-        ("the error of α", result.alpha_error),
-        ("the film load", result.film_load),
-        ("the contact load", result.contact_load),
-        ("the torque", result.max_torque),
-        ("the least film thickness", result.min_gap),
-        ("the highest pressure", result.max_pressure),
+        ("α", result.alpha.value),
+        ("the error of α", result.alpha.error),
+        ("the film load", result.film_load.value),
+        ("the contact load", result.contact_load.value),
+        ("the torque", result.max_torque.value),
+        ("the least film thickness", result.min_film_thickness.value),
+        ("the highest pressure", result.max_pressure.value),
     ] {
         if !value.is_finite() {
             violations.push(Violation::NotFinite(name));
         }
     }
-    let (alpha, error) = (result.alpha, result.alpha_error);
+    let Estimate { value: alpha, error } = result.alpha;
     if alpha < -error - SHARE || alpha > 1.0 + error + SHARE {
         violations.push(Violation::Share { alpha, error });
     }
@@ -220,7 +221,7 @@ pub fn violations(motor: &Motor, solution: &Solution) -> Vec<Violation> {
     if pressure <= 0.0 || pressure.is_nan() {
         violations.push(Violation::Pressure(pressure));
     }
-    let thickness = least(&[least(&recording.film_thickness), result.min_gap]);
+    let thickness = least(&[least(&recording.film_thickness), result.min_film_thickness.value]);
     let spacing = motor.least_thickness();
     if thickness < spacing * (1.0 - ROUND_OFF) || thickness.is_nan() {
         violations.push(Violation::Overlap { thickness, spacing });
@@ -420,13 +421,12 @@ mod tests {
     /// A solution in which all is well, and one change to it.
     fn solution(change: impl FnOnce(&mut Solution, &mut MotorResult)) -> Result<Solution, String> {
         let mut result = MotorResult {
-            alpha: 0.25,
-            alpha_error: 1e-3,
-            film_load: 0.6125,
-            contact_load: 1.8375,
-            max_torque: 0.26,
-            min_gap: 2e-7,
-            max_pressure: 5e5,
+            alpha: Estimate { value: 0.25, error: 1e-3 },
+            film_load: Estimate::exact(0.6125),
+            contact_load: Estimate::exact(1.8375),
+            max_torque: Estimate::exact(0.26),
+            min_film_thickness: Estimate::exact(2e-7),
+            max_pressure: Estimate::exact(5e5),
             ..MotorResult::default()
         };
         let recording = Recording {
@@ -461,17 +461,17 @@ mod tests {
         assert_eq!(verdict(solution(|s, _| s.status = Status::Cancelled)).0, Verdict::NotConverged);
         assert_eq!(verdict(Err("no".to_owned())), (Verdict::Failed("no".to_owned()), vec![]));
         // Within its error, a share may be a little out of range.
-        assert_eq!(verdict(solution(|_, r| r.alpha = 1.0005)).0, Verdict::Solved);
+        assert_eq!(verdict(solution(|_, r| r.alpha.value = 1.0005)).0, Verdict::Solved);
         let share = |alpha: f64| Violation::Share { alpha, error: 1e-3 };
         type Change = fn(&mut Solution, &mut MotorResult);
         let wrong: [(Change, Violation); 9] = [
-            (|_, r| r.alpha = 1.2, share(1.2)),
-            (|_, r| r.alpha = -0.2, share(-0.2)),
-            (|_, r| r.max_torque = f64::NAN, Violation::NotFinite("the torque")),
-            (|_, r| r.alpha_error = f64::INFINITY, Violation::NotFinite("the error of α")),
+            (|_, r| r.alpha.value = 1.2, share(1.2)),
+            (|_, r| r.alpha.value = -0.2, share(-0.2)),
+            (|_, r| r.max_torque.value = f64::NAN, Violation::NotFinite("the torque")),
+            (|_, r| r.alpha.error = f64::INFINITY, Violation::NotFinite("the error of α")),
             (|s, _| s.recording.pressure[1] = -3.0, Violation::Pressure(-3.0)),
             (|s, _| s.recording.film_thickness[1] = 1e-7, Violation::Overlap { thickness: 1e-7, spacing: 2e-7 }),
-            (|_, r| r.min_gap = 0.0, Violation::Overlap { thickness: 0.0, spacing: 2e-7 }),
+            (|_, r| r.min_film_thickness.value = 0.0, Violation::Overlap { thickness: 0.0, spacing: 2e-7 }),
             (|s, _| s.recording.contact[0] = -1.0, Violation::Pull(-1.0)),
             (|s, _| s.recording.contact_load[1] = 4.275, Violation::Balance(1.0)),
         ];

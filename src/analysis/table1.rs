@@ -33,18 +33,11 @@ pub struct Computed {
     pub warnings: Vec<String>,
 }
 
-impl Computed {
-    /// Estimated numerical error of the film load \[N\], absolute.
-    pub fn film_load_error(&self) -> f64 {
-        self.result.alpha_error * self.load
-    }
-}
-
 impl Row {
     /// By how much the computed film load exceeds the published one \[%\].
     pub fn difference_percent(&self) -> Option<f64> {
         let computed = self.computed.as_ref().ok()?;
-        Some(100.0 * (computed.result.film_load / self.published.published_load_n - 1.0))
+        Some(100.0 * (computed.result.film_load.value / self.published.published_load_n - 1.0))
     }
 
     /// Whether the row was computed and its cycle repeats to the tolerance.

@@ -27,7 +27,7 @@ pub struct TorqueCurves {
     /// Contact radius \[m\], to convert surface speeds to rpm.
     pub radius: f64,
     /// Greatest tangential speed of the stator's surface V₀ = 2πf B_S \[m/s\].
-    pub surface_speed: f64,
+    pub stator_speed: f64,
     /// The friction coefficient that a model without film needs for the same maximum operating torque, μ_d(1 − α).
     pub dry_equivalent: Estimate,
     /// Mean power that the stator spends on squeezing the film \[W\].
@@ -80,8 +80,8 @@ impl TorqueCurves {
     pub fn from_contacts(motor: &Motor, result: &MotorResult, recording: &Recording, dry: &[LineLoads]) -> Self {
         let with_film = Scaled::with_film(motor, result, recording);
         let without_film = Scaled::without_film(motor, dry);
-        let share = (1.0 - result.alpha).max(0.0);
-        let v0 = motor.surface_speed();
+        let share = (1.0 - result.alpha.value).max(0.0);
+        let v0 = motor.stator_speed();
         let mut speeds: Vec<f64> = if v0 > 0.0 {
             let marked = [with_film.no_load_speed(), without_film.no_load_speed(), Some(motor.rotor_speed)];
             let even = (0..SPEEDS).map(|i| v0 * i as f64 / (SPEEDS - 1) as f64);
@@ -96,14 +96,11 @@ impl TorqueCurves {
             with_film: with_film.performance(&speeds),
             without_film: without_film.performance(&speeds),
             radius: motor.contact_radius,
-            surface_speed: v0,
-            dry_equivalent: Estimate {
-                value: motor.dry_friction * share,
-                error: motor.dry_friction * result.alpha_error,
-            },
+            stator_speed: v0,
+            dry_equivalent: Estimate { value: share, ..result.alpha } * motor.dry_friction,
             film_power: film_power(motor, recording),
             viscous_drag: viscous_drag(motor, recording),
-            speed_effect: if share > 0.0 { wedge_bound(motor, away) * result.alpha.abs() / share } else { 0.0 },
+            speed_effect: if share > 0.0 { wedge_bound(motor, away) * result.alpha.value.abs() / share } else { 0.0 },
         }
     }
 
@@ -117,7 +114,7 @@ impl TorqueCurves {
 /// greatest speed. Slip lowers it; it is left out here.
 fn viscous_drag(motor: &Motor, recording: &Recording) -> f64 {
     let loads = &recording.lines;
-    let v0 = motor.surface_speed();
+    let v0 = motor.stator_speed();
     let (mut still, mut slope) = (0.0, 0.0);
     for (phase, line) in lines(loads) {
         for (i, (x, length)) in loads.x.iter().zip(&loads.node_length).enumerate() {

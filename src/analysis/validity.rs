@@ -61,7 +61,8 @@ fn of_motor(motor: &Motor, solution: Option<&Solution>) -> Vec<Excess> {
         Outcome::Motor(result) => Some(result),
         Outcome::Plate(_) => None,
     });
-    let closed = result.map(|result| result.min_gap).filter(|gap| gap.is_finite()).unwrap_or(motor.min_spacing);
+    let closed =
+        result.map(|result| result.min_film_thickness.value).filter(|gap| gap.is_finite()).unwrap_or(motor.min_spacing);
     let contact = result.map_or(0.0, |result| result.max_contact);
     let decisions = solution.map_or(&[][..], |solution| &solution.model.decisions);
     let natural = decisions.iter().find_map(|decision| match decision.chosen {

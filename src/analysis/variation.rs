@@ -386,8 +386,8 @@ mod tests {
 
     fn headline(_: &Problem, solution: &Solution) -> Vec<f64> {
         vec![match solution.outcome {
-            Outcome::Motor(result) => result.alpha,
-            Outcome::Plate(result) => result.film_load,
+            Outcome::Motor(result) => result.alpha.value,
+            Outcome::Plate(result) => result.film_load.value,
         }]
     }
 

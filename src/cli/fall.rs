@@ -100,7 +100,7 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> 
         let told = format!(
             "The periodic solve, whose plate stands still over the vibration, floats at a mean gap of {} µm; the ± above is that of \
              the steps in time.",
-            with_error(gap.value, gap.error)
+            gap
         );
         text.push_str(&paragraph(&told, "\n", ""));
     }

@@ -16,7 +16,7 @@ use crate::export::{files, json};
 use crate::problem::Problem;
 use crate::scene::{Parameter, Scene, show_text};
 use crate::solve::Settings;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use std::path::Path;
 
 const EXAMPLES: &str = "\
@@ -56,14 +56,18 @@ Files of --out:
 /// A fit minimises the sum of ((computed − measured)/error)² within the bounds by least squares, and states values, standard errors,
 /// correlations and residuals. The table of measurements `table1` is part of the program: Table I of Maeno and Bogy (1992).
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, after_long_help = format!("{DATA}\n\n{EXAMPLES}"))]
+#[command(
+    after_help = EXAMPLES,
+    after_long_help = format!("{DATA}\n\n{EXAMPLES}"),
+    group = ArgGroup::new("sought").args(["data", "maximise", "minimise"]).required(true),
+)]
 pub(super) struct Arguments {
     /// A built-in preset (see: squeezefilm presets) or the path of a TOML file
     #[arg(value_name = "PRESET")]
     preset: String,
 
     /// A CSV file of measurements, or table1
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["maximise", "minimise"], conflicts_with_all = ["maximise", "minimise", "subject_to"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "subject_to")]
     data: Option<String>,
 
     /// A key to choose, with its bounds in the unit of the key; may be repeated
@@ -86,7 +90,7 @@ pub(super) struct Arguments {
     starts: u16,
 
     /// Looks for the greatest value of a number, by its name in --json
-    #[arg(long, value_name = "NAME", conflicts_with = "minimise")]
+    #[arg(long, value_name = "NAME")]
     maximise: Option<String>,
 
     /// Looks for the least value of a number
@@ -239,7 +243,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
     columns.row(["row", "measured", "", "computed", "difference", "residual"]);
     for (one, row) in measured.measurements.iter().zip(&fitted.rows) {
         let (computed, difference) = match &row.computed {
-            Ok(found) => (with_error(found.value, found.error), percent(found.value / one.value - 1.0)),
+            Ok(found) => (found.to_string(), percent(found.value / one.value - 1.0)),
             Err(why) => (why.clone(), String::new()),
         };
         let residual = row.residual.map_or_else(|| "LEFT OUT".to_owned(), |residual| format!("{residual:.2}"));
@@ -295,18 +299,12 @@ fn optimum_text(scene: &Scene, problem: &Problem, found: &Optimum) -> String {
     let mut text = paragraph(&title, "", "");
     text.push('\n');
     let mut columns = Columns::new();
-    let value = with_error(found.value.value, found.value.error);
-    let before = found.before.map_or_else(
-        || "cannot be solved as the preset is".to_owned(),
-        |before| format!("{} as the preset is", with_error(before.value, before.error)),
-    );
-    columns.row([found.goal.quantity.name().to_owned(), value, before]);
+    let before = found
+        .before
+        .map_or_else(|| "cannot be solved as the preset is".to_owned(), |before| format!("{before} as the preset is"));
+    columns.row([found.goal.quantity.name().to_owned(), found.value.to_string(), before]);
     for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
-        columns.row([
-            quantity.name().to_owned(),
-            with_error(reached.value, reached.error),
-            format!("allowed: {limit}"),
-        ]);
+        columns.row([quantity.name().to_owned(), reached.to_string(), format!("allowed: {limit}")]);
     }
     text.push_str(&columns.text("  ", &[]));
     text.push('\n');

@@ -6,7 +6,7 @@ use super::options::{CommonOptions, pair};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
-use crate::digits::{duration, percent, significant, with_error};
+use crate::digits::{duration, percent, significant};
 use crate::export::files;
 use crate::export::json;
 use crate::export::sensitivity::Found;
@@ -163,7 +163,7 @@ fn text(found: &Found<'_>) -> String {
     let values = sensitivity
         .values
         .iter()
-        .map(|found| if found.value.is_finite() { with_error(found.value, found.error) } else { "none".to_owned() });
+        .map(|found| if found.value.is_finite() { found.to_string() } else { "none".to_owned() });
     columns.row(std::iter::once("value".to_owned()).chain(values));
     let greatest = |column: usize| {
         let of = |output: usize| sensitivity.elasticity(output, column).map_or(0.0, |found| found.value.abs());
@@ -189,7 +189,7 @@ fn text(found: &Found<'_>) -> String {
         let unit = if relative { 1.0 } else { 100.0 };
         let cell = |output: usize| match sensitivity.elasticity(output, *column) {
             Some(found) if found.value.abs() + found.error < NOTHING => "0".to_owned(),
-            Some(found) => with_error(unit * found.value, unit * found.error),
+            Some(found) => (found * unit).to_string(),
             None => "none".to_owned(),
         };
         columns.row(std::iter::once(key).chain((0..outputs.len()).map(cell)));

@@ -7,7 +7,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::regime;
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::Excess;
-use crate::digits::{as_given, duration, percent, short, significant, stated, with_error};
+use crate::digits::{as_given, duration, percent, short, significant};
 use crate::dimensionless::Dimensionless;
 use crate::estimate::Estimate;
 use crate::export::json::{FloatingObject, Summary, beside_limit};
@@ -75,13 +75,13 @@ fn status(summary: &Summary) -> String {
 fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     let alpha = found(summary, Quantity::Alpha);
     let dry = or_nan(summary.dry_torque_nm);
-    let negative = regime::sucks(alpha.value, alpha.error);
+    let negative = regime::sucks(alpha);
     let without = summary.torque.as_ref().map_or_else(String::new, |torque| {
         format!("; {} without film", in_unit(Some(torque.without_film.stall_torque), 1.0, "N·m"))
     });
     columns.row([
         "film share of the load  α",
-        &with_error(alpha.value, alpha.error),
+        &alpha.to_string(),
         &format!(
             "of the {} N pressed on one wavelength{}",
             short(motor.load, 6),
@@ -91,7 +91,7 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     film_load(columns, summary);
     columns.row([
         "contact load",
-        &format!("{} N", uncertain(summary, Quantity::ContactLoad)),
+        &format!("{} N", found(summary, Quantity::ContactLoad)),
         "mean over the cycle, the rest of the load",
     ]);
     columns.row([
@@ -101,12 +101,12 @@ fn motor_rows(columns: &mut Columns, motor: &Motor, summary: &Summary) {
     ]);
     columns.row([
         "maximum operating torque",
-        &format!("{} N·m", uncertain(summary, Quantity::MaxTorque)),
+        &format!("{} N·m", found(summary, Quantity::MaxTorque)),
         &format!("the paper's bound μ_d (1 − α) waves L r; {} N·m if there were no air", shown(dry)),
     ]);
     columns.row([
         "teeth in contact",
-        &format!("{} of {}", uncertain(summary, Quantity::TeethInContact), motor.teeth),
+        &format!("{} of {}", found(summary, Quantity::TeethInContact), motor.teeth),
         "mean over the cycle",
     ]);
     columns.row(match summary.levitated {
@@ -160,8 +160,8 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
         floating_rows(columns, plate, floating, summary.force_unit);
     }
     film_load(columns, summary);
-    columns.row(["load ratio", &uncertain(summary, Quantity::LoadRatio), area]);
-    let range = [Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| uncertain(summary, end));
+    columns.row(["load ratio", &found(summary, Quantity::LoadRatio).to_string(), area]);
+    let range = [Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| found(summary, end).to_string());
     columns.row(["", &range.join(" … "), "least and greatest in the cycle"]);
     if let Some(exact) = &summary.exact {
         exact_rows(columns, exact, units(plate));
@@ -176,11 +176,11 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
 fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject, unit: &str) {
     let [stiffness, _] = units(plate);
     let mass = as_given(floating.load / GRAVITY * 1e3);
-    let (mean_gap, found) = (floating.mean_gap_um(), &floating.found);
+    let found = &floating.found;
     let stable = if floating.stable { "stable" } else { "not stable" };
     columns.row([
         "mean gap",
-        &format!("{} µm", with_error(mean_gap.value, mean_gap.error)),
+        &format!("{} µm", floating.mean_gap_um()),
         &format!("at which the film carries the load of {} {unit}; {stable}", shown(floating.load)),
     ]);
     columns.row([
@@ -193,12 +193,12 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
     ]);
     columns.row([
         "stiffness of floating",
-        &format!("{} {stiffness}", with_error(found.stiffness.value, found.stiffness.error)),
+        &format!("{} {stiffness}", found.stiffness),
         "by which the mean load falls with the mean gap",
     ]);
-    if let Some(Estimate { value: frequency, error }) = floating.natural_frequency() {
+    if let Some(frequency) = floating.natural_frequency() {
         let of = format!("of the mass whose weight is the load, {} g", shown(mass));
-        columns.row(["natural frequency", &format!("{} Hz", with_error(frequency, error)), &of]);
+        columns.row(["natural frequency", &format!("{frequency} Hz"), &of]);
     }
     if let Some(ratio) = floating.damping_ratio() {
         let damping = floating.damping;
@@ -215,7 +215,7 @@ fn floating_rows(columns: &mut Columns, plate: &Plate, floating: &FloatingObject
 /// What is known exactly beside what was computed.
 fn exact_rows(columns: &mut Columns, exact: &Comparison, [stiffness, damping]: [&str; 2]) {
     let mut row = |name: &str, solved: Estimate, unit: &str, known: f64, when: &str| {
-        let solved = format!("{} {unit}", with_error(solved.value, solved.error));
+        let solved = format!("{solved} {unit}");
         columns.row([name, solved.trim_end(), &format!("exact {} {when}", shown(known))]);
     };
     if let Some((solved, absolute)) = exact.solved.zip(exact.stiffness_and_damping()) {
@@ -239,27 +239,25 @@ fn exact_rows(columns: &mut Columns, exact: &Comparison, [stiffness, damping]: [
 /// A number with its error and unit; "none" if there is no number.
 fn in_unit(found: Option<Estimate>, factor: f64, unit: &str) -> String {
     match found.filter(|found| found.value.is_finite()) {
-        Some(Estimate { value, error }) => format!("{} {unit}", stated(value * factor, Some(error * factor))),
+        Some(found) => format!("{} {unit}", found * factor),
         None => "none".to_owned(),
     }
 }
 
 fn film_load(columns: &mut Columns, summary: &Summary) {
     let unit = summary.force_unit;
-    columns.row(["film load", &format!("{} {unit}", uncertain(summary, Quantity::FilmLoad)), "mean over the cycle"]);
-    let range = [Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| uncertain(summary, end));
+    columns.row(["film load", &format!("{} {unit}", found(summary, Quantity::FilmLoad)), "mean over the cycle"]);
+    let range = [Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| found(summary, end).to_string());
     columns.row(["", &format!("{} {unit}", range.join(" … ")), "least and greatest in the cycle"]);
 }
 
 fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: f64) {
-    let gap = found(summary, Quantity::MinGap);
-    let least = stated(gap.value, summary.numbers.get(Quantity::MinGapError));
-    columns.row(["least film thickness", &format!("{least} nm"), thickness]);
-    let pressure = found(summary, Quantity::MaxPressure).value;
+    columns.row(["least film thickness", &format!("{} nm", found(summary, Quantity::MinGap)), thickness]);
+    let pressure = found(summary, Quantity::MaxPressure);
     columns.row([
         "highest pressure",
-        &format!("{} kPa", uncertain(summary, Quantity::MaxPressure)),
-        &format!("{} × ambient", significant(pressure * 1e3 / ambient, 3)),
+        &format!("{pressure} kPa"),
+        &format!("{} × ambient", significant(pressure.value * 1e3 / ambient, 3)),
     ]);
 }
 
@@ -330,12 +328,6 @@ fn shown(value: f64) -> String {
 /// A number of the summary with its error; what is null in the object is unknown here.
 fn found(summary: &Summary, quantity: Quantity) -> Estimate {
     summary.numbers.estimate(quantity).unwrap_or(Estimate { value: f64::NAN, error: f64::NAN })
-}
-
-/// The same in words.
-fn uncertain(summary: &Summary, quantity: Quantity) -> String {
-    let Estimate { value, error } = found(summary, quantity);
-    with_error(value, error)
 }
 
 /// What is null in the object is unknown here.

@@ -11,7 +11,7 @@ use crate::analysis::decision::effort;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Part, Row, Sweep, Vary};
 use crate::atomic::{Lock, WriteError, check_writable, write_file};
-use crate::digits::{duration, stated};
+use crate::digits::{duration, significant};
 use crate::export::compare::{LIMITS, TIME_UP};
 use crate::export::saved::{self, ReadError};
 use crate::export::sweep::Object;
@@ -306,17 +306,15 @@ const SHOWN: [Quantity; 9] = [
     Quantity::FilmSteps,
 ];
 
-fn number(row: &Row, quantity: Quantity) -> String {
-    let Some(value) = row.numbers.get(quantity) else { return String::new() };
-    let error = match quantity {
-        quantity if quantity.is_count() => return value.to_string(),
-        // Of two numbers that say the same only the first shows its error.
-        Quantity::FilmLoad => None,
-        // The load of a plate that floats is given.
-        Quantity::LoadRatio if row.numbers.get(Quantity::MeanGap).is_some() => None,
-        quantity => quantity.error().map(|error| row.numbers.get(error).unwrap_or(f64::INFINITY)),
-    };
-    stated(value, error)
+fn number(Row { numbers, .. }: &Row, quantity: Quantity) -> String {
+    match numbers.get(quantity) {
+        // Of two numbers that say the same only the first shows its error, and the load of a plate that floats is given.
+        Some(value) if quantity == Quantity::FilmLoad => significant(value, 4),
+        Some(value) if quantity == Quantity::LoadRatio && numbers.get(Quantity::MeanGap).is_some() => {
+            significant(value, 4)
+        }
+        _ => numbers.text(quantity),
+    }
 }
 
 #[cfg(test)]

@@ -10,7 +10,8 @@ use super::terminal;
 use crate::analysis::decision::effort;
 use crate::analysis::table1::{Row, rows};
 use crate::atomic::Staged;
-use crate::digits::{duration, stated};
+use crate::digits::{duration, significant};
+use crate::estimate::Estimate;
 use crate::export::table1::Object;
 use crate::export::{csv, json};
 use crate::fidelity::Fidelity;
@@ -117,9 +118,9 @@ fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> Stri
             (Ok(computed), Some(difference)) => columns.row([
                 published.row.clone(),
                 load,
-                estimated(computed.result.film_load, computed.film_load_error()),
+                estimated(computed.result.film_load),
                 share,
-                estimated(computed.result.alpha, computed.result.alpha_error),
+                estimated(computed.result.alpha),
                 format!("{difference:+.1} %"),
                 json::mark(json::status_name(&computed.status)),
             ]),
@@ -143,8 +144,8 @@ const NOTES: [&str; 2] = [
 ];
 
 /// With its error, where there is an estimate: one mesh alone gives none.
-fn estimated(value: f64, error: f64) -> String {
-    stated(value, Some(error).filter(|error| error.is_finite()))
+fn estimated(found: Estimate) -> String {
+    if found.error.is_finite() { found.to_string() } else { significant(found.value, 4) }
 }
 
 #[cfg(test)]
@@ -155,8 +156,8 @@ mod tests {
 
     fn rows_that_ended(statuses: &[Status]) -> Vec<Row> {
         let computed = |status: &Status| {
-            let result =
-                MotorResult { alpha: 0.25, alpha_error: f64::INFINITY, film_load: 0.6, ..MotorResult::default() };
+            let alpha = Estimate { value: 0.25, error: f64::INFINITY };
+            let result = MotorResult { alpha, film_load: Estimate::exact(0.6), ..MotorResult::default() };
             Computed { status: *status, result, load: 2.45, warnings: Vec::new() }
         };
         published()

@@ -16,7 +16,7 @@ use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
-use crate::digits::{significant, stated, with_error};
+use crate::digits::{significant, with_error};
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene::Value;
@@ -210,7 +210,7 @@ pub fn provenance(runs: &[ComparedRun]) -> Provenance {
             Scenario::Plate(_) => (Quantity::LoadRatio, "load ratio"),
         };
         let found = numbers.estimate(quantity)?;
-        Some(format!("{name} = {}", with_error(found.value, found.error)))
+        Some(format!("{name} = {found}"))
     };
     Provenance {
         preset: runs.iter().map(|run| run.label.as_str()).collect::<Vec<_>>().join(", "),
@@ -282,8 +282,9 @@ pub fn value_text(row: &ResultRow, cell: &ResultCell) -> String {
     let text = match cell.value {
         None => return String::new(),
         Some(value) if row.quantity.is_count() => value.to_string(),
+        Some(value) if row.quantity.error().is_none() => significant(value, 4),
         // If it has an estimate, but not here, that is told.
-        Some(value) => stated(value, cell.error.or(row.quantity.error().map(|_| f64::INFINITY))),
+        Some(value) => with_error(value, cell.error.unwrap_or(f64::INFINITY)),
     };
     if row.unit.is_none() { format!("{text} {}", cell.unit) } else { text }
 }

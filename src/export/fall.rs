@@ -84,7 +84,7 @@ impl<'a> Object<'a> {
 
 /// The mean gap \[µm\] at which it floats; `None` if it does not.
 pub fn floats(ended: &Fall) -> Option<Estimate> {
-    ended.floats.as_ref().ok().map(|gap| Estimate { value: gap.value * 1e6, error: gap.error * 1e6 })
+    ended.floats.as_ref().ok().map(|gap| *gap * 1e6)
 }
 
 /// Writes the rows as CSV, the header first.

@@ -3,7 +3,7 @@
 use super::estimates::{self, finite};
 use crate::analysis::decision::sentences;
 use crate::analysis::exact::{Comparison, slow_damping};
-pub use crate::analysis::quantity::force_unit;
+use crate::analysis::quantity::force_unit;
 use crate::analysis::quantity::{Numbers, Quantity};
 use crate::analysis::torque::TorqueCurves;
 use crate::analysis::validity::{self, Excess};
@@ -164,7 +164,7 @@ impl FloatingObject {
 
     /// Mean gap \[µm\].
     pub fn mean_gap_um(&self) -> Estimate {
-        Estimate { value: self.found.mean_gap.value * 1e6, error: self.found.mean_gap.error * 1e6 }
+        self.found.mean_gap * 1e6
     }
 
     /// Natural frequency \[Hz\]; `None` if it is not stable.
@@ -259,8 +259,7 @@ impl Summary {
         }
         match (&problem.scenario, &solution.outcome) {
             (Scenario::Plate(plate), Outcome::Plate(result)) => {
-                let film_load = Estimate { value: result.film_load, error: result.film_load_error };
-                summary.exact = Some(Comparison::of(plate, film_load, &solution.recording));
+                summary.exact = Some(Comparison::of(plate, result.film_load, &solution.recording));
                 summary.floating =
                     plate.load.zip(result.floating).map(|(load, found)| FloatingObject::new(plate, load, found));
             }
@@ -377,7 +376,7 @@ mod tests {
     fn numbers_that_are_not_finite_are_null_and_said_to_be() {
         let (problem, mut solution) = solved("plate-viscous");
         let Outcome::Plate(result) = &mut solution.outcome else { panic!("a plate") };
-        result.film_load_error = f64::INFINITY;
+        result.film_load.error = f64::INFINITY;
         let summary = Summary::new(&problem, &solution, f64::NAN, &[]);
         assert_eq!((summary.numbers.get(Quantity::FilmLoadError), summary.stats.wall_s), (None, None));
         let warning = summary.warnings.last().unwrap();

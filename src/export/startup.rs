@@ -2,9 +2,9 @@
 
 use super::csv;
 use super::estimates::finite;
+use crate::analysis::quantity::force_unit;
 use crate::estimate::Estimate;
 use crate::export::figure::{Axis, Band, Colour, Dash, Figure, Line, Mark, Panel, Provenance, Style};
-use crate::export::json::force_unit;
 use crate::problem::{Problem, Scenario};
 use crate::scene::Scene;
 use crate::solution::{Accuracy, Outcome, PlateResult, Status};
@@ -57,22 +57,23 @@ impl Row {
             remaining: finite(cycle.remaining),
             ..Self::default()
         };
-        let (loads, gap, pressure) = match &cycle.outcome {
+        let parts = |found: Estimate| [found.value, found.error].map(finite);
+        let (loads, thickness, pressure) = match &cycle.outcome {
             Outcome::Motor(r) => {
-                [row.alpha, row.alpha_error] = [r.alpha, r.alpha_error].map(finite);
-                [row.contact_load_n, row.teeth_in_contact] = [r.contact_load, r.teeth_in_contact].map(finite);
-                ([r.film_load, r.film_load_min, r.film_load_max], r.min_gap, r.max_pressure)
+                [row.alpha, row.alpha_error] = parts(r.alpha);
+                row.contact_load_n = finite(r.contact_load.value);
+                row.teeth_in_contact = finite(r.teeth_in_contact.value);
+                ([r.film_load, r.film_load_min, r.film_load_max], r.min_film_thickness, r.max_pressure)
             }
             Outcome::Plate(r) => {
                 if let Scenario::Plate(plate) = &problem.scenario {
-                    let ratios = [r.film_load, r.film_load_error].map(|load| finite(PlateResult::ratio(load, plate)));
-                    [row.load_ratio, row.load_ratio_error] = ratios;
+                    [row.load_ratio, row.load_ratio_error] = parts(r.film_load * PlateResult::ratio(1.0, plate));
                 }
-                ([r.film_load, r.film_load_min, r.film_load_max], r.min_gap, r.max_pressure)
+                ([r.film_load, r.film_load_min, r.film_load_max], r.min_film_thickness, r.max_pressure)
             }
         };
-        [row.film_load_n, row.film_load_min_n, row.film_load_max_n] = loads;
-        [row.min_gap_nm, row.max_pressure_kpa] = [gap * 1e9, pressure * 1e-3];
+        [row.film_load_n, row.film_load_min_n, row.film_load_max_n] = loads.map(|load| load.value);
+        [row.min_gap_nm, row.max_pressure_kpa] = [thickness.value * 1e9, pressure.value * 1e-3];
         row
     }
 

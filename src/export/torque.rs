@@ -20,7 +20,7 @@ impl Serialize for TorqueCurves {
         estimates::add(&mut map, "dry_equivalent_friction", "", Some(self.dry_equivalent))?;
         estimates::add(&mut map, "film_power", "_w", Some(self.film_power))?;
         map.serialize_entry("viscous_drag_nm", &self.viscous_drag)?;
-        map.serialize_entry("surface_speed_rpm", &self.rpm(self.surface_speed))?;
+        map.serialize_entry("surface_speed_rpm", &self.rpm(self.stator_speed))?;
         map.serialize_entry("speed_effect", &self.speed_effect)?;
         map.end()
     }
@@ -32,7 +32,7 @@ struct Side<'a>(&'a TorqueCurves, &'a Performance);
 impl Serialize for Side<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self(curves, found) = self;
-        let rpm = |speed: Estimate| Estimate { value: curves.rpm(speed.value), error: curves.rpm(speed.error) };
+        let rpm = |speed: Estimate| speed * curves.rpm(1.0);
         let mut map = serializer.serialize_map(None)?;
         for (name, unit, estimate) in [
             ("stall_torque", "_nm", Some(found.stall_torque)),

@@ -42,7 +42,7 @@ struct Parts {
     with_film: Performance,
     without_film: Performance,
     radius: f64,
-    surface_speed: f64,
+    stator_speed: f64,
     dry_equivalent: Estimate,
     film_power: Estimate,
     viscous_drag: f64,

@@ -70,9 +70,9 @@ impl Readings {
         self.set(Live::Cycles, number as f64);
         self.set(Live::Remaining, remaining);
         match (outcome, scenario) {
-            (Outcome::Motor(result), _) => self.set(Live::StartAlpha, result.alpha),
+            (Outcome::Motor(result), _) => self.set(Live::StartAlpha, result.alpha.value),
             (Outcome::Plate(result), Scenario::Plate(plate)) => {
-                self.set(Live::StartLoadRatio, PlateResult::ratio(result.film_load, plate));
+                self.set(Live::StartLoadRatio, PlateResult::ratio(result.film_load.value, plate));
             }
             _ => {}
         }

@@ -96,8 +96,8 @@ fn solve_a_little(problem: &Problem) {
     let settings = Settings { fidelity: Fidelity::Draft, ..Settings::default() };
     if let Ok(solution) = solve(problem, &settings, &mut watch, &cancel) {
         let load = match solution.outcome {
-            Outcome::Motor(result) => result.alpha,
-            Outcome::Plate(result) => result.film_load,
+            Outcome::Motor(result) => result.alpha.value,
+            Outcome::Plate(result) => result.film_load.value,
         };
         assert!(load.is_finite(), "{load} after {rounds} rounds of {problem:?}");
     }

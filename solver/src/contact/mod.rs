@@ -129,7 +129,7 @@ impl Contact {
 
     /// Accepts an imbalance of `tolerance` times the sum of all forces, for rounds whose trapped gas is not final yet; never
     /// less than round-off. Complementarity stays exact.
-    pub fn accept(&mut self, tolerance: f64) {
+    pub fn set_tolerance(&mut self, tolerance: f64) {
         self.tolerance = tolerance.max(ROUND_OFF);
     }
 

@@ -93,9 +93,9 @@ impl FilmCycle {
         self.film.grid()
     }
 
-    /// Accepts steps whose last Newton change is below `tolerance` ([`Film::accept`]).
-    pub fn accept(&mut self, tolerance: f64) {
-        self.film.accept(tolerance);
+    /// Accepts steps whose last Newton change is below `tolerance` ([`Film::set_tolerance`]).
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.film.set_tolerance(tolerance);
     }
 
     /// Share of a small excess of gas over ambient pressure, in an even gap `h` \[m\], that one implicit step of `dt` \[s\] leaves in

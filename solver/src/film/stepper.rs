@@ -75,7 +75,7 @@ pub enum FilmError {
     },
 }
 
-/// Newton's relative change below which a step is accepted, unless `Film::accept` loosens it. Convergence is quadratic:
+/// Newton's relative change below which a step is accepted, unless `Film::set_tolerance` loosens it. Convergence is quadratic:
 /// the error left is about the square.
 pub const NEWTON_TOLERANCE: f64 = 1e-7;
 const NEWTON_LIMIT: u32 = 40;
@@ -290,7 +290,7 @@ impl Film {
     }
 
     /// Accepts steps whose last Newton change is below `tolerance`, for rounds whose gap is not final yet.
-    pub fn accept(&mut self, tolerance: f64) {
+    pub fn set_tolerance(&mut self, tolerance: f64) {
         self.tolerance = tolerance;
     }
 

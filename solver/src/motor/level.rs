@@ -417,8 +417,8 @@ impl Level {
         self.pack(&self.trapped, self.reference.as_deref().unwrap_or(&[]), &mut present);
         for round in 1..=rounds {
             let exact = step_tolerance(residual / self.stiffness);
-            self.films.iter_mut().for_each(|film| film.accept(exact));
-            self.contact.accept(CONTACT_SHARE * residual.min(1.0));
+            self.films.iter_mut().for_each(|film| film.set_tolerance(exact));
+            self.contact.set_tolerance(CONTACT_SHARE * residual.min(1.0));
             self.solve_contacts(stats, cancel)?;
             self.march(stats, cancel)?;
             stats.coupling_iterations += 1;

@@ -352,7 +352,6 @@ impl<'a> Transient<'a> {
         let mut result = summarise(self.motor, &recording);
         // Its frames begin with the start of the cycle, and have not its end.
         let grown = extrapolate(&ends).value - recording.film_load[0] / self.motor.load;
-        result.set_alpha(self.motor, result.alpha + 0.5 * grown / recording.frames as f64);
         let estimate = extrapolate_means(&alphas);
         // What floats carries its load whatever the gas is, and whatever was left out.
         let elsewhere =
@@ -360,7 +359,9 @@ impl<'a> Transient<'a> {
         // What film and contact still disagree by, as a force of the gas; what floats carries its load whatever that is.
         let gas = if result.levitated { 1.0 } else { self.levels[finest].gas_force() / self.motor.load };
         self.elsewhere = elsewhere + astray.min(1.0) * gas.max(1.0);
-        result.alpha_error = estimate.error.min(1.0) + (result.alpha - estimate.value).abs() + self.elsewhere;
+        let alpha = result.alpha.value + 0.5 * grown / recording.frames as f64;
+        let error = estimate.error.min(1.0) + (alpha - estimate.value).abs() + self.elsewhere;
+        result.set_alpha(self.motor, Estimate { value: alpha, error });
         Ok(Some((result, recording, change)))
     }
 
@@ -414,57 +415,61 @@ fn finish(motor: &Motor, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     recording.judge_series(elsewhere * motor.load / (level.gas_force() + f64::MIN_POSITIVE));
     // The mean of the fields is the headline.
     let mut result = summarise(motor, &recording);
-    result.alpha_error = estimate.error + (result.alpha - estimate.value).abs();
-    let asked = (plan.accuracy * unit(result.alpha)).max(NEGLIGIBLE);
-    if periodic.status == Status::Converged && result.alpha_error > asked.max(result.alpha.abs()) {
-        periodic.status = Status::NotResolved { error: result.alpha_error / result.alpha.abs() };
+    let alpha = result.alpha.value;
+    let error = estimate.error + (alpha - estimate.value).abs();
+    result.set_alpha(motor, Estimate { value: alpha, error });
+    let asked = (plan.accuracy * unit(alpha)).max(NEGLIGIBLE);
+    if periodic.status == Status::Converged && error > asked.max(alpha.abs()) {
+        periodic.status = Status::NotResolved { error: error / alpha.abs() };
     }
     Periodic { result, recording, ..periodic }
 }
 
-/// Cycle means and extremes of a recording.
+/// Cycle means and extremes of a recording; no error of the mean is known.
 pub fn summarise(motor: &Motor, recording: &Recording) -> MotorResult {
-    let mean = |series: &[f64]| series.iter().sum::<f64>() / series.len() as f64;
-    let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let frames = recording.frames as f64;
+    let (loads, errors) = (&recording.film_load, &recording.film_load_error);
+    let load = |greater| recording.extreme(LineLoads::film_loads, loads, errors, greater);
+    let (pressures, errors) = (&recording.max_pressure, &recording.max_pressure_error);
+    let max_pressure = recording.extreme(LineLoads::max_pressures, pressures, errors, f64::max);
+    let (thicknesses, errors) = (&recording.min_film_thickness, &recording.min_film_thickness_error);
+    let min_film_thickness = recording.extreme(LineLoads::min_film_thicknesses, thicknesses, errors, f64::min);
+    let levitated = recording.teeth_in_contact.iter().all(|&teeth| teeth == 0);
+    let teeth_in_contact = Estimate {
+        value: recording.teeth_in_contact.iter().sum::<usize>() as f64 / frames,
+        // When a tooth begins and ends to touch is known to half a frame each. One that nearly touches may.
+        error: if levitated {
+            recording.near_teeth(motor.touching_thickness())
+        } else {
+            recording.estimate(LineLoads::teeth_in_contact).error + motor.teeth as f64 / frames
+        },
+    };
     let mut result = MotorResult {
-        film_load_min: least(&recording.film_load),
-        film_load_max: most(&recording.film_load),
-        teeth_in_contact: recording.teeth_in_contact.iter().sum::<usize>() as f64 / recording.frames as f64,
-        levitated: recording.teeth_in_contact.iter().all(|&teeth| teeth == 0),
-        min_gap: least(&recording.min_film_thickness),
-        max_pressure: most(&recording.max_pressure),
-        max_contact: most(&recording.contact),
+        film_load_min: load(f64::min),
+        film_load_max: load(f64::max),
+        teeth_in_contact,
+        levitated,
+        min_film_thickness,
+        max_pressure,
+        max_contact: recording.contact.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         ..MotorResult::default()
     };
-    let alpha = mean(&recording.film_load) / motor.load;
+    let alpha = loads.iter().sum::<f64>() / frames / motor.load;
     // What floats carries its load, whatever rounding has left.
-    result.set_alpha(motor, if (alpha - 1.0).abs() < ROUNDING { 1.0 } else { alpha });
-    let loads = |greater| {
-        recording.extreme_error(LineLoads::film_loads, &recording.film_load, &recording.film_load_error, greater)
-    };
-    result.film_load_range_error = [loads(f64::min), loads(f64::max)];
-    let (pressures, thicknesses) = (&recording.max_pressure, &recording.min_film_thickness);
-    let (series, errors) = (LineLoads::max_pressures, &recording.max_pressure_error);
-    result.max_pressure_error = recording.extreme_error(series, pressures, errors, f64::max);
-    let (series, errors) = (LineLoads::min_film_thicknesses, &recording.min_film_thickness_error);
-    result.min_gap_error = recording.extreme_error(series, thicknesses, errors, f64::min);
-    // When a tooth begins and ends to touch is known to half a frame each. One that nearly touches may.
-    let frame = motor.teeth as f64 / recording.frames.max(1) as f64;
-    result.teeth_in_contact_error = if result.levitated {
-        recording.near_teeth(motor.touching_thickness())
-    } else {
-        recording.estimate(LineLoads::teeth_in_contact).error + frame
-    };
+    result.set_alpha(motor, Estimate::exact(if (alpha - 1.0).abs() < ROUNDING { 1.0 } else { alpha }));
     result
 }
 
 impl MotorResult {
     /// Sets α and what follows from it: the loads, which share L, and the torque of the ring.
-    pub fn set_alpha(&mut self, motor: &Motor, alpha: f64) {
+    pub fn set_alpha(&mut self, motor: &Motor, alpha: Estimate) {
+        let contact = Estimate { value: 1.0 - alpha.value, ..alpha };
         self.alpha = alpha;
         self.film_load = alpha * motor.load;
-        self.contact_load = (1.0 - alpha) * motor.load;
-        self.max_torque = motor.friction_torque((1.0 - alpha).max(0.0) * motor.load);
+        self.contact_load = contact * motor.load;
+        self.max_torque = Estimate {
+            value: motor.friction_torque(contact.value.max(0.0) * motor.load),
+            error: motor.friction_torque(alpha.error * motor.load),
+        };
     }
 }

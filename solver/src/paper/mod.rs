@@ -44,6 +44,7 @@ pub use film::FactoredFilm;
 pub use mesh::Mesh;
 
 use crate::control::{Cancel, Observer, Progress};
+use crate::estimate::Estimate;
 use crate::problem::{Motor, Numerics, Slip};
 use crate::rotor::RotorError;
 use crate::solution::{Accuracy, Model, MotorResult, Outcome, Solution, Stats, Status, StoppedBy};
@@ -100,32 +101,33 @@ pub fn solve(
     let relative_error = discretisation_error(&mesh) + astray + rotor.relative_error();
     let recording = recorder.finish();
     let film_load = mean(&recording.film_load);
-    let contact_load = mean(&recording.contact_load);
     let alpha = film_load / motor.load;
+    let alpha = Estimate { value: alpha, error: counts.alpha_remaining + relative_error * alpha.abs() };
     let touching: usize = recording.teeth_in_contact.iter().sum();
     let least = |series: &[f64]| series.iter().copied().fold(f64::INFINITY, f64::min);
     let most = |series: &[f64]| series.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let [film_load_min, film_load_max] = [least(&recording.film_load), most(&recording.film_load)];
-    let max_pressure = most(&recording.max_pressure);
-    let outcome = MotorResult {
-        film_load_range_error: [film_load_min, film_load_max].map(|load| relative_error * load.abs()),
-        max_pressure_error: relative_error * max_pressure,
-        min_gap_error: relative_error * (most(&recording.min_film_thickness) - motor.min_spacing),
-        teeth_in_contact_error: motor.teeth as f64 / mesh.steps as f64,
-        alpha,
-        alpha_error: counts.alpha_remaining + relative_error * alpha.abs(),
-        film_load,
-        film_load_min,
-        film_load_max,
-        contact_load,
-        // A film that carries more than the load leaves nothing to rub.
-        max_torque: motor.friction_torque((1.0 - alpha).max(0.0) * motor.load),
-        teeth_in_contact: touching as f64 / mesh.steps as f64,
+    let off = |value: f64| Estimate { value, error: relative_error * value.abs() };
+    let thicknesses = &recording.min_film_thickness;
+    let mut outcome = MotorResult {
+        film_load_min: off(least(&recording.film_load)),
+        film_load_max: off(most(&recording.film_load)),
+        teeth_in_contact: Estimate {
+            value: touching as f64 / mesh.steps as f64,
+            error: motor.teeth as f64 / mesh.steps as f64,
+        },
         levitated: touching == 0,
-        min_gap: least(&recording.min_film_thickness),
-        max_pressure,
+        min_film_thickness: Estimate {
+            value: least(thicknesses),
+            error: relative_error * (most(thicknesses) - motor.min_spacing),
+        },
+        max_pressure: off(most(&recording.max_pressure)),
         max_contact: most(&recording.contact),
+        ..MotorResult::default()
     };
+    outcome.set_alpha(motor, alpha);
+    // Film and contact share the load as well as the march makes them.
+    outcome.film_load.value = film_load;
+    outcome.contact_load.value = mean(&recording.contact_load);
     let teeth = motor.teeth as u64;
     let stats = Stats {
         film_steps: counts.steps * teeth,
@@ -139,7 +141,7 @@ pub fn solve(
         steps_per_cycle: mesh.steps,
         ..Stats::default()
     };
-    let stated = outcome.alpha_error / alpha.abs();
+    let stated = alpha.error / alpha.value.abs();
     Ok(Solution {
         accuracy: Accuracy { asked: 0.0, stated, stopped_by: StoppedBy::Limit },
         status,

@@ -194,7 +194,7 @@ fn diffusivity(numbers: &Dimensionless, motor: &Motor) -> f64 {
 /// Effect of the upwinding that the wedge term needs on a grid of so many intervals along a tooth, relative to α. None below a
 /// cell Péclet number U Δ/(2D) of 1, where exponential fitting is of second order.
 fn upwinding(numbers: &Dimensionless, motor: &Motor, along: usize) -> f64 {
-    let speed = motor.rotor_speed.abs() + motor.surface_speed();
+    let speed = motor.rotor_speed.abs() + motor.stator_speed();
     let peclet = 0.5 * speed * motor.tooth_width / (along as f64 * diffusivity(numbers, motor));
     let each = UPWINDING + UPWINDING_UNEVEN * unevenness(motor) * end_share(motor);
     (each * (peclet - 1.0)).clamp(0.0, 1.0)

@@ -120,11 +120,12 @@ pub fn float(
     periodic.stats = Stats { film_nodes: periodic.stats.film_nodes, ..way.stats };
     periodic.stats.steps_per_cycle = pinned.grids.last().map_or(0, |grid| grid.steps);
     let result = &mut periodic.result;
-    let off = result.film_load_error + (result.film_load - load).abs();
+    let off = result.film_load.error + (result.film_load.value - load).abs();
     let mean_gap = Estimate { value: at.mean_gap, error: off / (stiffness.value.abs() - stiffness.error).max(0.0) };
     let natural = (stiffness.value.max(0.0) * GRAVITY / load).sqrt() / TAU;
     let natural_frequency = Estimate { value: natural, error: 0.5 * natural * stiffness.error / stiffness.value.abs() };
     result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+    result.min_film_thickness.error = mean_gap.error;
     periodic.recording.min_film_thickness_error.fill(mean_gap.error);
     Ok(Floated { periodic, plan })
 }

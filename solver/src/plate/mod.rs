@@ -73,13 +73,14 @@ fn finish(plate: &Plate, plan: &Plan, found: &Found<Level>, stats: Stats) -> Per
     // The mean of the fields is the headline.
     let mut result = PlateResult::of(&recording);
     let [least, most, highest] = width_errors(plate, found);
-    result.film_load_range_error[0] += least;
-    result.film_load_range_error[1] += most;
-    result.max_pressure_error += highest;
-    let force = result.film_load;
-    result.film_load_error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
-    if periodic.status == Status::Converged && result.film_load_error > level.unit().max(force.abs()) {
-        periodic.status = Status::NotResolved { error: result.film_load_error / force.abs() };
+    result.film_load_min.error += least;
+    result.film_load_max.error += most;
+    result.max_pressure.error += highest;
+    let force = result.film_load.value;
+    let error = estimate.error + (force - estimate.value).abs() + beyond_limits(plate, force);
+    result.film_load.error = error;
+    if periodic.status == Status::Converged && error > level.unit().max(force.abs()) {
+        periodic.status = Status::NotResolved { error: error / force.abs() };
     }
     if plan.turned {
         level.turn(&mut recording, plan.maps);

@@ -1,5 +1,6 @@
 //! The numbers of a plate's cycle, from its fields.
 
+use crate::estimate::Estimate;
 use crate::problem::Plate;
 use crate::recording::{LineLoads, Recording};
 use crate::solution::PlateResult;
@@ -7,23 +8,22 @@ use crate::solution::PlateResult;
 impl PlateResult {
     /// Cycle mean and extremes of a recording; no error of the mean is known.
     pub fn of(recording: &Recording) -> Self {
-        let [least, most, highest] = extremes(&recording.film_load, &recording.max_pressure);
-        let error =
-            |series: fn(&LineLoads) -> Vec<f64>, found: &[f64], errors: &[f64], greater: fn(f64, f64) -> f64| {
-                recording.extreme_error(series, found, errors, greater) + between_frames(found, greater)
-            };
+        type Series = fn(&LineLoads) -> Vec<f64>;
+        let extreme = |series: Series, found: &[f64], errors: &[f64], greater: fn(f64, f64) -> f64| {
+            let Estimate { value, error } = recording.extreme(series, found, errors, greater);
+            Estimate { value, error: error + between_frames(found, greater) }
+        };
         let (loads, errors) = (&recording.film_load, &recording.film_load_error);
-        let load_error = |greater| error(LineLoads::film_loads, loads, errors, greater);
+        let load = |greater| extreme(LineLoads::film_loads, loads, errors, greater);
         let (pressures, errors) = (&recording.max_pressure, &recording.max_pressure_error);
         Self {
-            film_load: loads.iter().sum::<f64>() / recording.frames as f64,
-            film_load_error: 0.0,
-            film_load_min: least,
-            film_load_max: most,
-            min_gap: recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
-            max_pressure: highest,
-            film_load_range_error: [f64::min, f64::max].map(load_error),
-            max_pressure_error: error(LineLoads::max_pressures, pressures, errors, f64::max),
+            film_load: Estimate::exact(loads.iter().sum::<f64>() / recording.frames as f64),
+            film_load_min: load(f64::min),
+            film_load_max: load(f64::max),
+            min_film_thickness: Estimate::exact(
+                recording.min_film_thickness.iter().copied().fold(f64::INFINITY, f64::min),
+            ),
+            max_pressure: extreme(LineLoads::max_pressures, pressures, errors, f64::max),
             floating: None,
         }
     }
@@ -48,4 +48,22 @@ fn between_frames(series: &[f64], greater: fn(f64, f64) -> f64) -> f64 {
     let (before, behind) = (series[(top + frames - 1) % frames], series[(top + 1) % frames]);
     let bend = 2.0 * series[top] - before - behind;
     if bend == 0.0 { 0.0 } else { ((before - behind).powi(2) / (8.0 * bend)).abs() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extreme_between_two_frames_is_that_of_a_parabola() {
+        // 5 − 2 (m − 3.25)², the greatest of whose frames is 4.875; about the first and the last frame as anywhere else.
+        let parabola = |top: f64| -> Vec<f64> { (0..7).map(|m| 5.0 - 2.0 * (f64::from(m) - top).powi(2)).collect() };
+        let mut series = parabola(3.25);
+        assert!((between_frames(&series, f64::max) - 0.125).abs() < 1e-15);
+        series.rotate_left(3);
+        assert!((between_frames(&series, f64::max) - 0.125).abs() < 1e-15);
+        let upside_down: Vec<f64> = series.iter().map(|value| -value).collect();
+        assert!((between_frames(&upside_down, f64::min) - 0.125).abs() < 1e-15);
+        assert_eq!(between_frames(&[2.0; 5], f64::max), 0.0);
+    }
 }

@@ -79,8 +79,9 @@ impl Transient {
         let mut result = PlateResult::of(&recording);
         // Its frames begin with the start of the cycle, and have not its end.
         let grown = extrapolate(&ends).value - recording.film_load[0];
-        result.film_load += 0.5 * grown / recording.frames as f64;
-        result.film_load_error = estimate.error + (result.film_load - estimate.value).abs() + self.width_error;
+        let load = &mut result.film_load;
+        load.value += 0.5 * grown / recording.frames as f64;
+        load.error = estimate.error + (load.value - estimate.value).abs() + self.width_error;
         Ok(Some((result, recording, change)))
     }
 

@@ -166,20 +166,21 @@ impl Recording {
             judged.into_iter().zip(between).map(|(error, between)| error.max(between)).collect();
     }
 
-    /// Error of an extreme of a series: by how much it differs on what this recording is judged by, and the error of the series there.
-    pub fn extreme_error(
+    /// An extreme of a series, with by how much it differs on what this recording is judged by, or the error of the series there.
+    pub fn extreme(
         &self,
         series: impl Fn(&LineLoads) -> Vec<f64>,
         found: &[f64],
         errors: &[f64],
         greater: fn(f64, f64) -> f64,
-    ) -> f64 {
-        let [before, finest] = &self.yardsticks[..] else { return f64::INFINITY };
+    ) -> Estimate {
         let extreme = |values: &[f64]| values.iter().copied().reduce(greater).unwrap_or(0.0);
         let value = extreme(found);
+        let [before, finest] = &self.yardsticks[..] else { return Estimate { value, error: f64::INFINITY } };
         let there = found.iter().position(|v| *v == value).and_then(|frame| errors.get(frame)).copied();
         // Extremes between two frames: the change from twice the steps counts in full.
-        (value - extreme(&series(before))).abs().max(there.unwrap_or(0.0)).max((value - extreme(&series(finest))).abs())
+        let off = |grid| (value - extreme(&series(grid))).abs();
+        Estimate { value, error: off(before).max(there.unwrap_or(0.0)).max(off(finest)) }
     }
 
     /// Mean over the cycle of the number of teeth whose film is at most `touching` thick \[m\], or would be if it were thinner by its

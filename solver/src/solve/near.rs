@@ -69,11 +69,12 @@ fn told(found: plate::Periodic, floating: Option<&Afloat>, plate: &Plate, plan: 
     let mut solution = of_plate(found, plan, cancel);
     if let (Some(afloat), Outcome::Plate(result)) = (floating, &mut solution.outcome) {
         let stiffness = afloat.stiffness;
-        let value = afloat.next(plate, plate.mean_gap, result.film_load);
-        let mean_gap = Estimate { value, error: result.film_load_error / stiffness.value.abs() };
+        let value = afloat.next(plate, plate.mean_gap, result.film_load.value);
+        let mean_gap = Estimate { value, error: result.film_load.error / stiffness.value.abs() };
         // The stiffness is that of the centre: how it differs here is not known.
         let natural_frequency = Estimate { value: f64::NAN, error: f64::NAN };
         result.floating = Some(Floating { mean_gap, stiffness, natural_frequency });
+        result.min_film_thickness.error = mean_gap.error;
     }
     solution
 }
@@ -177,7 +178,7 @@ impl Centre {
                     }
                     if let (Some(afloat), true) = (&self.floating, solves < NEWTON) {
                         solves += 1;
-                        plate.mean_gap = afloat.next(&plate, plate.mean_gap, found.fine.result.film_load);
+                        plate.mean_gap = afloat.next(&plate, plate.mean_gap, found.fine.result.film_load.value);
                         continue;
                     }
                     let of = |found| told(found, self.floating.as_ref(), &plate, &self.plan, cancel);

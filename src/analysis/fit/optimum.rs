@@ -9,7 +9,7 @@ use super::unknown::{Bound, Bounds, Unknown};
 use crate::analysis::attempt::{attempt, caught};
 use crate::analysis::quantity::Quantity;
 use crate::control::Cancel;
-use crate::digits::{short, with_error};
+use crate::digits::short;
 use crate::estimate::Estimate;
 use crate::problem::Problem;
 use crate::scene::{Scene, show_text};
@@ -397,8 +397,7 @@ fn describe(
         let over = if limit.below { found.value - limit.value } else { limit.value - found.value };
         if over > found.error.max(2e-3 * limit.value.abs()) {
             kept = false;
-            warnings
-                .push(format!("the limit {limit} cannot be kept: {} is reached", with_error(found.value, found.error)));
+            warnings.push(format!("the limit {limit} cannot be kept: {} is reached", found));
         } else if over.abs() <= found.error.max(2e-3 * limit.value.abs()) {
             warnings.push(format!("the limit {limit} is what stops it"));
         }

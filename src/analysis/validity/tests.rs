@@ -3,6 +3,7 @@
 use super::limits::{AMPLITUDE, resonance};
 use super::{Excess, NAMES, names, outside};
 use crate::control::Cancel;
+use crate::estimate::Estimate;
 use crate::fidelity::Fidelity;
 use crate::film::slip::{FukuiKaneko, Mobility, SlipLaw};
 use crate::plan::{Choice, Decision};
@@ -44,7 +45,8 @@ fn solve_draft(problem: &Problem) -> Solution {
 /// Of a motor whose film is `min_gap` thin, without contact.
 fn solution(min_gap: f64) -> Solution {
     let mut solution = solve_draft(&Problem::try_from(&Scene::plate()).unwrap());
-    solution.outcome = Outcome::Motor(MotorResult { min_gap, ..MotorResult::default() });
+    solution.outcome =
+        Outcome::Motor(MotorResult { min_film_thickness: Estimate::exact(min_gap), ..MotorResult::default() });
     solution.recording = Recording::default();
     solution
 }

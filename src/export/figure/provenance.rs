@@ -1,7 +1,7 @@
 //! Where the numbers of a figure come from.
 
-use crate::digits::with_error;
-use crate::export::json::{force_unit, mark, status_name};
+use crate::analysis::quantity::force_unit;
+use crate::export::json::{mark, status_name};
 use crate::problem::Problem;
 use crate::solution::{Outcome, Solution};
 use serde::{Deserialize, Serialize};
@@ -31,10 +31,10 @@ impl Provenance {
     /// Of one solve.
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let error = match &solution.outcome {
-            Outcome::Motor(result) => format!("α = {}", with_error(result.alpha, result.alpha_error)),
+            Outcome::Motor(result) => format!("α = {}", result.alpha),
             Outcome::Plate(result) => {
                 let unit = force_unit(problem);
-                format!("film load {} {unit}", with_error(result.film_load, result.film_load_error))
+                format!("film load {} {unit}", result.film_load)
             }
         };
         Self {

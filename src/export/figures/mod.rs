@@ -29,7 +29,6 @@ pub(super) use series::mirrored;
 use super::figure::{Axis, Dash, Figure, Line, Mark, Panel, Provenance, Range, Style};
 use crate::analysis::exact::Comparison;
 use crate::control::Progress;
-use crate::estimate::Estimate;
 use crate::problem::{Problem, Scenario};
 use crate::scene::show_text;
 use crate::solution::{Outcome, Solution};
@@ -52,8 +51,8 @@ pub fn of(problem: &Problem, solution: &Solution, history: &[Progress]) -> Vec<(
             figures.push(("loop", plate::pressure_gap_loop(scene, recording)));
             figures.push(("map", plate::map(scene, recording)));
             if let Outcome::Plate(result) = &solution.outcome {
-                let film_load = Estimate { value: result.film_load, error: result.film_load_error };
-                figures.push(("exact", exact::exact(scene, &Comparison::of(scene, film_load, recording), recording)));
+                let comparison = Comparison::of(scene, result.film_load, recording);
+                figures.push(("exact", exact::exact(scene, &comparison, recording)));
             }
         }
     }

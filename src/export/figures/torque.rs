@@ -15,7 +15,7 @@ pub fn torque(curves: &TorqueCurves) -> Figure {
     let greatest = wet.max_torque.value.max(dry.max_torque.value);
     let (torque_unit, torques) = prefixed(greatest, "N·m");
     let (power_unit, powers) = prefixed(most(|point| point.output.value.max(point.friction.value)), "W");
-    let fastest = curves.rpm(curves.surface_speed).max(f64::MIN_POSITIVE);
+    let fastest = curves.rpm(curves.stator_speed).max(f64::MIN_POSITIVE);
     let x = || Axis::new("speed of the rotor", "rpm").fixed(0.0, fastest);
     // What brakes the rotor is below the axes.
     let curve = |of: &Performance, value: &dyn Fn(&Point) -> f64| -> Vec<[f64; 2]> {

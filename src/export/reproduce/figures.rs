@@ -101,7 +101,7 @@ fn fields(both: &Both, title: &str) -> Option<Figure> {
 /// α over the frequency, with the published points.
 fn frequencies(all: &Reproduction) -> Figure {
     let value = |point: &crate::analysis::reproduce::Point| {
-        point.solved.as_ref().map_or((f64::NAN, f64::NAN), |result| (result.alpha, result.alpha_error))
+        point.solved.as_ref().map_or((f64::NAN, f64::NAN), |result| (result.alpha.value, result.alpha.error))
     };
     let band = all.frequencies.iter().map(|point| {
         let (alpha, error) = value(point);
@@ -117,7 +117,7 @@ fn frequencies(all: &Reproduction) -> Figure {
         let Scenario::Motor(motor) = &row.both.problem.scenario else { continue };
         published.push([motor.frequency * 1e-3, row.published.published_alpha]);
         if let Some(result) = Both::result(&row.both.paper) {
-            paper.push([motor.frequency * 1e-3, result.alpha]);
+            paper.push([motor.frequency * 1e-3, result.alpha.value]);
         }
     }
     let panel = Panel::new("", Axis::new("frequency of the stator", "kHz").log(), Axis::new("α", "").including([0.0]))

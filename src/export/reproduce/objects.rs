@@ -45,14 +45,14 @@ impl RowObject {
             preset: published.preset.clone(),
             published_load_n: published.published_load_n,
             published_alpha: published.published_alpha,
-            paper_load_n: paper.and_then(|r| finite(r.film_load)),
-            paper_alpha: paper.and_then(|r| finite(r.alpha)),
-            paper_alpha_error: paper.and_then(|r| finite(r.alpha_error)),
-            paper_difference_percent: paper.and_then(|r| finite(difference(r.film_load))),
-            film_load_n: ours.and_then(|r| finite(r.film_load)),
-            alpha: ours.and_then(|r| finite(r.alpha)),
-            alpha_error: ours.and_then(|r| finite(r.alpha_error)),
-            difference_percent: ours.and_then(|r| finite(difference(r.film_load))),
+            paper_load_n: paper.and_then(|r| finite(r.film_load.value)),
+            paper_alpha: paper.and_then(|r| finite(r.alpha.value)),
+            paper_alpha_error: paper.and_then(|r| finite(r.alpha.error)),
+            paper_difference_percent: paper.and_then(|r| finite(difference(r.film_load.value))),
+            film_load_n: ours.and_then(|r| finite(r.film_load.value)),
+            alpha: ours.and_then(|r| finite(r.alpha.value)),
+            alpha_error: ours.and_then(|r| finite(r.alpha.error)),
+            difference_percent: ours.and_then(|r| finite(difference(r.film_load.value))),
         }
     }
 }
@@ -88,8 +88,8 @@ impl Object {
     pub fn new(all: &Reproduction) -> Self {
         let point = |point: &crate::analysis::reproduce::Point| PointObject {
             frequency_khz: point.frequency_khz,
-            alpha: point.solved.as_ref().ok().map(|result| result.alpha),
-            alpha_error: point.solved.as_ref().ok().map(|result| result.alpha_error),
+            alpha: point.solved.as_ref().ok().map(|result| result.alpha.value),
+            alpha_error: point.solved.as_ref().ok().map(|result| result.alpha.error),
         };
         Self {
             fidelity: all.settings.fidelity.to_string(),

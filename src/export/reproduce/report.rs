@@ -6,7 +6,6 @@ use super::statements::statements;
 use crate::analysis::decision::{effort, sentences};
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
 use crate::analysis::validity::outside;
-use crate::digits::with_error;
 use crate::export::compare::{again, limits};
 use crate::export::figure::Figure;
 use crate::export::html::{Kind, Page, Table};
@@ -32,10 +31,11 @@ pub fn report(all: &Reproduction, animation: Option<&[u8]>, command: &[String]) 
     let mut page = Page::new(KICKER, TITLE, LEAD);
     let fundamental = all.row("fundamental");
     let alpha = |solved: &Result<Solution, String>| {
-        Both::result(solved).map_or("–".to_owned(), |result| with_error(result.alpha, result.alpha_error))
+        Both::result(solved).map_or("–".to_owned(), |result| result.alpha.to_string())
     };
     if let Some(row) = fundamental {
-        let short = Both::result(&row.both.paper).map_or("–".to_owned(), |result| format!("{:.3}", result.alpha));
+        let short =
+            Both::result(&row.both.paper).map_or("–".to_owned(), |result| format!("{:.3}", result.alpha.value));
         page.highlights([
             (row.published.published_alpha.to_string(), "α of the fundamental case as published".to_owned()),
             (short, "the paper's algorithm on the paper's meshes, computed here".to_owned()),
@@ -139,7 +139,7 @@ fn shares(all: &Reproduction, number: u32) -> String {
     let found = FIELDS.iter().find(|(figure, _, _)| *figure == number).and_then(|(_, preset, _)| all.row(preset));
     let Some(row) = found else { return String::new() };
     let with = |solved: &Result<Solution, String>| {
-        Both::result(solved).map_or("not solved".to_owned(), |result| with_error(result.alpha, result.alpha_error))
+        Both::result(solved).map_or("not solved".to_owned(), |result| result.alpha.to_string())
     };
     format!(
         "Share α: published {:.3}, paper's algorithm {}, converged {}. ",
@@ -202,7 +202,7 @@ fn table1(all: &Reproduction) -> Table {
                 (Some(result), Some(load), Some(difference)) => {
                     let sound = solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
                     cells.push((Kind::Number, format!("{load:.places$}")));
-                    cells.push((if sound { kind } else { Kind::Alarm }, with_error(result.alpha, result.alpha_error)));
+                    cells.push((if sound { kind } else { Kind::Alarm }, result.alpha.to_string()));
                     cells.push((Kind::Number, format!("{difference:+.1} %").replace('-', "−")));
                 }
                 _ => cells.extend(["failed", "", ""].map(|words| (Kind::Alarm, words.to_owned()))),

@@ -1,7 +1,7 @@
 //! What the paper says in words, beside what comes of it.
 
 use crate::analysis::reproduce::{Both, Reproduction};
-use crate::digits::{significant, with_error};
+use crate::digits::significant;
 use crate::solution::MotorResult;
 use serde::Serialize;
 
@@ -31,14 +31,14 @@ const UNKNOWN: &str = "–";
 
 /// α, with its error.
 fn share(result: Option<&MotorResult>) -> String {
-    result.map_or(UNKNOWN.to_owned(), |result| with_error(result.alpha, result.alpha_error))
+    result.map_or(UNKNOWN.to_owned(), |result| result.alpha.to_string())
 }
 
 /// The statements of the text that have numbers.
 pub fn statements(all: &Reproduction) -> Vec<Statement> {
     let both = |preset: &str| all.row(preset).map(|row| &row.both);
     let fundamental = both("fundamental");
-    let load = |preset: &str, paper: bool| result(both(preset), paper).map(|result| result.film_load);
+    let load = |preset: &str, paper: bool| result(both(preset), paper).map(|result| result.film_load.value);
     let published = |preset: &str| all.row(preset).map_or(f64::NAN, |row| row.published.published_load_n);
     let words = |value: Option<f64>, unit: &str| {
         value.map_or(UNKNOWN.to_owned(), |value| format!("{}{unit}", significant(value, 3)))
@@ -98,12 +98,14 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
         "larger",
         &|paper| {
             result(Some(&all.softer), paper).map_or(UNKNOWN.to_owned(), |found| {
-                format!("{} on {:.2} teeth", share(Some(found)), found.teeth_in_contact)
+                format!("{} on {:.2} teeth", share(Some(found)), found.teeth_in_contact.value)
             })
         },
         match (soft, stiff) {
-            (Some(soft), Some(stiff)) if soft.teeth_in_contact <= stiff.teeth_in_contact => "Not confirmed.",
-            (Some(soft), Some(stiff)) if soft.alpha > stiff.alpha => "Confirmed.",
+            (Some(soft), Some(stiff)) if soft.teeth_in_contact.value <= stiff.teeth_in_contact.value => {
+                "Not confirmed."
+            }
+            (Some(soft), Some(stiff)) if soft.alpha.value > stiff.alpha.value => "Confirmed.",
             (Some(_), Some(_)) => {
                 "The larger contact area is confirmed. α falls: the fitted rotor follows the wave better, so its gaps change less. The \
                  paper gives no number, and its rotor is not known in full."
@@ -112,7 +114,7 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
         },
     );
     let range = |presets: [&str; 2], paper: bool| match presets.map(|preset| result(both(preset), paper)) {
-        [Some(from), Some(to)] => format!("{:.3} to {:.3}", from.alpha, to.alpha),
+        [Some(from), Some(to)] => format!("{:.3} to {:.3}", from.alpha.value, to.alpha.value),
         _ => UNKNOWN.to_owned(),
     };
     say(
@@ -131,7 +133,7 @@ pub fn statements(all: &Reproduction) -> Vec<Statement> {
     say(
         "Eq. (12): T\u{a0}=\u{a0}μ\u{a0}(1\u{a0}−\u{a0}α)\u{a0}L\u{a0}r with μ\u{a0}=\u{a0}0.7, L\u{a0}=\u{a0}14.7\u{a0}N, r\u{a0}=\u{a0}29\u{a0}mm; measured 0.17\u{a0}N·m, which needs α\u{a0}≈\u{a0}0.43.",
         &format!("{:.3} N·m", torque(0.238)),
-        &|paper| words(result(fundamental, paper).map(|result| torque(result.alpha)), " N·m"),
+        &|paper| words(result(fundamental, paper).map(|result| torque(result.alpha.value)), " N·m"),
         "As the paper says: the film explains a part of the gap to the measured torque, not all of it.",
     );
     list

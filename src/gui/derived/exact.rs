@@ -1,8 +1,8 @@
 //! A solved plate beside what is known exactly: the curves that its tab draws, computed once for a run.
 
 use crate::analysis::exact::{Comparison, Harmonic, crossover, linear};
+use crate::analysis::quantity::force_unit;
 use crate::estimate::Estimate;
-use crate::export::json::force_unit;
 use crate::job::SolvedScene;
 use crate::problem::{Outline, Plate};
 use crate::solution::Outcome;
@@ -38,7 +38,7 @@ impl ExactCurves {
     pub fn new(run: &SolvedScene, plate: &Plate) -> Self {
         let recording = &run.solution.recording;
         let film_load = match run.solution.outcome {
-            Outcome::Plate(result) => Estimate { value: result.film_load, error: result.film_load_error },
+            Outcome::Plate(result) => result.film_load,
             Outcome::Motor(_) => Estimate::default(),
         };
         let comparison = Comparison::of(plate, film_load, recording);

@@ -1,6 +1,7 @@
 //! Numbers and words as the window writes them.
 
 use crate::digits::{signed, significant, with_error};
+use crate::estimate::Estimate;
 
 /// Share of its error below which a value is shown as 0.
 const NOTHING: f64 = 0.05;
@@ -72,9 +73,9 @@ pub fn power_of_ten(exponent: f64) -> String {
 }
 
 /// A value with its error, an exponent raised. What is far below its error is 0.
-pub fn uncertain(value: f64, error: f64) -> String {
-    let value = if value.abs() < NOTHING * error { 0.0 } else { value };
-    let text = with_error(value, error);
+pub fn uncertain(found: Estimate) -> String {
+    let value = if found.value.abs() < NOTHING * found.error { 0.0 } else { found.value };
+    let text = with_error(value, found.error);
     match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
         Some((before, Ok(exponent))) => format!("{}{}", before.replace('-', "−"), power_of_ten(exponent)),
         _ => text.replace('-', "−"),

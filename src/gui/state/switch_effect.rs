@@ -78,8 +78,8 @@ impl SwitchHistory {
         self.present.retain(|sample| sample.fidelity != run.fidelity);
         self.present.push(Sample {
             fidelity: run.fidelity,
-            alpha: result.alpha,
-            error: result.alpha_error,
+            alpha: result.alpha.value,
+            error: result.alpha.error,
             decisions: run.solution.model.decisions.clone(),
         });
     }

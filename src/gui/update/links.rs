@@ -33,9 +33,9 @@ impl Updater {
         let numbers =
             Quantity::all().filter_map(|quantity| Some((quantity.name().to_owned(), known.get(quantity)?.into())));
         let result = match run.solution.outcome {
-            Outcome::Motor(found) => format!("α {}", uncertain(found.alpha, found.alpha_error)),
+            Outcome::Motor(found) => format!("α {}", uncertain(found.alpha)),
             Outcome::Plate(found) => {
-                format!("film load {} {}", uncertain(found.film_load, found.film_load_error), force_unit(&run.problem))
+                format!("film load {} {}", uncertain(found.film_load), force_unit(&run.problem))
             }
         };
         let lessons = &self.state.lessons;

@@ -73,8 +73,8 @@ impl Level {
         told: impl FnOnce(&Self) -> Recording,
     ) -> Result<(Recording, f64), Stop> {
         let exact = step_tolerance(tolerance / self.stiffness);
-        self.films.iter_mut().for_each(|film| film.accept(exact));
-        self.contact.accept(CONTACT_SHARE * tolerance);
+        self.films.iter_mut().for_each(|film| film.set_tolerance(exact));
+        self.contact.set_tolerance(CONTACT_SHARE * tolerance);
         let before: Vec<FilmState> = self.states.clone();
         let mut worst = 0.0_f64;
         for step in 1..self.steps {

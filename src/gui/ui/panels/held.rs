@@ -1,6 +1,7 @@
 //! The right panel beside a plate in the hand: the numbers of its film now.
 
 use super::results::{headline, number, section, shown, span};
+use crate::estimate::Estimate;
 use crate::gui::derived::format::{time, uncertain};
 use crate::gui::state::hold::HoldState;
 use crate::gui::ui::context::DrawContext;
@@ -21,7 +22,7 @@ pub fn show(ui: &mut egui::Ui, hold: &HoldState, cx: &DrawContext<'_>) {
             "The plate in your hand, at this moment. The results of the vibrating plate are beside the other tabs.",
         );
         ui.add_space(4.0);
-        headline(ui, "", "Force", &uncertain(reading.force, reading.error), unit);
+        headline(ui, "", "Force", &uncertain(Estimate { value: reading.force, error: reading.error }), unit);
         cx.note(ui, "force of the film on the plate, positive if it pushes");
         ui.add_space(4.0);
         let [least, most] = hold.force_range();

@@ -2,20 +2,20 @@
 
 use super::{convergence, model};
 use crate::analysis::exact::{slow_damping, units};
+use crate::analysis::quantity::{Numbers, Quantity, Quantity::*, force_unit};
 use crate::analysis::regime;
 use crate::analysis::validity::Excess;
 use crate::digits::{capitalised, significant};
 use crate::dimensionless::Dimensionless;
-use crate::estimate::Estimate;
-use crate::export::json::{beside_limit, force_unit};
+use crate::export::json::beside_limit;
 use crate::gui::derived::format::{digits, uncertain};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
 use crate::gui::ui::scroll::scrolled;
 use crate::job::SolvedScene;
-use crate::problem::{Motor, Plate, Scenario};
-use crate::solution::{Floating, MotorResult, Outcome, Performance, PlateResult, Status, StoppedBy};
+use crate::problem::{Motor, Plate, Problem, Scenario};
+use crate::solution::{MotorResult, Outcome, PlateResult, Status, StoppedBy};
 use eframe::egui::{self, Color32, RichText, TextStyle};
 
 /// Significant digits of numbers without an error of their own.
@@ -31,11 +31,10 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
         ui.spacing_mut().item_spacing.y = 4.0;
         ui.add_space(8.0);
         convergence_banner(ui, run, cx);
+        let shown = Shown { problem: &run.problem, numbers: Numbers::of(&run.problem, &run.solution) };
         match (&run.problem.scenario, &run.solution.outcome) {
-            (Scenario::Motor(motor), Outcome::Motor(result)) => {
-                motor_numbers(ui, motor, result, run.solution.performance.as_ref(), cx);
-            }
-            (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, run, plate, result, cx),
+            (Scenario::Motor(motor), Outcome::Motor(result)) => motor_numbers(ui, &shown, motor, result, cx),
+            (Scenario::Plate(plate), Outcome::Plate(result)) => plate_numbers(ui, &shown, plate, result, cx),
             // A solver answers in kind; an answer of the other kind would have no numbers for this scene.
             _ => {}
         }
@@ -61,106 +60,91 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     });
 }
 
-fn motor_numbers(
-    ui: &mut egui::Ui,
-    motor: &Motor,
-    result: &MotorResult,
-    performance: Option<&Performance>,
-    cx: &DrawContext<'_>,
-) {
+fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &MotorResult, cx: &DrawContext<'_>) {
     if result.levitated {
         banner(ui, cx.colours.film, "Levitated", "No tooth touches at any instant, the rotor floats on air");
     }
     let top = ui.next_widget_position();
-    headline(ui, "α", "α", &uncertain(result.alpha, result.alpha_error), "");
+    headline(ui, "α", "α", &shown.text(Alpha), "");
     cx.note(
         ui,
-        if regime::sucks(result.alpha, result.alpha_error) {
+        if regime::sucks(result.alpha) {
             "the air sucks: contact carries more than the load"
         } else {
             "share of the load carried by air"
         },
     );
-    shares(ui, result.alpha, cx);
+    shares(ui, result.alpha.value, cx);
     let headline = egui::Rect::from_min_max(top, ui.max_rect().right_bottom()).with_max_y(ui.min_rect().bottom());
     cx.mark(ui, "headline", headline);
     ui.add_space(4.0);
-    let force_error = result.alpha_error * motor.load;
-    let torque_error = result.alpha_error * motor.friction_torque(motor.load);
-    number(ui, cx, "Film load", &uncertain(result.film_load, force_error), "N");
-    number(
-        ui,
-        cx,
-        "Over the cycle",
-        &between(film_loads(result.film_load_min, result.film_load_max, result.film_load_range_error)),
-        "N",
-    );
-    number(ui, cx, "Contact load", &uncertain(result.contact_load, force_error), "N");
-    let teeth = exact_or(result.teeth_in_contact, result.teeth_in_contact_error);
-    number(ui, cx, "Teeth in contact, mean", &format!("{teeth} of {}", motor.teeth), "");
+    shown.row(ui, cx, "Film load", FilmLoad);
+    shown.range(ui, cx, FilmLoadMin, FilmLoadMax);
+    shown.row(ui, cx, "Contact load", ContactLoad);
+    let teeth = format!("{} of {}", shown.text(TeethInContact), motor.teeth);
+    number(ui, cx, "Teeth in contact, mean", &teeth, "");
     section(ui, "Torque of the ring");
-    if let Some(Performance { stall_torque, .. }) = performance {
-        number(ui, cx, "Stall torque", &uncertain(stall_torque.value, stall_torque.error), "N·m");
-    }
-    number(ui, cx, "Maximum operating torque", &uncertain(result.max_torque, torque_error), "N·m");
-    number(ui, cx, "The same without air", &shown(motor.friction_torque(motor.load)), "N·m");
-    section(ui, "Extremes");
-    let gap = Estimate { value: result.min_gap, error: result.min_gap_error };
-    let pressure = Estimate { value: result.max_pressure, error: result.max_pressure_error };
-    extremes(ui, cx, gap, pressure, motor.gas.ambient_pressure);
+    shown.row(ui, cx, "Stall torque", StallTorque);
+    shown.row(ui, cx, "Maximum operating torque", MaxTorque);
+    number(ui, cx, "The same without air", &digits(motor.friction_torque(motor.load), DIGITS), "N·m");
+    shown.extremes(ui, cx, motor.gas.ambient_pressure);
 }
 
-fn plate_numbers(ui: &mut egui::Ui, run: &SolvedScene, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
-    let unit = force_unit(&run.problem);
-    let ratio = |load| PlateResult::ratio(load, plate);
-    if let Some(floating @ Floating { mean_gap, stiffness, natural_frequency }) = result.floating {
-        headline(ui, "", "Mean gap", &uncertain(mean_gap.value * 1e6, mean_gap.error * 1e6), "µm");
+fn plate_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, plate: &Plate, result: &PlateResult, cx: &DrawContext<'_>) {
+    if let Some(floating) = result.floating {
+        headline(ui, "", "Mean gap", &shown.text(MeanGap), "µm");
         cx.note(ui, "mean gap at which the film carries the load");
         ui.add_space(4.0);
-        number(ui, cx, "Stiffness of floating", &uncertain(stiffness.value, stiffness.error), units(plate)[0]);
-        let frequency = uncertain(natural_frequency.value, natural_frequency.error);
-        number(ui, cx, "Natural frequency", &frequency, "Hz");
-        if natural_frequency.value > 0.0 {
+        number(ui, cx, "Stiffness of floating", &uncertain(floating.stiffness), units(plate)[0]);
+        number(ui, cx, "Natural frequency", &uncertain(floating.natural_frequency), "Hz");
+        if floating.natural_frequency.value > 0.0 {
             let ratio = floating.damping_ratio(slow_damping(plate));
             number(ui, cx, "Damping ratio", &significant(ratio, 2), "");
         }
-        number(ui, cx, "Film load, mean", &uncertain(result.film_load, result.film_load_error), unit);
+        shown.row(ui, cx, "Film load, mean", FilmLoad);
     } else {
-        headline(ui, "", "Film load", &uncertain(result.film_load, result.film_load_error), unit);
+        headline(ui, "", "Film load", &shown.text(FilmLoad), force_unit(shown.problem));
         cx.note(ui, "mean load of the film over the cycle");
         ui.add_space(4.0);
     }
-    let range = film_loads(result.film_load_min, result.film_load_max, result.film_load_range_error);
-    number(ui, cx, "Over the cycle", &between(range), unit);
-    let area = if plate.is_strip() { "Load / (p_a · length)" } else { "Load / (p_a · area)" };
-    section(ui, area);
-    number(ui, cx, "Mean", &uncertain(ratio(result.film_load), ratio(result.film_load_error)), "");
-    let range = range.map(|load| Estimate { value: ratio(load.value), error: ratio(load.error) });
-    number(ui, cx, "Over the cycle", &between(range), "");
-    section(ui, "Extremes");
-    let gap =
-        Estimate { value: result.min_gap, error: result.floating.map_or(0.0, |floating| floating.mean_gap.error) };
-    let pressure = Estimate { value: result.max_pressure, error: result.max_pressure_error };
-    extremes(ui, cx, gap, pressure, plate.gas.ambient_pressure);
+    shown.range(ui, cx, FilmLoadMin, FilmLoadMax);
+    section(ui, if plate.is_strip() { "Load / (p_a · length)" } else { "Load / (p_a · area)" });
+    shown.row(ui, cx, "Mean", LoadRatio);
+    shown.range(ui, cx, LoadRatioMin, LoadRatioMax);
+    shown.extremes(ui, cx, plate.gas.ambient_pressure);
 }
 
-fn extremes(ui: &mut egui::Ui, cx: &DrawContext<'_>, gap: Estimate, pressure: Estimate, ambient: f64) {
-    number(ui, cx, "Least film thickness", &exact_or(gap.value * 1e9, gap.error * 1e9), "nm");
-    number(ui, cx, "Highest pressure", &exact_or(pressure.value * 1e-3, pressure.error * 1e-3), "kPa");
-    number(ui, cx, "Relative to ambient", &format!("{} ×", significant(pressure.value / ambient, 3)), "");
+/// The numbers of a run, each with its error.
+struct Shown<'a> {
+    problem: &'a Problem,
+    numbers: Numbers,
 }
 
-fn film_loads(least: f64, most: f64, errors: [f64; 2]) -> [Estimate; 2] {
-    [Estimate { value: least, error: errors[0] }, Estimate { value: most, error: errors[1] }]
-}
+impl Shown<'_> {
+    fn text(&self, quantity: Quantity) -> String {
+        self.numbers.estimate(quantity).map_or_else(String::new, uncertain)
+    }
 
-/// A value with its error, if it has one.
-fn exact_or(value: f64, error: f64) -> String {
-    if error == 0.0 { shown(value) } else { uncertain(value, error) }
-}
+    /// A row, if the run has the number.
+    fn row(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>, name: &str, quantity: Quantity) {
+        if let Some(found) = self.numbers.estimate(quantity) {
+            number(ui, cx, name, &uncertain(found), quantity.unit(self.problem));
+        }
+    }
 
-fn between(range: [Estimate; 2]) -> String {
-    range.map(|end| exact_or(end.value, end.error)).join(" … ")
+    fn range(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>, least: Quantity, most: Quantity) {
+        let text = [least, most].map(|end| self.text(end)).join(" … ");
+        number(ui, cx, "Over the cycle", &text, least.unit(self.problem));
+    }
+
+    fn extremes(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>, ambient: f64) {
+        section(ui, "Extremes");
+        self.row(ui, cx, "Least film thickness", MinGap);
+        self.row(ui, cx, "Highest pressure", MaxPressure);
+        let relative =
+            self.numbers.get(MaxPressure).map_or_else(String::new, |kpa| significant(1e3 * kpa / ambient, 3));
+        number(ui, cx, "Relative to ambient", &format!("{relative} ×"), "");
+    }
 }
 
 /// Where the model is out of its depth; nothing if it is not.
@@ -195,9 +179,9 @@ fn how(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
     let stats = &run.solution.stats;
     number(ui, cx, "Fidelity", &run.fidelity.to_string(), "");
     match &run.solution.outcome {
-        Outcome::Motor(result) => number(ui, cx, "Error of α", &rough(result.alpha_error), ""),
+        Outcome::Motor(result) => number(ui, cx, "Error of α", &rough(result.alpha.error), ""),
         Outcome::Plate(result) => {
-            number(ui, cx, "Error of the load", &rough(result.film_load_error), force_unit(&run.problem));
+            number(ui, cx, "Error of the load", &rough(result.film_load.error), force_unit(&run.problem));
         }
     }
     if run.solution.accuracy.stopped_by == StoppedBy::Budget {

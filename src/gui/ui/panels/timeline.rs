@@ -116,8 +116,8 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
     ui.horizontal(|ui| {
         if let Some(run) = run {
             let error = match run.solution.outcome {
-                Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha_error),
-                Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load_error),
+                Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha.error),
+                Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load.error),
             };
             let stale = cx.state.stale(run);
             let ended = if run.solution.status == Status::Converged && !stale { "converged, " } else { "" };

@@ -1,6 +1,6 @@
 //! A plate under a load, dropped on its vibration: its height over time, until it floats or rests.
 
-use crate::digits::{significant, with_error};
+use crate::digits::significant;
 use crate::estimate::Estimate;
 use crate::fall::Fall;
 use crate::gui::command::StartupCommand;
@@ -95,11 +95,10 @@ fn ending(dropped: &Dropped, cx: &DrawContext<'_>, usual: Color32) -> (String, C
     let last = dropped.cycles.last();
     let at = last.map_or_else(String::new, |cycle| {
         let (time, height) = (significant(1e3 * cycle.time, 3), cycle.height);
-        format!("{time} ms: height {} µm", with_error(1e6 * height.value, 1e6 * height.error))
+        format!("{time} ms: height {} µm", height * 1e6)
     });
-    let aim = periodic(dropped, cx).map_or_else(String::new, |gap| {
-        format!("; the periodic solve has {} µm", with_error(1e6 * gap.value, 1e6 * gap.error))
-    });
+    let aim =
+        periodic(dropped, cx).map_or_else(String::new, |gap| format!("; the periodic solve has {} µm", gap * 1e6));
     match &dropped.ended {
         None if last.is_none() => ("The gap at which it floats is being computed".to_owned(), usual),
         None => (format!("{at}{aim}"), usual),

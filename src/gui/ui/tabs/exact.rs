@@ -196,7 +196,7 @@ fn cycle(ui: &mut Ui, known: &ExactCurves, height: f32, cx: &DrawContext<'_>) {
 fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_>) {
     let found = &known.comparison;
     let both = |solved: Option<Harmonic<Estimate>>| match solved {
-        Some(solved) => [solved.spring, solved.damping].map(stated),
+        Some(solved) => [solved.spring, solved.damping].map(uncertain),
         None => ["nothing vibrates"; 2].map(str::to_owned),
     };
     let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
@@ -210,7 +210,7 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
         ["Damping D", &damping, &digits(found.linear.damping, DIGITS), "for ε → 0"],
         [&names[0], &stiffness, &linear[0], "for ε → 0"],
         [&names[1], &loss, &linear[1], "for ε → 0"],
-        ["Mean pressure", &stated(found.mean_pressure), &digits(found.trapped_mean_pressure, DIGITS), "for σ → ∞"],
+        ["Mean pressure", &uncertain(found.mean_pressure), &digits(found.trapped_mean_pressure, DIGITS), "for σ → ∞"],
         ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
     ];
     // In a narrow tab when the exact value holds is said on hover, and below, alone.
@@ -229,8 +229,4 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
             ui.end_row();
         }
     });
-}
-
-fn stated(found: Estimate) -> String {
-    uncertain(found.value, found.error)
 }

@@ -251,13 +251,12 @@ fn optimum(ui: &mut Ui, found: &Optimum, height: f32, cx: &DrawContext<'_>) {
         };
         let before = found.before.map_or_else(
             || "cannot be solved as the scene was".to_owned(),
-            |before| format!("{} as the scene was", with_error(before.value, before.error)),
+            |before| format!("{before} as the scene was"),
         );
-        let value = with_error(found.value.value, found.value.error);
+        let value = found.value.to_string();
         row(ui, &words(found.goal.quantity), "The result that is sought, with its numerical error", value, before);
         for ((limit, quantity), reached) in found.goal.limits.iter().zip(&found.limited) {
-            let value = with_error(reached.value, reached.error);
-            row(ui, &words(*quantity), "A result that is limited", value, format!("allowed: {limit}"));
+            row(ui, &words(*quantity), "A result that is limited", reached.to_string(), format!("allowed: {limit}"));
         }
         for scan in &found.lines {
             let parameter = scan.unknown.parameter;
@@ -365,7 +364,7 @@ fn rows(ui: &mut Ui, measured: &Measured, found: &Fitted, cx: &DrawContext<'_>) 
             ui.label(RichText::new(format!("{}, {}", one.label, one.what.name())).color(cx.colours.quiet));
             ui.label(significant(one.value, 4));
             drop(match &row.computed {
-                Ok(computed) => ui.label(with_error(computed.value, computed.error)),
+                Ok(computed) => ui.label(computed.to_string()),
                 Err(why) => ui.label(RichText::new(why).color(cx.colours.alarm)),
             });
             ui.label(row.residual.map_or_else(|| "left out".to_owned(), |residual| signed(format!("{residual:.2}"))));

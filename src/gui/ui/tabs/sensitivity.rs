@@ -122,7 +122,7 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
     let unit = if unit.is_empty() { String::new() } else { format!("\u{a0}{unit}") };
     ui.horizontal_wrapped(|ui| {
         let known = value.error.is_finite();
-        let text = if known { uncertain(value.value, value.error) } else { digits(value.value, 4) };
+        let text = if known { uncertain(value) } else { digits(value.value, 4) };
         ui.label(RichText::new(format!("{text}{unit}")).strong());
         if known {
             glossary::term(ui, RichText::new("numerical").color(cx.colours.quiet), "Stated error");
@@ -315,10 +315,9 @@ fn table(ui: &mut Ui, shown: Shown<'_>) {
             match (&by.slopes, found.elasticity(output, column)) {
                 (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
                 (Ok(_), None) => drop(ui.label("–")),
-                (Ok(_), Some(found)) if by.scale().is_some() => drop(ui.label(uncertain(found.value, found.error))),
+                (Ok(_), Some(found)) if by.scale().is_some() => drop(ui.label(uncertain(found))),
                 (Ok(_), Some(found)) => {
-                    let text =
-                        format!("{} per {}", uncertain(100.0 * found.value, 100.0 * found.error), parameter.unit);
+                    let text = format!("{} per {}", uncertain(found * 100.0), parameter.unit);
                     ui.label(text).hint(
                         "Per cent of the result for one unit of the parameter, which is zero or has no natural zero",
                     );

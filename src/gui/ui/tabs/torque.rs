@@ -54,7 +54,7 @@ pub fn show(ui: &mut egui::Ui, run: &SolvedScene, cx: &DrawContext<'_>) {
 }
 
 fn found(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, height: f32, cx: &DrawContext<'_>) {
-    if merit.surface_speed <= 0.0 {
+    if merit.stator_speed <= 0.0 {
         cx.note(ui, "The stator does not move along the ring (its tangential amplitude is 0): it drives nothing.");
         return;
     }
@@ -140,7 +140,7 @@ fn panel(
     merit: &TorqueCurves,
     cx: &DrawContext<'_>,
 ) -> Option<f64> {
-    let fastest = merit.rpm(merit.surface_speed);
+    let fastest = merit.rpm(merit.stator_speed);
     let present = merit.rpm(merit.with_film.present.speed);
     let drawn = lines.iter().flat_map(|(points, ..)| points).chain(measured);
     let greatest = drawn.map(|point| point[1]).fold(0.0, f64::max);
@@ -189,10 +189,7 @@ fn readout(ui: &mut egui::Ui, merit: &TorqueCurves, pointed: Option<f64>, cx: &D
 /// The numbers, with the film and without it.
 fn table(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContext<'_>) {
     let (with, without) = (&merit.with_film, &merit.without_film);
-    let speed = |found: Option<Estimate>| {
-        let rpm = |found: Estimate| Estimate { value: merit.rpm(found.value), error: merit.rpm(found.error) };
-        stated(found.map(rpm), 1.0, "rpm")
-    };
+    let speed = |found: Option<Estimate>| stated(found, merit.rpm(1.0), "rpm");
     let present = format!("Torque at {} rpm", as_given(merit.rpm(motor.rotor_speed)));
     type Cell<'a> = Box<dyn Fn(&Performance) -> String + 'a>;
     // What it is called here, its value, and what the glossary explains it under.
@@ -251,12 +248,5 @@ fn notes(ui: &mut egui::Ui, motor: &Motor, merit: &TorqueCurves, cx: &DrawContex
 
 /// A number with its error and unit; "none" if there is none.
 fn stated(found: Option<Estimate>, factor: f64, unit: &str) -> String {
-    found.map_or_else(
-        || "none".to_owned(),
-        |found| {
-            let [value, error] = [found.value, found.error].map(|number| number * factor);
-            let text = if error == 0.0 { digits(value, DIGITS) } else { uncertain(value, error) };
-            format!("{text} {unit}")
-        },
-    )
+    found.map_or_else(|| "none".to_owned(), |found| format!("{} {unit}", uncertain(found * factor)))
 }

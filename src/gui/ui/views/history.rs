@@ -1,5 +1,6 @@
 //! A start-up's numbers against the number of the cycle, with the periodic solve's that they converge to.
 
+use crate::estimate::Estimate;
 use crate::gui::command::StartupCommand;
 use crate::gui::derived::format::number;
 use crate::gui::derived::scales::span;
@@ -27,7 +28,7 @@ struct Quantity {
     unit: f64,
     /// Known with an error.
     extrapolated: bool,
-    of: fn(&Outcome, &Scenario) -> (f64, f64),
+    of: fn(&Outcome, &Scenario) -> Estimate,
 }
 
 const ALPHA: Quantity = Quantity {
@@ -36,11 +37,9 @@ const ALPHA: Quantity = Quantity {
     unit: 1.0,
     extrapolated: true,
     of: |outcome, scenario| match (outcome, scenario) {
-        (Outcome::Motor(result), _) => (result.alpha, result.alpha_error),
-        (Outcome::Plate(result), Scenario::Plate(plate)) => {
-            (PlateResult::ratio(result.film_load, plate), PlateResult::ratio(result.film_load_error, plate))
-        }
-        (Outcome::Plate(result), Scenario::Motor(_)) => (result.film_load, result.film_load_error),
+        (Outcome::Motor(result), _) => result.alpha,
+        (Outcome::Plate(result), Scenario::Plate(plate)) => result.film_load * PlateResult::ratio(1.0, plate),
+        (Outcome::Plate(result), Scenario::Motor(_)) => result.film_load,
     },
 };
 const RATIO: Quantity = Quantity {
@@ -54,8 +53,8 @@ const THICKNESS: Quantity = Quantity {
     unit: 1e-6,
     extrapolated: false,
     of: |outcome, _| match outcome {
-        Outcome::Motor(result) => (result.min_gap, 0.0),
-        Outcome::Plate(result) => (result.min_gap, 0.0),
+        Outcome::Motor(result) => result.min_film_thickness,
+        Outcome::Plate(result) => result.min_film_thickness,
     },
 };
 const PRESSURE: Quantity = Quantity {
@@ -64,8 +63,8 @@ const PRESSURE: Quantity = Quantity {
     unit: 1e3,
     extrapolated: false,
     of: |outcome, _| match outcome {
-        Outcome::Motor(result) => (result.max_pressure, 0.0),
-        Outcome::Plate(result) => (result.max_pressure, 0.0),
+        Outcome::Motor(result) => result.max_pressure,
+        Outcome::Plate(result) => result.max_pressure,
     },
 };
 const OF_MOTOR: &[(Quantity, f32)] = &[(ALPHA, 0.46), (THICKNESS, 0.27), (PRESSURE, 0.27)];
@@ -114,8 +113,8 @@ fn plot(
     let scenario = &startup.problem.scenario;
     let points = &startup.points;
     let of = |outcome: &Outcome| {
-        let (value, error) = (quantity.of)(outcome, scenario);
-        (value / quantity.unit, error / quantity.unit)
+        let found = (quantity.of)(outcome, scenario) * (1.0 / quantity.unit);
+        (found.value, if quantity.extrapolated { found.error } else { 0.0 })
     };
     // Extremes are those of one grid, without an error: compared with those of another they would mislead.
     let aim = periodic
@@ -178,18 +177,21 @@ pub fn words(point: &Point, scenario: &Scenario) -> String {
         (Outcome::Motor(result), _) => format!(
             "cycle {}: α {:.4} ± {:.1e}, least film thickness {} µm, highest pressure {} kPa absolute",
             point.number,
-            result.alpha,
-            result.alpha_error,
-            number(result.min_gap * 1e6),
-            kilo(result.max_pressure),
+            result.alpha.value,
+            result.alpha.error,
+            number(result.min_film_thickness.value * 1e6),
+            kilo(result.max_pressure.value),
         ),
-        (Outcome::Plate(result), Scenario::Plate(plate)) => format!(
-            "cycle {}: load ratio {:.4} ± {:.1e}, highest pressure {} kPa absolute",
-            point.number,
-            PlateResult::ratio(result.film_load, plate),
-            PlateResult::ratio(result.film_load_error, plate),
-            kilo(result.max_pressure),
-        ),
+        (Outcome::Plate(result), Scenario::Plate(plate)) => {
+            let ratio = result.film_load * PlateResult::ratio(1.0, plate);
+            format!(
+                "cycle {}: load ratio {:.4} ± {:.1e}, highest pressure {} kPa absolute",
+                point.number,
+                ratio.value,
+                ratio.error,
+                kilo(result.max_pressure.value),
+            )
+        }
         (Outcome::Plate(_), Scenario::Motor(_)) => format!("cycle {}", point.number),
     }
 }

@@ -6,7 +6,7 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
-use crate::digits::{capitalised, short, significant, with_error};
+use crate::digits::{capitalised, short};
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::digits;
@@ -93,11 +93,8 @@ impl Plotted<'_> {
         }
         let unit = self.quantity.unit(self.sweep.problem());
         let name = capitalised(self.quantity.words());
-        let value = row.numbers.get(self.quantity).map(|value| {
-            let error = self.quantity.error().map(|error| row.numbers.get(error).unwrap_or(f64::INFINITY));
-            error.map_or_else(|| significant(value, 4), |error| with_error(value, error))
-        });
-        lines.push(value.map_or_else(|| format!("{name}: none"), |value| format!("{name} {value} {unit}")));
+        let value = row.numbers.text(self.quantity);
+        lines.push(if value.is_empty() { format!("{name}: none") } else { format!("{name} {value} {unit}") });
         match &row.status {
             RunStatus::Converged if row.stopped_by == Some(StoppedBy::Budget) => {
                 lines.push("As far as time allowed".to_owned());
