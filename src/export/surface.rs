@@ -138,3 +138,27 @@ pub fn preset(pair: &Pair) -> String {
     lines += &line("surface.stator_share", pair.stator_share);
     text + &commented(lines)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_units_of_their_names() {
+        let (bandwidth, lay, stator_share) = (3.0, 1.5, 0.4);
+        let pair = Pair {
+            min_spacing: 2e-7,
+            rms: 3e-8,
+            summit_radius: 5e-6,
+            summit_density: 2e10,
+            bandwidth,
+            lay,
+            stator_share,
+        };
+        let told = Object::new(Vec::new(), &pair);
+        let found = [told.min_spacing_nm, told.rms_nm, told.summit_radius_um, told.summit_density_per_mm2];
+        assert!(found.iter().zip([200.0, 30.0, 5.0, 2e4]).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{found:?}");
+        assert_eq!((told.bandwidth, told.lay, told.stator_share), (bandwidth, lay, stator_share));
+        assert!(told.flow_factors.iter().zip(RATIOS).all(|(factors, ratio)| factors.gap_over_rms == ratio));
+    }
+}
