@@ -7,7 +7,6 @@
 #![allow(clippy::print_stdout)]
 
 use squeezefilm::control::Cancel;
-use squeezefilm::digits::with_error;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::motor;
 use squeezefilm::plan::Plan;

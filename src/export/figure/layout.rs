@@ -338,7 +338,7 @@ mod tests {
     #[test]
     fn long_titles_and_feet_keep_the_margins() {
         for words in 60..90 {
-            let mut figure = Figure::new(&"il ".repeat(words));
+            let mut figure = Figure::new("il ".repeat(words));
             figure.provenance.note = "lli ".repeat(words);
             let Layout { width, title, foot, .. } = Layout::new(&figure);
             assert!(title.len() > 1 && foot.len() > 1);
