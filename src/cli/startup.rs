@@ -9,7 +9,8 @@ use super::solve::written;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
 use crate::atomic::Staged;
-use crate::digits::{duration, percent, significant, with_error};
+use crate::digits::{duration, percent, significant};
+use crate::estimate::Estimate;
 use crate::export::json;
 use crate::export::startup::{Object, Row, figure, place, steady, write_csv};
 use crate::problem::Problem;
@@ -98,7 +99,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
     let (ended, wall_s) = Bar::share().timed(|bar| {
         let mut each = |cycle: Cycle| {
             let row = Row::of(&problem, &cycle);
-            let main = significant(row.main().0, 4);
+            let main = significant(row.main().value, 4);
             if row.cycle > rows.len() {
                 bar.share_done(row.share(&settings), &format!("cycle {}: {main}", row.cycle));
             } else {
@@ -122,8 +123,8 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
         staged.add("startup.json", |out| out.write_all(json::document(&object, command).as_bytes()))?;
         let mut drawn = figure(&problem, &rows, steady, &loads);
         drawn.provenance.fidelity = settings.fidelity.to_string();
-        if let Some((value, error)) = rows.last().map(Row::main) {
-            drawn.provenance.error = format!("ends at {}", with_error(value, error));
+        if let Some(last) = rows.last() {
+            drawn.provenance.error = format!("ends at {}", last.main());
         }
         arguments.common.figures.stage(&mut staged, "startup", &drawn)?;
         staged.add("scene.toml", |out| out.write_all(scene.to_toml().as_bytes()))?;
@@ -135,7 +136,7 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 /// Cycles shown to people at the beginning, and as powers of two after that.
 const SHOWN: usize = 8;
 
-fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady: Option<(f64, f64)>) -> String {
+fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady: Option<Estimate>) -> String {
     let how = match ended.status {
         Status::Converged => format!("the cycle repeats after {}", ended.cycles),
         Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {
@@ -164,11 +165,10 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
         if row.cycle > SHOWN && !row.cycle.is_power_of_two() && !last {
             continue;
         }
-        let (value, error) = row.main();
         columns.row([
             row.cycle.to_string(),
             significant(row.time_us, 4),
-            with_error(value, error),
+            row.main().to_string(),
             significant(row.film_load_n, 4),
             significant(row.min_gap_nm, 4),
             significant(row.max_pressure_kpa, 4),
@@ -176,11 +176,10 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
         ]);
     }
     text.push_str(&columns.text("  ", &[0, 1, 2, 3, 4, 5, 6]));
-    if let Some((value, error)) = steady {
-        let mut told =
-            format!("The periodic solve, which does not march there: {main} = {}.", with_error(value, error));
-        let last = rows.last().map(Row::main);
-        if last.is_some_and(|(last, its_error)| (last - value).abs() > its_error + error) {
+    if let Some(found) = steady {
+        let mut told = format!("The periodic solve, which does not march there: {main} = {found}.");
+        let off = |last: Estimate| (last.value - found.value).abs() > last.error + found.error;
+        if rows.last().is_some_and(|row| off(row.main())) {
             told.push_str(" What the last cycle will still change is not in its ±.");
         }
         text.push_str(&paragraph(&told, "\n", ""));

@@ -77,10 +77,10 @@ impl Row {
         row
     }
 
-    /// What rises to the steady state, and its error: α, or the load ratio.
-    pub fn main(&self) -> (f64, f64) {
-        let value = self.alpha.or(self.load_ratio).unwrap_or(f64::NAN);
-        (value, self.alpha_error.or(self.load_ratio_error).unwrap_or(f64::NAN))
+    /// What rises to the steady state: α, or the load ratio.
+    pub fn main(&self) -> Estimate {
+        let [value, error] = [self.alpha.or(self.load_ratio), self.alpha_error.or(self.load_ratio_error)];
+        Estimate { value: value.unwrap_or(f64::NAN), error: error.unwrap_or(f64::NAN) }
     }
 
     /// How much of the way is done, 0 to 1, as ln of what remains.
@@ -157,8 +157,8 @@ impl<'a> Object<'a> {
             accuracy_asked: (asked > 0.0).then_some(asked),
             accuracy_stated: finite(stated),
             stopped_by: stopped_by.name(),
-            steady: steady.map(|(value, _)| value),
-            steady_error: steady.map(|(_, error)| error),
+            steady: steady.map(|found| found.value),
+            steady_error: steady.map(|found| found.error),
             film_steps: ended.stats.film_steps,
             contact_solves: ended.stats.contact_solves,
             coupling_iterations: ended.stats.coupling_iterations,
@@ -179,11 +179,10 @@ pub fn place<T>(rows: &mut Vec<T>, number: usize, row: T) {
 }
 
 /// What the periodic solve says of where a start-up ends: α, or the load ratio, and its stated error.
-pub fn steady(problem: &Problem, startup: &Startup) -> Option<(f64, f64)> {
-    let Estimate { value, error } = startup.steady?;
-    Some(match &problem.scenario {
-        Scenario::Motor(_) => (value, error),
-        Scenario::Plate(plate) => (PlateResult::ratio(value, plate), PlateResult::ratio(error, plate)),
+pub fn steady(problem: &Problem, startup: &Startup) -> Option<Estimate> {
+    startup.steady.map(|found| match &problem.scenario {
+        Scenario::Motor(_) => found,
+        Scenario::Plate(plate) => found * PlateResult::ratio(1.0, plate),
     })
 }
 
@@ -224,17 +223,17 @@ pub fn write_csv(problem: &Problem, rows: &[Row], out: &mut dyn Write) -> io::Re
 }
 
 /// Cycle means rising to the steady state, and the film load at every instant; `loads` \[N\] of every cycle, at equal steps.
-pub fn figure(problem: &Problem, rows: &[Row], steady: Option<(f64, f64)>, loads: &[Vec<f64>]) -> Figure {
+pub fn figure(problem: &Problem, rows: &[Row], steady: Option<Estimate>, loads: &[Vec<f64>]) -> Figure {
     let motor = matches!(problem.scenario, Scenario::Motor(_));
     let label = if motor { "film share of the load α" } else { "film load over p_a × area" };
     let at = |row: &Row| (row.cycle as f64, row.main());
-    let band = rows.iter().map(at).map(|(x, (value, error))| [x, value - error, value + error]);
-    let line = rows.iter().map(at).map(|(x, (value, _))| [x, value]);
+    let band = rows.iter().map(at).map(|(x, Estimate { value, error })| [x, value - error, value + error]);
+    let line = rows.iter().map(at).map(|(x, found)| [x, found.value]);
     let mut means = Panel::new("", Axis::new("cycle", "").whole(), Axis::new(label, "").including([0.0]))
         .layer(Band::new("error of the grids", band, Colour::FILM))
         .layer(Line::new("mean of the cycle", line, Style::solid(Colour::FILM)));
-    if let Some((value, _)) = steady {
-        let mut mark = Mark::horizontal(value, "periodic solve");
+    if let Some(found) = steady {
+        let mut mark = Mark::horizontal(found.value, "periodic solve");
         mark.style = Style::solid(Colour::ROTOR).dash(Dash::Dashed);
         means = means.layer(mark);
     }

@@ -7,6 +7,7 @@ use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
 use crate::digits::{capitalised, short};
+use crate::estimate::Estimate;
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
 use crate::gui::derived::format::digits;
@@ -67,13 +68,9 @@ pub struct Plotted<'a> {
 }
 
 impl Plotted<'_> {
-    /// The value at a row that converged, and its error.
-    fn sound(&self, row: &Row) -> Option<(f64, f64)> {
-        if row.status != RunStatus::Converged {
-            return None;
-        }
-        let error = self.quantity.error().and_then(|error| row.numbers.get(error));
-        Some((row.numbers.get(self.quantity)?, error.unwrap_or(0.0)))
+    /// The value at a row that converged.
+    fn sound(&self, row: &Row) -> Option<Estimate> {
+        row.numbers.estimate(self.quantity).filter(|_| row.status == RunStatus::Converged)
     }
 
     /// What Table I says of the quantity.
@@ -253,7 +250,7 @@ fn line<'a>(
         .filter_map(|point| Some([place(axis, point.values[0]), plotted.published(point)?]))
         .filter(|at| (x[0] - 1e-9..=x[1] + 1e-9).contains(&at[0]))
         .collect();
-    let bands = rows.iter().filter_map(|(row, _)| plotted.sound(row)).flat_map(|(value, error)| {
+    let bands = rows.iter().filter_map(|(row, _)| plotted.sound(row)).flat_map(|Estimate { value, error }| {
         // An error without bounds is not drawn.
         if error.is_finite() { [value - error, value + error] } else { [value; 2] }
     });
@@ -293,7 +290,7 @@ fn line<'a>(
         };
         for piece in rows.chunk_by(joined).filter(|piece| piece.len() > 1) {
             let columns = piece.iter().filter_map(|(row, at)| {
-                let (value, error) = plotted.sound(row)?;
+                let Estimate { value, error } = plotted.sound(row)?;
                 Some(([*at, value], if error.is_finite() { error } else { 0.0 }))
             });
             let (curve, errors): (Vec<[f64; 2]>, Vec<f64>) = columns.unzip();
@@ -368,7 +365,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
         if at - places[right - 1] < places[right] - at { right - 1 } else { right }
     };
     let cell = |row: &Row| (nearest(&xs, place(x, row.values[0])), nearest(&ys, place(y, row.values[1])));
-    let shown = || plotted.rows.iter().filter_map(|row| plotted.sound(row)).map(|(value, _)| value);
+    let shown = || plotted.rows.iter().filter_map(|row| plotted.sound(row)).map(|found| found.value);
     let extent = span(shown());
     // Values of many sizes get colours by their logarithm: else all but the greatest look the same.
     let log = extent[0] > 0.0 && extent[1] > MANY_SIZES * extent[0];
@@ -414,7 +411,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let per_colour = if range[1] > range[0] { 255.0 / (range[1] - range[0]) } else { 0.0 };
     for row in plotted.rows {
         let at = cell(row);
-        if let Some((value, _)) = plotted.sound(row) {
+        if let Some(Estimate { value, .. }) = plotted.sound(row) {
             let value = tone(value);
             values[at.0 * ys.len() + at.1] = value;
             let colour = ((value - range[0]) * per_colour).clamp(0.0, 255.0) as usize;
