@@ -792,6 +792,17 @@ fn presets_are_listed_and_printed_as_files() {
 }
 
 #[test]
+fn every_number_of_a_preset_has_an_error_or_is_exact() {
+    let names = squeezefilm::scene::presets::BUILT_IN.iter().map(|preset| preset.name);
+    let solved = run(&[&["solve", "--fidelity", "draft"][..], &names.collect::<Vec<_>>()].concat());
+    assert_eq!(solved.status.code(), Some(0), "{}", err(&solved));
+    assert!(!out(&solved).contains("not estimated"), "{}", out(&solved));
+    let plates = out(&solved).lines().filter(|line| line.trim_start().starts_with("least film thickness"));
+    let given = plates.filter(|line| line.contains("the mean gap is") && !line.contains('±')).count();
+    assert!(given >= 4, "{}", out(&solved));
+}
+
+#[test]
 fn table_1_has_14_rows_each_near_the_published_one() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();

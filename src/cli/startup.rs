@@ -156,7 +156,7 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
         "t, µs",
         main,
         &format!("film load, {unit}"),
-        "least gap, nm",
+        "least film thickness, nm",
         "highest p, kPa",
         "changed by",
     ]);

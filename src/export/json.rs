@@ -291,10 +291,6 @@ impl Summary {
         if !unknown.is_empty() {
             self.warnings.push(format!("not known, hence null: {}", unknown.join(", ")));
         }
-        // The gap of a plate that does not float is given: no error is written of it.
-        if self.scene == "plate" && self.floating.is_none() {
-            self.numbers.set(Quantity::MinGapError, f64::NAN);
-        }
     }
 
     /// As text, indented, with a line break at the end.
