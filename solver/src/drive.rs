@@ -275,7 +275,7 @@ type Share<'a> = &'a dyn Fn(f64, (f64, f64), f64) -> f64;
 impl<'a> Scaled<'a> {
     /// With the film, from a solve.
     pub fn with_film(motor: &'a Motor, result: &MotorResult, recording: &Recording) -> Self {
-        let load = Estimate { value: result.contact_load.value.max(0.0), ..result.contact_load };
+        let load = Estimate { value: (1.0 - result.alpha.value).max(0.0), ..result.alpha } * motor.load;
         let spent = motor.friction_torque(load.value) * motor.stator_speed() / motor.contact_radius;
         let lossy = |loads: &LineLoads| {
             (Drive::new(loads), if spent > 0.0 { given(motor, loads).max(0.0) / spent } else { 0.0 })
