@@ -1,6 +1,7 @@
 //! Table I of the paper by the paper's own method (`solver/src/paper`), on the paper's own meshes.
 use rayon::prelude::*;
 use squeezefilm::control::{Cancel, Progress};
+use squeezefilm::drive::Scaled;
 use squeezefilm::paper;
 use squeezefilm::problem::{Gas, Motor, Numerics, Problem, RotorCompliance, Scenario, Slip};
 use squeezefilm::scene::{presets, table1};
@@ -82,6 +83,12 @@ fn rows_of_table_1() {
             solution.status,
         );
     }
+    // The torque's curves have the bound that the result states.
+    let (row, solution, result) = &results[0];
+    let problem = Problem::try_from(&presets::find(&row.preset).unwrap()).unwrap();
+    let Scenario::Motor(motor) = &problem.scenario else { panic!("{} is a motor", row.row) };
+    let bound = Scaled::with_film(motor, result, &solution.recording).performance(&[]).max_torque.value;
+    assert!((bound / result.max_torque.value - 1.0).abs() < 1e-14, "{bound}: {result:?}");
     for (row, solution, result) in &results {
         let off = (result.film_load.value / row.published_load_n - 1.0).abs();
         // The rotor of that row was probably stiffer (docs/theory.md); it is not tuned away.
