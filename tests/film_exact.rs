@@ -5,7 +5,6 @@
 
 use squeezefilm::analysis::exact::Comparison;
 use squeezefilm::control::Cancel;
-use squeezefilm::estimate::Estimate;
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::film::cycle::FilmCycle;
 use squeezefilm::film::exact;
@@ -259,7 +258,7 @@ fn the_published_stiffness_and_damping_of_a_plate() {
     let problem = Problem::try_from(&presets::find("plate-mems").unwrap()).unwrap();
     let Scenario::Plate(plate) = &problem.scenario else { panic!("a plate") };
     let found = solve(plate, Fidelity::Reference);
-    let film_load = Estimate { value: found.result.film_load.value, error: found.result.film_load.error };
+    let film_load = found.result.film_load;
     let compared = Comparison::of(plate, film_load, &found.recording);
     let solved = compared.stiffness_and_damping().unwrap();
     for (what, solved, published, digit, exact) in [
@@ -344,7 +343,7 @@ fn steps_that_follow_the_gap_agree_with_even_ones() {
         let even = Numerics { steps_per_cycle: Some(4096), ..Numerics::default() };
         let (even, found) = (solve_with(&strip, Fidelity::Fine, &even), solve(&strip, Fidelity::Fine));
         let (a, b) = (found.result, even.result);
-        println!("σ {sigma}: {:?} even {:?}", (a.film_load, a.film_load.error), (b.film_load, b.film_load.error));
+        println!("σ {sigma}: {} even {}", a.film_load, b.film_load);
         assert!((a.film_load.value - b.film_load.value).abs() < a.film_load.error + b.film_load.error);
         assert!((a.film_load_max.value - b.film_load_max.value).abs() < a.film_load_max.error + b.film_load_max.error);
         assert!(

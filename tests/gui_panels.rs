@@ -463,7 +463,7 @@ fn the_results_show_alpha_and_what_goes_with_it() {
     let run = run("fundamental");
     let Outcome::Motor(result) = run.solution.outcome else { panic!("a motor") };
     let harness = shown(run, 300.0, 1.0);
-    let alpha = squeezefilm::digits::with_error(result.alpha.value, result.alpha.error);
+    let alpha = result.alpha.to_string();
     harness.get_by_label_contains(&alpha);
     harness.get_by_label("share of the load carried by air");
     for name in [
@@ -533,7 +533,7 @@ fn a_plate_shows_its_load_and_ratio() {
     let run = run("plate-crossover");
     let Outcome::Plate(result) = run.solution.outcome else { panic!("a plate") };
     let harness = shown(run, 300.0, 1.0);
-    let load = squeezefilm::digits::with_error(result.film_load.value, result.film_load.error);
+    let load = result.film_load.to_string();
     harness.get_by_label_contains(&format!("{load} N/m"));
     harness.get_by_label("Load / (p_a · length)");
     assert!(harness.query_by_label("Contact load").is_none());

@@ -1,6 +1,7 @@
 //! The paper's figures, computed anew.
 
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction};
+use crate::estimate::Estimate;
 use crate::export::figure::{
     Axis, Band, Colour, Dash, Figure, Legend, Line, Marker, Panel, Points, Provenance, Shape, Style, Width,
 };
@@ -101,13 +102,13 @@ fn fields(both: &Both, title: &str) -> Option<Figure> {
 /// α over the frequency, with the published points.
 fn frequencies(all: &Reproduction) -> Figure {
     let value = |point: &crate::analysis::reproduce::Point| {
-        point.solved.as_ref().map_or((f64::NAN, f64::NAN), |result| (result.alpha.value, result.alpha.error))
+        point.solved.as_ref().map_or(Estimate::exact(f64::NAN), |result| result.alpha)
     };
     let band = all.frequencies.iter().map(|point| {
-        let (alpha, error) = value(point);
+        let Estimate { value: alpha, error } = value(point);
         [point.frequency_khz, alpha - error, alpha + error]
     });
-    let curve = all.frequencies.iter().map(|point| [point.frequency_khz, value(point).0]);
+    let curve = all.frequencies.iter().map(|point| [point.frequency_khz, value(point).value]);
     let (mut published, mut paper) = (Vec::new(), Vec::new());
     for row in &all.rows {
         let name = row.published.preset.as_str();
