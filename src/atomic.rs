@@ -41,6 +41,9 @@ pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| failed(ErrorKind::InvalidFilename.into()))?;
+    if !folder.is_dir() {
+        return Err(failed(io::Error::new(ErrorKind::NotFound, format!("there is no folder {}", folder.display()))));
+    }
     let mut staged = Staged::within(folder, false).map_err(failed)?;
     staged.add(name, write)?;
     staged.commit().map(|_| ())

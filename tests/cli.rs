@@ -217,7 +217,7 @@ fn a_motor_pressed_all_round_the_wave_leads_with_its_stall_torque_and_warns() {
     let [value, error] = [words[2], words[4]].map(|word| word.parse::<f64>().unwrap());
     assert!(stall < bound && (value - 2.4845).abs() < error && error < 0.05, "{}", lines[stall]);
     assert!(lines[bound].contains(" 6.301") && lines[bound].contains("bound"), "{}", lines[bound]);
-    for word in ["all 9 teeth", "at all times", words[2], "6.301"] {
+    for word in ["every tooth", "at all times", words[2], "6.301"] {
         assert!(err(&output).contains(word), "{word:?} is not in {}", err(&output));
     }
     // The contact of the fundamental case is near the crests: it is not warned of.
@@ -933,11 +933,26 @@ fn a_preset_is_written_into_a_file_and_read_from_what_powershell_makes_of_it() {
     let mut permissions = fs::metadata(at("mine.toml")).unwrap().permissions();
     permissions.set_readonly(true);
     fs::set_permissions(at("mine.toml"), permissions).unwrap();
-    refused(
-        &["presets", "fundamental", "--out", &at("mine.toml")],
-        1,
-        &["mine.toml: cannot be written: it is read-only"],
-    );
+    // What was edited is lost only if that is wished.
+    let again = ["presets", "fundamental", "--out", &at("mine.toml")];
+    refused(&again, 2, &["there is such a file already; --replace replaces it"]);
+    refused(&[&again[..], &["--replace"]].concat(), 1, &["mine.toml: cannot be written: it is read-only"]);
+    refused(&["presets", "fundamental", "--out", &at("none/mine.toml")], 1, &["there is no folder", "none"]);
+}
+
+#[test]
+fn a_preset_in_the_place_of_a_command_is_told_what_solves_it() {
+    refused(&["fundamental"], 2, &["fundamental is a preset, not a command: squeezefilm solve fundamental"]);
+    refused(&["fundamentel"], 2, &["unrecognized subcommand"]);
+    refused(&["solve", "fundamental", "--accuracy", "-1%"], 2, &["from 0.0001% to 50%"]);
+    refused(&["solve", "fundamental", "--threads", "0"], 2, &["expected a whole number from 1 to 1024"]);
+}
+
+#[test]
+fn a_point_that_cannot_be_solved_is_named_once() {
+    let output = run(&["sweep", "fundamental", "--vary", "stator.tooth_width_mm=2:4:2", "--fidelity", "draft"]);
+    let said = err(&output);
+    assert_eq!(said.matches("stator.tooth_width_mm = 4").count(), 1, "{said}");
 }
 
 // A display is looked for beforehand on Linux alone.

@@ -260,7 +260,7 @@ fn bad_tables_are_refused_with_line_column_value_and_what_is_allowed() {
     let two =
         Model::new(&motor, &bounds(&["rotor.decay_length_mm=2:6", "film.min_spacing_nm=100:300"]), &DRAFT).unwrap();
     let error = fit(&two.under(&one).unwrap(), &one, 1, &Cancel::new(), &|_, _| ()).unwrap_err().to_string();
-    assert!(error.starts_with("1 measurements cannot determine 2 keys"), "{error}");
+    assert!(error.starts_with("measurements: 1, keys varied: 2; give"), "{error}");
     for (size, words) in [
         ("alpha=x", "expected a number above 0"),
         ("film_load_n=1%", "no such number; allowed: alpha"),

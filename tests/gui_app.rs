@@ -696,7 +696,7 @@ fn a_solve_takes_no_longer_than_was_allowed() {
     );
     window.get_by_label("The time allowed was up before the error was as small as asked for");
     into_target(&mut window, "Time for a solve", "soon");
-    window.get_by_label_contains("soon has none of the units µs, ms, s and min");
+    window.get_by_label_contains("soon has none of the units µs, ms, s, min and h");
     assert_eq!(window.known().budget, Some(Duration::from_micros(100)));
     window.press(Key::Escape);
     into_target(&mut window, "Accuracy", "2%");

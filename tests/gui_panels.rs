@@ -513,7 +513,12 @@ fn what_the_model_leaves_out_is_shown_only_where_it_matters() {
         let harness = shown(run(preset), 300.0, 1.0);
         assert_eq!(harness.query_by_label("Outside the limits of the model").is_some(), seen, "{preset}");
         assert_eq!(harness.query_by_label("0.320, limit 0.1").is_some(), seen, "{preset}");
-        assert_eq!(harness.query_by_label_contains("At Kn = 0.32 first-order slip lets 20 % less").is_some(), seen);
+        assert_eq!(
+            harness
+                .query_by_label_contains("At Kn = 0.32, in a film of 200 nm, first-order slip lets 20 % less")
+                .is_some(),
+            seen
+        );
     }
 }
 

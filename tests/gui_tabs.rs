@@ -13,10 +13,11 @@ use squeezefilm::analysis::sensitivity::{Sensitivity, Uncertainties};
 use squeezefilm::analysis::sweep::Sweep;
 use squeezefilm::analysis::tradeoff::{Candidate, Effort, candidates};
 use squeezefilm::control::Cancel;
+use squeezefilm::digits::significant;
 use squeezefilm::export::compare::{difference_text, value_text};
 use squeezefilm::fidelity::Fidelity;
 use squeezefilm::gui::app::App;
-use squeezefilm::gui::derived::format::{digits, uncertain};
+use squeezefilm::gui::derived::format::uncertain;
 use squeezefilm::gui::state::dialogs::Answer;
 use squeezefilm::gui::state::fit::Found;
 use squeezefilm::gui::state::pins::Page;
@@ -769,11 +770,11 @@ fn sensitivities_are_those_of_the_command_and_uncertainties_answer_at_once() {
     let given = [("film.min_spacing_nm", "20%".parse().unwrap())];
     let uncertainties = Uncertainties::new(&scene, &given).unwrap();
     let spread = found.propagated(1, &uncertainties).deviation.value;
-    window.get_by_label(&format!("± {} by the parameters", digits(spread, 2)));
+    window.get_by_label(&format!("± {} by the parameters", significant(spread, 2)));
     window.type_into("Uncertainty of Frequency", "much");
     let refused = window.known().sensitivity.refused("stator.frequency_khz").unwrap().to_owned();
     assert!(refused.contains("expected a standard deviation"), "{refused}");
-    window.get_by_label(&format!("± {} by the parameters", digits(spread, 2)));
+    window.get_by_label(&format!("± {} by the parameters", significant(spread, 2)));
 
     // Random scenes are those of the command, and go when the uncertainties are others.
     window.click_on("Draw and solve");

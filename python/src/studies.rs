@@ -62,7 +62,7 @@ pub(crate) fn sensitivity(
 }
 
 fn starts_of(starts: i64) -> PyResult<usize> {
-    within("starts", starts, 1..=MOST_STARTS as i64).map(|starts| starts as usize)
+    within("starts", starts, 1..=i64::from(MOST_STARTS)).map(|starts| starts as usize)
 }
 
 fn fit_error(error: FitError) -> PyErr {

@@ -1,4 +1,5 @@
-//! Numbers for people: as many digits as the error justifies. Whatever is written for a person to read gets its digits here.
+//! Numbers for people: as many digits as the error justifies, with true minus signs. Whatever is written for a person to read gets its
+//! digits here.
 
 use std::time::Duration;
 
@@ -6,6 +7,8 @@ use std::time::Duration;
 const SMALL: f64 = 1e-4;
 /// From this size on as well.
 const LARGE: f64 = 1e7;
+/// Below this size per cent are written with an exponent.
+const SMALLEST_PERCENT: f64 = 1e-10;
 /// Times that [`parse_duration`] allows \[s\].
 const SHORTEST_TIME: f64 = 1e-6;
 const LONGEST_TIME: f64 = 86_400.0;
@@ -21,9 +24,9 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
     let digits = digits.max(1);
     if !(SMALL..LARGE).contains(&size) {
-        return format!("{value:.*e}", digits - 1);
+        return signed(format!("{value:.*e}", digits - 1));
     }
-    format!("{value:.*}", decimals(size, digits))
+    signed(format!("{value:.*}", decimals(size, digits)))
 }
 
 /// As [`significant`], without zeros at the end that say nothing: `0.1`, `250`, `1.05e-10`.
@@ -33,9 +36,18 @@ pub fn short(value: f64, digits: usize) -> String {
     if size.contains('.') { size.trim_end_matches('0').trim_end_matches('.').to_owned() + exponent } else { text }
 }
 
-/// A share in per cent, two digits: `5.0 %`.
+/// A share in per cent, two digits, written out however small: `5.0 %`, `0.00010 %`.
 pub fn percent(share: f64) -> String {
-    format!("{} %", significant(100.0 * share, 2))
+    let value = 100.0 * share;
+    if value != 0.0 && value.abs() < SMALL && value.abs() > SMALLEST_PERCENT {
+        return signed(format!("{value:.*} %", decimals(value.abs(), 2)));
+    }
+    format!("{} %", significant(value, 2))
+}
+
+/// A change in per cent with its sign: `+3.2 %`, `−0.5 %`.
+pub fn change(per_cent: f64, places: usize) -> String {
+    signed(format!("{per_cent:+.places$} %"))
 }
 
 /// `value` rounded to a number of significant digits.
@@ -63,23 +75,24 @@ pub fn duration(seconds: f64) -> String {
     format!("{} {unit}", significant(value, 3))
 }
 
-/// Reads a time with its unit, µs (or us), ms, s or min: `20ms`, `1,5 s`, `2min`.
+/// Reads a time with its unit, µs (or us), ms, s, min or h: `20ms`, `1,5 s`, `2min`.
 ///
 /// # Errors
 /// Words that name the text and what is allowed: from 1 µs to a day.
 pub fn parse_duration(text: &str) -> Result<Duration, String> {
     let text = text.trim();
-    let (number, unit) = [("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("min", 60.0), ("s", 1.0)]
-        .into_iter()
-        .find_map(|(name, unit)| text.strip_suffix(name).map(|number| (number, unit)))
-        .ok_or_else(|| {
-            let lacks = if text.ends_with(|c: char| c.is_ascii_digit()) {
-                "no unit"
-            } else {
-                "none of the units µs, ms, s and min"
-            };
-            format!("{text} has {lacks}: expected a time such as 20ms, 1.5s or 2min")
-        })?;
+    let (number, unit) =
+        [("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("min", 60.0), ("s", 1.0), ("h", 3600.0)]
+            .into_iter()
+            .find_map(|(name, unit)| text.strip_suffix(name).map(|number| (number, unit)))
+            .ok_or_else(|| {
+                let lacks = if text.ends_with(|c: char| c.is_ascii_digit()) {
+                    "no unit"
+                } else {
+                    "none of the units µs, ms, s, min and h"
+                };
+                format!("{text} has {lacks}: expected a time such as 20ms, 1.5s or 2min")
+            })?;
     match number.trim().replace(',', ".").parse::<f64>() {
         Ok(number) if (SHORTEST_TIME..=LONGEST_TIME).contains(&(number * unit)) => {
             Ok(Duration::from_secs_f64(number * unit))
@@ -112,16 +125,10 @@ pub fn with_error(value: f64, error: f64) -> String {
         if scale.is_finite() && scale > 0.0 {
             return format!("({}) × 10^{exponent}", with_error(value * scale, error * scale));
         }
-        return format!("{value:.3e} ± {error:.1e}");
+        return signed(format!("{value:.3e} ± {error:.1e}"));
     }
     let places = decimals(error, 2);
-    let value = format!("{value:.places$}");
-    format!("{} ± {error:.places$}", if is_zero(&value) { value.trim_start_matches('-') } else { &value })
-}
-
-/// Whether a number that was written has no digit but zeros.
-fn is_zero(text: &str) -> bool {
-    !text.bytes().any(|digit| matches!(digit, b'1'..=b'9'))
+    format!("{} ± {error:.places$}", signed(format!("{value:.places$}")))
 }
 
 /// What stands for a number that is not one.
@@ -139,7 +146,7 @@ fn decimals(size: f64, digits: usize) -> usize {
 /// With a true minus sign; "-0.00" is a zero.
 pub fn signed(text: String) -> String {
     match text.strip_prefix('-') {
-        Some(size) if !is_zero(size) => format!("−{size}"),
+        Some(size) if size.bytes().any(|digit| matches!(digit, b'1'..=b'9')) => format!("−{size}"),
         Some(zero) => zero.to_owned(),
         None => text,
     }
@@ -179,7 +186,7 @@ mod tests {
             (200.0, 4, "200.0"),
             (30417.8, 4, "30418"),
             (0.99996, 4, "1.000"),
-            (-0.5, 2, "-0.50"),
+            (-0.5, 2, "−0.50"),
             (0.0, 4, "0"),
             (1.05e-10, 3, "1.05e-10"),
             (f64::INFINITY, 3, "unknown"),
@@ -187,7 +194,10 @@ mod tests {
             assert_eq!(significant(value, digits), shown);
         }
         assert_eq!([short(0.1, 3), short(200.0, 4), short(1.05e-10, 4)], ["0.1", "200", "1.05e-10"]);
-        assert_eq!([percent(0.05), percent(3e-4), percent(1.0)], ["5.0 %", "0.030 %", "100 %"]);
+        assert_eq!(
+            [0.05, 3e-4, 1.0, -1e-6, 1e-14].map(percent),
+            ["5.0 %", "0.030 %", "100 %", "−0.00010 %", "1.0e-12 %"]
+        );
         assert_eq!((as_given(0.7 + 1e-16), rounded(-1234.0, 2), brief(30417.8)), (0.7, -1200.0, 30400.0));
     }
 
@@ -200,8 +210,8 @@ mod tests {
     fn times_are_read_with_their_units() {
         let read = |text: &str| parse_duration(text).map(|time| time.as_secs_f64());
         assert_eq!(
-            [read("16ms"), read(" 2 s"), read("1,5min"), read("100µs"), read("100us"), read("100 μs")],
-            [Ok(0.016), Ok(2.0), Ok(90.0), Ok(1e-4), Ok(1e-4), Ok(1e-4)]
+            [read("16ms"), read(" 2 s"), read("1,5min"), read("100µs"), read("100us"), read("100 μs"), read("1h")],
+            [Ok(0.016), Ok(2.0), Ok(90.0), Ok(1e-4), Ok(1e-4), Ok(1e-4), Ok(3600.0)]
         );
         for wrong in ["", "16", "0ms", "1e-12s", "-1s", "nan s", "16 hours", "ms", "2000min"] {
             assert!(read(wrong).is_err(), "{wrong}");

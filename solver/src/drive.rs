@@ -422,11 +422,9 @@ fn greatest_error(shares: &[Estimate]) -> f64 {
 pub fn braking(motor: &Motor, result: &MotorResult, found: &Performance) -> Option<String> {
     (result.teeth_in_contact.value >= motor.teeth as f64).then(|| {
         format!(
-            "all {} teeth of each wave touch the rotor at all times, so parts of the contact always brake: held at rest the motor \
+            "every tooth of each wave touches the rotor at all times, so parts of the contact always brake: held at rest the motor \
              gives {} N·m, not the maximum operating torque μ_d (1 − α) waves L r = {} N·m, which is a bound",
-            motor.teeth,
-            found.stall_torque,
-            found.max_torque,
+            found.stall_torque, found.max_torque,
         )
     })
 }

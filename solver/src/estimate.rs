@@ -25,7 +25,22 @@ impl Estimate {
     pub fn exact(value: f64) -> Self {
         Self { value, error: 0.0 }
     }
+
+    /// The ends of a range in words, with one power of ten for both if both are small: `(−1.5 ± 0.1 … 1.5 ± 0.1) × 10^-4`.
+    pub fn range(ends: [Self; 2]) -> String {
+        let size = |end: &Self| if end.error.is_finite() { end.value.abs().max(end.error) } else { end.value.abs() };
+        let exponent = size(&ends[0]).max(size(&ends[1])).log10().floor();
+        let scale = 10f64.powf(-exponent);
+        let join = |ends: [Self; 2]| ends.map(|end| end.to_string()).join(" … ");
+        if exponent <= SMALL && scale.is_finite() && ends.iter().all(|end| size(end) * scale > 10f64.powf(SMALL)) {
+            return format!("({}) × 10^{exponent}", join(ends.map(|end| end * scale)));
+        }
+        join(ends)
+    }
 }
+
+/// Power of ten up to which the ends of a range have one in common, and the least that one of them may be in it.
+const SMALL: f64 = -3.0;
 
 /// In another unit.
 impl Mul<f64> for Estimate {
@@ -230,6 +245,15 @@ mod tests {
         (second.all, third.all, third.shared) = (first.all + 0.02, first.all + 0.02, first.all + 0.02);
         second.shared = first.all;
         assert!(extrapolate_smooth(&[first, second, third], 1.0).error >= 0.002);
+    }
+
+    #[test]
+    fn a_range_of_small_numbers_has_one_power_of_ten() {
+        let range = |ends: [f64; 2]| Estimate::range(ends.map(|value| Estimate { value, error: 5.5e-7 }));
+        assert_eq!(range([-1.508e-4, 1.5132e-4]), "(−1.5080 ± 0.0055 … 1.5132 ± 0.0055) × 10^-4");
+        assert_eq!(range([0.5, 0.6]), "0.50000000 ± 0.00000055 … 0.60000000 ± 0.00000055");
+        assert_eq!(range([-1e-3, 1e-12]), "−0.00100000 ± 0.00000055 … (0.0 ± 5.5) × 10^-7");
+        assert_eq!(Estimate::range([Estimate::exact(0.0); 2]), "0 … 0");
     }
 
     #[test]

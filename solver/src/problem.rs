@@ -302,11 +302,11 @@ impl Plate {
     }
 
     /// Mean gap \[m\] at which gas that is trapped, and does not slip, carries `load` \[N or N/m\] in the mean of the cycle:
-    /// (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²), ε = amplitude/gap, at most [`HIGHEST`]. The film carries less at the same gap.
+    /// (1 + F/(p_a A))² = (1 + 3ε²/2)/(1 − ε²), ε = amplitude/gap. The film carries less at the same gap.
     pub fn trapped_gap(&self, load: f64) -> f64 {
         let ratio = load / (self.gas.ambient_pressure * self.area());
         let excess = ratio * (2.0 + ratio);
-        (self.amplitude * ((excess + 2.5) / excess).sqrt()).clamp(f64::MIN_POSITIVE, HIGHEST)
+        (self.amplitude * ((excess + 2.5) / excess).sqrt()).max(f64::MIN_POSITIVE)
     }
 
     /// The same plate turned by a quarter: its width along x. A strip stays as it is.

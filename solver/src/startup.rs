@@ -35,7 +35,8 @@ pub struct Cycle {
     pub outcome: Outcome,
     /// Largest change of ln Z from its beginning to its end.
     pub change: f64,
-    /// By how much ln Z may still change until the cycle repeats, if changes go on to shrink as they did; infinite at first.
+    /// By how much ln Z may still change until the cycle repeats, or α or a plate's mean load as a share of itself (of its unit, if it is
+    /// smaller), if that is more: if changes go on to shrink as they did; infinite at first.
     pub remaining: f64,
     /// Fields; the first frame is the beginning of the cycle.
     pub recording: Recording,
@@ -191,6 +192,8 @@ struct Way<'a> {
     steady: Option<Estimate>,
     /// What errors are relative to, α or N: the greatest headline of any cycle, that of the periodic state included.
     unit: f64,
+    /// The same of the periodic state alone; 0 if it is not known.
+    steady_unit: f64,
     /// Stated error of each cycle's headline, absolute, and what of it finer grids would leave.
     errors: Vec<(f64, f64)>,
     status: Status,
@@ -212,18 +215,20 @@ impl<'a> Way<'a> {
             Scenario::Motor(_) => Outcome::Motor(Default::default()),
             Scenario::Plate(_) => Outcome::Plate(Default::default()),
         };
+        let unit = match periodic.map_or(nothing, |periodic| periodic.outcome) {
+            Outcome::Motor(result) => motor::unit(result.alpha.value),
+            Outcome::Plate(result) => {
+                plate::unit(result.film_load.value, result.film_load_max.value - result.film_load_min.value)
+            }
+        };
         let converged = periodic.filter(|periodic| periodic.status == Status::Converged);
         Self {
             problem,
             settings,
             each,
             steady: converged.map(|periodic| headline(&periodic.outcome)),
-            unit: match periodic.map_or(nothing, |periodic| periodic.outcome) {
-                Outcome::Motor(result) => motor::unit(result.alpha.value),
-                Outcome::Plate(result) => {
-                    plate::unit(result.film_load.value, result.film_load_max.value - result.film_load_min.value)
-                }
-            },
+            unit,
+            steady_unit: if periodic.is_some() { unit } else { 0.0 },
             errors: Vec::new(),
             status: Status::NotConverged { residual: f64::INFINITY, tolerance: settings.tolerance },
             outcome: nothing,
@@ -241,25 +246,27 @@ impl<'a> Way<'a> {
             self.errors.clear();
         }
         let tolerance = self.settings.tolerance;
-        let mut last = f64::INFINITY;
+        let (mut last, mut before) = (f64::INFINITY, 0.0);
         for number in 1..=again.unwrap_or(self.settings.cycles) {
             let turned = transient.cycle(cancel)?;
             self.stats = transient.stats();
             self.unsettled =
                 [self.unsettled, transient.unsettled()].into_iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0));
             let Some((outcome, recording, change)) = turned else { return Ok(true) };
+            let Estimate { value, error } = headline(&outcome);
+            self.unit = self.unit.max(value.abs());
+            // A small vibration hardly changes ln Z, and has a mean load that is smaller still.
+            let moved = change.max((value - before).abs() / self.steady_unit.max(value.abs()));
             // The change of the next cycles, as a geometric series; a sudden fall is not trusted to go on.
             let ratio = (change / last).max(0.5);
             let remaining = if change == 0.0 {
                 0.0
             } else if last.is_finite() && ratio < 1.0 {
-                change * ratio / (1.0 - ratio)
+                moved * ratio / (1.0 - ratio)
             } else {
                 f64::INFINITY
             };
-            last = change;
-            let Estimate { value, error } = headline(&outcome);
-            self.unit = self.unit.max(value.abs());
+            (last, before) = (change, value);
             let error = (error, transient.elsewhere());
             if number > self.errors.len() {
                 self.errors.push(error);

@@ -1,7 +1,7 @@
 //! `squeezefilm animate`: one cycle as moving pictures.
 
 use super::exit::{CliError, Exit};
-use super::options::{SceneOptions, SolveOptions};
+use super::options::{SceneOptions, SolveOptions, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::quantity::force_unit;
@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     out: PathBuf,
 
     /// Pixels across
-    #[arg(long, value_name = "PIXELS", default_value_t = Options::default().width, value_parser = clap::value_parser!(u32).range(100..=4000))]
+    #[arg(long, value_name = "PIXELS", default_value_t = Options::default().width, value_parser = whole::<u32>(100..=4000))]
     width: u32,
 
     /// How long the cycle takes on screen
@@ -41,7 +41,7 @@ pub(super) struct Arguments {
 
     /// At most this many frames, so that they divide the solve's time steps evenly; an MP4 has at least 24 a second, between
     /// time steps if need be, unless fewer than 60 are asked for
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u16).range(2..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = whole::<u16>(2..=1000))]
     frames: u16,
 
     #[command(flatten)]

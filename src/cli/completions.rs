@@ -42,9 +42,19 @@ pub(super) fn man(arguments: &ManArguments, program: Command) -> Result<Exit, Cl
     let mut program = program.disable_help_subcommand(true);
     program.build();
     let mut pages = Staged::new(&arguments.folder)?;
-    for command in std::iter::once(&program).chain(program.get_subcommands()) {
+    let nested = program.get_subcommands().flat_map(|command| command.get_subcommands());
+    for command in std::iter::once(&program).chain(program.get_subcommands()).chain(nested) {
         let page = Man::new(command.clone()).date(RELEASED).source(format!("squeezefilm {VERSION}"));
-        pages.add(page.get_filename(), |file| page.render(file))?;
+        pages.add(page.get_filename(), |file| {
+            let mut text = Vec::new();
+            page.render(&mut text)?;
+            // What follows the options has its own lines: tables of files, and examples to copy.
+            let text = String::from_utf8_lossy(&text);
+            let (before, after) = text.split_once(".SH EXTRA\n").unwrap_or((&text, ""));
+            let (notes, rest) = after.split_at(after.find("\n.SH ").map_or(after.len(), |end| end + 1));
+            let notes = if notes.is_empty() { String::new() } else { format!(".SH NOTES\n.nf\n{notes}.fi\n") };
+            file.write_all(format!("{before}{notes}{rest}").as_bytes())
+        })?;
     }
     pages.commit()?;
     Ok(Exit::Solved)

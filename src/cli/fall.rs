@@ -75,7 +75,7 @@ fn text(scene: &Scene, rows: &[Row], ended: &Fall, floats: Option<Estimate>) -> 
         Status::Converged if rests => format!("it rests after {} cycles", ended.cycles),
         Status::Converged => format!("it floats at rest after {} cycles", ended.cycles),
         Status::NotConverged { .. } | Status::NotResolved { .. } => {
-            format!("STILL MOVING after {} cycles", ended.cycles)
+            format!("STILL MOVING after {} cycles; --cycles allows more", ended.cycles)
         }
         Status::Cancelled => format!("CANCELLED after {} cycles", ended.cycles),
     };

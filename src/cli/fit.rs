@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::CommonOptions;
+use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -10,7 +10,7 @@ use crate::analysis::fit::{
     Bound, Bounds, ErrorSize, FLAT, Fitted, Goal, Limit, MOST_STARTS, Measured, Model, Optimum, fit, optimise,
 };
 use crate::control::Cancel;
-use crate::digits::{duration, percent, short, significant, with_error};
+use crate::digits::{duration, percent, short, signed, significant, with_error};
 use crate::export::fit::{Object, OptimumObject};
 use crate::export::{files, json};
 use crate::problem::Problem;
@@ -86,7 +86,7 @@ pub(super) struct Arguments {
     skip: Vec<String>,
 
     /// Number of starts: the preset's own values, and points spread over the bounds, of which the best three are refined
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=MOST_STARTS as i64))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u16>(1..=MOST_STARTS))]
     starts: u16,
 
     /// Looks for the greatest value of a number, by its name in --json
@@ -246,7 +246,7 @@ fn text(scene: &Scene, fitted: &Fitted, measured: &Measured) -> String {
             Ok(found) => (found.to_string(), percent(found.value / one.value - 1.0)),
             Err(why) => (why.clone(), String::new()),
         };
-        let residual = row.residual.map_or_else(|| "LEFT OUT".to_owned(), |residual| format!("{residual:.2}"));
+        let residual = row.residual.map_or_else(|| "LEFT OUT".to_owned(), |residual| signed(format!("{residual:.2}")));
         columns.row([
             one.label.clone(),
             one.what.name().to_owned(),
@@ -283,7 +283,8 @@ fn summary(fitted: &Fitted, measured: &Measured) -> String {
         }
         None => format!("{counts}. No errors were given, and nothing tells how large they are."),
     };
-    match fitted.numerical_error {
+    let known = fitted.errors_known || fitted.error_scale.is_some();
+    match fitted.numerical_error.filter(|_| known) {
         Some(worst) => format!(
             "{agreement} The numerical error of what is computed is at most {} standard errors of a measurement.",
             significant(worst, 2)

@@ -29,9 +29,12 @@ mod table1;
 mod terminal;
 mod tradeoff;
 
+use crate::scene::presets::BUILT_IN;
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand};
 use exit::{CliError, Exit};
 use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 use std::{panic, thread};
 
@@ -110,6 +113,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
         Err(usage) => {
+            if let Some(ContextValue::String(word)) = usage.get(ContextKind::InvalidSubcommand)
+                && (BUILT_IN.iter().any(|preset| preset.name == word) || Path::new(word).is_file())
+            {
+                terminal::error(&format!("{word} is a preset, not a command: squeezefilm solve {word}"));
+                return Exit::BadInput.code();
+            }
             // Help and version go to standard output with status 0, faults to standard error with 2. A closed pipe is fine.
             let _ = usage.print();
             return ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));

@@ -7,7 +7,7 @@ use crate::input::ReadError;
 use crate::scene::new_motor::{Answers, NewMotor, QUESTIONS, Question};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use std::io::BufRead;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -70,14 +70,20 @@ impl FromArgMatches for Given {
     }
 }
 
+/// Nothing is lost by writing `file`, unless that is wished.
+pub(super) fn free(file: &Path, replace: bool) -> Result<(), CliError> {
+    if file.exists() && !replace {
+        return Err(CliError::Answers(format!(
+            "{}: there is such a file already; --replace replaces it",
+            file.display()
+        )));
+    }
+    Ok(())
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<Exit, CliError> {
     if let Some(file) = &arguments.file {
-        if file.exists() && !arguments.replace {
-            return Err(CliError::Answers(format!(
-                "{}: there is such a file already; --replace replaces it",
-                file.display()
-            )));
-        }
+        free(file, arguments.replace)?;
         if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
             return Err(CliError::Answers(format!("{}: there is no such folder", folder.display())));
         }

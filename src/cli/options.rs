@@ -18,6 +18,7 @@ use crate::solve::{Method, Settings};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -92,7 +93,7 @@ pub(super) struct AccuracyOptions {
     /// How exact the result is to be, as a number: 0.1% or 0.001
     ///
     /// Grids are refined until the stated error is that small, or a limit of the work is reached; the result states the error that it has.
-    #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_negative_numbers = true)]
+    #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_hyphen_values = true)]
     accuracy: Option<Fidelity>,
 
     /// Time for each solve: 20ms, 1.5s or 2min; then the best so far is the result
@@ -128,7 +129,7 @@ pub(super) struct SolveOptions {
     pub(super) method: Option<Method>,
 
     /// Number of threads [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024), allow_negative_numbers = true)]
     pub(super) threads: Option<u16>,
 
     #[command(flatten)]
@@ -299,6 +300,19 @@ fn figure_format() -> ValueParser {
         }
     };
     PossibleValuesParser::new(names).map(format).into()
+}
+
+/// Reads a whole number within limits.
+pub(super) fn whole<T: TryFrom<u32>>(
+    allowed: RangeInclusive<u32>,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let number = text.parse().ok().filter(|number| allowed.contains(number)).map(T::try_from);
+        match number {
+            Some(Ok(number)) => Ok(number),
+            _ => Err(format!("expected a whole number from {} to {}", allowed.start(), allowed.end())),
+        }
+    }
 }
 
 /// `key=value`, as text.

@@ -3,7 +3,7 @@
 use super::columns::Columns;
 use super::exit::{CliError, Exit};
 use super::options::SceneOptions;
-use super::terminal;
+use super::{new, terminal};
 use crate::atomic::write_file;
 use crate::export::json;
 use crate::scene::presets::{BUILT_IN, BuiltIn};
@@ -30,6 +30,10 @@ pub(super) struct Arguments {
     /// Writes the preset into this file instead
     #[arg(long, value_name = "FILE", requires = "preset", conflicts_with = "json")]
     out: Option<PathBuf>,
+
+    /// Replaces a file that is there
+    #[arg(long, requires = "out")]
+    replace: bool,
 
     #[command(flatten)]
     scene: SceneOptions,
@@ -75,6 +79,7 @@ fn print_one(preset: &str, arguments: &Arguments) -> Result<(), CliError> {
         _ => scene.to_toml(),
     };
     if let Some(path) = &arguments.out {
+        new::free(path, arguments.replace)?;
         write_file(path, |out| out.write_all(toml.as_bytes()))?;
         terminal::note(&format!("wrote {}", path.display()));
     } else if arguments.json {

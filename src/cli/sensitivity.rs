@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{CommonOptions, pair};
+use super::options::{CommonOptions, pair, whole};
 use super::progress::Bar;
 use super::terminal;
 use crate::analysis::sensitivity::{MonteCarlo, Sensitivity, Uncertainties, Uncertainty};
@@ -55,7 +55,7 @@ pub(super) struct Arguments {
     uncertainties: Vec<(String, Uncertainty)>,
 
     /// Also solves this many random scenes drawn from the uncertainties
-    #[arg(long, value_name = "N", requires = "uncertainties", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, value_name = "N", requires = "uncertainties", value_parser = whole::<u32>(2..=1_000_000))]
     monte_carlo: Option<u32>,
 
     /// Where the random numbers begin: the same seed draws the same scenes

@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::CommonOptions;
+use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     maps: Vec<&'static Map>,
 
     /// Cells along each axis of a map
-    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u16).range(2..=200))]
+    #[arg(long, value_name = "N", default_value = "5", value_parser = whole::<u16>(2..=200))]
     cells: u16,
 
     #[command(flatten)]

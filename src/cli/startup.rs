@@ -3,7 +3,7 @@
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::fall::{self, Dropped};
-use super::options::CommonOptions;
+use super::options::{CommonOptions, whole};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -51,10 +51,10 @@ pub(super) struct Arguments {
     preset: String,
 
     /// Cycles at most; if the cycle does not repeat by then, exit status 3
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole::<u32>(1..=100_000))]
     cycles: u32,
 
-    /// The cycle counts as repeating when ln(p h) will change by less than this
+    /// The cycle counts as repeating when ln(p h), and α or the mean load as a share of itself, will change by less than this
     #[arg(long, value_name = "CHANGE", default_value_t = startup::Settings::default().tolerance, value_parser = tolerance)]
     tolerance: f64,
 
@@ -142,7 +142,9 @@ fn text(scene: &Scene, problem: &Problem, rows: &[Row], ended: &Startup, steady:
         Status::NotConverged { .. } if ended.stats.unsettled_steps > 0 => {
             format!("NOT CONVERGED in some steps, {} cycles", ended.cycles)
         }
-        Status::NotConverged { .. } | Status::NotResolved { .. } => format!("NOT REPEATING after {}", ended.cycles),
+        Status::NotConverged { .. } | Status::NotResolved { .. } => {
+            format!("NOT REPEATING after {}; --cycles allows more", ended.cycles)
+        }
         Status::Cancelled => format!("CANCELLED after {}", ended.cycles),
     };
     let mut text = paragraph(&format!("{}, start-up from rest: {how}", show_text(&scene.name)), "", "");

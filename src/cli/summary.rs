@@ -161,8 +161,8 @@ fn plate_rows(columns: &mut Columns, plate: &Plate, summary: &Summary) {
     }
     film_load(columns, summary);
     columns.row(["load ratio", &found(summary, Quantity::LoadRatio).to_string(), area]);
-    let range = [Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| found(summary, end).to_string());
-    columns.row(["", &range.join(" … "), "least and greatest in the cycle"]);
+    let range = Estimate::range([Quantity::LoadRatioMin, Quantity::LoadRatioMax].map(|end| found(summary, end)));
+    columns.row(["", &range, "least and greatest in the cycle"]);
     if let Some(exact) = &summary.exact {
         exact_rows(columns, exact, units(plate));
     }
@@ -247,8 +247,8 @@ fn in_unit(found: Option<Estimate>, factor: f64, unit: &str) -> String {
 fn film_load(columns: &mut Columns, summary: &Summary) {
     let unit = summary.force_unit;
     columns.row(["film load", &format!("{} {unit}", found(summary, Quantity::FilmLoad)), "mean over the cycle"]);
-    let range = [Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| found(summary, end).to_string());
-    columns.row(["", &format!("{} {unit}", range.join(" … ")), "least and greatest in the cycle"]);
+    let range = Estimate::range([Quantity::FilmLoadMin, Quantity::FilmLoadMax].map(|end| found(summary, end)));
+    columns.row(["", &format!("{range} {unit}"), "least and greatest in the cycle"]);
 }
 
 fn extremes(columns: &mut Columns, summary: &Summary, thickness: &str, ambient: f64) {
@@ -327,7 +327,7 @@ fn shown(value: f64) -> String {
 
 /// A number of the summary with its error; what is null in the object is unknown here.
 fn found(summary: &Summary, quantity: Quantity) -> Estimate {
-    summary.numbers.estimate(quantity).unwrap_or(Estimate { value: f64::NAN, error: f64::NAN })
+    summary.numbers.estimate(quantity).unwrap_or(Estimate::exact(f64::NAN))
 }
 
 /// What is null in the object is unknown here.

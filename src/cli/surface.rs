@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
-use super::options::{FigureOptions, OutputOptions};
+use super::options::{FigureOptions, OutputOptions, whole};
 use super::solve::written;
 use super::terminal;
 use crate::atomic::Staged;
@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     files: Vec<PathBuf>,
 
     /// Degree of the polynomial that is taken off: 1 levels, 2 takes off roundness as well
-    #[arg(long, value_name = "DEGREE", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=2))]
+    #[arg(long, value_name = "DEGREE", default_value_t = 1, value_parser = whole::<u8>(0..=2))]
     degree: u8,
 
     #[command(flatten)]

@@ -141,7 +141,9 @@ pub(super) fn run(arguments: &Arguments, command: &[String]) -> Result<Exit, Cli
 pub(super) fn tell(sweep: &Sweep, rows: &[Row], budget: Option<Duration>, json: bool, command: &[String]) -> Exit {
     for row in rows {
         if let RunStatus::Failed(reason) = &row.status {
-            terminal::error(&format!("{}: {reason}", place(sweep, row)));
+            let place = place(sweep, row);
+            let told = if reason.starts_with(&place) { reason.clone() } else { format!("{place}: {reason}") };
+            terminal::error(&told);
         }
     }
     let object = Object::new(sweep, rows);

@@ -10,7 +10,7 @@ use super::terminal;
 use crate::analysis::decision::effort;
 use crate::analysis::table1::{Row, rows};
 use crate::atomic::Staged;
-use crate::digits::{duration, significant};
+use crate::digits::{change, duration, significant};
 use crate::estimate::Estimate;
 use crate::export::table1::Object;
 use crate::export::{csv, json};
@@ -121,7 +121,7 @@ fn text(rows: &[Row], settings: &Settings, changes: &[(String, String)]) -> Stri
                 estimated(computed.result.film_load),
                 share,
                 estimated(computed.result.alpha),
-                format!("{difference:+.1} %"),
+                change(difference, 1),
                 json::mark(json::status_name(&computed.status)),
             ]),
             _ => columns.row([&published.row, &load, "failed", &share, "failed", "", ""]),

@@ -3,7 +3,7 @@
 use super::columns::{Columns, paragraph};
 use super::exit::{CliError, Exit};
 use super::interrupt::cancel_on_interrupt;
-use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions};
+use super::options::{FigureOptions, MemoryOptions, OutputOptions, SceneOptions, whole};
 use super::progress::Bar;
 use super::solve::written;
 use super::terminal;
@@ -31,7 +31,7 @@ Examples:
 ///
 /// Every setting solves the scene's own model; only the grids differ. Runs are interleaved and medians are reported. Errors are shares
 /// of α (of a plate: of the film load). A setting is judged by the greater of two: its distance from the most accurate one plus that
-/// one's own stated error, and the error it states of itself. Takes about a minute.
+/// one's own stated error, and the error it states of itself. Takes up to about a minute.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -40,7 +40,7 @@ pub(super) struct Arguments {
     preset: String,
 
     /// Recommends the cheapest setting with at most this error: 1% or 0.01
-    #[arg(long, value_name = "SHARE", value_parser = parse_accuracy)]
+    #[arg(long, value_name = "SHARE", value_parser = parse_accuracy, allow_hyphen_values = true)]
     accuracy: Option<f64>,
 
     /// Recommends the most accurate setting within this time: 16ms, 2s or 1min
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
     budget: Option<Duration>,
 
     /// Runs of every setting [default: as many as fit into about a minute, 1 to 31]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1000))]
     repeats: Option<u16>,
 
     #[command(flatten)]

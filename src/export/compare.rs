@@ -16,7 +16,7 @@ use crate::analysis::quantity::{Quantity, force_unit};
 use crate::analysis::regime;
 use crate::analysis::validity::{Excess, outside};
 use crate::control::Cancel;
-use crate::digits::{significant, with_error};
+use crate::digits::{change, significant, with_error};
 use crate::problem::Scenario;
 use crate::recording::Recording;
 use crate::scene::Value;
@@ -299,17 +299,12 @@ pub fn difference_text(row: &ResultRow, cell: &ResultCell) -> String {
         (None, _) => String::new(),
         (Some(0.0), _) => "0 %".to_owned(),
         (Some(difference), Some(error)) if error.is_finite() && error > 0.0 => {
-            let sign = if difference >= 0.0 { "+" } else { "−" };
-            let text = with_error(difference.abs(), error);
-            format!("{sign}{text} %")
+            format!("{}{} %", if difference >= 0.0 { "+" } else { "" }, with_error(difference, error))
         }
         (Some(difference), _) if difference.abs() >= 1000.0 => {
             format!("× {}", significant(1.0 + difference / 100.0, 3))
         }
-        (Some(difference), _) => {
-            let places = if difference.abs() < 0.1 { 3 } else { 1 };
-            format!("{difference:+.places$} %").replace('-', "−")
-        }
+        (Some(difference), _) => change(difference, if difference.abs() < 0.1 { 3 } else { 1 }),
     }
 }
 

@@ -100,11 +100,10 @@ impl Reading {
 
     /// A value of it as text: a result with all its digits, a parameter as a person would type it.
     pub fn text(&self, value: f64) -> String {
-        let text = match self.expression {
+        match self.expression {
             Expression::Name { name: Name::Key(_), .. } => short(value, self.digits),
             _ => significant(value, self.digits),
-        };
-        text.replace('-', "−")
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::section::{PART, SUPPORT};
 use super::value::Value;
 use super::values::{Kind, Scene};
 use crate::gas::species::IdealGas;
-use crate::problem::{GRAVITY, Gas, Motor, Plate, Problem, RotorCompliance, Scenario};
+use crate::problem::{GRAVITY, Gas, HIGHEST, Motor, Plate, Problem, RotorCompliance, Scenario};
 use crate::rotor::ring::{MATERIALS, Part, RingError, Section, Support};
 use crate::surface::flow::Roughness;
 use crate::surface::{Asperities, Summits, Surface};
@@ -110,7 +110,7 @@ impl Scene {
                     frequency: si("plate.frequency_khz")?,
                     gas,
                 };
-                let mean_gap = load.map_or(plate.mean_gap, |load| plate.trapped_gap(load));
+                let mean_gap = load.map_or(plate.mean_gap, |load| plate.trapped_gap(load).min(HIGHEST));
                 Scenario::Plate(Plate { mean_gap, ..plate })
             }
         };

@@ -242,7 +242,8 @@ impl NewMotor {
         draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch");
         match draft.number("stall-torque-nm").map(|torque| torque / (load * radius * 1e-3)) {
             Some(friction) => {
-                let why = "stall torque over load and radius, as if no air took any: the least that it can be";
+                let why = "stall torque over load and radius, as if no air took any: the least that it can be, so the solved torque is smaller; squeezefilm fit \
+                           finds what agrees";
                 draft.assume("motor.dry_friction", friction, why);
             }
             None => draft.assume("motor.dry_friction", 0.3, "a filled polymer on metal"),

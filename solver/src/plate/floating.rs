@@ -106,7 +106,7 @@ pub fn float(
     if plate.amplitude == 0.0 {
         return Err(way.rests(0.0, rough));
     }
-    let away = plate.trapped_gap(load) - plate.amplitude;
+    let away = plate.trapped_gap(load).min(HIGHEST) - plate.amplitude;
     // What trapped gas would have, and about the slope of a film between touching and far away.
     let slope = -0.5 - 1.5 * away / (away + plate.amplitude);
     let roughly = way.seek(away.ln(), slope, rough, ROUGHLY)?;

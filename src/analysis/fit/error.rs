@@ -88,7 +88,7 @@ pub enum FitError {
     },
     /// Fewer measurements than unknowns.
     #[error(
-        "{measurements} measurements cannot determine {unknowns} keys: give at least as many measurements as keys, or vary fewer{left_out}"
+        "measurements: {measurements}, keys varied: {unknowns}; give at least as many measurements as keys, or vary fewer{left_out}"
     )]
     TooFew {
         /// How many there are.

@@ -218,7 +218,7 @@ pub(super) fn on_contour(value: f64, step: f64) -> String {
     }
     if !(1e-3..1e5).contains(&size) {
         let exponent = size.log10().floor() as i32;
-        let mantissa = signed(digits::short(without(value, exponent), 3));
+        let mantissa = digits::short(without(value, exponent), 3);
         return if mantissa == "1" { power(exponent) } else { format!("{mantissa}×{}", power(exponent)) };
     }
     let places = if step > 0.0 { (-step.log10() - 1e-9).ceil().clamp(0.0, 8.0) as usize } else { 3 };

@@ -6,6 +6,7 @@ use super::statements::statements;
 use crate::analysis::decision::{effort, sentences};
 use crate::analysis::reproduce::{Both, FIELDS, Reproduction, Row};
 use crate::analysis::validity::outside;
+use crate::digits::change;
 use crate::export::compare::{again, limits};
 use crate::export::figure::Figure;
 use crate::export::html::{Kind, Page, Table};
@@ -203,7 +204,7 @@ fn table1(all: &Reproduction) -> Table {
                     let sound = solved.as_ref().is_ok_and(|s| s.status == Status::Converged);
                     cells.push((Kind::Number, format!("{load:.places$}")));
                     cells.push((if sound { kind } else { Kind::Alarm }, result.alpha.to_string()));
-                    cells.push((Kind::Number, format!("{difference:+.1} %").replace('-', "−")));
+                    cells.push((Kind::Number, change(difference, 1)));
                 }
                 _ => cells.extend(["failed", "", ""].map(|words| (Kind::Alarm, words.to_owned()))),
             }

@@ -1,6 +1,6 @@
 //! Numbers and words as the window writes them.
 
-use crate::digits::{signed, significant, with_error};
+use crate::digits::signed;
 use crate::estimate::Estimate;
 
 /// Share of its error below which a value is shown as 0.
@@ -75,16 +75,15 @@ pub fn power_of_ten(exponent: f64) -> String {
 /// A value with its error, an exponent raised. What is far below its error is 0.
 pub fn uncertain(found: Estimate) -> String {
     let value = if found.value.abs() < NOTHING * found.error { 0.0 } else { found.value };
-    let text = with_error(value, found.error);
-    match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
-        Some((before, Ok(exponent))) => format!("{}{}", before.replace('-', "−"), power_of_ten(exponent)),
-        _ => text.replace('-', "−"),
-    }
+    raised(&Estimate { value, ..found }.to_string())
 }
 
-/// `value` with this many significant digits and a true minus sign.
-pub fn digits(value: f64, digits: usize) -> String {
-    significant(value, digits).replace('-', "−")
+/// With the exponent raised, if it ends with a power of ten.
+pub fn raised(text: &str) -> String {
+    match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
+        Some((before, Ok(exponent))) => format!("{before}{}", power_of_ten(exponent)),
+        _ => text.to_owned(),
+    }
 }
 
 /// Without zeros after the decimal point that say nothing.

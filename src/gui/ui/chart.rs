@@ -183,7 +183,7 @@ impl<'a> Inset<'a> {
             let text = tick(mark);
             let half = 0.28 * row * text.chars().count() as f32;
             let along = ((mark.value - range.start()) / (range.end() - range.start())) as f32 * rect.width();
-            let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.6 * row;
+            let fits = along - half > -2.0 - spare && along + half < rect.width() + 0.4 * row;
             if fits || named.is_none() { text } else { String::new() }
         };
         let (x, y) = (AxisHints::new_x().formatter(place), AxisHints::new_y().formatter(value));

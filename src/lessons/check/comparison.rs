@@ -71,7 +71,6 @@ impl Comparison {
             Expression::Name { name, .. } => format!(" {}", name.unit(now.scene)).trim_end().to_owned(),
             _ => String::new(),
         };
-        let shown = |value: f64, digits: usize| short(value, digits).replace('-', "−");
         let words = match self.operator {
             Operator::Less => "below",
             Operator::AtMost => "at most",
@@ -85,8 +84,8 @@ impl Comparison {
             Operator::About if self.within != ABOUT => format!(" to {} %", short(100.0 * self.within, DIGITS)),
             _ => String::new(),
         };
-        let apart = (DIGITS..MOST_DIGITS).find(|digits| shown(left, *digits) != shown(right, *digits));
-        let [is, wanted] = [left, right].map(|value| shown(value, apart.unwrap_or(MOST_DIGITS)));
+        let apart = (DIGITS..MOST_DIGITS).find(|digits| short(left, *digits) != short(right, *digits));
+        let [is, wanted] = [left, right].map(|value| short(value, apart.unwrap_or(MOST_DIGITS)));
         (!self.holds(left, right))
             .then(|| format!("{subject} is {is}{unit}, and should be {words}{space}{wanted}{unit}{to}"))
     }

@@ -1,7 +1,6 @@
 //! The numbers that a step of a lesson is about.
 
-use crate::digits::capitalised;
-use crate::gui::derived::format::digits;
+use crate::digits::{capitalised, significant};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::lessons::Step;
@@ -40,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
         // A parameter as it was typed, a result with its digits.
         (Name::Key(_), Some(value)) => Value::Number(value).to_string().replace('-', "−"),
         (Name::Live(Live::Cycles), Some(value)) => format!("{value}"),
-        (Name::Quantity(_) | Name::Live(_), Some(value)) => digits(value, DIGITS),
+        (Name::Quantity(_) | Name::Live(_), Some(value)) => significant(value, DIGITS),
     };
     // Three columns of numbers; the names have what is left.
     let em = ui.text_style_height(&TextStyle::Body);
@@ -70,7 +69,7 @@ pub(super) fn show(ui: &mut Ui, step: &Step, cx: &DrawContext<'_>) {
             let (first, now) = (value(shown_name, true), value(shown_name, false));
             let ratio = match (first, now) {
                 (Some(first), Some(now)) if first.abs() > 0.0 && (now / first - 1.0).abs() > UNCHANGED => {
-                    format!("× {}", digits(now / first, 3))
+                    format!("× {}", significant(now / first, 3))
                 }
                 _ => String::new(),
             };

@@ -3,9 +3,9 @@
 
 use crate::analysis::decision;
 use crate::analysis::tradeoff::without_grid;
-use crate::digits::capitalised;
+use crate::digits::{capitalised, significant};
 use crate::gui::command::Command;
-use crate::gui::derived::format::{digits, power_of_ten};
+use crate::gui::derived::format::power_of_ten;
 use crate::gui::derived::words;
 use crate::gui::state::document::Document;
 use crate::gui::state::switch_effect::SwitchEffect;
@@ -59,7 +59,7 @@ fn changed(ui: &mut egui::Ui, change: &SwitchEffect, cx: &DrawContext<'_>) {
 
 /// `α 0.24583 → 0.25401 (+3.3 %), stated bound 5.0 %`.
 pub fn sentence(change: &SwitchEffect) -> String {
-    let [before, after] = [change.before, change.after].map(|alpha| digits(alpha, 5));
+    let [before, after] = [change.before, change.after].map(|alpha| significant(alpha, 5));
     let relative = change.relative();
     let sign = if relative > 0.0 {
         "+"

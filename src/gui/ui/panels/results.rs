@@ -7,8 +7,9 @@ use crate::analysis::regime;
 use crate::analysis::validity::Excess;
 use crate::digits::{capitalised, significant};
 use crate::dimensionless::Dimensionless;
+use crate::estimate::Estimate;
 use crate::export::json::beside_limit;
-use crate::gui::derived::format::{digits, uncertain};
+use crate::gui::derived::format::{raised, uncertain};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
 use crate::gui::ui::hint::text_width;
@@ -86,7 +87,7 @@ fn motor_numbers(ui: &mut egui::Ui, shown: &Shown<'_>, motor: &Motor, result: &M
     section(ui, "Torque of the ring");
     shown.row(ui, cx, "Stall torque", StallTorque);
     shown.row(ui, cx, "Maximum operating torque", MaxTorque);
-    number(ui, cx, "The same without air", &digits(motor.friction_torque(motor.load), DIGITS), "N·m");
+    number(ui, cx, "The same without air", &significant(motor.friction_torque(motor.load), DIGITS), "N·m");
     shown.extremes(ui, cx, motor.gas.ambient_pressure);
 }
 
@@ -133,8 +134,8 @@ impl Shown<'_> {
     }
 
     fn range(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>, least: Quantity, most: Quantity) {
-        let text = [least, most].map(|end| self.text(end)).join(" … ");
-        number(ui, cx, "Over the cycle", &text, least.unit(self.problem));
+        let ends = [least, most].map(|end| self.numbers.estimate(end).unwrap_or(Estimate::exact(f64::NAN)));
+        number(ui, cx, "Over the cycle", &raised(&Estimate::range(ends)), least.unit(self.problem));
     }
 
     fn extremes(&self, ui: &mut egui::Ui, cx: &DrawContext<'_>, ambient: f64) {
@@ -362,7 +363,7 @@ fn text_height(ui: &egui::Ui) -> f32 {
 }
 
 pub(super) fn shown(value: f64) -> String {
-    digits(value, DIGITS)
+    significant(value, DIGITS)
 }
 
 /// An error, to two digits.

@@ -1,5 +1,6 @@
 //! The bottom panel: the timeline of the cycle or of a plate in the hand, and what the solver is doing.
 
+use crate::analysis::quantity::force_unit;
 use crate::fidelity::Fidelity;
 use crate::gui::command::{Command, HoldCommand};
 use crate::gui::derived::format::{thousands, time};
@@ -117,7 +118,9 @@ pub fn status(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         if let Some(run) = run {
             let error = match run.solution.outcome {
                 Outcome::Motor(result) => format!("α ± {:.1e}", result.alpha.error),
-                Outcome::Plate(result) => format!("load ± {:.1e}", result.film_load.error),
+                Outcome::Plate(result) => {
+                    format!("load ± {:.1e} {}", result.film_load.error, force_unit(&run.problem))
+                }
             };
             let stale = cx.state.stale(run);
             let ended = if run.solution.status == Status::Converged && !stale { "converged, " } else { "" };

@@ -2,9 +2,10 @@
 //! invariant.
 
 use crate::analysis::exact::{Harmonic, units};
+use crate::digits::significant;
 use crate::estimate::Estimate;
 use crate::gui::derived::exact::{ExactCurves, small_amplitude};
-use crate::gui::derived::format::{digits, per_cent, power_of_ten, uncertain};
+use crate::gui::derived::format::{per_cent, power_of_ten, uncertain};
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, SOLID, dots, legend, level, line, powers, title, upright};
 use crate::gui::ui::context::DrawContext;
@@ -202,15 +203,20 @@ fn table(ui: &mut Ui, known: &ExactCurves, units: [&str; 2], cx: &DrawContext<'_
     let ([spring, damping], [stiffness, loss]) = (both(found.solved), both(found.stiffness_and_damping()));
     let names = [format!("Stiffness, {}", units[0]), format!("Damping, {}", units[1])];
     let linear = [found.linear.spring * found.unit.spring, found.linear.damping * found.unit.damping]
-        .map(|value| digits(value, DIGITS));
+        .map(|value| significant(value, DIGITS));
     let invariant = found.invariant_deviation.map_or_else(|| "no map".to_owned(), |off| format!("{} %", per_cent(off)));
     // What it is called, computed, exact, and when that holds.
     let rows = [
-        ["Spring S", &spring, &digits(found.linear.spring, DIGITS), "for ε → 0"],
-        ["Damping D", &damping, &digits(found.linear.damping, DIGITS), "for ε → 0"],
+        ["Spring S", &spring, &significant(found.linear.spring, DIGITS), "for ε → 0"],
+        ["Damping D", &damping, &significant(found.linear.damping, DIGITS), "for ε → 0"],
         [&names[0], &stiffness, &linear[0], "for ε → 0"],
         [&names[1], &loss, &linear[1], "for ε → 0"],
-        ["Mean pressure", &uncertain(found.mean_pressure), &digits(found.trapped_mean_pressure, DIGITS), "for σ → ∞"],
+        [
+            "Mean pressure",
+            &uncertain(found.mean_pressure),
+            &significant(found.trapped_mean_pressure, DIGITS),
+            "for σ → ∞",
+        ],
         ["Invariant, off by", &invariant, "0 %", "at every σ and ε"],
     ];
     // In a narrow tab when the exact value holds is said on hover, and below, alone.

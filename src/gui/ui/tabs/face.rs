@@ -58,7 +58,7 @@ fn map(ui: &mut Ui, face: &Arc<Face>, height: f32) -> usize {
     });
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     ui.painter().image(picture.id(), rect, whole, Color32::WHITE);
-    let ends = [significant(low * 1e9, 3).replace('-', "−"), format!("{} nm", significant(high * 1e9, 3))];
+    let ends = [significant(low * 1e9, 3), format!("{} nm", significant(high * 1e9, 3))];
     let long = format!("Heights, {} × {} µm, x along the wave", micrometres(wide), micrometres(tall));
     let titled = Rect::from_min_max(rect.min, pos2(area.right(), rect.bottom()));
     title_with_ends(ui.painter(), &style, titled, "Measured face", [&long, "Heights"], [&ends[0], &ends[1]]);

@@ -4,9 +4,9 @@
 
 use super::{face, surface};
 use crate::analysis::rotor::{Bent, Curve, RotorCurves};
-use crate::digits::percent;
+use crate::digits::{percent, significant};
 use crate::gui::command::Command;
-use crate::gui::derived::format::{digits, power_of_ten};
+use crate::gui::derived::format::power_of_ten;
 use crate::gui::derived::scales::span;
 use crate::gui::ui::cache::once;
 use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, powers, title};
@@ -159,9 +159,9 @@ fn numbers(ui: &mut Ui, found: &RotorCurves, present: bool, cx: &DrawContext<'_>
         error => format!(", known to {}", percent(error)),
     };
     let whose = if present { "Present rotor" } else { "Before this edit" };
-    let mut text = format!("{whose}: {} µm/N under a unit force{known}", digits(deflection, 3));
+    let mut text = format!("{whose}: {} µm/N under a unit force{known}", significant(deflection, 3));
     if let Some(resonances) = &found.resonances {
-        let khz: Vec<_> = resonances.iter().map(|hertz| digits(1e-3 * hertz, 3)).collect();
+        let khz: Vec<_> = resonances.iter().map(|hertz| significant(1e-3 * hertz, 3)).collect();
         text += &format!("; lowest natural frequencies of harmonics 1 to {}: {} kHz", khz.len(), khz.join(", "));
     }
     cx.note(ui, text);
@@ -242,7 +242,7 @@ fn section(
             if held.hovered() || held.dragged() {
                 painter.rect_stroke(edge, 0.0, Stroke::new(3.0, cx.colours.accent), egui::StrokeKind::Middle);
             }
-            let held = held.hint(format!("{} of {name}: {} mm", label(which), digits(lengths[which], 5)));
+            let held = held.hint(format!("{} of {name}: {} mm", label(which), significant(lengths[which], 5)));
             dragging |= held.dragged();
             let (Some(at), true) = (held.interact_pointer_pos(), held.dragged() || held.drag_stopped()) else {
                 continue;
@@ -300,8 +300,8 @@ fn elements(painter: &egui::Painter, ui: &Ui, bent: &Bent, scale: Scale, [wide, 
     draw(Some((moved.as_slice(), factor)), Stroke::new(0.8, cx.colours.film));
     let text = format!(
         "under the present load, where it presses most: up to {} µm, drawn {} times as large",
-        digits(1e6 * most, 3),
-        digits(factor, 2)
+        significant(1e6 * most, 3),
+        significant(factor, 2)
     );
     let at = painter.clip_rect().left_bottom() + vec2(4.0, -4.0);
     painter.text(at, egui::Align2::LEFT_BOTTOM, text, TextStyle::Small.resolve(ui.style()), cx.colours.film);

@@ -1,9 +1,9 @@
 //! What the results depend on: how much each changes with every parameter, and how uncertain it is if the parameters are.
 
 use crate::analysis::sensitivity::{LEAST, Sensitivity, Uncertainties};
-use crate::digits::{as_given, percent, significant};
+use crate::digits::{percent, short, significant};
 use crate::gui::command::{Command, SensitivityCommand};
-use crate::gui::derived::format::{digits, uncertain};
+use crate::gui::derived::format::uncertain;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::{explanation, label};
 use crate::gui::state::dialogs::Export;
@@ -122,14 +122,14 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
     let unit = if unit.is_empty() { String::new() } else { format!("\u{a0}{unit}") };
     ui.horizontal_wrapped(|ui| {
         let known = value.error.is_finite();
-        let text = if known { uncertain(value) } else { digits(value.value, 4) };
+        let text = if known { uncertain(value) } else { significant(value.value, 4) };
         ui.label(RichText::new(format!("{text}{unit}")).strong());
         if known {
             glossary::term(ui, RichText::new("numerical").color(cx.colours.quiet), "Stated error");
         }
         if !uncertainties.is_empty() {
             let spread = found.propagated(output, uncertainties);
-            let text = format!("± {} by the parameters", digits(spread.deviation.value, 2));
+            let text = format!("± {} by the parameters", significant(spread.deviation.value, 2));
             glossary::term(ui, RichText::new(text).color(cx.colours.accent), "Uncertainty of a parameter");
             if !spread.unknown.is_empty() {
                 cx.say(ui, format!("without {}", spread.unknown.join(", ")), cx.colours.alarm);
@@ -139,10 +139,10 @@ fn result(ui: &mut Ui, shown: Shown<'_>) {
             let [low, _, high] = spread.quantiles;
             let text = format!(
                 "random scenes: {} ± {}, 90 % of them from {} to {}",
-                digits(spread.mean, 4),
-                digits(spread.deviation, 2),
-                digits(low, 4),
-                digits(high, 4)
+                significant(spread.mean, 4),
+                significant(spread.deviation, 2),
+                significant(low, 4),
+                significant(high, 4)
             );
             glossary::term(ui, RichText::new(text).color(cx.colours.film), "Random scenes");
         }
@@ -311,7 +311,7 @@ fn table(ui: &mut Ui, shown: Shown<'_>) {
             let by = &found.columns[column];
             let parameter = by.parameter;
             ui.label(label(parameter)).hint(explanation(found.scene(), parameter, None));
-            ui.label(format!("{} {}", as_given(by.at), parameter.unit).trim_end().to_owned());
+            ui.label(format!("{} {}", short(by.at, 10), parameter.unit).trim_end().to_owned());
             match (&by.slopes, found.elasticity(output, column)) {
                 (Err(why), _) => drop(ui.label(RichText::new("none").color(cx.colours.alarm)).hint(why)),
                 (Ok(_), None) => drop(ui.label("–")),

@@ -4,7 +4,7 @@
 use crate::analysis::torque::TorqueCurves;
 use crate::digits::{as_given, significant};
 use crate::estimate::Estimate;
-use crate::gui::derived::format::{digits, uncertain};
+use crate::gui::derived::format::uncertain;
 use crate::gui::ui::chart::{Chart, SOLID, dots, legend, line, title, upright};
 use crate::gui::ui::context::DrawContext;
 use crate::gui::ui::glossary;
@@ -177,12 +177,12 @@ fn readout(ui: &mut egui::Ui, merit: &TorqueCurves, pointed: Option<f64>, cx: &D
         let part = if high > low { (speed - low) / (high - low) } else { 0.0 };
         let mix = |a: f64, b: f64| a + part * (b - a);
         let percent = a.efficiency.zip(b.efficiency).map(|(a, b)| 100.0 * mix(a.value, b.value));
-        let percent = percent.map_or_else(String::new, |share| format!(", {} %", digits(share, DIGITS)));
+        let percent = percent.map_or_else(String::new, |share| format!(", {} %", significant(share, DIGITS)));
         let (torque, output) = (mix(a.torque.value, b.torque.value), mix(a.output.value, b.output.value));
-        Some(format!("{} N·m, {} W{percent}", digits(torque, DIGITS), digits(output, DIGITS)))
+        Some(format!("{} N·m, {} W{percent}", significant(torque, DIGITS), significant(output, DIGITS)))
     };
     let (Some(with), Some(without)) = (at(&merit.with_film), at(&merit.without_film)) else { return };
-    let text = format!("{} rpm: with film {with}; without {without}", digits(speed, DIGITS));
+    let text = format!("{} rpm: with film {with}; without {without}", significant(speed, DIGITS));
     ui.add(egui::Label::new(text).wrap());
 }
 

@@ -16,7 +16,7 @@ use crate::gui::ui::table;
 use crate::gui::ui::{button, glossary};
 use crate::solve::Method;
 use eframe::egui::{self, Align2, Color32, RichText, TextStyle};
-use egui_plot::{HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, Points, VLine};
+use egui_plot::{HLine, HoverPosition, LineStyle, MarkerShape, PlotPoint, PlotTransform, Points, VLine};
 
 /// Height of the plot: its share of the tab, and at least this many lines of text.
 const PLOT_SHARE: f32 = 0.56;
@@ -26,8 +26,6 @@ const RADIUS: f32 = 4.5;
 const RING: f32 = 9.0;
 /// Around the points, a share of their range.
 const MARGIN: egui::Vec2 = egui::vec2(0.12, 0.12);
-/// Between a point and its name, a share of their range.
-const NAME_GAP: f64 = 0.012;
 /// Width of a letter of a name, in heights of the text.
 const NAME_WIDTH: f32 = 0.5;
 /// Between a number and its unit, which stay on one line.
@@ -76,7 +74,7 @@ fn buttons(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
                 cx.progress(ui, 140.0, share, &format!("{:.0} %", 100.0 * share), left);
             }
             None => {
-                let about = "Takes about a minute; the window stays usable";
+                let about = "Takes up to about a minute; the window stays usable";
                 if button::first(ui, "Measure", (cx.state.tradeoff.as_ref().is_none(), true), cx).hint(about).clicked()
                 {
                     cx.push(Command::Measure);
@@ -183,7 +181,6 @@ fn place(point: &Point) -> Option<[f64; 2]> {
 fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_>) {
     let judged = format!("error of {}", tradeoff.of_what());
     let grid = ui.visuals().widgets.noninteractive.bg_stroke.color;
-    let font = TextStyle::Body.resolve(ui.style());
     let em = ui.text_style_height(&TextStyle::Body);
     let width = ui.available_width();
     let most = f64::from((width / (TICK_WIDTH * em)).floor().max(2.0));
@@ -253,19 +250,31 @@ fn plot(ui: &mut egui::Ui, tradeoff: &Tradeoff, height: f32, cx: &DrawContext<'_
                 let ring = Points::new("", vec![[time, error]]).color(cx.colours.accent).radius(RING).filled(false);
                 plot.points(ring.allow_hover(false));
             }
-            if candidate.family == Family::Fidelity {
-                // Below and left of a point of the front there is no other.
-                let at = PlotPoint::new(time - NAME_GAP * (right - left), error - NAME_GAP * (top - bottom));
-                plot.text(
-                    egui_plot::Text::new("", at, RichText::new(&candidate.name).font(font.clone()))
-                        .color(colour)
-                        .anchor(Align2::RIGHT_TOP)
-                        .allow_hover(false),
-                );
-            }
         }
     });
+    names(ui, tradeoff, &shown_plot.transform, cx);
     axes(ui, whole, *shown_plot.transform.frame(), Some("Solve time"), &judged);
+}
+
+/// Names of the fidelities, below and left of their points, where a point of the front has no other; names that would lie on each other, one
+/// below the other.
+fn names(ui: &egui::Ui, tradeoff: &Tradeoff, transform: &PlotTransform, cx: &DrawContext<'_>) {
+    let painter = ui.painter_at(*transform.frame());
+    let (font, colour) = (TextStyle::Body.resolve(ui.style()), style(Family::Fidelity, cx).1);
+    let fidelities = tradeoff.points.iter().filter(|point| point.run.candidate.family == Family::Fidelity);
+    let mut places: Vec<_> = fidelities.filter_map(|point| Some((point, place(point)?))).collect();
+    places.sort_by(|(_, a), (_, b)| b[1].total_cmp(&a[1]));
+    let mut taken: Vec<egui::Rect> = Vec::new();
+    for (point, [time, error]) in places {
+        let galley = painter.layout_no_wrap(point.run.candidate.name.clone(), font.clone(), colour);
+        let corner = transform.position_from_point(&PlotPoint::new(time, error)) + egui::vec2(-RADIUS, RADIUS);
+        let mut rect = Align2::RIGHT_TOP.anchor_size(corner, galley.size());
+        while let Some(other) = taken.iter().find(|other| other.intersects(rect)) {
+            rect = rect.translate(egui::vec2(0.0, other.bottom() - rect.top() + 1.0));
+        }
+        painter.galley(rect.min, galley, colour);
+        taken.push(rect);
+    }
 }
 
 /// A target, what serves it, and the way to use that.

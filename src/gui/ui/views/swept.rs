@@ -6,11 +6,10 @@ use crate::analysis::attempt::RunStatus;
 use crate::analysis::quantity::Quantity;
 use crate::analysis::sweep::{Axis, Row, Sweep, typical_error};
 use crate::analysis::table1::Published;
-use crate::digits::{capitalised, short};
+use crate::digits::{capitalised, short, significant};
 use crate::estimate::Estimate;
 use crate::export::figure::{contour, is_contour};
 use crate::gui::command::SweepCommand;
-use crate::gui::derived::format::digits;
 use crate::gui::derived::scales::span;
 use crate::gui::derived::words::label;
 use crate::gui::ui::cache::once;
@@ -382,7 +381,7 @@ fn map<'a>(ui: &Ui, style: &PlotStyle, area: Rect, plotted: &Plotted<'a>, x: &Ax
     let title = if log { format!("{title}, logarithmic colours") } else { title };
     if plotted.rows.iter().any(|row| plotted.sound(row).is_some()) {
         let nothing = if log { 0.0 } else { NOTHING * (extent[1] - extent[0]) };
-        let written = |end: f64| if end.abs() < nothing { "0".to_owned() } else { digits(end, 3) };
+        let written = |end: f64| if end.abs() < nothing { "0".to_owned() } else { significant(end, 3) };
         let ends = extent.map(written);
         let above = rect.translate(vec2(0.0, -style.row - 6.0));
         let ends = ends.each_ref().map(String::as_str);
