@@ -949,6 +949,17 @@ fn a_preset_in_the_place_of_a_command_is_told_what_solves_it() {
 }
 
 #[test]
+fn a_small_mean_load_is_resolved_on_a_grid_that_is_given() {
+    let grid = ["numerics.film_nodes_along=17", "numerics.film_nodes_across=9", "numerics.steps_per_cycle=108"];
+    let given: Vec<&str> = grid.iter().flat_map(|key| ["--set", key]).collect();
+    let [own, given] = [solved(&["plate-mems"]), solved(&[&["plate-mems"], &given[..]].concat())];
+    let [load, error] =
+        ["film_load_n", "film_load_error_n"].map(|key| [&own, &given].map(|one| one[key].as_f64().unwrap()));
+    assert!(error[1] < 5e-3 * load[1], "{load:?} ± {error:?}");
+    assert!((load[0] - load[1]).abs() < error[0] + error[1], "{load:?} ± {error:?}");
+}
+
+#[test]
 fn a_point_that_cannot_be_solved_is_named_once() {
     let output = run(&["sweep", "fundamental", "--vary", "stator.tooth_width_mm=2:4:2", "--fidelity", "draft"]);
     let said = err(&output);

@@ -614,6 +614,10 @@ fn set_reads_text_in_the_unit_of_the_key() {
     assert_eq!(scene.name, "Mine");
     scene.set_value("motor.waves", Value::Number(6.0)).unwrap();
     assert_eq!(scene.get("motor.waves"), Some(Value::Whole(6)));
+    for (text, nanometres) in [("0.25um", 250.0), ("250 nm", 250.0), ("2 * 150", 300.0)] {
+        scene.set("film.min_spacing_nm", text).unwrap();
+        assert_eq!(scene.get("film.min_spacing_nm"), Some(Value::Number(nanometres)), "{text}");
+    }
 }
 
 #[test]
@@ -623,6 +627,8 @@ fn set_refuses_and_changes_nothing() {
         ("film.min_spacing_nm", "3", "film.min_spacing_nm = 3 is out of range: allowed 5 to 10000 nm"),
         ("film.min_spacing_nm", "none", "film.min_spacing_nm = none is of the wrong type: expected a number"),
         ("film.min_spacing_nm", "1,5", "film.min_spacing_nm = 1,5 is of the wrong type"),
+        ("film.min_spacing_nm", "1um,5", "film.min_spacing_nm = 1um,5 is of the wrong type"),
+        ("film.min_spacing_nm", "5kHz", "film.min_spacing_nm = 5kHz is of the wrong type"),
         ("film.min_spacing_nm", "NaN", "film.min_spacing_nm = NaN is not finite"),
         ("motor.waves", "7.5", "motor.waves = 7.5 is of the wrong type: expected a whole number from 1 to 100"),
         ("film.spacing_nm", "3", "unknown key film.spacing_nm: did you mean film.min_spacing_nm?"),

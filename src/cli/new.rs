@@ -119,7 +119,10 @@ fn ask(answers: &mut Answers) -> Result<(), CliError> {
             let answer = line.map_err(|error| CliError::Input(ReadError::System(error.to_string())))?.trim().to_owned();
             match question.check(&answer) {
                 _ if answer.is_empty() && question.otherwise.is_some() => {}
-                _ if answer.is_empty() => continue,
+                _ if answer.is_empty() => {
+                    terminal::note(&format!("an answer is needed: {}", question.allowed()));
+                    continue;
+                }
                 Err(wrong) => {
                     terminal::note(&wrong);
                     continue;

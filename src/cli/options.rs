@@ -27,8 +27,8 @@ use std::time::Duration;
 pub(super) struct SceneOptions {
     /// Changes a key of the scene, dotted as in the file; may be repeated
     ///
-    /// Keys carry their unit: --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3. `none` removes an optional
-    /// key. All changes are applied together, in any order.
+    /// Keys carry their unit: --set film.min_spacing_nm=100 --set stator.tooth_radius_m=3. A number may have another unit of the
+    /// kind: --set film.min_spacing_nm=0.1um. `none` removes an optional key. All changes are applied together, in any order.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = pair)]
     pub(super) changes: Vec<(String, String)>,
 }

@@ -137,7 +137,10 @@ pub fn figure(preset: &str, tradeoff: &Tradeoff, chosen: &[usize]) -> Figure {
         (Family::Grid, "other grids", Colour::CYCLE[2], Shape::Triangle),
         (Family::Paper, "the paper's method", Colour::CONTACT, Shape::Square),
     ] {
-        panel = panel.layer(Points::new(name, of(family), colour, Marker::solid(shape)));
+        let points = of(family);
+        if !points.is_empty() {
+            panel = panel.layer(Points::new(name, points, colour, Marker::solid(shape)));
+        }
     }
     let rings: Vec<[f64; 2]> = chosen.iter().filter_map(|i| tradeoff.points.get(*i)).filter_map(place).collect();
     if !rings.is_empty() {

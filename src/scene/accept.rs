@@ -4,6 +4,7 @@ use super::compliance;
 use super::error::{What, check_count};
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterKind};
+use super::quantity_text;
 use super::value::{Value, show_text};
 
 /// Most tables of an array.
@@ -71,10 +72,14 @@ impl Parameter {
         }
     }
 
-    /// The value written as `--set` takes it: a number in the key's unit, a name or text without quotes.
+    /// The value written as `--set` takes it: a number in the key's unit, or with another of its kind, a name or text without quotes.
     pub(super) fn read(&'static self, text: &str) -> Result<Value, What> {
         let read = match self.kind {
-            ParameterKind::Number { .. } | ParameterKind::Whole { .. } => text.parse().ok().map(Value::Number),
+            ParameterKind::Number { .. } | ParameterKind::Whole { .. } => {
+                // Commas are between the values of a list.
+                let typed = || quantity_text::number(self.unit, text).filter(|_| !text.contains(','));
+                text.parse().ok().or_else(typed).map(Value::Number)
+            }
             ParameterKind::Flag { .. } => text.parse().ok().map(Value::Flag),
             ParameterKind::Choice { .. } | ParameterKind::Text { .. } => Some(Value::Text(text.to_owned())),
             ParameterKind::Rows { .. } | ParameterKind::CsvPath { .. } | ParameterKind::Records { .. } => None,

@@ -9,7 +9,7 @@ use super::quantity_text;
 use super::value::{Value, show_number, show_text};
 use super::values::Scene;
 use crate::atomic::{WriteError, write_file};
-use crate::digits::as_given;
+use crate::digits::{as_given, brief};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -194,6 +194,16 @@ impl Draft<'_> {
         self.pairs.push((key, value));
     }
 
+    /// Whether a key can have what follows from the answer to `name`.
+    fn possible(&self, name: &str, key: &str, value: Option<f64>) -> Result<Option<f64>, String> {
+        let Some(wanted) = value else { return Ok(None) };
+        let given = answer(self.answers, name).unwrap_or_default();
+        match Scene::motor().set_value(key, Value::Number(brief(wanted))) {
+            Ok(()) => Ok(value),
+            Err(fault) => Err(format!("{name} = {given} does not go with the other answers: {fault}")),
+        }
+    }
+
     /// Gives a key the answer to `name` as it is, or else assumes `otherwise`.
     fn take(&mut self, key: &'static str, name: &str, otherwise: f64, why: &str) {
         match self.number(name) {
@@ -240,7 +250,8 @@ impl NewMotor {
             None => draft.assume("stator.teeth_per_wave", 8.0, "usual; narrower teeth lose more air at their sides"),
         }
         draft.assume("stator.tooth_share", 0.75, "usual: the slots take a quarter of the pitch");
-        match draft.number("stall-torque-nm").map(|torque| torque / (load * radius * 1e-3)) {
+        let friction = draft.number("stall-torque-nm").map(|torque| torque / (load * radius * 1e-3));
+        match draft.possible("stall-torque-nm", "motor.dry_friction", friction)? {
             Some(friction) => {
                 let why = "stall torque over load and radius, as if no air took any: the least that it can be, so the solved torque is smaller; squeezefilm fit \
                            finds what agrees";
@@ -248,7 +259,9 @@ impl NewMotor {
             }
             None => draft.assume("motor.dry_friction", 0.3, "a filled polymer on metal"),
         }
-        let (tangential, why) = match draft.number("no-load-speed-rpm").map(|speed| speed / 60.0 * radius / frequency) {
+        let amplitude = draft.number("no-load-speed-rpm").map(|speed| speed / 60.0 * radius / frequency);
+        let amplitude = draft.possible("no-load-speed-rpm", "stator.tangential_amplitude_um", amplitude)?;
+        let (tangential, why) = match amplitude {
             Some(amplitude) => {
                 (amplitude, "the crests of the wave move as fast as the rotor without load: the least that it can be")
             }
@@ -384,6 +397,10 @@ mod tests {
         // Each answer alone is allowed, and together they ask for a load on one wave that is not.
         let light = [("diameter-mm", "60"), ("frequency-khz", "40"), ("load-n", "0.05")];
         assert!(NewMotor::of(&answers(&light)).unwrap_err().contains("motor.load_per_wave_n"));
+        let strong = NewMotor::of(&answers(&[&NEEDED[..], &[("stall-torque-nm", "72")]].concat())).unwrap_err();
+        let named =
+            "stall-torque-nm = 72 does not go with the other answers: motor.dry_friction = 17.8 is out of range";
+        assert!(strong.starts_with(named), "{strong}");
     }
 
     #[test]

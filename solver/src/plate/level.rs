@@ -265,15 +265,14 @@ impl Level {
         self.loads().iter().zip(&self.dt).map(|(load, dt)| load * dt).sum::<f64>() / self.period
     }
 
-    /// By how much ln Z may still change from round to round: what that does to the load is a share of the error asked for.
+    /// By how much ln Z may still change from round to round: what that does to the load is a share of the error asked for, or of the load
+    /// where the grid is given.
     fn allowed_change(&self, plan: &Plan) -> f64 {
-        if plan.accuracy == 0.0 {
-            return f64::INFINITY;
-        }
+        let share = if plan.accuracy == 0.0 { plan.tolerance } else { REPEATING_SHARE * plan.accuracy };
         let grid = self.cycle.grid();
         let area = grid.interior_width() * grid.x.copies() * grid.x.lengths.iter().sum::<f64>();
         let force = self.ambient_pressure * area + self.mean_load();
-        (REPEATING_SHARE * plan.accuracy * self.unit() / force).max(LEAST_CHANGE)
+        (share * self.unit() / force).max(LEAST_CHANGE)
     }
 
     /// Film load \[N\] at instant 0: the present, between two cycles of a transient.

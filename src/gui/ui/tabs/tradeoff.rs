@@ -50,7 +50,7 @@ pub fn show(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
         if !tradeoff.points.iter().any(|point| place(point).is_some()) {
             return;
         }
-        legend(ui, cx);
+        legend(ui, tradeoff, cx);
         let least = LEAST_LINES * ui.text_style_height(&TextStyle::Body);
         plot(ui, tradeoff, (PLOT_SHARE * height).max(least), cx);
         ui.add_space(4.0);
@@ -139,10 +139,11 @@ fn style(family: Family, cx: &DrawContext<'_>) -> (&'static str, Color32, Marker
     }
 }
 
-fn legend(ui: &mut egui::Ui, cx: &DrawContext<'_>) {
+fn legend(ui: &mut egui::Ui, tradeoff: &Tradeoff, cx: &DrawContext<'_>) {
     let em = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
-        for family in [Family::Fidelity, Family::Grid, Family::Paper] {
+        let shown = |family: &Family| tradeoff.points.iter().any(|point| point.run.candidate.family == *family);
+        for family in [Family::Fidelity, Family::Grid, Family::Paper].into_iter().filter(shown) {
             let (name, colour, shape) = style(family, cx);
             sign(ui, name, |painter, at| match shape {
                 MarkerShape::Square => {
