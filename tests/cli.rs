@@ -396,6 +396,11 @@ fn shells_and_man_are_told_every_command() {
         let head = format!(".TH squeezefilm-{command} 1 {} ", squeezefilm::citation::RELEASED);
         assert!(page.contains(&head), "{head}: {page}");
     }
+    assert!(folder.path().join("squeezefilm-lessons-check.1").is_file());
+    // Examples keep their lines.
+    let solve = std::fs::read_to_string(folder.path().join("squeezefilm-solve.1")).unwrap();
+    let notes = &solve[solve.find(".SH NOTES\n.nf\n").unwrap()..];
+    assert!(notes.contains("Examples:\n  squeezefilm solve fundamental\n") && notes.contains("\n.fi\n"), "{notes}");
     let program = std::fs::read_to_string(folder.path().join("squeezefilm.1")).unwrap();
     assert!(program.contains("Exit status") && program.contains("squeezefilm\\-solve(1)"), "{program}");
 }

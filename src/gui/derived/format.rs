@@ -78,12 +78,17 @@ pub fn uncertain(found: Estimate) -> String {
     raised(&Estimate { value, ..found }.to_string())
 }
 
-/// With the exponent raised, if it ends with a power of ten.
+/// With the exponents of its powers of ten raised.
 pub fn raised(text: &str) -> String {
-    match text.split_once("10^").map(|(before, exponent)| (before, exponent.parse())) {
-        Some((before, Ok(exponent))) => format!("{before}{}", power_of_ten(exponent)),
-        _ => text.to_owned(),
+    let mut parts = text.split("10^");
+    let mut raised = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let end = part.find(|c: char| c != '-' && !c.is_ascii_digit()).unwrap_or(part.len());
+        let (exponent, rest) = part.split_at(end);
+        raised += &power_of_ten(exponent.parse().unwrap_or(f64::NAN));
+        raised += rest;
     }
+    raised
 }
 
 /// Without zeros after the decimal point that say nothing.
@@ -183,6 +188,7 @@ mod tests {
 
     #[test]
     fn exponents_are_raised() {
+        assert_eq!(raised("(1 ± 2) × 10^-6 … (3 ± 4) × 10^12 N"), "(1 ± 2) × 10⁻⁶ … (3 ± 4) × 10¹² N");
         assert_eq!(power_of_ten(-12.0), "10⁻¹²");
     }
 
